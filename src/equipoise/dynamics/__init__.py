@@ -1,0 +1,1 @@
+"""The rigid body about a fixed point, in momentum form."""

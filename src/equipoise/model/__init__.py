@@ -1,0 +1,1 @@
+"""Nouns: what the rooms above talk about."""

@@ -1,0 +1,36 @@
+"""Names for array shapes.
+
+Time comes first in a series. Everything is float64. The shapes are checked at run time in the
+tests only; for the reader and the type checker they are plain arrays.
+"""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+if TYPE_CHECKING:
+    Vector3 = NDArray[np.float64]
+    Vector6 = NDArray[np.float64]
+    Quaternion = NDArray[np.float64]
+    Matrix3 = NDArray[np.float64]
+    Square = NDArray[np.float64]
+    Series1 = NDArray[np.float64]
+    Series3 = NDArray[np.float64]
+    Series4 = NDArray[np.float64]
+    Series = NDArray[np.float64]
+else:
+    from jaxtyping import Float64
+
+    Vector3 = Float64[np.ndarray, "3"]
+    Vector6 = Float64[np.ndarray, "6"]
+    Quaternion = Float64[np.ndarray, "4"]
+    Matrix3 = Float64[np.ndarray, "3 3"]
+    Square = Float64[np.ndarray, "n n"]
+    Series1 = Float64[np.ndarray, "n"]
+    Series3 = Float64[np.ndarray, "n 3"]
+    Series4 = Float64[np.ndarray, "n 4"]
+    Series = Float64[np.ndarray, "n k"]

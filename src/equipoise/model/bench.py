@@ -1,0 +1,33 @@
+"""The bench protocol: what simulated, replayed and real benches have in common."""
+
+from collections.abc import Mapping
+from typing import Protocol
+
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+
+class Bench(Protocol):
+    """Three verbs. Nothing is clipped: a move beyond a limit raises MoveRefused and moves nothing."""
+
+    @property
+    def testbed(self) -> Testbed:
+        """What is known of it beforehand."""
+        ...
+
+    @property
+    def time(self) -> float:
+        """Bench time, s."""
+        ...
+
+    def read(self, duration: float) -> Recording:
+        """Wait ``duration`` seconds and return what was recorded since the last read."""
+        ...
+
+    def move(self, targets: Mapping[str, float]) -> None:
+        """Set masses on their way to displacements from home (m); the next reads show the travel."""
+        ...
+
+    def stop(self) -> None:
+        """Halt every mass where it is."""
+        ...

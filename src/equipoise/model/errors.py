@@ -1,0 +1,38 @@
+"""What can be wrong with a use of the package, as exceptions that a person can act on.
+
+Poor data is not an error but an outcome (see ``outcome``); these are for wrong use and bad input.
+"""
+
+from difflib import get_close_matches
+
+
+class EquipoiseError(Exception):
+    """Anything the user can mend; its text says what was found, where, and what was wanted."""
+
+
+class InputError(EquipoiseError):
+    """A file, key, column or option that cannot be used."""
+
+    def __init__(self, where: str, found: str, wanted: str) -> None:
+        super().__init__(f"{where}: found {found}; wanted {wanted}")
+        self.where = where
+        self.found = found
+        self.wanted = wanted
+
+
+class MoveRefused(EquipoiseError):
+    """A mass was asked to go where it may not; nothing has moved."""
+
+    def __init__(self, mass: str, at: float, asked: float, low: float, high: float) -> None:
+        super().__init__(
+            f"mass {mass}: at {at * 1e3:.3g} mm, asked for {asked * 1e3:.3g} mm; "
+            f"its travel is {low * 1e3:.3g} to {high * 1e3:.3g} mm; nothing was moved"
+        )
+        self.mass = mass
+        self.asked = asked
+
+
+def nearest(name: str, known: list[str]) -> str:
+    """Say which known name is meant, or list them: the tail of a 'wanted' text."""
+    close = get_close_matches(name, known, n=1)
+    return f"did you mean '{close[0]}'?" if close else "one of " + ", ".join(known)

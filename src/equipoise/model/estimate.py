@@ -1,0 +1,95 @@
+"""An estimate: named values with their covariance, and a plain statement of what was not seen."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
+from equipoise.model.outcome import Outcome
+
+COM = ("com_x", "com_y", "com_z")
+INERTIA = tuple(f"inertia_P_{ij}" for ij in ("xx", "yy", "zz", "xy", "xz", "yz"))
+NORMAL_95 = 1.959963984540054  # two-sided 95 % point of the normal distribution
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One number with its uncertainty. What the data cannot see has an infinite interval."""
+
+    name: str
+    unit: str
+    value: float
+    sd: float
+    observable: bool = True
+
+    @property
+    def low95(self) -> float:
+        """Lower end of the 95 % interval."""
+        return self.value - NORMAL_95 * self.sd
+
+    @property
+    def high95(self) -> float:
+        """Upper end of the 95 % interval."""
+        return self.value + NORMAL_95 * self.sd
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Residual:
+    """What the model leaves of the data."""
+
+    attitude_rms: float | None  # rad per axis
+    rate_rms: float | None  # rad/s per axis
+    chi_square: float  # in units of the stated noise
+    degrees_of_freedom: int
+    lag_one: float  # correlation of neighbouring residuals; white: near 0
+    held_out_rms: float | None = None  # rad per axis (rad/s without attitude), predicted, not fitted
+    held_out_span: tuple[float, float] | None = None  # s
+
+    @property
+    def reduced_chi_square(self) -> float:
+        """Chi-square per degree of freedom; near 1 when the model explains the data."""
+        return self.chi_square / max(self.degrees_of_freedom, 1)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Estimate:
+    """What a method concluded. ``covariance`` is in the order of ``parameters``."""
+
+    method: str
+    outcome: Outcome
+    parameters: tuple[Parameter, ...]
+    covariance: Square
+    residual: Residual | None = None
+    unobservable: tuple[str, ...] = ()  # sentences: directions the data cannot see
+    ratios: tuple[Parameter, ...] = ()  # what is known when the scale is open
+    possible: bool = True  # some body can have these mass properties
+    provenance: Mapping[str, str] = field(default_factory=dict[str, str])
+
+    def index(self, name: str) -> int:
+        """Return where a parameter stands; KeyError if it is not among them."""
+        return {p.name: i for i, p in enumerate(self.parameters)}[name]
+
+    def has(self, name: str) -> bool:
+        """Say whether a parameter is among them."""
+        return any(p.name == name for p in self.parameters)
+
+    def values(self, names: tuple[str, ...]) -> Floats:
+        """Return several values."""
+        return np.array([self.parameters[self.index(n)].value for n in names])
+
+    def covariance_of(self, names: tuple[str, ...]) -> Square:
+        """Return the covariance of several parameters."""
+        where = [self.index(n) for n in names]
+        return self.covariance[np.ix_(where, where)]
+
+    @property
+    def com(self) -> Vector3:
+        """Centre of mass with the masses at home, m."""
+        return self.values(COM)
+
+    @property
+    def inertia_P(self) -> Matrix3:
+        """Inertia about P with the masses at home, kg m^2."""
+        xx, yy, zz, xy, xz, yz = self.values(INERTIA)
+        return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])

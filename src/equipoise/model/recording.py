@@ -1,0 +1,86 @@
+"""A recording: what sensors and masses reported, verbatim, each channel at its own times.
+
+Times are seconds on one clock and grow strictly within a channel. Mass displacements, stored
+momentum and known torque are straight lines between their rows, and constant outside them.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.model.arrays import Series, Series1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Samples:
+    """One channel."""
+
+    t: Series1  # s
+    values: Series  # (n, k), SI
+
+    def __len__(self) -> int:
+        """Return the number of rows."""
+        return len(self.t)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Recording:
+    """What was recorded. Any channel may be absent."""
+
+    attitude: Samples | None = None  # (n, 4) unit quaternions, scalar first, body to laboratory
+    rate: Samples | None = None  # (n, 3) rad/s, body axes, as the gyro gave them
+    mass_names: tuple[str, ...] = ()
+    masses: Samples | None = None  # (n, k) m, displacement from home as reported
+    momentum: Samples | None = None  # (n, 3) N m s, stored in wheels, body axes
+    torque: Samples | None = None  # (n, 3) N m, known, body axes
+    source: str = ""  # the file, or the bench
+    sha256: str = ""  # of the file's bytes; empty when it never was a file
+    notes: tuple[str, ...] = ()  # what reading it had to set right
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Return the first and last time of any sensor row, s."""
+        edges = [(c.t[0], c.t[-1]) for c in (self.attitude, self.rate) if c is not None and len(c)]
+        return float(min(e[0] for e in edges)), float(max(e[1] for e in edges))
+
+
+CHANNELS = ("attitude", "rate", "masses", "momentum", "torque")
+
+
+def window(recording: Recording, start: float, end: float) -> Recording:
+    """Return the part from ``start`` to ``end`` (s); inputs keep the row before and after it."""
+
+    def sensor(channel: Samples | None) -> Samples | None:
+        if channel is None:
+            return None
+        keep = (channel.t >= start) & (channel.t <= end)
+        return Samples(channel.t[keep], channel.values[keep])
+
+    def known(channel: Samples | None) -> Samples | None:
+        if channel is None or not len(channel):
+            return channel
+        first = max(int(np.searchsorted(channel.t, start, side="right")) - 1, 0)
+        last = int(np.searchsorted(channel.t, end, side="left")) + 1
+        return Samples(channel.t[first:last], channel.values[first:last])
+
+    return replace(
+        recording,
+        attitude=sensor(recording.attitude),
+        rate=sensor(recording.rate),
+        masses=known(recording.masses),
+        momentum=known(recording.momentum),
+        torque=known(recording.torque),
+    )
+
+
+def join(first: Recording, second: Recording) -> Recording:
+    """Return the two, one after the other; rows of the second at or before the first's end go."""
+
+    def both(a: Samples | None, b: Samples | None) -> Samples | None:
+        if a is None or b is None or not len(a):
+            return b if a is None or not len(a) else a
+        new = b.t > a.t[-1]
+        return Samples(np.append(a.t, b.t[new]), np.vstack([a.values, b.values[new]]))
+
+    parts = {name: both(getattr(first, name), getattr(second, name)) for name in CHANNELS}
+    return replace(first, mass_names=first.mass_names or second.mass_names, **parts)

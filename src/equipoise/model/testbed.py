@@ -1,0 +1,101 @@
+"""The testbed: what is known of a platform, its masses, its sensors and its bearing beforehand.
+
+``Truth`` is read by the simulator alone.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.mass_properties import MassProperties
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SlidingMass:
+    """A mass on a rail. Its displacement is zero at home and counts along ``axis``."""
+
+    name: str
+    mass: float  # kg, with what moves with it; part of the platform's mass
+    home: Vector3  # m, from P
+    axis: Vector3  # unit vector
+    travel: tuple[float, float]  # m, least and greatest displacement
+    resolution: float  # m, the step it can be asked for; 0: any
+    accuracy: float  # m, one sd of where it really stops
+    backlash: float  # m, lost motion when the direction changes
+    speed: float  # m/s
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AttitudeSensor:
+    """A camera or motion capture. A row at t is the mean over [t - delay - averaging, t - delay]."""
+
+    rate: float  # Hz
+    noise: float  # rad, one sd per axis and sample
+    delay: float = 0.0  # s
+    averaging: float = 0.0  # s
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Gyro:
+    """A rate gyro triad, aligned with the body axes; delay and averaging as for the camera."""
+
+    rate: float  # Hz
+    noise: float  # rad/s, one sd per axis and sample
+    bias_sd: float  # rad/s, how far its zero may be off
+    delay: float = 0.0  # s
+    averaging: float = 0.0  # s
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A mass that does not do as it is told: it goes ``gain`` times the distance from home."""
+
+    mass: str
+    gain: float  # -, 0: stuck at home, 1: sound
+    from_move: int = 1  # the first commanded move at which the fault shows
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Truth:
+    """What the simulated bench is made of. What is not given is drawn with the run's seed."""
+
+    com: Vector3 | None  # m, masses at home; None: uniform in the box below
+    com_low: Vector3  # m
+    com_high: Vector3  # m
+    inertia_P: Matrix3 | None  # kg m^2, masses at home; None: the testbed's, wrong by up to ...
+    inertia_error: float  # -, greatest relative error of each moment
+    attitude: Vector3 | None  # rad, roll, pitch, yaw (3-2-1); None: tilt up to ..., any heading
+    tilt: float  # rad
+    rate: Vector3 | None  # rad/s, body axes; None: each component up to ...
+    rate_limit: float  # rad/s
+    torque: Mapping[str, float]  # coefficients by term, SI
+    noise_torque: float  # N m, one sd per axis
+    noise_correlation: float  # s
+    gyro_bias: Vector3  # rad/s
+    faults: tuple[Fault, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Testbed:
+    """A platform on its bearing, as known before anything is measured."""
+
+    __test__ = False  # not a test case, whatever its name suggests
+
+    name: str
+    body: MassProperties  # first guess, masses at home, everything that floats
+    inertia_sd: float  # -, relative, one sd
+    com_sd: Vector3  # m, one sd
+    up: Vector3  # unit vector, the body axis that points up when level
+    tilt_limit: float  # rad
+    gravity: float  # m/s^2
+    masses: tuple[SlidingMass, ...] = ()
+    attitude: AttitudeSensor | None = None
+    gyro: Gyro | None = None
+    disturbances: tuple[str, ...] = ()  # torque terms to consider
+    truth: Truth | None = None
+    assumed: Mapping[str, str] = field(default_factory=dict[str, str])  # key: why it is assumed
+    source: str = ""  # where it was read
+
+    def mass_named(self, name: str) -> SlidingMass:
+        """Return the sliding mass of that name; KeyError if there is none."""
+        return {mass.name: mass for mass in self.masses}[name]

@@ -1,0 +1,40 @@
+"""Names and units of the torques other than gravity on the rigid centre of mass.
+
+Each is one coefficient times one column of the regressor (``dynamics.torques`` has the columns).
+Groups are what a testbed file asks for under ``[disturbance]``.
+"""
+
+from equipoise.model.errors import InputError, nearest
+
+GROUPS: dict[str, tuple[str, ...]] = {
+    "viscous": ("viscous_x", "viscous_y", "viscous_z"),
+    "quadratic": ("quadratic",),
+    "constant": ("constant_x", "constant_y", "constant_z"),
+    "swirl": ("swirl",),
+    "sag": ("sag_xx", "sag_yy", "sag_xy", "sag_xz", "sag_yz"),
+    "drift": ("drift_x", "drift_y", "drift_z"),
+}
+TERMS: tuple[str, ...] = tuple(term for group in GROUPS.values() for term in group)
+UNITS: dict[str, str] = {
+    "viscous": "N m s",
+    "quadratic": "N m s2",
+    "constant": "N m",
+    "swirl": "N m",
+    "sag": "m",
+    "drift": "m/s",
+}
+
+
+def expand(names: tuple[str, ...], where: str = "disturbance") -> tuple[str, ...]:
+    """Return the terms of groups and terms given by name, in the package's order."""
+    wanted: set[str] = set()
+    for name in names:
+        if name not in GROUPS and name not in TERMS:
+            raise InputError(where, f"'{name}'", nearest(name, [*GROUPS, *TERMS]))
+        wanted.update(GROUPS.get(name, (name,)))
+    return tuple(term for term in TERMS if term in wanted)
+
+
+def unit_of(term: str) -> str:
+    """Return the SI unit of a term's coefficient."""
+    return UNITS[term.split("_")[0]]

@@ -1,0 +1,15 @@
+"""A verdict: a claim about the platform, tested on fresh data."""
+
+from dataclasses import dataclass
+
+from equipoise.model.arrays import Vector3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Verdict:
+    """Pass or fail, with the numbers behind it."""
+
+    passed: bool
+    sentence: str
+    com: Vector3 | None = None  # m, as the masses stand
+    sd: Vector3 | None = None  # m

@@ -1,0 +1,1 @@
+"""Identify and balance, as generators of Steps."""
