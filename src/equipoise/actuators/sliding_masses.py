@@ -1,0 +1,110 @@
+"""Sliding masses: displacements to centre of mass, inertia and momentum, and back.
+
+With e_i = d_i u_i on a rail through rho_i, relative to the masses at home (Ivanov 2021 Eq. 2.3 as
+corrected: all about P, identity matrices restored, sign of the sum plus):
+
+    mu(d) = mu0 + sum m_i d_i u_i
+    J(d)  = J0  + sum m_i [ (2 rho_i.e_i + |e_i|^2) E - rho_i e_i^T - e_i rho_i^T - e_i e_i^T ]
+          = J0  + sum (d_i A_i + d_i^2 B_i)
+    h(d') = sum m_i d_i' rho_i x u_i          momentum of masses travelling along their rails
+
+The way back, from a wanted shift of the centre of mass to whole steps of the motors, is a mixed
+integer linear programme: least error, then least travel, inside the rails.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import Bounds, LinearConstraint, milp
+
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model.arrays import Floats, Matrix3, Series3, Vector3, Vector6
+from equipoise.model.testbed import SlidingMass
+
+EYE = np.eye(3)
+
+
+class MassMaps(NamedTuple):
+    """The coefficients of the three sums above, one row a mass."""
+
+    first_moment: Floats  # (k, 3) kg       m_i u_i
+    inertia_1: Floats  # (k, 6) kg m        A_i, xx yy zz xy xz yz
+    inertia_2: Floats  # (k, 6) kg          B_i
+    momentum: Floats  # (k, 3) kg m         m_i rho_i x u_i
+
+
+def mass_maps(masses: Sequence[SlidingMass]) -> MassMaps:
+    """Return the coefficients of these masses, in their order."""
+    k = len(masses)
+    moment, first, second, momentum = (np.zeros((k, n)) for n in (3, 6, 6, 3))
+    for i, mass in enumerate(masses):
+        u, rho = mass.axis, mass.home
+        cross = np.outer(rho, u)
+        moment[i] = mass.mass * u
+        first[i] = mass.mass * pack_symmetric(2 * rho @ u * EYE - cross - cross.T)
+        second[i] = mass.mass * pack_symmetric(EYE - np.outer(u, u))
+        momentum[i] = mass.mass * np.cross(rho, u)
+    return MassMaps(moment, first, second, momentum)
+
+
+def com_shift(maps: MassMaps, total_mass: float, displacement: Floats) -> Vector3:
+    """Return what displacements (m) do to the centre of mass, m."""
+    return displacement @ maps.first_moment / total_mass
+
+
+def inertia_shift(maps: MassMaps, displacement: Floats) -> Vector6:
+    """Return what displacements (m) do to the inertia about P, xx yy zz xy xz yz, kg m^2."""
+    return displacement @ maps.inertia_1 + displacement**2 @ maps.inertia_2
+
+
+def com_shift_covariance(
+    maps: MassMaps, total_mass: float, accuracy: Floats, moved: Floats
+) -> Matrix3:
+    """Return the covariance (m^2) of where moved masses leave the centre of mass."""
+    spread: Series3 = maps.first_moment * (accuracy * moved)[:, None] / total_mass
+    return spread.T @ spread
+
+
+def displacements_for(
+    masses: Sequence[SlidingMass],
+    total_mass: float,
+    now: Floats,
+    shift: Vector3,
+    haste: float = 0.0,
+) -> Floats:
+    """Return displacements (m) that shift the centre of mass from where it is by ``shift`` (m).
+
+    Rails and motor steps are kept. What cannot be reached is approached as nearly as possible:
+    compare ``com_shift`` of the answer. ``haste`` weighs the longest single travel time against
+    the sum of travels (mm per s).
+    """
+    k = len(masses)
+    step = np.array([m.resolution if m.resolution > 0 else 1e-3 for m in masses])
+    steps_now = now / step
+    gain = mass_maps(masses).first_moment.T * step / total_mass * 1e6  # um a step
+    # unknowns: steps to go forward (k), backward (k), error over and under (3 + 3) um, time s
+    order = 1.0 + 1e-3 * np.arange(k)  # of equal ways, the one that moves fewer masses
+    travel_mm = step * 1e3 * order
+    cost = np.concatenate([travel_mm, travel_mm, np.full(6, 1e4), [haste + 1e-6]])
+    balance = np.hstack([gain, -gain, np.eye(3), -np.eye(3), np.zeros((3, 1))])
+    seconds = np.diag(step / np.array([m.speed for m in masses]))
+    clock = np.hstack([seconds, seconds, np.zeros((k, 6)), -np.ones((k, 1))])
+    low = np.array([m.travel[0] for m in masses]) / step - steps_now
+    high = np.array([m.travel[1] for m in masses]) / step - steps_now
+    upper = np.concatenate(
+        [np.floor(high + 1e-9).clip(0), np.floor(-low + 1e-9).clip(0), np.full(7, np.inf)]
+    )
+    whole = np.array([m.resolution > 0 for m in masses], dtype=float)
+    answer = milp(
+        cost,
+        integrality=np.concatenate([whole, whole, np.zeros(7)]),
+        bounds=Bounds(np.zeros(2 * k + 7), upper),
+        constraints=[
+            LinearConstraint(balance, shift * 1e6, shift * 1e6),
+            LinearConstraint(clock, -np.inf, 0.0),
+        ],
+    )
+    forward, backward = answer.x[:k], answer.x[k : 2 * k]
+    go = np.where(whole > 0, np.round(forward - backward), forward - backward)
+    return now + step * go

@@ -1,0 +1,85 @@
+"""The times at which a record is integrated, and what is known at each of them.
+
+The grid holds every time at which a sensor looked and every corner of the known inputs (mass
+displacements, stored momentum, torque), so that inputs are straight lines within a step. Between
+these, steps are as long as the motion allows.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.model.arrays import Floats, Ints, Series1
+from equipoise.model.recording import Samples
+
+TURN_PER_STEP = 0.1  # rad; RK4 then errs by less than 1e-7 rad a step
+
+
+class Timeline(NamedTuple):
+    """Grid of n + 1 nodes; a step leads from each node to the next."""
+
+    t: Floats  # (n+1,) s
+    known: Floats  # (n+1, 6 + k + e): wheel momentum N m s, torque N m, displacements m, and how
+    # far each displacement error is felt, 0 to 1
+    error_mass: Ints  # (e,) the mass that each error belongs to
+    attitude_node: Ints  # (n_q,) where the attitude was seen
+    rate_node: Ints  # (n_w,) where the rate was seen
+
+
+def fill(times: Series1, longest: float) -> Series1:
+    """Return ``times`` with steps longer than ``longest`` (s) cut into equal parts."""
+    parts = np.maximum(np.ceil(np.diff(times) / longest - 1e-9), 1).astype(int)
+    if not len(parts) or parts.max() == 1:
+        return times
+    starts = np.repeat(times[:-1], parts)
+    lengths = np.repeat(np.diff(times) / parts, parts)
+    within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    return np.append(starts + within * lengths, times[-1])
+
+
+def straight_lines(channel: Samples | None, t: Series1, width: int) -> Floats:
+    """Return a known input at times ``t``: straight between its rows, constant outside."""
+    if channel is None or not len(channel):
+        return np.zeros((len(t), width))
+    columns = [np.interp(t, channel.t, column) for column in channel.values.T]
+    return np.column_stack(columns) if columns else np.zeros((len(t), width))
+
+
+def corners(channel: Samples | None, start: float, end: float) -> Series1:
+    """Return the times inside (start, end) at which a known input bends."""
+    if channel is None or len(channel) < 2:
+        return np.zeros(0)
+    slope = np.diff(channel.values, axis=0) / np.diff(channel.t)[:, None]
+    size = np.abs(slope).max() + 1e-300
+    bend = np.any(np.abs(np.diff(slope, axis=0)) > 1e-9 * size, axis=1)
+    moving = np.any(slope != 0, axis=1)
+    keep = np.concatenate([moving[:1], bend, moving[-1:]])
+    inside = channel.t[keep]
+    return inside[(inside > start) & (inside < end)]
+
+
+def timeline(
+    attitude_t: Series1,
+    rate_t: Series1,
+    masses: Samples | None,
+    n_masses: int,
+    longest: float,
+    momentum: Samples | None = None,
+    torque: Samples | None = None,
+    errors: Samples | None = None,
+    error_mass: Ints | None = None,
+) -> Timeline:
+    """Return the grid for sensors that looked at these times (s)."""
+    seen = np.concatenate([attitude_t, rate_t])
+    start, end = float(seen.min()), float(seen.max())
+    knots = [corners(c, start, end) for c in (masses, momentum, torque, errors)]
+    t = fill(np.unique(np.concatenate([seen, *knots])), longest)
+    owners = np.zeros(0, dtype=np.int64) if error_mass is None else error_mass
+    inputs = ((momentum, 3), (torque, 3), (masses, n_masses), (errors, len(owners)))
+    return Timeline(
+        t,
+        np.hstack([straight_lines(channel, t, width) for channel, width in inputs]),
+        owners,
+        np.searchsorted(t, attitude_t).astype(np.int64),
+        np.searchsorted(t, rate_t).astype(np.int64),
+    )

@@ -1,0 +1,44 @@
+"""Small linear algebra: cross products as matrices, symmetric matrices as six numbers."""
+
+import numpy as np
+
+from equipoise.model.arrays import Floats, Matrix3, Series, Square, Vector3, Vector6
+
+PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # xx yy zz xy xz yz
+
+
+def skew(a: Vector3) -> Matrix3:
+    """Return [a x], so that ``skew(a) @ b = a x b``."""
+    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
+
+
+def pack_symmetric(matrix: Matrix3) -> Vector6:
+    """Return xx yy zz xy xz yz."""
+    return np.array([matrix[i, j] for i, j in PAIRS])
+
+
+def unpack_symmetric(six: Vector6) -> Matrix3:
+    """Return the symmetric matrix of xx yy zz xy xz yz."""
+    xx, yy, zz, xy, xz, yz = six
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def symmetrise(matrix: Square) -> Square:
+    """Return the symmetric part."""
+    return 0.5 * (matrix + matrix.T)
+
+
+def inverse_spd(matrix: Square) -> Square:
+    """Return the inverse of a positive definite matrix, scaled to unit diagonal beforehand."""
+    scale = 1.0 / np.sqrt(np.diag(matrix))
+    unit = matrix * np.outer(scale, scale)
+    return symmetrise(np.linalg.inv(unit)) * np.outer(scale, scale)
+
+
+def lag_one(residual: Series) -> float:
+    """Return the correlation of neighbouring rows, pooled over columns; 0 for fewer than 3 rows."""
+    if len(residual) < 3:
+        return 0.0
+    centred: Floats = residual - residual.mean(axis=0)
+    power = float(np.sum(centred**2))
+    return float(np.sum(centred[1:] * centred[:-1])) / power if power > 0 else 0.0
