@@ -1,0 +1,190 @@
+"""From an optimum to an estimate: covariance, intervals, what was not seen, and a sentence."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise import __version__
+from equipoise.actuators.sliding_masses import com_shift
+from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.estimation.observability import Visibility, examine, natural_sizes
+from equipoise.estimation.trajectory_problem import Evaluation, Problem
+from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unknowns, physical
+from equipoise.maths.attitude import logarithm
+from equipoise.maths.linalg import lag_one
+from equipoise.model.arrays import Floats
+from equipoise.model.estimate import Estimate, Parameter, Residual
+from equipoise.model.outcome import Outcome
+from equipoise.model.recording import Recording
+
+SURE = 4.0  # sd of a statistic before it counts as more than chance
+WHITE = 0.2  # chosen: a lag-one correlation below this widens an interval by less than a quarter
+EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
+END = ("com_end_x", "com_end_y", "com_end_z")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fitted:
+    """Where a fit ended."""
+
+    problem: Problem
+    point: Unknowns
+    at: Evaluation
+    converged: bool
+    evaluations: int
+
+
+def residual_of(fitted: Fitted) -> Residual:
+    """Return the statistics of what the model leaves."""
+    at, seen = fitted.at, fitted.problem.seen
+    left = at.left_q if len(at.left_q) else at.left_w
+    square = float(np.sum(at.left_q**2) + np.sum(at.left_w**2))
+    rows = at.left_q.size + at.left_w.size
+
+    def rms(part: Floats, sd: float) -> float | None:
+        return float(np.sqrt(np.mean(part**2))) * sd if part.size else None
+
+    return Residual(
+        rms(at.left_q, seen.attitude_sd),
+        rms(at.left_w, seen.rate_sd),
+        square,
+        max(rows - fitted.problem.layout.size, 1),
+        lag_one(left),
+    )
+
+
+def widening(residual: Residual) -> float:
+    """Return the factor on every sd for a residual larger or less white than noise."""
+    excess, chance = residual.reduced_chi_square, SURE / np.sqrt(residual.degrees_of_freedom)
+    factor = excess if excess > 1 + chance * np.sqrt(2) else 1.0
+    rho = min(abs(residual.lag_one), 0.98)
+    if residual.lag_one > max(WHITE, chance):
+        factor *= (1 + rho) / (1 - rho)
+    return float(np.sqrt(factor))
+
+
+def selection(layout: Layout) -> list[int]:
+    """Return the order in which parameters are reported."""
+    first = [*range(R.start, R.stop), *range(JP.start, JP.stop), *range(FIXED, layout.size)]
+    return [*first, *range(RATE.start, RATE.stop), *range(TURN.start, TURN.stop)]
+
+
+def end_rows(fitted: Fitted) -> tuple[Floats, Floats] | None:
+    """Return com with the masses as they stand at the end, and its derivative; None at home."""
+    problem, size = fitted.problem, fitted.problem.layout.size
+    k = len(problem.maps.momentum)
+    last = problem.line.known[-1]
+    d = last[KNOWN_D : KNOWN_D + k]
+    if not np.any(d):
+        return None
+    felt, errors = last[KNOWN_D + k :], FIXED + len(problem.layout.terms)
+    rows = np.zeros((3, size))
+    rows[:, R] = np.eye(3)
+    actual = d.copy()
+    for j, owner in enumerate(problem.stops.owner):
+        actual[owner] += felt[j] * fitted.point.error[j]
+        rows[:, errors + j] = felt[j] * problem.maps.first_moment[owner] / problem.mass
+    return fitted.point.com + com_shift(problem.maps, problem.mass, actual), rows
+
+
+def ratios_of(values: Floats, view: Visibility, layout: Layout) -> tuple[Parameter, ...]:
+    """Return J and com over the largest moment of inertia: what free motion does show."""
+    reference = JP.start + int(np.argmax(values[JP.start : JP.start + 3]))
+    found: list[Parameter] = []
+    for k in [*range(R.start, R.stop), *range(JP.start, JP.stop)]:
+        if k == reference:
+            continue
+        ratio = float(values[k] / values[reference])
+        gradient = np.zeros(layout.size)
+        gradient[k], gradient[reference] = 1.0, -ratio
+        sd = float(np.sqrt(gradient @ view.covariance @ gradient)) / float(values[reference])
+        unit = "1/(kg m)" if k in range(R.start, R.stop) else "-"
+        found.append(Parameter(f"{layout.names[k]}/{layout.names[reference]}", unit, ratio, sd))
+    return tuple(found)
+
+
+def sentence_of(fitted: Fitted, residual: Residual, view: Visibility, factor: float) -> Outcome:
+    """Return whether the numbers may be used, and why."""
+    if not fitted.converged:
+        return Outcome(False, "The fit did not settle; its numbers mean nothing.")
+    left = (
+        f"{np.degrees(residual.attitude_rms):.3g} deg"
+        if residual.attitude_rms is not None
+        else f"{np.degrees(residual.rate_rms or 0):.3g} deg/s"
+    )
+    if residual.reduced_chi_square > EXPLAINED:
+        return Outcome(
+            False,
+            f"The model does not explain the record: it leaves {left} rms per axis, "
+            f"{np.sqrt(residual.reduced_chi_square):.2g} times the stated noise, with a lag-one "
+            f"correlation of {residual.lag_one:.2f} where noise has 0. Something moves the "
+            "platform that the model does not know; do not trust the intervals.",
+        )
+    text = f"The model explains the record to {left} rms per axis."
+    if factor > 1:
+        text += (
+            f" What is left is not quite noise (lag-one correlation {residual.lag_one:.2f}): "
+            f"intervals are widened {factor:.2g} times."
+        )
+    if view.scale_open:
+        text = "The scale is open: only ratios of inertia and centre of mass are known. " + text
+    elif bool(view.hidden[R].any() or view.hidden[JP].any()):
+        text += " Part of the mass properties is not seen; those intervals are infinite."
+    return Outcome(True, text)
+
+
+def parameters_of(
+    fitted: Fitted, view: Visibility, factor: float
+) -> tuple[tuple[Parameter, ...], Floats]:
+    """Return the named values with their covariance, in the order in which they are reported."""
+    problem, layout = fitted.problem, fitted.problem.layout
+    values = physical(fitted.point, problem.mass, layout)
+    values[TURN] = logarithm(fitted.point.q0)
+    order = selection(layout)
+    rows, names, units = np.eye(layout.size)[order], [*layout.names], [*layout.units]
+    names[0:3] = "attitude_x", "attitude_y", "attitude_z"
+    labels = [(names[k], units[k]) for k in order]
+    reported = values[order]
+    end = end_rows(fitted)
+    if end is not None:
+        rows, reported = np.vstack([rows, end[1]]), np.append(reported, end[0])
+        labels += [(name, "m") for name in END]
+    covariance = factor**2 * rows @ view.covariance @ rows.T
+    hidden = np.any(np.abs(rows[:, view.hidden]) > 0, axis=1)
+    sd = np.where(hidden, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
+    found = [
+        Parameter(name, unit, float(reported[i]), float(sd[i]), not bool(hidden[i]))
+        for i, (name, unit) in enumerate(labels)
+    ]
+    return tuple(found), covariance
+
+
+def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
+    """Return the estimate. Units are SI; ``com_end`` is with the masses as they stand at the end.
+
+    The sd of the first attitude (a rotation vector) is that of a small turn in body axes.
+    """
+    problem, layout = fitted.problem, fitted.problem.layout
+    values = physical(fitted.point, problem.mass, layout)
+    size = natural_sizes(fitted.point, problem.mass, layout)
+    view = examine(fitted.at.information, values, size, layout)
+    residual = residual_of(fitted)
+    factor = widening(residual)
+    parameters, covariance = parameters_of(fitted, view, factor)
+    return Estimate(
+        method,
+        sentence_of(fitted, residual, view, factor),
+        parameters,
+        covariance,
+        residual,
+        view.sentences,
+        ratios_of(values, view, layout) if view.scale_open else (),
+        True,
+        provenance={
+            "version": __version__,
+            "source": recording.source,
+            "sha256": recording.sha256,
+            "evaluations": str(fitted.evaluations),
+        },
+    )
+

@@ -1,0 +1,125 @@
+"""Normal equations of the trajectory residuals, in one compiled pass along the record.
+
+    e_q = log( q_pred^-1 (x) q_meas ) / sd,      de_q/dp = -dth/dp / sd
+    e_w = ( w_meas - w_pred - b ) / sd,          de_w/dp = -dw/dp / sd,  de_w/db = -1 / sd
+
+The attitude residual is the rotation vector from prediction to measurement, in body axes: it keeps
+the sign that Ivanov 2021 Eq. 3.1 loses by squaring quaternion differences. With equal noise about
+all axes its gradient is exact although the Jacobian leaves out terms in e_q itself.
+
+Robust: a residual vector longer than ``limit`` counts linearly (Huber), not with its square.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.dynamics.propagation import Columns, arrive, rate_sensitivity, start, step
+from equipoise.dynamics.regressor import WIDTH, Triple
+from equipoise.dynamics.rigid_body import ROWS, Body
+from equipoise.maths.compiled import kernel, part
+from equipoise.model.arrays import Floats, Ints
+
+
+class Seen(NamedTuple):
+    """What the sensors reported, and at which nodes of the timeline."""
+
+    attitude: Floats  # (n_q, 4)
+    attitude_node: Ints
+    attitude_sd: float  # rad
+    rate: Floats  # (n_w, 3) rad/s
+    rate_node: Ints
+    rate_sd: float  # rad/s
+
+
+@part
+def turn_between(y: Floats, q: Floats) -> Triple:
+    """Return the rotation vector from the state's attitude to q, rad, in body axes."""
+    w = y[0] * q[0] + y[1] * q[1] + y[2] * q[2] + y[3] * q[3]
+    x = y[0] * q[1] - y[1] * q[0] - y[2] * q[3] + y[3] * q[2]
+    u = y[0] * q[2] + y[1] * q[3] - y[2] * q[0] - y[3] * q[1]
+    v = y[0] * q[3] - y[1] * q[2] + y[2] * q[1] - y[3] * q[0]
+    sine = (x * x + u * u + v * v) ** 0.5
+    if w < 0:
+        w, x, u, v = -w, -x, -u, -v
+    scale = 2.0 if sine < 1e-9 else 2.0 * np.arctan2(sine, w) / sine
+    return (scale * x, scale * u, scale * v)
+
+
+@part
+def huber(e: Triple, limit: float) -> tuple[float, float]:
+    """Return weight and half-square cost of a residual vector; ``limit`` 0 means least squares."""
+    square = e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
+    if limit <= 0 or square <= limit * limit:
+        return 1.0, 0.5 * square
+    size = square**0.5
+    return limit / size, limit * (size - 0.5 * limit)
+
+
+@part
+def add_row(S: Floats, e: Triple, weight: float, normal: Floats, descent: Floats) -> None:
+    """Add three rows of sensitivities S, already in units of the noise, and their residual."""
+    for a in range(S.shape[1]):
+        s0, s1, s2 = weight * S[0, a], weight * S[1, a], weight * S[2, a]
+        descent[a] += s0 * e[0] + s1 * e[1] + s2 * e[2]
+        for b in range(a + 1):
+            normal[a, b] += s0 * S[0, b] + s1 * S[1, b] + s2 * S[2, b]
+
+
+@part
+def attitude_rows(y: Floats, q: Floats, sd: float, n: int, S: Floats) -> Triple:
+    """Return e_q and write dth/dp / sd."""
+    turn, scale = turn_between(y, q), 1.0 / sd
+    for j in range(3):
+        for c in range(S.shape[1]):
+            S[j, c] = scale * y[ROWS + j * n + c] if c < n else 0.0
+    return (scale * turn[0], scale * turn[1], scale * turn[2])
+
+
+@part
+def rate_rows(w: Triple, bias: Floats, seen: Floats, sd: float, n: int, S: Floats) -> Triple:
+    """Return e_w and bring dw/dp in S to units of the noise; the last columns are the bias."""
+    scale = 1.0 / sd
+    for j in range(3):
+        for c in range(S.shape[1]):
+            S[j, c] = scale * S[j, c] if c < n else scale * (c - n == j)
+    return (
+        scale * (seen[0] - w[0] - bias[0]),
+        scale * (seen[1] - w[1] - bias[1]),
+        scale * (seen[2] - w[2] - bias[2]),
+    )
+
+
+@kernel
+def accumulate(
+    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
+    q0: Floats, w0: Floats, bias: Floats, seen: Seen, limit: float,
+    normal: Floats, descent: Floats, left_q: Floats, left_w: Floats,
+) -> float:
+    """Add to the normal equations, write the residuals in units of sd, return half the cost."""
+    n = columns.kinds.shape[0]
+    m = ROWS + 6 * n
+    y, at, dy, total = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
+    regress, fb, S = np.zeros((3, WIDTH)), np.zeros((6, n)), np.zeros((3, normal.shape[0]))
+    attitude, q_node, q_sd = seen.attitude, seen.attitude_node, seen.attitude_sd
+    rate, w_node, w_sd = seen.rate, seen.rate_node, seen.rate_sd
+    start(body, maps, t, known, owners, columns, q0, w0, y, regress, fb)
+    cost, iq, iw = 0.0, 0, 0
+    for node in range(t.shape[0]):
+        if iq < q_node.shape[0] and q_node[iq] == node:
+            e = attitude_rows(y, attitude[iq], q_sd, n, S)
+            left_q[iq, 0], left_q[iq, 1], left_q[iq, 2] = e
+            weight, more = huber(e, limit)
+            add_row(S, e, weight, normal, descent)
+            cost, iq = cost + more, iq + 1
+        if iw < w_node.shape[0] and w_node[iw] == node:
+            now, w, _ = arrive(body, maps, t, known, owners, columns, node, y, regress, fb)
+            rate_sensitivity(now, y, fb, S)
+            e = rate_rows(w, bias, rate[iw], w_sd, n, S)
+            left_w[iw, 0], left_w[iw, 1], left_w[iw, 2] = e
+            weight, more = huber(e, limit)
+            add_row(S, e, weight, normal, descent)
+            cost, iw = cost + more, iw + 1
+        if node < t.shape[0] - 1:
+            step(body, maps, t, known, owners, columns, node, y, regress, fb, at, dy, total)
+    return cost

@@ -1,0 +1,174 @@
+"""Trajectory: the maximum-likelihood output-error fit, the reference estimator.
+
+    minimise  sum |log(q_pred^-1 q_meas)|^2 / sd_q^2 + sum |w_meas - w_pred - b|^2 / sd_w^2 + priors
+
+over first attitude and rate, J, com, torque coefficients, gyro bias, and where the masses really
+stop, through every known move in the record (Ivanov 2021 section 3 with errata I1-I6, I15: all
+about P, multiplicative residual, first attitude free, realised displacements as unknowns with
+their accuracy as prior). J moves in log-Cholesky coordinates and is always possible.
+
+Starts from the linear methods; where these are too far off, the horizon grows step by step.
+Reaches the Cramer-Rao bound when the model holds; the outcome says when it does not.
+
+Cannot see: the common scale of J and com without a known move, stored momentum or held value; com
+along gravity without tilt; J_33 and products without spin about more than one axis; heading
+without a camera.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.estimation.conclusion import Fitted, conclude, residual_of
+from equipoise.estimation.start import start
+from equipoise.estimation.trajectory_problem import (
+    Problem,
+    evaluate,
+    in_free_coordinates,
+    pose,
+    prior_of,
+    stops_of,
+)
+from equipoise.estimation.unknowns import Layout, Unknowns, retract
+from equipoise.maths.levenberg_marquardt import minimise
+from equipoise.model.arrays import Floats
+from equipoise.model.errors import InputError, nearest
+from equipoise.model.estimate import Estimate, Residual
+from equipoise.model.outcome import Outcome
+from equipoise.model.recording import Recording, window
+from equipoise.model.testbed import Testbed
+
+METHOD = "trajectory"
+CAPTURE = 0.5  # rad rms, chosen: beyond this the first guess is not followed to the end
+HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
+FEWEST = 4  # rows
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What the fit is told."""
+
+    terms: tuple[str, ...] = ()  # torques to estimate, by name
+    use_prior: bool = False  # the testbed's inertia and centre of mass, with their sd
+    hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
+    robust: bool = False  # Huber's loss
+    hold_out: float = 0.25  # share of the record to predict instead of fit, for the residual
+
+
+def layout_of(recording: Recording, testbed: Testbed, params: Params) -> Layout:
+    """Return the unknowns of a record; InputError if a held name is not among them."""
+    errors = stops_of(recording, testbed).names
+    layout = Layout(params.terms, errors, recording.rate is not None)
+    for name in params.hold:
+        if name not in layout.names[6:15]:
+            wanted = nearest(name, list(layout.names[6:15]))
+            raise InputError("hold", f"'{name}'", wanted)
+    return layout
+
+
+def fastest_rate(recording: Recording) -> float:
+    """Return the greatest rate (rad/s) seen, roughly."""
+    rates: list[Floats] = []
+    if recording.rate is not None and len(recording.rate):
+        rates.append(np.linalg.norm(recording.rate.values, axis=1))
+    if recording.attitude is not None and len(recording.attitude) > 1:
+        q, t = recording.attitude.values, recording.attitude.t
+        cosine = np.clip(np.abs(np.sum(q[1:] * q[:-1], axis=1)), 0, 1)
+        rates.append(2 * np.arccos(cosine) / np.diff(t))
+    return max(float(np.percentile(r, 95)) for r in rates)
+
+
+def problem_of(recording: Recording, testbed: Testbed, params: Params) -> Problem:
+    """Return the least-squares problem of a record."""
+    layout, stops = layout_of(recording, testbed, params), stops_of(recording, testbed)
+    prior = prior_of(testbed, stops, layout, params.use_prior, params.hold)
+    limit = HUBER if params.robust else 0.0
+    return pose(recording, testbed, layout, stops, prior, fastest_rate(recording), limit)
+
+
+def descend(problem: Problem, point: Unknowns) -> Fitted:
+    """Return the local optimum from a point."""
+    found = minimise(
+        lambda x: in_free_coordinates(problem, x),
+        lambda x, step: retract(x, step, problem.layout),
+        point,
+    )
+    at = evaluate(problem, found.point)
+    return Fitted(problem, found.point, at, found.converged, found.evaluations)
+
+
+def misfit(problem: Problem, point: Unknowns) -> float:
+    """Return the rms residual vector in rad (with a camera) or rad/s."""
+    at = evaluate(problem, point)
+    left = at.left_q * problem.seen.attitude_sd if len(at.left_q) else at.left_w
+    return float(np.sqrt(np.mean(np.sum(left**2, axis=1))))
+
+
+def approach(recording: Recording, testbed: Testbed, params: Params, point: Unknowns) -> Unknowns:
+    """Return a point from which the whole record can be fitted: fit a growing first part."""
+    start_t, end_t = recording.span
+    length = end_t - start_t
+    share = 1.0
+    while share > 0.02:
+        part = window(recording, start_t, start_t + share * length)
+        if misfit(problem_of(part, testbed, params), part_point(part, testbed, params, point)) < CAPTURE:
+            break
+        share /= 2
+    while share < 1.0:
+        part = window(recording, start_t, start_t + share * length)
+        problem = problem_of(part, testbed, replace(params, use_prior=True))
+        found = descend(problem, part_point(part, testbed, params, point)).point
+        point = replace(found, error=point.error)
+        share *= 2
+    return point
+
+
+def part_point(
+    part: Recording, testbed: Testbed, params: Params, point: Unknowns
+) -> Unknowns:
+    """Return the point without the displacement errors that a part of the record cannot have."""
+    return replace(point, error=np.zeros(len(layout_of(part, testbed, params).errors)))
+
+
+def fit(
+    recording: Recording, testbed: Testbed, params: Params, guess: Unknowns | None = None
+) -> Fitted:
+    """Return the optimum for a record, from a given point or from the linear methods."""
+    problem = problem_of(recording, testbed, params)
+    if guess is None:
+        first = float(problem.line.t[0])
+        point = start(recording, testbed, problem.layout, first)
+        if misfit(problem, point) > CAPTURE:
+            point = approach(recording, testbed, params, point)
+    else:
+        point = guess
+    return descend(problem, point)
+
+
+def held_out(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Residual:
+    """Return the residual with what a fit of the first part predicts for the rest."""
+    residual = residual_of(fitted)
+    first, last = recording.span
+    cut = last - params.hold_out * (last - first)
+    part = window(recording, first, cut)
+    guess = part_point(part, testbed, params, fitted.point)
+    early = descend(problem_of(part, testbed, params), guess).point
+    ahead = replace(early, error=fitted.point.error)
+    at, seen = evaluate(fitted.problem, ahead), fitted.problem.seen
+    camera = len(at.left_q) > 0
+    t = recording.attitude.t if camera and recording.attitude else recording.rate.t
+    left = (at.left_q * seen.attitude_sd) if camera else (at.left_w * seen.rate_sd)
+    fresh = left[t > cut]
+    rms = float(np.sqrt(np.mean(fresh**2))) if len(fresh) else None
+    return replace(residual, held_out_rms=rms, held_out_span=(cut, last))
+
+
+def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
+    """Return the estimate of a record, with its residual on a part that was held out."""
+    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
+    if rows < FEWEST:
+        outcome = Outcome(False, f"Only {rows} rows: nothing can be estimated.")
+        return Estimate(METHOD, outcome, (), np.zeros((0, 0)))
+    fitted = fit(recording, testbed, params)
+    concluded = conclude(fitted, METHOD, recording)
+    return replace(concluded, residual=held_out(recording, testbed, params, fitted))

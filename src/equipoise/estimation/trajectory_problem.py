@@ -1,0 +1,173 @@
+"""A recording as a least-squares problem: residuals in units of their noise, and priors."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import MassMaps, mass_maps
+from equipoise.actuators.stops import StopErrors, stop_errors
+from equipoise.dynamics import rigid_body
+from equipoise.dynamics.propagation import Columns, body_of, stacked
+from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
+from equipoise.estimation.normal_equations import Seen, accumulate
+from equipoise.estimation.unknowns import JP, R, Layout, Unknowns, chain, physical
+from equipoise.maths.levenberg_marquardt import Quadratic
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model.arrays import Floats, Series, Square
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+from equipoise.sensors.timing import seen_at
+
+LONGEST_STEP = 1.0  # s, chosen: a thirtieth of the shortest swing worth fitting
+HELD = 1e-6  # relative sd of a value that the user holds
+NOTHING = Samples(np.zeros(0), np.zeros((0, 1)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Prior:
+    """Independent normal priors in physical coordinates; weight 0 means none."""
+
+    mean: Floats
+    weight: Floats  # 1 / sd^2
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Problem:
+    """Everything that does not change while the unknowns are sought."""
+
+    mass: float
+    gravity: float
+    maps: MassMaps
+    stops: StopErrors
+    line: Timeline
+    seen: Seen
+    layout: Layout
+    columns: Columns
+    prior: Prior
+    limit: float  # Huber's, in sd; 0: none
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Evaluation:
+    """The problem at one point, in physical coordinates."""
+
+    cost: float
+    information: Square  # of data and priors
+    descent: Floats
+    left_q: Series  # (n, 3) residuals in sd
+    left_w: Series
+
+
+def columns_of(layout: Layout) -> Columns:
+    """Return the propagator's columns for a layout (the bias has none)."""
+    fixed = [(rigid_body.TURN, 3), (rigid_body.RATE, 3), (rigid_body.INERTIA, 6)]
+    pairs = [(kind, k) for kind, n in [*fixed, (rigid_body.MOMENT, 3)] for k in range(n)]
+    pairs += [(rigid_body.TORQUE, k) for k in layout.torque_index]
+    pairs += [(rigid_body.ERROR, k) for k in range(len(layout.errors))]
+    table = np.array(pairs, dtype=np.int64)
+    return Columns(table[:, 0].copy(), table[:, 1].copy())
+
+
+def prior_of(
+    testbed: Testbed, stops: StopErrors, layout: Layout, inertia_and_com: bool, hold: tuple[str, ...]
+) -> Prior:
+    """Return what is known beforehand: stops and bias always, mass properties when asked."""
+    names = layout.names
+    mean, sd = np.zeros(layout.size), np.full(layout.size, np.inf)
+    mean[JP], mean[R] = pack_symmetric(testbed.body.inertia_P), testbed.body.com
+    moments = np.diag(testbed.body.inertia_P)
+    size = np.sqrt(pack_symmetric(np.outer(moments, moments)))
+    if inertia_and_com:
+        sd[JP], sd[R] = testbed.inertia_sd * size, testbed.com_sd
+    for name in hold:
+        k = names.index(name)
+        sd[k] = HELD * max(abs(mean[k]), 1e-3 * float(size.max()))
+    for k, name in enumerate(layout.errors):
+        sd[names.index(name)] = stops.sd[k]
+    if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
+        sd[-3:] = testbed.gyro.bias_sd
+    return Prior(mean, sd**-2)
+
+
+def pose(
+    recording: Recording,
+    testbed: Testbed,
+    layout: Layout,
+    stops: StopErrors,
+    prior: Prior,
+    fastest: float,
+    limit: float,
+) -> Problem:
+    """Return the problem of a recording; ``fastest`` (rad/s) sets the integration step."""
+    attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
+    line = timeline(
+        seen_at(attitude.t, testbed.attitude),
+        seen_at(rate.t, testbed.gyro),
+        recording.masses,
+        len(testbed.masses),
+        min(LONGEST_STEP, TURN_PER_STEP / max(fastest, 1e-6)),
+        recording.momentum,
+        recording.torque,
+        stops.felt,
+        stops.owner,
+    )
+    seen = Seen(
+        np.ascontiguousarray(attitude.values if len(attitude) else np.zeros((0, 4))),
+        line.attitude_node,
+        testbed.attitude.noise if testbed.attitude else 1.0,
+        np.ascontiguousarray(rate.values if len(rate) else np.zeros((0, 3))),
+        line.rate_node,
+        testbed.gyro.noise if testbed.gyro else 1.0,
+    )
+    maps = mass_maps(testbed.masses)
+    columns = columns_of(layout)
+    return Problem(testbed.body.mass, testbed.gravity, maps, stops, line, seen, layout, columns,
+                   prior, limit)  # fmt: skip
+
+
+def with_errors(problem: Problem, error: Floats) -> Floats:
+    """Return the known inputs with the masses where they really stop."""
+    if not np.any(error):
+        return problem.line.known
+    known = problem.line.known.copy()
+    first = rigid_body.KNOWN_D + len(problem.maps.momentum)
+    for j, owner in enumerate(problem.stops.owner):
+        known[:, rigid_body.KNOWN_D + owner] += error[j] * known[:, first + j]
+    return known
+
+
+def evaluate(problem: Problem, point: Unknowns) -> Evaluation:
+    """Return cost, information and descent in physical coordinates, data and priors together."""
+    layout, size = problem.layout, problem.layout.size
+    seen = problem.seen
+    body = point.body(problem.mass)
+    rigid = body_of(body.mass, problem.gravity, pack_symmetric(body.inertia_P), body.first_moment,
+                    point.torque)  # fmt: skip
+    normal, descent = np.zeros((size, size)), np.zeros(size)
+    left_q, left_w = np.zeros((len(seen.attitude), 3)), np.zeros((len(seen.rate), 3))
+    cost = accumulate(
+        rigid, stacked(problem.maps), problem.line.t, with_errors(problem, point.error),
+        problem.line.error_mass, problem.columns, point.q0, point.w0, point.bias, seen,
+        problem.limit, normal, descent, left_q, left_w,
+    )  # fmt: skip
+    normal += np.tril(normal, -1).T
+    scale = np.ones(size)
+    scale[R] = problem.mass  # the propagator's columns are by first moment
+    normal *= scale[:, None] * scale
+    descent *= scale
+    off = problem.prior.mean - physical(point, problem.mass, layout)
+    cost += 0.5 * float(np.sum(problem.prior.weight * off**2))
+    normal[np.diag_indices(size)] += problem.prior.weight
+    return Evaluation(cost, normal, descent + problem.prior.weight * off, left_q, left_w)
+
+
+def in_free_coordinates(problem: Problem, point: Unknowns) -> Quadratic:
+    """Return the local model in the coordinates in which steps are taken."""
+    at = evaluate(problem, point)
+    turn = chain(point, problem.mass, problem.layout)
+    return Quadratic(at.cost, turn.T @ at.information @ turn, turn.T @ at.descent)
+
+
+def stops_of(recording: Recording, testbed: Testbed) -> StopErrors:
+    """Return the displacement errors that this recording can have."""
+    return stop_errors(recording.masses, testbed.masses)
