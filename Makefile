@@ -36,14 +36,14 @@ lint: $(TEST)  ## style, formatting, types, import contracts
 	@$(BIN)/ruff check --quiet $(LINTED)
 	@$(BIN)/ruff format --quiet --check $(LINTED)
 	@$(BIN)/pyright --warnings
-	@$(BIN)/lint-imports --no-timings > $(VENV)/imports.log || { cat $(VENV)/imports.log; exit 1; }
+	@$(BIN)/lint-imports --no-logo --cache-dir $(VENV)/import_linter
 
 format: $(TEST)  ## put the code in the house format
 	@$(BIN)/ruff check --quiet --fix $(LINTED)
 	@$(BIN)/ruff format --quiet $(LINTED)
 
 clean:  ## remove the environment, caches and outputs
-	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis .import_linter_cache .benchmarks
+	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis .benchmarks
 	rm -rf dist build equipoise-out
 	find src tests -name __pycache__ -prune -exec rm -rf {} +
 
