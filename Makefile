@@ -61,19 +61,22 @@ endif
 
 define make_venv
 	$(BIN)/python -c '$(SUPPORTED)' 2>/dev/null && $(HAS_INSTALLER) >/dev/null 2>&1 && exit 0; \
+	found=; able=; \
 	for python in $(PYTHONS); do \
-		$$python -c '$(SUPPORTED)' 2>/dev/null && break; python=; \
+		$$python -c '$(SUPPORTED)' 2>/dev/null || continue; \
+		found=$${found:-$$python}; \
+		$$python -c 'import venv, ensurepip' 2>/dev/null && able=$$python && break; \
 	done; \
 	if test -n "$(UV)"; then \
-		"$(UV)" venv --quiet --clear --python "$${python:->=3.11,<3.16}" $(VENV); \
-	elif test -z "$$python"; then \
-		echo 'equipoise needs Python 3.11 to 3.15 and found none: install python3 or uv' >&2; \
-		exit 1; \
-	elif ! $$python -c 'import venv, ensurepip' 2>/dev/null; then \
-		echo "$$python lacks its venv module: install python3-venv (apt install python3-venv) or uv" >&2; \
+		"$(UV)" venv --quiet --clear --python "$${found:->=3.11,<3.16}" $(VENV); \
+	elif test -n "$$able"; then \
+		$$able -m venv --clear $(VENV); \
+	elif test -n "$$found"; then \
+		echo "$$found has no venv module: install python3-venv (Debian, Ubuntu) or uv" >&2; \
 		exit 1; \
 	else \
-		$$python -m venv --clear $(VENV); \
+		echo 'Python 3.11 to 3.15 is needed and none was found: install python3 or uv' >&2; \
+		exit 1; \
 	fi
 endef
 
