@@ -48,6 +48,7 @@ def test_window_keeps_the_rows_that_masses_need():
     """From 3.5 s to 4.5 s the masses are between their rows at 3 s and 5 s: both stay."""
     assert window(ten_seconds(), 3.5, 4.5).masses.t.tolist() == [3.0, 5.0]
     assert window(ten_seconds(), 6.0, 9.0).masses.t.tolist() == [5.0]
+    assert window(ten_seconds(), 3.0, 4.0).masses.t.tolist() == [3.0, 5.0]
     assert window(ten_seconds(), 0.0, 3.0).masses.t.tolist() == [0.0, 3.0]
 
 
