@@ -8,7 +8,7 @@ from equipoise.model.testbed import Testbed
 
 
 class Bench(Protocol):
-    """Three verbs. Nothing is clipped: a move beyond a limit raises MoveRefused and moves nothing."""
+    """Three verbs. Nothing is clipped: a move beyond a limit raises MoveRefused, nothing moves."""
 
     @property
     def testbed(self) -> Testbed:
@@ -25,7 +25,7 @@ class Bench(Protocol):
         ...
 
     def move(self, targets: Mapping[str, float]) -> None:
-        """Set masses on their way to displacements from home (m); the next reads show the travel."""
+        """Set masses on their way to displacements from home (m); later reads show the travel."""
         ...
 
     def stop(self) -> None:

@@ -43,7 +43,7 @@ class Residual:
     chi_square: float  # in units of the stated noise
     degrees_of_freedom: int
     lag_one: float  # correlation of neighbouring residuals; white: near 0
-    held_out_rms: float | None = None  # rad per axis (rad/s without attitude), predicted, not fitted
+    held_out_rms: float | None = None  # rad per axis (rad/s without attitude), predicted
     held_out_span: tuple[float, float] | None = None  # s
 
     @property

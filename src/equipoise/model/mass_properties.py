@@ -1,7 +1,7 @@
-"""Mass, centre of mass and inertia of a rigid body; shift, combine, and what is physically possible.
+"""Mass, centre of mass and inertia of a rigid body; shift, combine, what is physically possible.
 
     J_P = J_C + m (|r|^2 E - r r^T)                                             (parallel axes)
-    Sigma = 1/2 tr(J) E - J  >  0     second moments of mass: J > 0 and the triangle inequality at once
+    Sigma = 1/2 tr(J) E - J  >  0     (second moments of mass: J > 0 and the triangle inequality)
 
 (Ivanov 2021 Eq. 2.2 is the first line; the second is Wensing 2018 reduced to a known mass.)
 """

@@ -1,0 +1,117 @@
+# `make help` lists the targets. Only git, make and Python 3.11 or later are needed beforehand;
+# uv is used when it is there, pip otherwise. The environment lives in .venv and is touched
+# again only when constraints.txt or pyproject.toml change.
+
+VENV := .venv
+BIN := $(VENV)/bin
+RUN := $(VENV)/.ready-to-run
+TEST := $(VENV)/.ready-to-test
+LINTED := src tests $(wildcard benchmarks verification)
+UV := $(shell command -v uv 2>/dev/null)
+
+# Every Python that numba has wheels for; the first that answers is taken.
+PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
+SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15))
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test bench verify lint format pins clean
+.DELETE_ON_ERROR:
+
+help:  ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' Makefile
+
+demo: $(RUN)  ## identify and balance a simulated microsatellite mock-up
+	@$(BIN)/equipoise demo
+
+test: $(TEST)  ## run every test, and the examples of README and docs
+	@$(BIN)/pytest -q
+
+bench: $(TEST)  ## time the fit, the tracker and the simulator beside other tools
+	@$(BIN)/python -m benchmarks
+
+verify: $(TEST)  ## the long Monte Carlo and MuJoCo checks
+	@$(BIN)/python -m verification
+
+lint: $(TEST)  ## style, formatting, types, import contracts
+	@$(BIN)/ruff check --quiet $(LINTED)
+	@$(BIN)/ruff format --quiet --check $(LINTED)
+	@$(BIN)/pyright --warnings
+	@$(BIN)/lint-imports --no-logo --cache-dir $(VENV)/import_linter
+
+format: $(TEST)  ## put the code in the house format
+	@$(BIN)/ruff check --quiet --fix $(LINTED)
+	@$(BIN)/ruff format --quiet $(LINTED)
+
+clean:  ## remove the environment, caches and outputs
+	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis .benchmarks
+	rm -rf dist build equipoise-out
+	find src tests -name __pycache__ -prune -exec rm -rf {} +
+
+# --- The environment -------------------------------------------------------------------------
+# constraints.txt has two parts: what running needs, then what only testing needs. The closure
+# is complete, so nothing is resolved here: each line is fetched and checked against its hashes.
+
+ifneq ($(UV),)
+INSTALL := $(UV) pip install --quiet --python $(BIN)/python
+HAS_INSTALLER := $(UV) --version
+else
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-input
+HAS_INSTALLER := $(BIN)/python -m pip --version
+endif
+
+define make_venv
+	$(BIN)/python -c '$(SUPPORTED)' 2>/dev/null && $(HAS_INSTALLER) >/dev/null 2>&1 && exit 0; \
+	found=; able=; \
+	for python in $(PYTHONS); do \
+		$$python -c '$(SUPPORTED)' 2>/dev/null || continue; \
+		found=$${found:-$$python}; \
+		$$python -c 'import venv, ensurepip' 2>/dev/null && able=$$python && break; \
+	done; \
+	if test -n "$(UV)"; then \
+		"$(UV)" venv --quiet --clear --python "$${found:->=3.11,<3.16}" $(VENV); \
+	elif test -n "$$able"; then \
+		$$able -m venv --clear $(VENV); \
+	elif test -n "$$found"; then \
+		echo "$$found has no venv module: install python3-venv (Debian, Ubuntu) or uv" >&2; \
+		exit 1; \
+	else \
+		echo 'Python 3.11 to 3.15 is needed and none was found: install python3 or uv' >&2; \
+		exit 1; \
+	fi
+endef
+
+$(RUN): constraints.txt pyproject.toml
+	@echo 'Making the environment in $(VENV): what running needs ...'
+	@$(make_venv)
+	@sed '/^# To test/,$$d' constraints.txt > $(VENV)/to-run.txt
+	@$(INSTALL) --require-hashes --no-deps -r $(VENV)/to-run.txt
+	@$(INSTALL) --no-deps --no-build-isolation --editable .
+	@touch $@
+
+$(TEST): $(RUN)
+	@echo 'Adding to $(VENV) what testing needs ...'
+	@$(INSTALL) --require-hashes --no-deps -r constraints.txt
+	@touch $@
+
+# --- The pins --------------------------------------------------------------------------------
+
+COMPILE := uv pip compile pyproject.toml --quiet --universal --python-version 3.11 \
+	--generate-hashes --no-annotate --no-header --no-emit-index-url --no-emit-find-links
+# Blocks of the second file whose name==version is (wanted=1) or is not (wanted=0) in the first.
+PICK := awk 'NR == FNR { first[$$1]; next } \
+	!/^ / { keep = (($$1 in first) == wanted) } keep'
+
+pins:  ## resolve all versions anew and write constraints.txt (needs uv)
+	@test -n "$(UV)" || { echo 'make pins needs uv: install uv' >&2; exit 1; }
+	@set -e; work=$$(mktemp -d); trap 'rm -rf "$$work"' EXIT; \
+	$(COMPILE) --upgrade --group build --group dev --extra parquet -o $$work/all.txt; \
+	$(COMPILE) --group build --constraints $$work/all.txt -o $$work/run.txt; \
+	{ \
+		echo '# Written by `make pins`: names, versions and hashes, for every platform.'; \
+		echo '# To run'; \
+		$(PICK) wanted=1 $$work/run.txt $$work/all.txt; \
+		echo '# To test'; \
+		$(PICK) wanted=0 $$work/run.txt $$work/all.txt; \
+	} > $$work/constraints.txt; \
+	mv $$work/constraints.txt constraints.txt
+	@echo "constraints.txt: $$(grep -c == constraints.txt) pins"

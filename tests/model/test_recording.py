@@ -1,0 +1,112 @@
+import numpy as np
+
+from equipoise.model.recording import Recording, Samples, join, window
+
+LEVEL = [1.0, 0.0, 0.0, 0.0]
+
+
+def attitude(t: np.ndarray) -> Samples:
+    return Samples(t, np.tile(LEVEL, (len(t), 1)))
+
+
+def ramp(t: np.ndarray, width: int) -> Samples:
+    """Values that say which row they came from."""
+    return Samples(t, np.outer(t, np.ones(width)))
+
+
+def ten_seconds() -> Recording:
+    """Camera at 1 Hz, gyro at 2 Hz from half a second on, masses moved between 3 s and 5 s."""
+    return Recording(
+        attitude=attitude(np.arange(0.0, 10.5)),
+        rate=ramp(np.arange(0.5, 10.0, 0.5), 3),
+        mass_names=("x1", "z1"),
+        masses=ramp(np.array([0.0, 3.0, 5.0]), 2),
+        source="hand",
+        notes=("made for a test",),
+    )
+
+
+def test_span_covers_every_sensor():
+    both = Recording(attitude=attitude(np.array([1.0, 4.0])), rate=ramp(np.array([0.2, 3.0]), 3))
+    assert both.span == (0.2, 4.0)
+
+
+def test_span_is_of_sensors_alone():
+    """Masses are known outside their rows, so their rows set no limit."""
+    late = Recording(attitude=attitude(np.array([1.0, 2.0])), masses=ramp(np.array([0.0, 9.0]), 1))
+    assert late.span == (1.0, 2.0)
+
+
+def test_window_keeps_both_ends():
+    part = window(ten_seconds(), 2.0, 4.0)
+    assert part.attitude.t.tolist() == [2.0, 3.0, 4.0]
+    assert part.rate.t.tolist() == [2.0, 2.5, 3.0, 3.5, 4.0]
+    np.testing.assert_array_equal(part.rate.values[:, 0], part.rate.t)
+
+
+def test_window_keeps_the_rows_that_masses_need():
+    """From 3.5 s to 4.5 s the masses are between their rows at 3 s and 5 s: both stay."""
+    assert window(ten_seconds(), 3.5, 4.5).masses.t.tolist() == [3.0, 5.0]
+    assert window(ten_seconds(), 6.0, 9.0).masses.t.tolist() == [5.0]
+    assert window(ten_seconds(), 3.0, 4.0).masses.t.tolist() == [3.0, 5.0]
+    assert window(ten_seconds(), 0.0, 3.0).masses.t.tolist() == [0.0, 3.0]
+
+
+def test_window_before_the_first_mass_row_keeps_it():
+    """Masses are constant outside their rows, so the first row says where they were before."""
+    recording = Recording(
+        attitude=attitude(np.arange(0.0, 10.0)), mass_names=("x1",), masses=ramp(np.array([5.0]), 1)
+    )
+    assert window(recording, 0.0, 2.0).masses.t.tolist() == [5.0]
+
+
+def test_window_does_not_change_known_values_inside():
+    whole = ten_seconds()
+    part = window(whole, 3.5, 8.0)
+    t = np.linspace(3.5, 8.0, 50)
+    for column in (0, 1):
+        np.testing.assert_array_equal(
+            np.interp(t, part.masses.t, part.masses.values[:, column]),
+            np.interp(t, whole.masses.t, whole.masses.values[:, column]),
+        )
+
+
+def test_window_carries_names_and_absent_channels():
+    part = window(ten_seconds(), 2.0, 4.0)
+    assert part.mass_names == ("x1", "z1")
+    assert part.source == "hand"
+    assert part.notes == ("made for a test",)
+    assert part.momentum is None
+    assert part.torque is None
+
+
+def test_windows_join_to_the_whole():
+    whole = ten_seconds()
+    again = join(window(whole, 0.0, 4.0), window(whole, 4.0, 10.0))
+    for name in ("attitude", "rate", "masses"):
+        np.testing.assert_array_equal(getattr(again, name).t, getattr(whole, name).t)
+        np.testing.assert_array_equal(getattr(again, name).values, getattr(whole, name).values)
+
+
+def test_join_takes_a_channel_that_one_side_lacks():
+    camera = Recording(attitude=attitude(np.array([0.0, 1.0])))
+    gyro = Recording(
+        rate=ramp(np.array([0.0, 1.0]), 3), mass_names=("x1",), masses=ramp(np.array([0.0]), 1)
+    )
+    for both in (join(camera, gyro), join(gyro, camera)):
+        assert both.attitude is camera.attitude
+        assert both.rate is gyro.rate
+        assert both.mass_names == ("x1",)
+
+
+def test_join_after_an_empty_channel():
+    empty = Recording(attitude=attitude(np.array([])))
+    full = Recording(attitude=attitude(np.array([0.0, 1.0])))
+    assert join(empty, full).attitude.t.tolist() == [0.0, 1.0]
+    assert join(full, empty).attitude.t.tolist() == [0.0, 1.0]
+
+
+def test_join_lets_rows_seen_twice_go():
+    a = Recording(rate=ramp(np.array([0.0, 1.0, 2.0]), 3))
+    b = Recording(rate=ramp(np.array([1.0, 2.0, 3.0]), 3))
+    assert join(a, b).rate.t.tolist() == [0.0, 1.0, 2.0, 3.0]
