@@ -1,7 +1,7 @@
 """A testbed file's tables, checked for sense and turned into the nouns, in SI."""
 
 import math
-from typing import NoReturn
+from typing import Any, NoReturn, cast
 
 import numpy as np
 
@@ -128,14 +128,22 @@ def _gyro(sensor: schema.Gyro | None, where: str) -> Gyro | None:
 
 def _assumed(table: schema.TestbedFile, source: str) -> dict[str, str]:
     """Return the assumed keys, after seeing that each of them is in the file."""
+    content = table.model_dump(exclude_none=True)
     for key in table.assumed:
-        record: object = table
-        for part in key.split("."):
-            record = record[0] if isinstance(record, list) and record else record
-            record = getattr(record, part, None)
-        if record is None:
+        if not _holds(content, key.split(".")):
             _refuse(source, f"assumed.'{key}'", "no such key", "the dotted name of a key in use")
     return dict(table.assumed)
+
+
+def _holds(content: Any, path: list[str]) -> bool:
+    """Say whether a dotted key is there; for a list of tables, in its first."""
+    if not path:
+        return True
+    if isinstance(content, list):
+        tables = cast("list[Any]", content)
+        return bool(tables) and _holds(tables[0], path)
+    table = cast("dict[str, Any]", content) if isinstance(content, dict) else {}
+    return path[0] in table and _holds(table[path[0]], path[1:])
 
 
 def _refuse(source: str, key: str, found: str, wanted: str) -> NoReturn:

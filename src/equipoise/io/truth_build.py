@@ -82,8 +82,9 @@ def _torque(truth: schema.Truth) -> dict[str, float]:
     found: dict[str, float] = {}
     for key, group, unit in TORQUES:
         value: float | list[float] | None = getattr(truth, key)
-        values = [] if value is None else np.atleast_1d(np.array(value, float) * unit).tolist()
-        found.update(zip(GROUPS[group], values, strict=False))
+        if value is not None:
+            coefficients = np.atleast_1d(np.array(value, float) * unit)
+            found.update(zip(GROUPS[group], map(float, coefficients), strict=True))
     return found
 
 

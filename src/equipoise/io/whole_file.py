@@ -6,7 +6,7 @@ disk, so that a full disk or a stopped program leaves the old file, or none, nev
 
 import contextlib
 import os
-from collections.abc import Iterator
+from collections.abc import Generator
 from pathlib import Path
 from uuid import uuid4
 
@@ -16,7 +16,7 @@ WRITABLE = "a path that can be written"
 
 
 @contextlib.contextmanager
-def whole_file(path: str | Path) -> Iterator[Path]:
+def whole_file(path: str | Path) -> Generator[Path]:
     """Lend a temporary path of the same suffix; it becomes ``path`` if the block ends well."""
     target = _target(path)
     if target.exists() and not target.is_file():

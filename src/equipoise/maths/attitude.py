@@ -1,0 +1,80 @@
+"""Unit quaternions, scalar first, that turn body components into laboratory components.
+
+Every function takes one quaternion or a series of them along the first axis.
+"""
+
+import numpy as np
+
+from equipoise.model.arrays import Floats, Series4
+
+
+def normalise(q: Floats) -> Floats:
+    """Return q / |q|."""
+    return q / np.linalg.norm(q, axis=-1, keepdims=True)
+
+
+def conjugate(q: Floats) -> Floats:
+    """Return the inverse rotation of a unit quaternion."""
+    return q * np.array([1.0, -1.0, -1.0, -1.0])
+
+
+def multiply(p: Floats, q: Floats) -> Floats:
+    """Return p (x) q: first q, then p."""
+    pw, pv = p[..., :1], p[..., 1:]
+    qw, qv = q[..., :1], q[..., 1:]
+    scalar = pw * qw - np.sum(pv * qv, axis=-1, keepdims=True)
+    return np.concatenate([scalar, pw * qv + qw * pv + np.cross(pv, qv)], axis=-1)
+
+
+def to_matrix(q: Floats) -> Floats:
+    """Return R(q), so that v_N = R v_B."""
+    w, x, y, z = np.moveaxis(q, -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def exponential(vector: Floats) -> Floats:
+    """Return the quaternion of a rotation vector (rad)."""
+    angle = np.linalg.norm(vector, axis=-1, keepdims=True)
+    return np.concatenate([np.cos(angle / 2), 0.5 * np.sinc(angle / (2 * np.pi)) * vector], axis=-1)
+
+
+def logarithm(q: Floats) -> Floats:
+    """Return the rotation vector (rad) of the shorter way round."""
+    q = np.where(q[..., :1] < 0, -q, q)
+    sine = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
+    angle = 2 * np.arctan2(sine, q[..., :1])
+    small = sine < 1e-12
+    return np.where(small, 2.0, angle / np.where(small, 1.0, sine)) * q[..., 1:]
+
+
+def difference(q: Floats, reference: Floats) -> Floats:
+    """Return the rotation vector, in body axes, that leads from ``reference`` to ``q``."""
+    return logarithm(multiply(conjugate(reference), q))
+
+
+def continuous(q: Series4) -> Series4:
+    """Return the same attitudes with signs chosen so that neighbours agree."""
+    flips = np.sum(q[1:] * q[:-1], axis=1) < 0
+    signs = np.where(np.cumsum(flips) % 2 == 1, -1.0, 1.0)
+    return q * np.concatenate([[1.0], signs])[:, None]
+
+
+def from_euler321(roll: Floats, pitch: Floats, yaw: Floats) -> Floats:
+    """Return the attitude reached by yaw about z, then pitch about y, then roll about x (rad)."""
+    roll, pitch, yaw = np.broadcast_arrays(roll, pitch, yaw)
+    zero = np.zeros_like(roll)
+
+    def turn(x: Floats, y: Floats, z: Floats) -> Floats:
+        return exponential(np.stack([x, y, z], axis=-1))
+
+    return multiply(turn(zero, zero, yaw), multiply(turn(zero, pitch, zero), turn(roll, zero, zero)))
+
+
+def tilt(q: Floats, up: Floats) -> Floats:
+    """Return the angle (rad) between the body axis ``up`` and the laboratory's vertical."""
+    return np.arccos(np.clip((to_matrix(q) @ up)[..., 2], -1.0, 1.0))
