@@ -1,6 +1,5 @@
 """Channels that nothing was connected to: columns of zeros throughout."""
 
-
 import numpy as np
 
 from equipoise.io.channels import Channel
@@ -15,8 +14,8 @@ def without_dead(channel: Channel, columns: Columns, native: bool) -> tuple[Chan
     A foreign gyro with one dead axis is left out as a whole: two true axes and a false zero
     mislead every estimator. In a native file a zero axis can be an exact simulation's.
     """
-    dead = np.asarray(channel.values == 0).all(axis=0)
-    names = " ".join(n for n, zero in zip(columns.names, dead, strict=True) if zero)
+    dead = np.abs(channel.values).max(axis=0) == 0
+    names = " ".join(n for n, zero in zip(columns.names, dead.tolist(), strict=True) if zero)
     misleads = channel.name == "rate" and not native and bool(dead.any())
     if dead.all() or misleads:
         return None, (f"{channel.name}: zero in every row ({names}); the channel was ignored.",)

@@ -17,6 +17,8 @@ from equipoise.model.errors import InputError, nearest
 MOTIVE_TIME = "Time (Seconds)"
 LETTERS = ("W", "X", "Y", "Z")
 NANO = 1e-9
+TURN = r".*(orientation|rotation)/"
+RATE = r".*(angular_velocity|twist/angular)/"
 # Stamps of a message, then the times at which a recorder put it down; pattern, factor to s.
 STAMPS = (
     (r".*header/stamp/secs?", 1.0, r".*header/stamp/n(ano)?secs?"),
@@ -24,7 +26,7 @@ STAMPS = (
     (r"__time", 1.0, None),
     (r".*header/stamp", 1.0, None),
     (r"%time|rosbagTimestamp", NANO, None),
-    (r"[Tt]ime", 1.0, None),
+    (r"[Tt]ime(_s| ?[\[(]s[\])])?", 1.0, None),
 )
 
 
@@ -46,7 +48,7 @@ def detect(names: tuple[str, ...], source: str) -> ColumnMap:
         return native_map(names, source)
     if MOTIVE_TIME in names or any(name.endswith(f"/{MOTIVE_TIME}") for name in names):
         return optitrack_map(names, source)
-    if any(re.fullmatch(r".*(orientation|angular_velocity)/[xyzw]", _plain(n)) for n in names):
+    if any(re.fullmatch(f"{TURN}w|{RATE}x", _plain(name)) for name in names):
         return ros_map(names, source)
     shown = ", ".join(filter(None, names[:8]))
     wanted = f"columns of a known dialect ({', '.join(DIALECTS)}), or a column map (--columns)"
@@ -78,8 +80,8 @@ def optitrack_map(names: tuple[str, ...], source: str) -> ColumnMap:
 def ros_map(names: tuple[str, ...], source: str) -> ColumnMap:
     """Return the map of a table of ROS topics."""
     plain = [_plain(name) for name in names]
-    attitude, more = _topic(names, plain, r"(.*)(?:orientation|rotation)/w", "wxyz")
-    rate, others = _topic(names, plain, r"(.*)(?:angular_velocity|twist/angular)/x", "xyz")
+    attitude, more = _topic(names, plain, f"{TURN}w", "wxyz")
+    rate, others = _topic(names, plain, f"{RATE}x", "xyz")
     if attitude is None and rate is None:
         wanted = "columns such as 'orientation/x' or 'angular_velocity/x'"
         raise InputError(f"{source}, header", "neither an orientation nor a rate", wanted)
@@ -95,7 +97,7 @@ def ros_map(names: tuple[str, ...], source: str) -> ColumnMap:
 
 def _plain(name: str) -> str:
     """Return a topic column's name with slashes throughout, as PlotJuggler writes it."""
-    return re.sub(r"[./]+", "/", name)
+    return re.sub(r"_([wxyz])$", r"/\1", re.sub(r"[./]+", "/", name))
 
 
 def _topic(

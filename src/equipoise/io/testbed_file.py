@@ -5,7 +5,7 @@ from typing import Any
 
 from equipoise.io.testbed_build import testbed_of
 from equipoise.io.testbed_schema import TestbedFile
-from equipoise.io.testbed_text import testbed_text
+from equipoise.io.testbed_text import text_of_testbed
 from equipoise.io.toml_file import parse_toml, read_toml
 from equipoise.io.whole_file import write_whole
 from equipoise.model.testbed import Testbed
@@ -25,7 +25,7 @@ def parse_testbed(text: str, source: str) -> Testbed:
 
 def write_testbed(testbed: Testbed | str, path: str | Path) -> None:
     """Write a testbed, or a text with its comments after seeing that it can be read."""
-    text = testbed if isinstance(testbed, str) else testbed_text(testbed)
+    text = testbed if isinstance(testbed, str) else text_of_testbed(testbed)
     parse_testbed(text, str(path))
     write_whole(path, text)
 

@@ -13,7 +13,7 @@ PER_UM, PER_MM, PER_GRAM, PER_PERCENT, PER_DEG = 1e6, 1e3, 1e3, 1e2, 180 / math.
 DIGITS = 15  # 200.0 mm comes back as 200.0, not 200.00000000000003
 
 
-def testbed_text(testbed: Testbed) -> str:
+def text_of_testbed(testbed: Testbed) -> str:
     """Return TOML that reads back as the same testbed (to the 15th digit)."""
     parts = [
         _table("", {"name": testbed.name}),
