@@ -163,3 +163,23 @@ def test_backward_rows_of_other_programs_are_left_out_and_counted(tmp_path) -> N
     anew = np.append(T[:4] + 50, T[:8])
     with pytest.raises(InputError, match="line 6: found time going backwards"):
         read(tmp_path, csv_of(header, anew, np.roll(Q, -1, axis=1), W))
+
+
+def test_rostopic_echo_tables_have_stamps_in_nanoseconds(tmp_path) -> None:
+    """The columns begin with field., the time with %."""
+    names = "%time,field.header.stamp," + ros_names(".", "field").replace("field/", "field.")
+    nanos = 1_700_000_000_000_000_000 + np.arange(12) * 100_000_000
+    rows = [
+        ",".join([str(n), str(n), *(repr(float(v)) for v in (*np.roll(q, -1), *w))])
+        for n, q, w in zip(nanos.tolist(), Q, W, strict=True)
+    ]
+    recording = read(tmp_path, "\n".join([names, *rows]))
+    np.testing.assert_allclose(recording.rate.t, T, atol=1e-6)
+
+
+@pytest.mark.parametrize("title", ["imu_orientation_{}", "pose.pose.orientation.{}"])
+def test_other_spellings_of_topics_are_read(tmp_path, title) -> None:
+    """Underscores and nested messages."""
+    names = ",".join(["Time", *(title.format(a) for a in AXES)])
+    recording = read(tmp_path, csv_of(names, T, np.roll(Q, -1, axis=1)))
+    same_attitude(recording.attitude.values, Q)

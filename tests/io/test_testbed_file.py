@@ -98,7 +98,8 @@ def test_truth_is_read_in_si() -> None:
         + (
             "[truth]\ncom_um = [10, 0, -50]\nviscous_N_m_s = [1e-4, 2e-4, 3e-4]\n"
             "drift_um_min = [60, 0, 0]\nsag_um = [1, 2, 3, 4, 5]\nswirl_N_m = 1e-6\n"
-            "inertia_kg_m2 = [[0.5, 0, 0], [0, 0.5, 0], [0, 0, 0.6]]\ngyro_bias_deg_s = [180, 0, 0]\n"
+            "inertia_kg_m2 = [[0.5, 0, 0], [0, 0.5, 0], [0, 0, 0.6]]\n"
+            "gyro_bias_deg_s = [180, 0, 0]\n"
             'com_low_um = [-1, -2, -3]\n[[truth.fault]]\nmass = "x1"\n'
             '[[truth.fault]]\nmass = "x1"\nkind = "slip"\ngain = 0.8\nfrom_move = 2\n'
         )

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from equipoise.assessment.attitude_steps import steps
 from equipoise.assessment.finding import Finding
-from equipoise.model.arrays import Matrix3, Series1, Series3
+from equipoise.model.arrays import Floats, Matrix3, Series3
 from equipoise.model.recording import Samples
 
 LONGEST = 1.0  # s apart; chosen: a gyro's drift is nothing yet
@@ -69,7 +69,7 @@ def _lag(attitude: Samples) -> int:
     return max(1, int(most))
 
 
-def _integral(rate: Samples, at: Series1) -> Series3:
+def _integral(rate: Samples, at: Floats) -> Series3:
     """Return the integral of the gyro (rad) from its first row to given times, by trapezoids.
 
     Its mean is taken off and added again, so that the sums stay small.
@@ -82,7 +82,7 @@ def _integral(rate: Samples, at: Series1) -> Series3:
     return turned + np.multiply.outer(at - rate.t[0], mean)
 
 
-def _across_gap(t: Series1, start: Series1, end: Series1) -> NDArray[np.bool_]:
+def _across_gap(t: Floats, start: Floats, end: Floats) -> NDArray[np.bool_]:
     """Say for each span whether it touches an interval in which the gyro was silent."""
     silent = np.append(False, np.diff(t) > GAP * np.median(np.diff(t)))
     before = np.cumsum(silent)

@@ -10,6 +10,7 @@ from equipoise.model.recording import Samples
 
 MANY = 0.5  # share of rows with a value of their own above which nothing is quantised (chosen)
 WHOLE = 1e-3  # of a step, by which values may miss whole multiples of it (chosen: rounding)
+COARSE = 2.0  # sd of the noise: finer steps are smeared by it and do no harm
 FEWEST = 20  # rows that quantisation is told from (chosen)
 THIRD = math.sqrt(20)  # sd of the third difference of unit white noise
 ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
@@ -45,7 +46,8 @@ def _quantised(name: str, x: Series1) -> list[Finding]:
     if step is None:
         return []
     text = f"gyro {name} comes in steps of {math.degrees(step):.3g} deg/s."
-    return [Finding("problem", text)]
+    noise = float(np.std(np.diff(x, n=3))) / THIRD
+    return [Finding("problem" if step > COARSE * noise else "content", text)]
 
 
 def _dead(name: str, x: Series1) -> list[Finding]:

@@ -24,6 +24,7 @@ STAMPS = (
     (r".*header/stamp/secs?", 1.0, r".*header/stamp/n(ano)?secs?"),
     (r".*timestamp/secs?", 1.0, r".*timestamp/n(ano)?secs?"),
     (r"__time", 1.0, None),
+    (r"field/header/stamp", NANO, None),  # rostopic echo -p writes stamps in ns
     (r".*header/stamp", 1.0, None),
     (r"%time|rosbagTimestamp", NANO, None),
     (r"[Tt]ime(_s| ?[\[(]s[\])])?", 1.0, None),

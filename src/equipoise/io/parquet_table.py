@@ -55,7 +55,7 @@ def read_parquet(content: bytes, source: str) -> ParquetTable:
     try:
         arrow = parquet.read_table(io.BytesIO(content))
     except (OSError, ValueError) as error:
-        raise InputError(source, f"broken Parquet ({error})", "a whole Parquet file") from error
+        raise InputError(source, "broken Parquet", "a whole Parquet file") from error
     return ParquetTable(source, tuple(arrow.column_names), arrow)
 
 

@@ -101,7 +101,8 @@ def _mass_columns(columns: ColumnMap) -> Columns | None:
 def _check_enough(table: Table, *sensors: Channel | None) -> None:
     most = max((len(sensor) for sensor in sensors if sensor is not None), default=0)
     if most < FEWEST:
-        found = f"{most} rows of attitude or rate" if most else "neither attitude nor rate"
+        count = f"{most} row{'s' * (most > 1)}"
+        found = f"{count} of attitude or rate" if most else "neither attitude nor rate"
         raise InputError(table.source, found, f"at least {FEWEST} rows of attitude or of rate")
 
 

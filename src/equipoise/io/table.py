@@ -1,10 +1,11 @@
 """What text tables and Parquet tables have in common."""
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from equipoise.model.arrays import Series1
 
 
+@runtime_checkable  # so that the tests can check the annotations that name it
 class Table(Protocol):
     """Named columns of numbers, each row with a place that a person can find."""
 
