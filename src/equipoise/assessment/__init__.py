@@ -1,0 +1,1 @@
+"""What a record says by itself: one metric, one file."""

@@ -1,0 +1,35 @@
+"""What a recording holds and what is wrong with it, as findings in the order of reading."""
+
+import numpy as np
+
+from equipoise.assessment.attitude_noise import noise_findings
+from equipoise.assessment.channel_content import content_findings
+from equipoise.assessment.finding import Finding
+from equipoise.assessment.gyro_agreement import agreement_findings
+from equipoise.assessment.mass_moves import move_findings
+from equipoise.assessment.motion_range import motion_findings
+from equipoise.assessment.rate_quality import rate_findings
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+
+def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Finding, ...]:
+    """Return all findings; a testbed adds what only it can tell, such as which axis is up."""
+    masses = tuple(mass.name for mass in testbed.masses) if testbed else None
+    up = None if testbed is None else testbed.up
+    return (
+        *content_findings(recording),
+        *move_findings(recording, masses),
+        *motion_findings(recording.attitude, up),
+        *noise_findings(recording.attitude),
+        *rate_findings(recording.rate),
+        *agreement_findings(recording.attitude, recording.rate),
+        # Gaps are named in the notes too; here they are findings of their own, with their span.
+        *(Finding("mended", note) for note in recording.notes if " gap" not in note),
+    )
+
+
+def problems(found: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return those that an estimate will suffer from, in order of time."""
+    wrong = [finding for finding in found if finding.kind == "problem"]
+    return tuple(sorted(wrong, key=lambda f: -np.inf if f.span is None else f.span[0]))

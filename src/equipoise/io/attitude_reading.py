@@ -1,0 +1,107 @@
+"""Attitude columns to unit quaternions, scalar first, body to a laboratory whose Z is up."""
+
+import numpy as np
+
+from equipoise.io.axis_turns import axes_matrix, quaternion_of, to_z_up
+from equipoise.io.channels import Channel
+from equipoise.io.column_map import ColumnMap
+from equipoise.io.table import Table
+from equipoise.maths.attitude import conjugate, continuous, exponential, multiply, normalise
+from equipoise.model.arrays import Floats, Series1, Series4
+from equipoise.model.errors import InputError
+
+Notes = tuple[str, ...]
+FAR = 0.05  # from unit: no rounding does this, so it is not a unit quaternion (chosen)
+SHORTEST_MEAN = 0.5  # chosen: frames spread over more than half a turn have no mean
+ROUNDING = 1e-12  # below this nothing is touched, so that our own files come back verbatim
+WORTH_SAYING = 1e-5  # five printed digits
+ODD = 6.0  # robust sd by which a last row's norm is called unlike the others (chosen)
+
+
+def quaternions(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Channel, Notes]:
+    """Return a quaternion channel set right, with what was set right."""
+    q, notes = _unit(channel, table, columns)
+    q, flips = _continuous(_in_our_axes(q, columns))
+    return Channel(channel.name, channel.t, q, channel.rows), (*notes, *flips)
+
+
+def euler_angles(channel: Channel, columns: ColumnMap) -> tuple[Channel, Notes]:
+    """Return a channel of three angles (rad) as quaternions."""
+    assert columns.euler is not None  # the caller has read these columns
+    wraps = int((np.abs(np.diff(channel.values, axis=0)) > np.pi).sum())
+    q = _from_euler(channel.values, columns.euler.sequence)
+    q, _ = _continuous(_in_our_axes(q, columns))  # signs have no meaning in a table of angles
+    told = f"attitude: {wraps} wraps of an angle by a whole turn; taken as turning on."
+    notes = (told,) if wraps else ()
+    return Channel(channel.name, channel.t, q, channel.rows), notes
+
+
+def _from_euler(angles: Floats, sequence: str) -> Series4:
+    """Return the attitude; capitals turn about the turned axes, small letters about the fixed."""
+    turns: list[Floats] = []
+    for letter, angle in zip(sequence.lower(), angles.T, strict=True):
+        turns.append(exponential(angle[:, None] * np.eye(3)["xyz".index(letter)]))
+    first, second, third = turns if sequence.isupper() else turns[::-1]
+    return multiply(first, multiply(second, third))
+
+
+def _in_our_axes(q: Series4, columns: ColumnMap) -> Series4:
+    """Return R_ours = L R_table S^T: L turns the laboratory to Z up, S the body axes to ours."""
+    if columns.inverse:
+        q = conjugate(q)
+    if columns.lab_up != "z":
+        q = multiply(to_z_up(columns.lab_up), q)
+    if columns.body != ("x", "y", "z"):
+        q = multiply(q, conjugate(quaternion_of(axes_matrix(columns.body))))
+    return q
+
+
+def _continuous(q: Series4) -> tuple[Series4, Notes]:
+    mended = continuous(q)
+    flips = int((np.sum(q[1:] * q[:-1], axis=1) < 0).sum())
+    told = f"attitude: the quaternion changed its sign {flips} times; made continuous."
+    return mended, (told,) if flips else ()
+
+
+def _unit(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Series4, Notes]:
+    """Return quaternions of unit length; InputError names the first that is far from it."""
+    norm = np.linalg.norm(channel.values, axis=1)
+    least = SHORTEST_MEAN if columns.mean_of_frames else 1 - FAR
+    bad = np.flatnonzero((norm < least) | (norm > 1 + FAR))
+    if len(bad):
+        place = f"{table.source}, {table.place(int(channel.rows[bad[0]]))}"
+        found = f"a quaternion of length {norm[bad[0]]:.4g} ({len(bad)} such rows)"
+        raise InputError(place, found, f"length 1 within {FAR:.0%}")
+    if np.abs(norm - 1).max() < ROUNDING:
+        return channel.values, ()
+    return normalise(channel.values), (*_norm_note(norm, channel, table), *_last_row(norm, table))
+
+
+def _norm_note(norm: Series1, channel: Channel, table: Table) -> Notes:
+    off = np.abs(norm - 1)
+    if off.max() < WORTH_SAYING:
+        return ()
+    count, worst = int((off >= WORTH_SAYING).sum()), int(off.argmax())
+    cause = "; most are short, as means of several frames are" if _mostly_short(norm) else ""
+    return (
+        f"attitude: {count} of {len(norm)} quaternions were off unit length (median "
+        f"{np.median(norm):.6f}, worst {norm[worst]:.6f} at "
+        f"{table.place(int(channel.rows[worst]))}){cause}; normalised.",
+    )
+
+
+def _mostly_short(norm: Series1) -> bool:
+    return float(np.quantile(norm, 0.9)) < 1 - WORTH_SAYING
+
+
+def _last_row(norm: Series1, table: Table) -> Notes:
+    """Say so when the last row's norm is unlike the others': it is no mean, or a broken one."""
+    others, last = norm[:-1], float(norm[-1])
+    centre = float(np.median(others))
+    spread = 1.4826 * float(np.median(np.abs(others - centre)))  # the sd, for normal scatter
+    if not _mostly_short(others) or abs(last - centre) <= ODD * spread:
+        return ()
+    return (
+        f"attitude: the last row ({table.place(len(table) - 1)}) has a quaternion of length "
+        f"{last:.6f}, unlike the others ({centre:.6f}): it may be a single frame, not a mean.",
+    )

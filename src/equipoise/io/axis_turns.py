@@ -1,0 +1,42 @@
+"""Turning a table's axes into ours: relabelled body axes, a laboratory whose up is not Z."""
+
+import math
+
+import numpy as np
+
+from equipoise.model.arrays import Matrix3, Quaternion
+
+HALF = math.sqrt(0.5)
+# The shortest turn of the laboratory that brings the named axis up to Z; for -z, about x.
+TO_Z_UP: dict[str, tuple[float, float, float, float]] = {
+    "z": (1.0, 0.0, 0.0, 0.0),
+    "y": (HALF, HALF, 0.0, 0.0),
+    "-y": (HALF, -HALF, 0.0, 0.0),
+    "x": (HALF, 0.0, -HALF, 0.0),
+    "-x": (HALF, 0.0, HALF, 0.0),
+    "-z": (0.0, 1.0, 0.0, 0.0),
+}
+
+
+def to_z_up(lab_up: str) -> Quaternion:
+    """Return the turn of the laboratory frame after which ``lab_up`` is Z."""
+    return np.array(TO_Z_UP[lab_up])
+
+
+def axes_matrix(axes: tuple[str, str, str]) -> Matrix3:
+    """Return S with ``v_ours = S v_table``, for our axes named in terms of the table's."""
+    rows = np.zeros((3, 3))
+    for row, axis in enumerate(axes):
+        rows[row, "xyz".index(axis[-1])] = -1.0 if axis.startswith("-") else 1.0
+    return rows
+
+
+def quaternion_of(turn: Matrix3) -> Quaternion:
+    """Return the unit quaternion of a rotation matrix.
+
+    It is the eigenvector, for the greatest eigenvalue, of Bar-Itzhack's symmetric 4 x 4 matrix.
+    """
+    skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    trace = np.trace(turn)
+    corner = turn + turn.T - trace * np.eye(3)
+    return np.linalg.eigh(np.block([[trace, skew], [skew[:, None], corner]]))[1][:, -1]

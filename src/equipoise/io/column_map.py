@@ -1,0 +1,66 @@
+"""How the columns of a table become a recording: names, units, frames, signs.
+
+A dialect makes such a map from a header; a person writes one as a small TOML file
+(``column_map_file``). Factors turn the column's unit into SI.
+"""
+
+from dataclasses import dataclass
+
+AXES = ("x", "y", "z", "-x", "-y", "-z")
+
+
+@dataclass(frozen=True, slots=True)
+class Columns:
+    """Columns that belong together."""
+
+    names: tuple[str, ...]
+    factor: float | tuple[float, ...] = 1.0  # to SI, one for all or one for each
+    # Our x, y, z in terms of the table's, such as ("x", "-z", "y"); None: as the whole table.
+    axes: tuple[str, str, str] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Euler:
+    """Three angles; ``sequence`` as in SciPy: ZYX about turned axes, zyx about fixed ones."""
+
+    columns: Columns
+    sequence: str
+
+
+@dataclass(frozen=True, slots=True)
+class MassColumn:
+    """A mass and the column that tells its displacement."""
+
+    mass: str
+    column: str
+    factor: float  # to m
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How a text is cut into cells. What is None is found out by looking."""
+
+    separator: str | None = None
+    decimal: str | None = None
+    skip_rows: int | None = None  # lines before the header
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnMap:
+    """What each column means. A map without attitude and rate holds nothing to estimate from."""
+
+    name: str
+    time: tuple[Columns, ...]  # their sum is the time: seconds and nanoseconds come in two columns
+    quaternion: Columns | None = None  # w, x, y, z
+    euler: Euler | None = None
+    rate: Columns | None = None
+    masses: tuple[MassColumn, ...] = ()
+    momentum: Columns | None = None
+    torque: Columns | None = None
+    lab_up: str = "z"  # the laboratory axis of the table that points up
+    body: tuple[str, str, str] = ("x", "y", "z")  # our body axes in terms of the table's
+    inverse: bool = False  # the attitude turns laboratory into body components
+    mean_of_frames: bool = False  # rows may be means of several quaternions, hence short
+    native: bool = False  # our own files keep our own rules: time never goes back, no blank time
+    notes: tuple[str, ...] = ()  # what the dialect left aside
+    layout: Layout = Layout()

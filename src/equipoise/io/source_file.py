@@ -1,0 +1,43 @@
+"""Read a file's bytes or text, with a sentence for everything that can be wrong with it."""
+
+from pathlib import Path
+
+from equipoise.model.errors import InputError
+
+TEXT_CONTROL = frozenset(b"\t\n\r\f")
+MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
+SAMPLE = 4096  # bytes looked at to tell text from binary; chosen: several lines of any table
+
+
+def read_bytes(path: str | Path, wanted: str) -> bytes:
+    """Return the file's bytes; ``wanted`` says what kind of file should have been there."""
+    file = Path(path)
+    if file.is_dir():
+        raise InputError(str(path), "a directory", wanted)
+    try:
+        content = file.read_bytes()
+    except FileNotFoundError as error:
+        raise InputError(str(path), "no such file", wanted) from error
+    except OSError as error:
+        raise InputError(str(path), error.strerror or str(error), wanted) from error
+    if not content.strip():
+        raise InputError(str(path), "an empty file", wanted)
+    return content
+
+
+def text_of(content: bytes, path: str | Path, wanted: str) -> str:
+    """Return the bytes as text: UTF-8 or UTF-16 by mark, else UTF-8, else Latin-1."""
+    encoding = next((name for mark, name in MARKS if content.startswith(mark)), "utf-8")
+    try:
+        if encoding == "utf-8" and _looks_binary(content):
+            raise InputError(str(path), "binary content", wanted)
+        return content.decode(encoding)
+    except UnicodeDecodeError:
+        # Old instruments write a degree sign or a micro sign in an 8-bit code page; the columns
+        # we read are plain ASCII, so Latin-1 reads every one of them.
+        return content.decode("latin-1")
+
+
+def _looks_binary(content: bytes) -> bool:
+    """Say whether control characters occur that no text has."""
+    return any(byte < 32 and byte not in TEXT_CONTROL for byte in content[:SAMPLE])

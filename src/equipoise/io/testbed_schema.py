@@ -1,0 +1,137 @@
+"""The tables and keys of a testbed file: what may stand where, in which unit, and the defaults.
+
+A unit is part of its key. Nothing is converted here; ``testbed_build`` does that once.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
+Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
+Five = Annotated[list[float], Field(min_length=5, max_length=5)]
+Square = Annotated[list[Triple], Field(min_length=3, max_length=3)]
+Positive = Annotated[float, Field(gt=0)]
+NotNegative = Annotated[float, Field(ge=0)]
+SdTriple = Annotated[list[Positive], Field(min_length=3, max_length=3)]
+Point = Literal["C", "P"]
+# A mass's name becomes part of a column's name, so it is kept to what any table program takes.
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
+
+
+class Table(BaseModel):
+    """One table of the file: an unknown key is an error, and a number must be a finite number."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class Platform(Table):
+    """Everything that floats, with the sliding masses at home."""
+
+    mass_kg: Positive
+    inertia_kg_m2: Square = Field(description="tensor elements: products are minus the integrals")
+    inertia_sd_percent: Positive = Field(10.0, description="one sd, chosen: usual for CAD")
+    about: Point = Field("C", description="C: centre of mass, P: centre of rotation")
+    com_um: Triple = Field([0.0, 0.0, 0.0], description="first guess, from P")
+    com_sd_um: SdTriple = Field(
+        [500.0, 500.0, 500.0], description="one sd, chosen: a platform balanced by hand"
+    )
+    up: Triple | None = Field(None, description="body axis that points up when level")
+    tilt_limit_deg: Annotated[float, Field(gt=0, le=180)] = Field(
+        30.0, description="chosen: usual for a table on a hemisphere"
+    )
+    gravity_m_s2: Positive = Field(9.80665, description="standard gravity")
+
+
+class SlidingMass(Table):
+    """A mass on a rail; its displacement counts from home along ``axis``."""
+
+    name: Name
+    mass_g: Positive
+    home_mm: Triple
+    axis: Triple
+    travel_mm: Pair = Field(description="least and greatest displacement")
+    resolution_mm: NotNegative = Field(0.0, description="0: any displacement can be asked for")
+    accuracy_mm: NotNegative = Field(0.1, description="one sd, chosen: a lead screw's")
+    backlash_mm: NotNegative = 0.0
+    speed_mm_s: Positive = Field(10.0, description="chosen: a small stepper on a lead screw")
+
+
+class Attitude(Table):
+    """A camera or motion capture."""
+
+    rate_hz: Positive
+    noise_deg: Positive = Field(description="one sd per axis and sample")
+    delay_s: NotNegative = 0.0
+    averaging_s: NotNegative = 0.0
+
+
+class Gyro(Table):
+    """A rate gyro triad; give its noise per sample or as a density, not both."""
+
+    rate_hz: Positive
+    noise_deg_s: Positive | None = Field(None, description="one sd per axis and sample")
+    noise_density_deg_s_rthz: Positive | None = Field(None, description="noise / sqrt(rate)")
+    bias_sd_deg_s: NotNegative = Field(1.0, description="chosen: usual for a low-cost gyro")
+    delay_s: NotNegative = 0.0
+    averaging_s: NotNegative = 0.0
+
+
+class Sensors(Table):
+    """What sees the platform."""
+
+    attitude: Attitude | None = None
+    gyro: Gyro | None = None
+
+
+class Disturbance(Table):
+    """Which torques to consider beside gravity."""
+
+    consider: list[str] = []
+
+
+class Fault(Table):
+    """A mass that does not do as it is told."""
+
+    mass: str
+    kind: Literal["stuck", "slip"] = "stuck"
+    gain: float | None = Field(None, description="slip: share of the distance really gone")
+    from_move: Annotated[int, Field(ge=1)] = 1
+
+
+class Truth(Table):
+    """What the simulated bench is made of; read by the simulator alone."""
+
+    com_um: Triple | None = None
+    com_low_um: Triple | None = None
+    com_high_um: Triple | None = None
+    inertia_kg_m2: Square | None = Field(None, description="about the platform's point")
+    inertia_error_percent: Annotated[float, Field(ge=0, lt=100)] = 0.0
+    attitude_deg: Triple | None = Field(None, description="roll, pitch, yaw (3-2-1)")
+    tilt_deg: Annotated[float, Field(ge=0, le=180)] = 3.0
+    rate_deg_s: Triple | None = None
+    rate_limit_deg_s: NotNegative = 0.5
+    viscous_N_m_s: Triple | None = None
+    quadratic_N_m_s2: float | None = None
+    constant_N_m: Triple | None = None
+    swirl_N_m: float | None = None
+    sag_um: Five | None = Field(None, description="xx, yy, xy, xz, yz")
+    drift_um_min: Triple | None = None
+    noise_torque_N_m: NotNegative = 0.0
+    noise_correlation_s: Positive = 30.0
+    gyro_bias_deg_s: Triple = [0.0, 0.0, 0.0]
+    fault: list[Fault] = []
+
+
+class TestbedFile(Table):
+    """A testbed file as a whole."""
+
+    __test__ = False  # not a test case, whatever its name suggests
+
+    name: Annotated[str, Field(min_length=1)]
+    platform: Platform
+    sliding_mass: list[SlidingMass] = []
+    sensor: Sensors = Sensors()
+    disturbance: Disturbance = Disturbance()
+    truth: Truth | None = None
+    assumed: dict[str, str] = Field({}, description="dotted key of this file: why it is assumed")

@@ -1,0 +1,86 @@
+"""Units as they are written in keys and column names, and how large they are in SI."""
+
+import math
+
+from equipoise.model.errors import InputError, nearest
+
+# As written in a column map's ``unit``: the factor to SI.
+TO_SI = {
+    "s": 1.0,
+    "ms": 1e-3,
+    "us": 1e-6,
+    "ns": 1e-9,
+    "min": 60.0,
+    "rad": 1.0,
+    "deg": math.pi / 180,
+    "rad/s": 1.0,
+    "deg/s": math.pi / 180,
+    "mrad/s": 1e-3,
+    "rpm": math.pi / 30,
+    "m": 1.0,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "um": 1e-6,
+    "N m s": 1.0,
+    "mN m s": 1e-3,
+    "N m": 1.0,
+    "mN m": 1e-3,
+    "uN m": 1e-6,
+}
+KINDS = {
+    "time": ("s", "ms", "us", "ns", "min"),
+    "angle": ("rad", "deg"),
+    "rate": ("rad/s", "deg/s", "mrad/s", "rpm"),
+    "length": ("m", "cm", "mm", "um"),
+    "momentum": ("N m s", "mN m s"),
+    "torque": ("N m", "mN m", "uN m"),
+}
+# As they end a key: how to say them.
+SPOKEN = {
+    "deg_s_rthz": "deg/s per root Hz",
+    "N_m_s2": "N m s2",
+    "N_m_s": "N m s",
+    "kg_m2": "kg m2",
+    "um_min": "um/min",
+    "deg_s": "deg/s",
+    "rad_s": "rad/s",
+    "mm_s": "mm/s",
+    "cm_s": "cm/s",
+    "m_s2": "m/s2",
+    "m_s": "m/s",
+    "N_m": "N m",
+    "percent": "percent",
+    "deg": "deg",
+    "rad": "rad",
+    "kg": "kg",
+    "hz": "Hz",
+    "khz": "kHz",
+    "um": "um",
+    "mm": "mm",
+    "cm": "cm",
+    "ms": "ms",
+    "mg": "mg",
+    "g": "g",
+    "m": "m",
+    "s": "s",
+}
+
+
+def factor(unit: str, kind: str, where: str) -> float:
+    """Return what one ``unit`` is in SI, or say which units a ``kind`` of column may have."""
+    if unit not in KINDS[kind]:
+        raise InputError(where, f"unit '{unit}'", nearest(unit, list(KINDS[kind])))
+    return TO_SI[unit]
+
+
+def split_unit(key: str) -> tuple[str, str]:
+    """Return a key without its unit, and the unit ('' if it has none)."""
+    for unit in SPOKEN:  # longest first, so that deg_s is not taken for s
+        if key.endswith(f"_{unit}"):
+            return key.removesuffix(f"_{unit}"), unit
+    return key, ""
+
+
+def spoken(unit: str) -> str:
+    """Return a key's unit as people say it."""
+    return SPOKEN[unit]

@@ -1,0 +1,137 @@
+"""Bad recordings: one sentence with file, line or column, what was found and what was wanted."""
+
+import numpy as np
+import pytest
+
+from equipoise.io.frame_check import check_frame
+from equipoise.io.presets import read_preset
+from equipoise.io.recording_file import read_recording, write_recording
+from equipoise.maths.attitude import exponential
+from equipoise.model.errors import InputError
+from equipoise.model.recording import Recording, Samples
+
+HEAD = "time_s,q_w,q_x,q_y,q_z\n"
+ROWS = [f"{0.1 * i:.1f},1,0,0,{0.0001 * i}\n" for i in range(6)]
+GOOD = HEAD + "".join(ROWS)
+
+TWICE = HEAD.replace("q_z", "q_z,q_z") + "".join(r.replace("\n", ",0\n") for r in ROWS)
+
+
+def row(number: int, text: str) -> str:
+    """Return the good table with one of its rows (from 1) replaced; its line is one more."""
+    return HEAD + "".join([*ROWS[: number - 1], text + "\n", *ROWS[number:]])
+
+
+CASES = {
+    "empty": ("", "", ["an empty file"]),
+    "blank": ("  \n\n", "", ["an empty file"]),
+    "header only": (HEAD, "", ["a header but no rows"]),
+    "two samples": (HEAD + "".join(ROWS[:2]), "", ["2 rows", "at least 3"]),
+    "binary": (GOOD + "\x00\x01", "", ["binary"]),
+    "text in a number column": (row(3, "0.2,abc,0,0,0"), ", line 4, column 'q_w'", ["'abc'"]),
+    "NaN": (row(3, "0.2,1,0,nan,0"), ", line 4, column 'q_y'", ["'nan'", "blank"]),
+    "a row of NaN": (row(2, "nan,nan,nan,nan,nan"), ", line 3, column 'time_s'", ["'nan'"]),
+    "infinite": (row(3, "0.2,1,0,0,-inf"), ", line 4, column 'q_z'", ["'-inf'"]),
+    "a blank among others": (row(3, "0.2,1,0,,0"), ", line 4, column 'q_y'", ["a blank cell"]),
+    "a blank time": (row(3, ",1,0,0,0"), ", line 4, column 'time_s'", ["a blank cell"]),
+    "time backwards": (row(3, "0.05,1,0,0,0"), ", line 4", ["0.1 s to 0.05 s", "grow"]),
+    "far from unit": (row(5, "0.4,0.9,0,0,0"), ", line 6", ["length 0.9", "length 1"]),
+    "zero quaternion": (row(5, "0.4,0,0,0,0"), ", line 6", ["length 0"]),
+    "too few cells": (row(3, "0.2,1,0"), ", line 4", ["3 cells", "5, as the header"]),
+    "too many cells": (row(3, "0.2,1,0,0,0,7"), ", line 4", ["6 cells"]),
+    "no q_z": (
+        GOOD.replace(",q_z", ",other"),
+        ", header",
+        ["q_w q_x q_y without q_z", "all of q_w q_x q_y q_z"],
+    ),
+    "no time": (GOOD.replace("time_s", "seconds"), ", header", ["no column 'time_s'"]),
+    "rates in degrees": (
+        GOOD.replace("q_w,q_x,q_y,q_z", "omega_x_deg_s,b,c,d"),
+        ", header",
+        ["'omega_x_deg_s'", "'omega_x_rad_s'"],
+    ),
+    "mass in metres": (GOOD.replace("q_w", "mass_x1_m"), ", header", ["'mass_<name>_mm'"]),
+    "no sensor": ("time_s,mass_x1_mm\n0,0\n1,0\n2,0\n", "", ["neither attitude nor rate"]),
+    "a column twice": (TWICE, ", header", ["two columns 'q_z'"]),
+    "nobody's header": ("alpha,beta\n1,2\n3,4\n", ", header", ["alpha, beta", "--columns"]),
+}
+
+
+@pytest.mark.parametrize(("text", "where", "words"), CASES.values(), ids=CASES.keys())
+def test_a_bad_table_is_named_with_its_place(tmp_path, text, where, words) -> None:
+    """File and place come first, then found and wanted, in one line."""
+    path = tmp_path / "run.csv"
+    path.write_text(text)
+    with pytest.raises(InputError) as caught:
+        read_recording(path)
+    sentence = str(caught.value)
+    assert sentence.startswith(f"{path}{where}: found ")
+    assert "\n" not in sentence
+    for word in words:
+        assert word in sentence
+
+
+def test_the_good_table_is_good(tmp_path) -> None:
+    """The cases above fail for the reason they state."""
+    (tmp_path / "run.csv").write_text(GOOD)
+    assert len(read_recording(tmp_path / "run.csv").attitude or ()) == 6
+
+
+@pytest.mark.parametrize("name", ["missing.csv", "."])
+def test_a_missing_file_or_a_directory_is_named(tmp_path, name) -> None:
+    """Neither is a recording."""
+    with pytest.raises(InputError, match=r"no such file|a directory"):
+        read_recording(tmp_path / name)
+
+
+def test_an_unknown_dialect_names_the_nearest(tmp_path) -> None:
+    """A misspelt dialect is answered with the right one."""
+    (tmp_path / "run.csv").write_text(GOOD)
+    with pytest.raises(InputError, match="did you mean 'optitrack'"):
+        read_recording(tmp_path / "run.csv", "optitrak")
+
+
+@pytest.mark.parametrize("dialect", ["optitrack", "ros"])
+def test_a_table_of_another_dialect_is_refused(tmp_path, dialect) -> None:
+    """A native table is neither OptiTrack's nor ROS's, whatever is claimed."""
+    (tmp_path / "run.csv").write_text(GOOD)
+    with pytest.raises(InputError, match="header: found"):
+        read_recording(tmp_path / "run.csv", dialect)
+
+
+def test_a_mass_that_the_testbed_lacks_names_the_nearest(tmp_path) -> None:
+    """With a testbed at hand, the recording may move its masses alone."""
+    path = tmp_path / "run.csv"
+    path.write_text(GOOD.replace("q_w", "mass_x12_mm,q_w").replace(",1,", ",0,1,"))
+    read_recording(path)
+    with pytest.raises(InputError, match=r"mass 'x12'; wanted did you mean 'x[12]'"):
+        read_recording(path, testbed=read_preset("sputnix"))
+
+
+def test_broken_parquet_is_named(tmp_path) -> None:
+    """A Parquet file cut short is said to be broken."""
+    pytest.importorskip("pyarrow", reason="the parquet extra is not installed")
+    t = np.arange(4.0)
+    whole = tmp_path / "r.parquet"
+    write_recording(Recording(rate=Samples(t, np.ones((4, 3)))), whole)
+    (tmp_path / "half.parquet").write_bytes(whole.read_bytes()[:100])
+    with pytest.raises(InputError, match="broken Parquet"):
+        read_recording(tmp_path / "half.parquet")
+
+
+def leaning(angle_deg: float) -> Recording:
+    """Return a recording of a platform that leans about x."""
+    turn = np.radians(angle_deg) * np.tile([1.0, 0.0, 0.0], (5, 1))
+    return Recording(attitude=Samples(np.arange(5.0), exponential(turn)), source="run.csv")
+
+
+def test_a_laboratory_with_y_up_is_found_out() -> None:
+    """A platform that seems to lie on its side: the sentence says what to do."""
+    with pytest.raises(InputError, match=r"tilted by 90 deg.*--dialect"):
+        check_frame(leaning(90), read_preset("sputnix"))
+
+
+@pytest.mark.parametrize("angle", [0, 30, 59])
+def test_a_leaning_platform_is_no_wrong_frame(angle) -> None:
+    """Tilts that a table can have pass."""
+    check_frame(leaning(angle), read_preset("sputnix"))

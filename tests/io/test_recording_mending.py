@@ -1,0 +1,101 @@
+"""What reading sets right, it reports."""
+
+import numpy as np
+import pytest
+
+from equipoise.io.recording_file import read_recording
+from equipoise.maths.attitude import exponential
+
+HEAD = "time_s,q_w,q_x,q_y,q_z,omega_x_rad_s,omega_y_rad_s,omega_z_rad_s\n"
+T = np.arange(20) * 0.1
+Q = exponential(np.outer(T, [0.0, 0.0, 0.3]))
+
+
+def table(t=T, q=Q, w=None, head: str = HEAD) -> str:
+    """Return a native table; the rate is a small made-up one."""
+    w = np.tile([0.01, 0.02, 0.3], (len(t), 1)) if w is None else w
+    rows = np.column_stack([t, q, w])
+    return head + "".join(",".join(map(repr, map(float, r))) + "\n" for r in rows)
+
+
+def read(tmp_path, text: str):
+    """Write and read a table."""
+    (tmp_path / "r.csv").write_text(text)
+    return read_recording(tmp_path / "r.csv")
+
+
+def test_sign_flips_are_made_continuous_and_counted(tmp_path) -> None:
+    """Rows 5 to 9 negated are two changes of sign; the attitudes are the same."""
+    q = Q.copy()
+    q[5:10] *= -1
+    recording = read(tmp_path, table(q=q))
+    np.testing.assert_array_equal(recording.attitude.values, Q)
+    assert any("changed its sign 2 times" in note for note in recording.notes)
+
+
+def test_short_quaternions_are_normalised_and_the_worst_line_is_named(tmp_path) -> None:
+    """A row 1 % short is normalised; header is line 1, so the row of index 6 is line 8."""
+    q = Q.copy()
+    q[6] *= 0.99
+    recording = read(tmp_path, table(q=q))
+    np.testing.assert_allclose(recording.attitude.values, Q, atol=1e-15)
+    assert any("1 of 20" in n and "0.990000 at line 8" in n for n in recording.notes)
+
+
+def test_duplicates_are_left_out_and_counted(tmp_path) -> None:
+    """The first of each time stamp stays."""
+    t = T.copy()
+    t[7] = t[6]
+    recording = read(tmp_path, table(t=t))
+    assert len(recording.attitude) == len(recording.rate) == 19
+    np.testing.assert_array_equal(recording.attitude.values[6], Q[6])
+    assert sum("1 row with a duplicate time stamp, first at line 9" in n for n in recording.notes)
+
+
+def test_gaps_are_reported(tmp_path) -> None:
+    """Eight rows lost out of a 0.1 s beat make a gap of 0.9 s."""
+    keep = np.r_[0:6, 14:20]
+    recording = read(tmp_path, table(t=T[keep], q=Q[keep]))
+    assert any("attitude: 1 gap: 0.9 s from 0.5 s" in note for note in recording.notes)
+
+
+def test_a_gyro_of_zeros_is_ignored_and_reported(tmp_path) -> None:
+    """Nothing was connected."""
+    recording = read(tmp_path, table(w=np.zeros((20, 3))))
+    assert recording.rate is None
+    assert any("rate: zero in every row" in n and "ignored" in n for n in recording.notes)
+
+
+def test_one_dead_axis_of_our_own_is_kept_and_reported(tmp_path) -> None:
+    """An exact simulation may turn about two axes only."""
+    recording = read(tmp_path, table(w=np.tile([0.1, 0.0, 0.2], (20, 1))))
+    assert recording.rate is not None
+    assert any("omega_y_rad_s" in note for note in recording.notes)
+
+
+def test_a_last_row_cut_short_is_left_out(tmp_path) -> None:
+    """A logger that lost power leaves half a row."""
+    recording = read(tmp_path, table() + "2.0,0.9")
+    assert len(recording.attitude) == 20
+    assert any("last row (line 22) is cut short" in note for note in recording.notes)
+
+
+@pytest.mark.parametrize("change", [str, lambda s: "\ufeff" + s, lambda s: s.replace("\n", "\r\n")])
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_marks_line_ends_and_separators_do_not_matter(tmp_path, change, separator) -> None:
+    """Byte-order mark, CRLF, semicolon and tab give the same recording."""
+    text = change(table().replace(",", separator))
+    (tmp_path / "r.csv").write_bytes(text.encode())
+    np.testing.assert_array_equal(read_recording(tmp_path / "r.csv").attitude.values, Q)
+
+
+def test_decimal_commas_are_read_between_semicolons(tmp_path) -> None:
+    """As spreadsheets write them in half of Europe."""
+    recording = read(tmp_path, table().replace(",", ";").replace(".", ","))
+    np.testing.assert_array_equal(recording.attitude.values, Q)
+
+
+def test_utf_16_is_read(tmp_path) -> None:
+    """As PowerShell redirects text."""
+    (tmp_path / "r.csv").write_bytes(table().encode("utf-16"))
+    np.testing.assert_array_equal(read_recording(tmp_path / "r.csv").attitude.values, Q)
