@@ -167,7 +167,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
     size = natural_sizes(fitted.point, problem.mass, layout)
-    view = examine(fitted.at.information, values, size, layout)
+    view = examine(fitted.at.normal, values, size, layout)
     residual = residual_of(fitted)
     factor = widening(residual)
     parameters, covariance = parameters_of(fitted, view, factor)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.attitude import exponential, multiply, normalise
+from equipoise.maths.attitude import exponential, normalise
 from equipoise.maths.compiled import kernel
 from equipoise.maths.local_motion import half_window, local_motion
 from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4
@@ -75,8 +75,3 @@ def sampled_motion(recording: Recording, testbed: Testbed) -> SampledMotion:
         w = np.where(inside[:, None], averaged(seen, rate.values, t, period), w)
     return SampledMotion(t, q, w)
 
-
-def at_start(motion: SampledMotion, start: float) -> tuple[Quaternion, Floats]:
-    """Return attitude and rate at a time near the first sample."""
-    turn = motion.w[0] * (start - motion.t[0])
-    return multiply(motion.q[0], exponential(turn)), motion.w[0].copy()

@@ -1,56 +1,75 @@
 """A start for the trajectory fit, from the linear methods, so that nobody has to guess one.
 
-The laboratory-axes momentum integral is solved with the testbed's inertia and centre of mass as
-weak priors: they only decide what the record leaves open.
+The laboratory-axes momentum integral gives first moment and first momentum; the latter, not the
+first noisy rate, gives the first rate. The testbed's inertia is a prior: weak with a gyro; firm
+without, because rates that are differences of attitudes bias a linear estimate of J towards zero.
 """
 
 import numpy as np
 
-from equipoise.estimation.momentum_integral import balance
-from equipoise.estimation.sampled_motion import SampledMotion, at_start, sampled_motion
+from equipoise.dynamics.regressor import N_TORQUES
+from equipoise.estimation.momentum_integral import balance, known_momentum
+from equipoise.estimation.sampled_motion import SampledMotion, sampled_motion
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.maths import pseudo_inertia
+from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.mass_properties import parallel_axis
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-INERTIA_TRUST = 0.3  # relative sd of the testbed's inertia, chosen: a student's first CAD model
+WITH_GYRO = 0.3  # relative sd given to the testbed's inertia, chosen: a first CAD model
+WITHOUT = 1e-3  # chosen: firm
 COM_TRUST = 3e-4  # m, least sd of the testbed's centre of mass
+CORRELATED = 5.0  # chosen: smoothed rates err together over some 25 rows, so rows count as fewer
 
 
 def start(recording: Recording, testbed: Testbed, layout: Layout, first: float) -> Unknowns:
     """Return a point near the optimum; ``first`` is the time (s) of the first node."""
     motion = sampled_motion(recording, testbed)
-    inertia, com, torque = solve(recording, testbed, layout, motion)
-    q0, w0 = at_start(motion, first)
+    inertia, com, momentum = solve(recording, testbed, motion)
+    w0 = first_rate(recording, testbed, motion, inertia, momentum)
     inertia_C = inertia - parallel_axis(testbed.body.mass, com)
+    turn = exponential(w0 * (first - motion.t[0]))
     return Unknowns(
-        q0, w0, pseudo_inertia.from_inertia(inertia_C), com, torque, np.zeros(len(layout.errors)),
-        np.zeros(3),
+        multiply(motion.q[0], turn), w0, pseudo_inertia.from_inertia(inertia_C), com,
+        np.zeros(N_TORQUES), np.zeros(len(layout.errors)), np.zeros(3),
     )  # fmt: skip
 
 
+def first_rate(
+    recording: Recording,
+    testbed: Testbed,
+    motion: SampledMotion,
+    inertia: Matrix3,
+    momentum_N: Vector3,
+) -> Vector3:
+    """Return w(t0) = J^-1 (R^T H0_N - k), rad/s."""
+    k, _ = known_momentum(recording, testbed, motion.t[:3], motion.w[:3])
+    return np.linalg.solve(inertia, to_matrix(motion.q[0]).T @ momentum_N - k[0])
+
+
 def solve(
-    recording: Recording, testbed: Testbed, layout: Layout, motion: SampledMotion
-) -> tuple[Floats, Floats, Floats]:
-    """Return inertia (3, 3), centre of mass and the 16 torque coefficients."""
+    recording: Recording, testbed: Testbed, motion: SampledMotion
+) -> tuple[Matrix3, Vector3, Vector3]:
+    """Return inertia, centre of mass, and the first momentum in laboratory axes."""
     rows = balance(recording, testbed, Layout(), *motion, "laboratory")
     body = testbed.body
     moments = np.diag(body.inertia_P)
     sizes = np.sqrt(pack_symmetric(np.outer(moments, moments)))
+    trust = WITHOUT if recording.rate is None else WITH_GYRO
     spread = np.concatenate(
-        [INERTIA_TRUST * sizes, body.mass * np.maximum(3 * testbed.com_sd, COM_TRUST)]
+        [trust * sizes, body.mass * np.maximum(3 * testbed.com_sd, COM_TRUST)]
     )
     guess = np.concatenate([pack_symmetric(body.inertia_P), body.first_moment])
     scale = np.append(spread, np.full(3, float(sizes.max()) * 0.1))
     # what misfit the rows have anyway decides how much the priors weigh
     free, *_ = np.linalg.lstsq(rows.regressor * scale, rows.known, rcond=1e-10)
     left = rows.known - rows.regressor @ (scale * free)
-    noise = max(float(np.sqrt(np.mean(left**2))), 1e-9)
+    noise = max(CORRELATED * float(np.sqrt(np.mean(left**2))), 1e-9)
     prior = np.hstack([np.diag(1.0 / spread), np.zeros((9, 3))])
     A = np.vstack([rows.regressor / noise, prior]) * scale
     b = np.concatenate([rows.known / noise, guess / spread])
     best = scale * np.linalg.lstsq(A, b, rcond=None)[0]
-    return unpack_symmetric(best[:6]), best[6:9] / body.mass, np.zeros(16)
+    return unpack_symmetric(best[:6]), best[6:9] / body.mass, best[9:12]

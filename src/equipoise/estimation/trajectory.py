@@ -23,14 +23,13 @@ from equipoise.estimation.conclusion import Fitted, conclude, residual_of
 from equipoise.estimation.start import start
 from equipoise.estimation.trajectory_problem import (
     Problem,
+    descend,
     evaluate,
-    in_free_coordinates,
     pose,
     prior_of,
     stops_of,
 )
-from equipoise.estimation.unknowns import Layout, Unknowns, retract
-from equipoise.maths.levenberg_marquardt import minimise
+from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import Estimate, Residual
@@ -86,13 +85,9 @@ def problem_of(recording: Recording, testbed: Testbed, params: Params) -> Proble
     return pose(recording, testbed, layout, stops, prior, fastest_rate(recording), limit)
 
 
-def descend(problem: Problem, point: Unknowns) -> Fitted:
+def settle(problem: Problem, point: Unknowns) -> Fitted:
     """Return the local optimum from a point."""
-    found = minimise(
-        lambda x: in_free_coordinates(problem, x),
-        lambda x, step: retract(x, step, problem.layout),
-        point,
-    )
+    found = descend(problem, point)
     at = evaluate(problem, found.point)
     return Fitted(problem, found.point, at, found.converged, found.evaluations)
 
@@ -117,7 +112,7 @@ def approach(recording: Recording, testbed: Testbed, params: Params, point: Unkn
     while share < 1.0:
         part = window(recording, start_t, start_t + share * length)
         problem = problem_of(part, testbed, replace(params, use_prior=True))
-        found = descend(problem, part_point(part, testbed, params, point)).point
+        found = settle(problem, part_point(part, testbed, params, point)).point
         point = replace(found, error=point.error)
         share *= 2
     return point
@@ -142,7 +137,7 @@ def fit(
             point = approach(recording, testbed, params, point)
     else:
         point = guess
-    return descend(problem, point)
+    return settle(problem, point)
 
 
 def held_out(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Residual:
@@ -152,7 +147,7 @@ def held_out(recording: Recording, testbed: Testbed, params: Params, fitted: Fit
     cut = last - params.hold_out * (last - first)
     part = window(recording, first, cut)
     guess = part_point(part, testbed, params, fitted.point)
-    early = descend(problem_of(part, testbed, params), guess).point
+    early = settle(problem_of(part, testbed, params), guess).point
     ahead = replace(early, error=fitted.point.error)
     at, seen = evaluate(fitted.problem, ahead), fitted.problem.seen
     camera = len(at.left_q) > 0

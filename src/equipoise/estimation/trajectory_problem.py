@@ -10,10 +10,18 @@ from equipoise.dynamics import rigid_body
 from equipoise.dynamics.propagation import Columns, body_of, stacked
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.estimation.normal_equations import Seen, accumulate
-from equipoise.estimation.unknowns import JP, R, Layout, Unknowns, chain, physical
-from equipoise.maths.levenberg_marquardt import Quadratic
+from equipoise.estimation.unknowns import (
+    JP,
+    R,
+    Layout,
+    Unknowns,
+    physical,
+    possible_step,
+    retract,
+)
+from equipoise.maths.levenberg_marquardt import Quadratic, Solution, minimise, promise
 from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.arrays import Floats, Series, Square
+from equipoise.model.arrays import Floats, Series
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import seen_at
@@ -48,12 +56,9 @@ class Problem:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Evaluation:
-    """The problem at one point, in physical coordinates."""
+class Evaluation(Quadratic):
+    """The problem at one point: the local model in physical coordinates, data and priors."""
 
-    cost: float
-    information: Square  # of data and priors
-    descent: Floats
     left_q: Series  # (n, 3) residuals in sd
     left_w: Series
 
@@ -161,11 +166,14 @@ def evaluate(problem: Problem, point: Unknowns) -> Evaluation:
     return Evaluation(cost, normal, descent + problem.prior.weight * off, left_q, left_w)
 
 
-def in_free_coordinates(problem: Problem, point: Unknowns) -> Quadratic:
-    """Return the local model in the coordinates in which steps are taken."""
-    at = evaluate(problem, point)
-    turn = chain(point, problem.mass, problem.layout)
-    return Quadratic(at.cost, turn.T @ at.information @ turn, turn.T @ at.descent)
+def descend(problem: Problem, point: Unknowns) -> Solution[Unknowns]:
+    """Return the local optimum from a point."""
+
+    def propose(x: Unknowns, local: Quadratic, damping: float) -> tuple[Unknowns, float]:
+        step = possible_step(x, problem.mass, problem.layout, local, damping)
+        return retract(x, step, problem.mass, problem.layout), promise(local, step)
+
+    return minimise(lambda x: evaluate(problem, x), propose, point)
 
 
 def stops_of(recording: Recording, testbed: Testbed) -> StopErrors:

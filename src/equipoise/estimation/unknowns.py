@@ -5,10 +5,13 @@ Physical coordinates, in which information and covariance are stated:
     [ turn of the first attitude (3) | first rate (3) | J_P xx yy zz xy xz yz | com (3)
       | torque coefficients | displacement errors | gyro bias (3) ]
 
-Free coordinates, in which steps are taken, replace J_P by the six numbers of
-``maths.pseudo_inertia``, so that every step leads to a body that can exist:
+The inertia itself is kept as the six numbers of ``maths.pseudo_inertia``, so every point is a body
+that can exist. Steps are sought in physical coordinates, where the residuals are nearly linear; a
+step that would leave the possible bodies is sought again along their boundary
 
-    dJ_P = (dJ_C/d six) dsix + m (2 r.dr E - r dr^T - dr r^T)
+    v.Sigma_C v = floor,      d(v.Sigma_C v) = 1/2 tr dJ_P - v.dJ_P v - 2 m (v.r) v.dr
+
+(steps in the six numbers themselves crawl when the body is nearly flat: see docs/decisions/0008).
 """
 
 from dataclasses import dataclass, replace
@@ -16,13 +19,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.maths import attitude, pseudo_inertia
-from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.arrays import Floats, Quaternion, Square, Vector3, Vector6
+from equipoise.maths.levenberg_marquardt import Quadratic, scaled_solve
+from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.model.arrays import Floats, Quaternion, Vector3, Vector6
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.model.mass_properties import MassProperties, from_centre
+from equipoise.model.mass_properties import (
+    MassProperties,
+    from_centre,
+    parallel_axis,
+    second_moments,
+)
 from equipoise.model.torque_terms import TERMS, unit_of
 
 TURN, RATE, JP, R = slice(0, 3), slice(3, 6), slice(6, 12), slice(12, 15)
+DOUBLE = np.array([1, 1, 1, 2, 2, 2])  # off-diagonal entries stand for two
 FIXED = 15  # coordinates before torques, errors and bias
 
 
@@ -84,31 +94,51 @@ def physical(point: Unknowns, mass: float, layout: Layout) -> Floats:
     return np.concatenate([np.zeros(3), point.w0, inertia, point.com, torque, point.error, bias])
 
 
-def chain(point: Unknowns, mass: float, layout: Layout) -> Square:
-    """Return d(physical)/d(free), a square matrix."""
-    matrix = np.eye(layout.size)
-    matrix[JP, JP] = pseudo_inertia.jacobian(point.six)
-    for k in range(3):
-        unit = np.eye(3)[k]
-        cross = np.outer(point.com, unit)
-        change = mass * (2 * point.com[k] * np.eye(3) - cross - cross.T)
-        matrix[JP, R.start + k] = pack_symmetric(change)
-    return matrix
+def boundary(point: Unknowns, mass: float, layout: Layout, step: Floats) -> tuple[Floats, Floats]:
+    """Return rows C and gaps d with C step = d on the boundary, for each moment that a step takes
+    below the floor; none when the step leads to a possible body."""
+    inertia = point.body(mass).inertia_P
+    com = point.com + step[R]
+    there = inertia + unpack_symmetric(step[JP]) - parallel_axis(mass, com)
+    values, vectors = np.linalg.eigh(second_moments(there))
+    floor = 2 * pseudo_inertia.FLOOR * float(np.trace(inertia))
+    beyond = vectors[:, values < 0.5 * floor].T
+    rows, gaps = np.zeros((len(beyond), layout.size)), np.zeros(len(beyond))
+    now = second_moments(point.body(mass).inertia_C)
+    for k, v in enumerate(beyond):
+        rows[k, JP] = 0.5 * np.array([1, 1, 1, 0, 0, 0]) - pack_symmetric(np.outer(v, v)) * DOUBLE
+        rows[k, R] = -2 * mass * (v @ point.com) * v
+        gaps[k] = floor - v @ now @ v
+    return rows, gaps
 
 
-def retract(point: Unknowns, step: Floats, layout: Layout) -> Unknowns:
-    """Return the point after a step in free coordinates."""
+def possible_step(
+    point: Unknowns, mass: float, layout: Layout, local: Quadratic, damping: float
+) -> Floats:
+    """Return the damped step to the least of the local model among possible bodies."""
+    free = step = scaled_solve(local.normal, local.descent, damping)
+    for _ in range(8):
+        rows, gaps = boundary(point, mass, layout, step)
+        if not len(rows):
+            break
+        toward = np.column_stack([scaled_solve(local.normal, row, damping) for row in rows])
+        step = free + toward @ np.linalg.solve(rows @ toward, gaps - rows @ free)
+    return step
+
+
+def retract(point: Unknowns, step: Floats, mass: float, layout: Layout) -> Unknowns:
+    """Return the point after a step in physical coordinates."""
     torque = point.torque.copy()
     n, e = len(layout.terms), len(layout.errors)
     torque[layout.torque_index] += step[FIXED : FIXED + n]
-    six_step = step[JP].copy()
-    six_step[:3] = np.clip(six_step[:3], -1.0, 1.0)  # at most a factor e at a time
+    com = point.com + step[R]
+    inertia = point.body(mass).inertia_P + unpack_symmetric(step[JP])
     return replace(
         point,
         q0=attitude.normalise(attitude.multiply(point.q0, attitude.exponential(step[TURN]))),
         w0=point.w0 + step[RATE],
-        six=point.six + six_step,
-        com=point.com + step[R],
+        six=pseudo_inertia.from_inertia(inertia - parallel_axis(mass, com)),
+        com=com,
         torque=torque,
         error=point.error + step[FIXED + n : FIXED + n + e],
         bias=point.bias + step[FIXED + n + e :] if layout.bias else point.bias,

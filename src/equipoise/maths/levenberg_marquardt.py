@@ -45,9 +45,14 @@ def scaled_solve(normal: Square, descent: Floats, damping: float) -> Floats:
     return scale * np.linalg.solve(unit, scale * descent)
 
 
+def promise(local: Quadratic, step: Floats) -> float:
+    """Return by how much a step should lower twice the cost, by the local model."""
+    return float(2 * step @ local.descent - step @ local.normal @ step)
+
+
 def minimise(
     evaluate: Callable[[Point], Quadratic],
-    retract: Callable[[Point, Floats], Point],
+    propose: Callable[[Point, Quadratic, float], tuple[Point, float]],
     start: Point,
     tolerance: float = 1e-6,
     most: int = 60,
@@ -55,26 +60,22 @@ def minimise(
 ) -> Solution[Point]:
     """Return a local minimum from ``start``.
 
-    Converged means that a full step would lower twice the cost by less than ``tolerance``; for
-    residuals in units of their sd that is a step of sqrt(tolerance) standard deviations.
+    ``propose`` gives the next point for a damping, and its promise. Converged means that the step
+    promises to lower twice the cost by less than ``tolerance``; for residuals in units of their sd
+    that is a step of sqrt(tolerance) standard deviations.
     """
     point, local = start, evaluate(start)
     evaluations, growth = 1, 2.0
     while evaluations < most:
-        step = scaled_solve(local.normal, local.descent, damping)
-        promised = float(step @ local.descent)
-        trial = retract(point, step)
+        trial, promised = propose(point, local, damping)
+        if promised < tolerance:
+            return Solution(point, local, True, evaluations)
         there = evaluate(trial)
         evaluations += 1
         gained = 2.0 * (local.cost - there.cost)
         if not np.isfinite(gained) or gained < 0:
-            if promised < tolerance:
-                return Solution(point, local, True, evaluations)
-            damping, growth = max(damping, 1e-6) * growth, 2.0 * growth
+            damping, growth = max(damping, 1e-5) * growth, 4.0 * growth
             continue
-        point, local, growth = trial, there, 2.0
-        if promised < tolerance:
-            return Solution(point, local, True, evaluations)
-        trust = gained / promised if promised > 0 else 1.0
-        damping = max(damping * max(1.0 / 3.0, 1.0 - (2.0 * trust - 1.0) ** 3), 1e-12)
+        trust, point, local, growth = gained / promised, trial, there, 2.0
+        damping = max(damping * max(0.1, 1.0 - (2.0 * trust - 1.0) ** 3), 1e-12)
     return Solution(point, local, False, evaluations)
