@@ -69,8 +69,8 @@ def known_momentum(
     maps = mass_maps(testbed.masses)
     d = straight_lines(recording.masses, t, len(testbed.masses))
     travel = Samples(t, np.gradient(d, t, axis=0)) if len(t) > 1 else Samples(t, 0 * d)
-    bend = np.array([unpack_symmetric(inertia_shift(maps, row)) for row in d]).reshape(-1, 3, 3)
-    k = np.einsum("nij,nj->ni", bend, w) + travel.values @ maps.momentum
+    bend = unpack_symmetric(inertia_shift(maps, d).T)  # (3, 3, n)
+    k = np.einsum("ijn,nj->ni", bend, w) + travel.values @ maps.momentum
     return k + straight_lines(recording.momentum, t, 3), d @ maps.first_moment
 
 

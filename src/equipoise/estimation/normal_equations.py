@@ -18,6 +18,7 @@ from equipoise.dynamics.propagation import Columns, arrive, rate_sensitivity, st
 from equipoise.dynamics.regressor import WIDTH, Triple
 from equipoise.dynamics.rigid_body import ROWS, Body
 from equipoise.maths.compiled import kernel, part
+from equipoise.maths.local_motion import turn
 from equipoise.model.arrays import Floats, Ints
 
 
@@ -30,20 +31,6 @@ class Seen(NamedTuple):
     rate: Floats  # (n_w, 3) rad/s
     rate_node: Ints
     rate_sd: float  # rad/s
-
-
-@part
-def turn_between(y: Floats, q: Floats) -> Triple:
-    """Return the rotation vector from the state's attitude to q, rad, in body axes."""
-    w = y[0] * q[0] + y[1] * q[1] + y[2] * q[2] + y[3] * q[3]
-    x = y[0] * q[1] - y[1] * q[0] - y[2] * q[3] + y[3] * q[2]
-    u = y[0] * q[2] + y[1] * q[3] - y[2] * q[0] - y[3] * q[1]
-    v = y[0] * q[3] - y[1] * q[2] + y[2] * q[1] - y[3] * q[0]
-    sine = (x * x + u * u + v * v) ** 0.5
-    if w < 0:
-        w, x, u, v = -w, -x, -u, -v
-    scale = 2.0 if sine < 1e-9 else 2.0 * np.arctan2(sine, w) / sine
-    return (scale * x, scale * u, scale * v)
 
 
 @part
@@ -69,11 +56,11 @@ def add_row(S: Floats, e: Triple, weight: float, normal: Floats, descent: Floats
 @part
 def attitude_rows(y: Floats, q: Floats, sd: float, n: int, S: Floats) -> Triple:
     """Return e_q and write dth/dp / sd."""
-    turn, scale = turn_between(y, q), 1.0 / sd
+    e, scale = turn(y, q), 1.0 / sd
     for j in range(3):
         for c in range(S.shape[1]):
             S[j, c] = scale * y[ROWS + j * n + c] if c < n else 0.0
-    return (scale * turn[0], scale * turn[1], scale * turn[2])
+    return (scale * e[0], scale * e[1], scale * e[2])
 
 
 @part

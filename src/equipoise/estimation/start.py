@@ -13,6 +13,7 @@ from equipoise.estimation.sampled_motion import SampledMotion, sampled_motion
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.attitude import exponential, multiply, to_matrix
+from equipoise.maths.levenberg_marquardt import scaled_solve
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.mass_properties import parallel_axis
@@ -65,11 +66,11 @@ def solve(
     guess = np.concatenate([pack_symmetric(body.inertia_P), body.first_moment])
     scale = np.append(spread, np.full(3, float(sizes.max()) * 0.1))
     # what misfit the rows have anyway decides how much the priors weigh
-    free, *_ = np.linalg.lstsq(rows.regressor * scale, rows.known, rcond=1e-10)
-    left = rows.known - rows.regressor @ (scale * free)
+    A = rows.regressor * scale
+    normal, right = A.T @ A, A.T @ rows.known
+    left = rows.known - A @ scaled_solve(normal, right, 1e-10)
     noise = max(CORRELATED * float(np.sqrt(np.mean(left**2))), 1e-9)
-    prior = np.hstack([np.diag(1.0 / spread), np.zeros((9, 3))])
-    A = np.vstack([rows.regressor / noise, prior]) * scale
-    b = np.concatenate([rows.known / noise, guess / spread])
-    best = scale * np.linalg.lstsq(A, b, rcond=None)[0]
+    prior = np.append(np.ones(9), np.zeros(3))
+    normal = normal / noise**2 + np.diag(prior)
+    best = scale * scaled_solve(normal, right / noise**2 + np.append(guess / spread, np.zeros(3)), 0)
     return unpack_symmetric(best[:6]), best[6:9] / body.mass, best[9:12]

@@ -9,10 +9,13 @@ may be uneven. Bias grows as the window to the power of the degree; noise falls 
 import numpy as np
 
 from equipoise.maths.attitude import difference, exponential, multiply
+from equipoise.maths.compiled import kernel, part
 from equipoise.model.arrays import Floats, Series1, Series3, Series4
 
 TURN = 0.6  # rad, chosen: most rotation in half a window, so that a cubic still follows it
 LONGEST = 2.5  # s, chosen: swings of an air-bearing platform take tens of seconds
+NEIGHBOURS = 24  # chosen: of more, evenly spaced ones are used; dense records are smooth anyway
+DEGREE = 3
 
 
 def half_window(t: Series1, q: Series4) -> float:
@@ -22,20 +25,49 @@ def half_window(t: Series1, q: Series4) -> float:
     return max(min(TURN / fastest, LONGEST), 2.5 * float(np.median(np.diff(t))))
 
 
-def local_motion(t: Series1, q: Series4, half: float, degree: int = 3) -> tuple[Series4, Series3]:
-    """Return smoothed attitudes (n, 4) and body rates (n, 3) rad/s at the samples' own times."""
-    n = len(t)
-    reach = max(int(np.ceil(half / float(np.median(np.diff(t))))), (degree + 2) // 2)
-    first = np.clip(np.arange(n) - reach, 0, max(n - 2 * reach - 1, 0))
-    index = np.minimum(first[:, None] + np.arange(2 * reach + 1), n - 1)
-    near = np.abs(t[index] - t[:, None]) <= np.maximum(half, np.abs(t[index[:, :1]] - t[:, None]))
-    phi = np.stack([difference(q[column], q) for column in index.T], axis=1)
-    scale = half if half > 0 else 1.0
-    order = min(degree, n - 1)
-    powers: Floats = ((t[index] - t[:, None]) / scale)[..., None] ** np.arange(order + 1)
-    weighted = powers * near[..., None]
-    normal = np.einsum("nja,njb->nab", weighted, powers)
-    normal += 1e-9 * np.eye(order + 1)
-    fit = np.linalg.solve(normal, np.einsum("nja,njc->nac", weighted, phi))
-    return multiply(q, exponential(fit[:, 0])), fit[:, 1] / scale
+@part
+def turn(p: Floats, q: Floats) -> tuple[float, float, float]:
+    """Return log(p^-1 q), rad."""
+    w = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]
+    x = p[0] * q[1] - p[1] * q[0] - p[2] * q[3] + p[3] * q[2]
+    y = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1]
+    z = p[0] * q[3] - p[1] * q[2] + p[2] * q[1] - p[3] * q[0]
+    sine = (x * x + y * y + z * z) ** 0.5
+    if w < 0:
+        w, x, y, z = -w, -x, -y, -z
+    scale = 2.0 if sine < 1e-9 else 2.0 * np.arctan2(sine, w) / sine
+    return scale * x, scale * y, scale * z
 
+
+@kernel
+def _fit(t: Floats, q: Floats, reach: int, stride: int, scale: float, out: Floats) -> None:
+    """Write constant term and slope, shape (n, 2, 3)."""
+    n, order = t.shape[0], min(DEGREE, t.shape[0] - 1)
+    powers = np.zeros(DEGREE + 1)
+    for k in range(n):
+        normal, right = np.zeros((order + 1, order + 1)), np.zeros((order + 1, 3))
+        first = min(max(k - reach, 0), max(n - 1 - 2 * reach, 0))
+        for j in range(first, min(first + 2 * reach + 1, n), stride):
+            phi = turn(q[k], q[j])
+            powers[0] = 1.0
+            for a in range(order):
+                powers[a + 1] = powers[a] * (t[j] - t[k]) / scale
+            for a in range(order + 1):
+                for b in range(order + 1):
+                    normal[a, b] += powers[a] * powers[b]
+                for c in range(3):
+                    right[a, c] += powers[a] * phi[c]
+        for a in range(order + 1):
+            normal[a, a] += 1e-9
+        found = np.linalg.solve(normal, right)
+        for c in range(3):
+            out[k, 0, c], out[k, 1, c] = found[0, c], found[1, c] / scale
+
+
+def local_motion(t: Series1, q: Series4, half: float) -> tuple[Series4, Series3]:
+    """Return smoothed attitudes (n, 4) and body rates (n, 3) rad/s at the samples' own times."""
+    reach = max(int(np.ceil(half / float(np.median(np.diff(t))))), (DEGREE + 2) // 2)
+    stride = max(2 * reach // NEIGHBOURS, 1)
+    out = np.zeros((len(t), 2, 3))
+    _fit(t, np.ascontiguousarray(q), reach, stride, half, out)
+    return multiply(q, exponential(out[:, 0])), np.ascontiguousarray(out[:, 1])
