@@ -10,7 +10,7 @@ from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.timeline import timeline
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.testbed import AttitudeSensor, Gyro
+from equipoise.model.testbed import AttitudeSensor, Fault, Gyro
 from equipoise.model.torque_terms import TERMS
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.record import record
@@ -96,6 +96,20 @@ def test_rate_jumps_when_a_mass_starts_and_stops(testbed, rail):
     moving = (w.t > 1.0) & (w.t <= 2.0)
     np.testing.assert_allclose(w.values[moving, 2], 1e-3 / 2.5, rtol=1e-3)
     np.testing.assert_allclose(w.values[~moving], 0.0, atol=1e-12)
+
+
+def test_the_platform_feels_the_masses_and_not_their_report(testbed, rail):
+    """A stuck mass does nothing; one that slips by half does half as much."""
+    masses = (rail("x"), rail("y", (0.0, 1.0, 0.0), (0.2, 0.0, 0.0)))
+    rates: list[float] = []
+    for gain in (1.0, 0.5, 0.0):
+        setup = testbed(masses=masses, truth={"faults": (Fault("y", gain),)}, gravity=1e-12)
+        bench = SimulatedBench(setup, 0)
+        bench.move({"y": 0.02})
+        recording = bench.read(1.0)
+        assert recording.masses.values[-1, 1] == pytest.approx(0.01)
+        rates.append(recording.rate.values[-1, 2])
+    assert rates == pytest.approx([-4e-4, -2e-4, 0.0], rel=1e-3)
 
 
 def test_agrees_with_the_estimators_propagator(testbed, rail):
