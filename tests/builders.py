@@ -35,7 +35,7 @@ def sliding_masses(accuracy: float = 0.0, resolution: float = 1e-3) -> tuple[Sli
     )
 
 
-def testbed(accuracy: float = 0.0, gyro: bool = False) -> Testbed:
+def platform(accuracy: float = 0.0, gyro: bool = False) -> Testbed:
     """The platform as published; the first guess is the truth."""
     return Testbed(
         "test", MassProperties(MASS, COM, unpack_symmetric(INERTIA)), 0.1, np.full(3, 1e-4),
@@ -44,16 +44,11 @@ def testbed(accuracy: float = 0.0, gyro: bool = False) -> Testbed:
     )  # fmt: skip
 
 
-testbed.__test__ = False  # a builder, whatever its name suggests
-
-
-def guessed_wrong(platform: Testbed) -> Testbed:
+def guessed_wrong(testbed: Testbed) -> Testbed:
     """The same platform with a first guess 10 % off in inertia and 80 um off in the centre."""
     wrong = np.diag([1.08, 0.93, 1.05])
-    body = replace(
-        platform.body, com=np.zeros(3), inertia_P=wrong @ platform.body.inertia_P @ wrong
-    )
-    return replace(platform, body=body)
+    inertia = wrong @ unpack_symmetric(INERTIA) @ wrong
+    return replace(testbed, body=MassProperties(MASS, np.zeros(3), inertia))
 
 
 def move_at(start: float, end: float) -> Samples:
@@ -78,11 +73,11 @@ def line_of(t: np.ndarray, track: Samples | None = None, step: float = 0.05) -> 
 
 
 def travel(
-    line: Timeline, platform: Body | None = None, columns: Columns = NO_COLUMNS,
+    line: Timeline, rigid: Body | None = None, columns: Columns = NO_COLUMNS,
     q0: np.ndarray = ATTITUDE, w0: np.ndarray = RATE,
 ) -> Motion:  # fmt: skip
     """The motion of the shared platform along a timeline."""
-    return propagate(body() if platform is None else platform, maps(), line, q0, w0, columns)
+    return propagate(body() if rigid is None else rigid, maps(), line, q0, w0, columns)
 
 
 def recording(
