@@ -45,7 +45,7 @@ def platform(accuracy: float = 0.0, gyro: bool = False) -> Testbed:
 
 
 def guessed_wrong(testbed: Testbed) -> Testbed:
-    """The same platform with a first guess 10 % off in inertia and 80 um off in the centre."""
+    """The same platform with a first guess up to 17 % off in J and 79 um off in the centre."""
     wrong = np.diag([1.08, 0.93, 1.05])
     inertia = wrong @ unpack_symmetric(INERTIA) @ wrong
     return replace(testbed, body=MassProperties(MASS, np.zeros(3), inertia))
