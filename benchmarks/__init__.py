@@ -1,0 +1,1 @@
+"""The trajectory fit against other tools, side by side; ``make bench`` runs it."""

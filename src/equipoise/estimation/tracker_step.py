@@ -1,0 +1,211 @@
+"""One step of the tracker, compiled: predict along the timeline, correct by a row.
+
+    P- = Phi P Phi^T + Q dt        Phi from the propagator's sensitivities over the step
+    K  = P- H^T (H P- H^T + R)^-1,   x = K z,   P+ = (E - K H) P- (E - K H)^T + K R K^T
+
+H picks three rows of the error state (and the bias), so H P is a few rows of P.
+"""
+
+import numpy as np
+
+from equipoise.dynamics.propagation import Columns, step
+from equipoise.dynamics.regressor import WIDTH, Triple
+from equipoise.dynamics.rigid_body import ROWS, Body, body_at, rate_of, times
+from equipoise.maths.compiled import kernel, part
+from equipoise.maths.local_motion import turn
+from equipoise.model.arrays import Floats, Ints
+
+SIZE = 12  # dth, dw, dr, db
+N = 9  # of which the propagator moves these
+
+
+@part
+def with_moment(body: Body, com: Floats) -> Body:
+    """Return the body with another centre of mass (m)."""
+    m = body.mass
+    moment = (m * com[0], m * com[1], m * com[2])
+    return Body(m, body.gravity, body.inertia, moment, body.torqued, body.torque)
+
+
+@part
+def unit_columns(body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: Floats) -> None:
+    """Write the sensitivities to attitude, rate and moment at the beginning of a step."""
+    now = body_at(body, maps, t, known, i, 0.0)
+    for j in range(6 * N):
+        y[ROWS + j] = 0.0
+    for k in range(3):
+        y[ROWS + k * N + k] = 1.0
+        unit = times(now.inertia, (1.0 * (k == 0), 1.0 * (k == 1), 1.0 * (k == 2)))
+        for j in range(3):
+            y[ROWS + (3 + j) * N + 3 + k] = unit[j]
+
+
+@part
+def transition(body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: Floats,
+               phi: Floats) -> None:
+    """Write Phi over step i from the sensitivities at its end."""
+    now = body_at(body, maps, t, known, i, 1.0)
+    for c in range(N):
+        scale = body.mass if c >= 6 else 1.0
+        a = ROWS + c
+        dw = times(now.inverse, (y[a + 3 * N], y[a + 4 * N], y[a + 5 * N]))
+        for j in range(3):
+            phi[j, c] = scale * y[a + j * N]
+            phi[3 + j, c] = scale * dw[j]
+
+
+@part
+def predict_covariance(body: Body, phi: Floats, noise: Floats, dt: float, P: Floats,
+                       A: Floats) -> None:
+    """Write Phi P Phi^T + Q dt in place; torque noise reaches the rate through J."""
+    for i in range(SIZE):
+        for j in range(SIZE):
+            total = P[i, j] if i >= 6 else 0.0
+            if i < 6:
+                for k in range(N):
+                    total += phi[i, k] * P[k, j]
+            A[i, j] = total
+    for i in range(SIZE):
+        for j in range(SIZE):
+            total = A[i, j] if j >= 6 else 0.0
+            if j < 6:
+                for k in range(N):
+                    total += A[i, k] * phi[j, k]
+            P[i, j] = total
+    for j in range(SIZE):
+        spread = noise[j] / body.inertia[j - 3] if 3 <= j < 6 else noise[j]
+        P[j, j] += spread * spread * dt
+
+
+@part
+def invert3(S: Floats, out: Floats) -> None:
+    """Write the inverse of a symmetric (3, 3)."""
+    a = S[1, 1] * S[2, 2] - S[1, 2] * S[1, 2]
+    b = S[0, 2] * S[1, 2] - S[0, 1] * S[2, 2]
+    c = S[0, 1] * S[1, 2] - S[0, 2] * S[1, 1]
+    k = 1.0 / (S[0, 0] * a + S[0, 1] * b + S[0, 2] * c)
+    out[0, 0], out[0, 1], out[0, 2] = k * a, k * b, k * c
+    out[1, 1] = k * (S[0, 0] * S[2, 2] - S[0, 2] * S[0, 2])
+    out[1, 2] = k * (S[0, 1] * S[0, 2] - S[0, 0] * S[1, 2])
+    out[2, 2] = k * (S[0, 0] * S[1, 1] - S[0, 1] * S[0, 1])
+    out[1, 0], out[2, 0], out[2, 1] = out[0, 1], out[0, 2], out[1, 2]
+
+
+@part
+def correct(P: Floats, first: int, second: int, z: Triple, sd: float, x: Floats, HP: Floats,
+            S: Floats, inverse: Floats, K: Floats, A: Floats) -> float:
+    """Write x = K z and P+ for H = unit rows at ``first`` (and ``second`` if >= 0); return the
+    squared innovation over its covariance."""
+    for r in range(3):
+        for j in range(SIZE):
+            HP[r, j] = P[first + r, j] + (P[second + r, j] if second >= 0 else 0.0)
+    for r in range(3):
+        for c in range(3):
+            S[r, c] = HP[r, first + c] + (HP[r, second + c] if second >= 0 else 0.0)
+        S[r, r] += sd * sd
+    invert3(S, inverse)
+    surprise = 0.0
+    for r in range(3):
+        for c in range(3):
+            surprise += z[r] * inverse[r, c] * z[c]
+    for i in range(SIZE):
+        x[i] = 0.0
+        for c in range(3):
+            K[i, c] = 0.0
+            for r in range(3):
+                K[i, c] += HP[r, i] * inverse[r, c]
+            x[i] += K[i, c] * z[c]
+    # Joseph form by parts: A = P - K H P;  P+ = A - A H^T K^T + K R K^T
+    for i in range(SIZE):
+        for j in range(SIZE):
+            A[i, j] = P[i, j]
+            for c in range(3):
+                A[i, j] -= K[i, c] * HP[c, j]
+    for i in range(SIZE):
+        for j in range(SIZE):
+            total = A[i, j]
+            for c in range(3):
+                felt = A[i, first + c] + (A[i, second + c] if second >= 0 else 0.0)
+                total += (sd * sd * K[i, c] - felt) * K[j, c]
+            P[i, j] = total
+    return surprise
+
+
+@part
+def apply(x: Floats, inertia: Floats, y: Floats, com: Floats, bias: Floats) -> None:
+    """Correct attitude, momentum, centre of mass and bias by the error state."""
+    angle = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) ** 0.5
+    s = 0.5 if angle < 1e-9 else np.sin(0.5 * angle) / angle
+    c, a, b, d = np.cos(0.5 * angle), s * x[0], s * x[1], s * x[2]
+    w, i, j, k = y[0], y[1], y[2], y[3]
+    y[0] = w * c - i * a - j * b - k * d
+    y[1] = w * a + i * c + j * d - k * b
+    y[2] = w * b - i * d + j * c + k * a
+    y[3] = w * d + i * b - j * a + k * c
+    dH = times(inertia, (x[3], x[4], x[5]))
+    for m in range(3):
+        y[4 + m] += dH[m]
+        com[m] += x[6 + m]
+        bias[m] += x[9 + m]
+
+
+@kernel
+def run_filter(
+    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
+    attitude: Floats, q_node: Ints, sd_q: float, rate: Floats, w_node: Ints, sd_w: float,
+    stop_node: Ints, stop_added: Floats, noise: Floats, end: Floats, P: Floats, out: Floats,
+) -> None:
+    """Filter every row; ``end`` (q, w, com, bias) and P go in and come out; a row of ``out`` is
+    t, q, w, com, bias, twelve sd, surprise."""
+    y = np.zeros(ROWS + 6 * N)
+    at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
+    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros((6, N)), np.zeros((6, N))
+    x, HP, S, inverse = np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3))
+    K, A = np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE))
+    com, bias = end[7:10], end[10:13]
+    now = body_at(body, maps, t, known, 0, 0.0)
+    H = times(now.inertia, (end[4], end[5], end[6]))
+    for j in range(4):
+        y[j] = end[j]
+    for j in range(3):
+        y[4 + j] = H[j] + now.momentum[j]
+    row, iq, iw, stop = 0, 0, 0, 0
+    for i in range(t.shape[0] - 1):
+        body = with_moment(body, com)
+        unit_columns(body, maps, t, known, i, y)
+        step(body, maps, t, known, owners, columns, i, y, regress, fb, at, dy, total)
+        transition(body, maps, t, known, i, y, phi)
+        predict_covariance(body, phi, noise, t[i + 1] - t[i], P, A)
+        while stop < stop_node.shape[0] and stop_node[stop] <= i + 1:
+            P[6:9, 6:9] += stop_added[stop]
+            stop += 1
+        now = body_at(body, maps, t, known, i, 1.0)
+        for source in range(2):
+            if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
+                z = turn(y, attitude[iq])
+                out[row, 26] = correct(P, 0, -1, z, sd_q, x, HP, S, inverse, K, A)
+                iq += 1
+            elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
+                w = rate_of(now, y)
+                z = (rate[iw, 0] - w[0] - bias[0], rate[iw, 1] - w[1] - bias[1],
+                     rate[iw, 2] - w[2] - bias[2])  # fmt: skip
+                out[row, 26] = correct(P, 3, 9, z, sd_w, x, HP, S, inverse, K, A)
+                iw += 1
+            else:
+                continue
+            apply(x, now.inertia, y, com, bias)
+            w = rate_of(now, y)
+            out[row, 0] = t[i + 1]
+            for j in range(4):
+                out[row, 1 + j] = y[j]
+            for j in range(3):
+                end[4 + j] = w[j]
+                out[row, 5 + j], out[row, 8 + j], out[row, 11 + j] = w[j], com[j], bias[j]
+            for j in range(SIZE):
+                out[row, 14 + j] = P[j, j] ** 0.5
+            row += 1
+    w = rate_of(now, y)
+    for j in range(4):
+        end[j] = y[j]
+    for j in range(3):
+        end[4 + j] = w[j]

@@ -1,0 +1,1 @@
+"""An independent truth: the platform in MuJoCo. Development only."""
