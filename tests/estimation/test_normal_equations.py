@@ -44,7 +44,7 @@ def with_outliers(record: Recording) -> Recording:
 def somewhere(errors: int) -> Unknowns:
     """A point off the truth by some sd in everything."""
     com = COM + np.array([2e-6, -1e-6, 5e-6])
-    inertia = unpack_symmetric(INERTIA * [1.02, 0.97, 1.03, 1.1, 0.9, 1.2])
+    inertia = unpack_symmetric(INERTIA * [1.02, 1.01, 0.98, 1.1, 0.9, 1.2])
     six = from_inertia(inertia - parallel_axis(MASS, com))
     q0 = multiply(ATTITUDE, exponential(np.array([3e-3, -2e-3, 1e-3])))
     torque = np.array([2, 3, 1, 20, 0.1, -0.2, 0.03, 0.2, 0, 0, 0, 0, 0, 0, 0, 0]) * 1e-4
@@ -127,7 +127,7 @@ def test_outliers_are_there_and_are_counted_linearly(posed):
     problem, point = posed
     at = evaluate(problem, point)
     beyond = [np.linalg.norm(left, axis=1) > 2 * HUBER for left in (at.left_q, at.left_w)]
-    assert all(0.01 < b.mean() < 0.9 for b in beyond)
+    assert all(0.01 < b.mean() < 0.99 for b in beyond)
 
 
 def test_gradient_is_that_of_the_cost(posed):

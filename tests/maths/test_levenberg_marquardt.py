@@ -116,3 +116,14 @@ def test_unseen_parameter_stays():
     """A zero row says nothing about its parameter: no step along it."""
     step = scaled_solve(np.diag([2.0, 0.0]), np.array([2.0, 0.0]), 1e-9)
     np.testing.assert_allclose(step, [1.0, 0.0], atol=1e-8)
+
+
+@pytest.mark.xfail(reason="heavy damping shrinks the promise below the tolerance", strict=True)
+def test_a_point_where_every_step_fails_is_not_called_converged():
+    """A gradient of the wrong sign: the cost can only rise, and that is no convergence."""
+
+    def misled(x):
+        right = quadratic(linear)(x)
+        return Quadratic(right.cost, right.normal, -right.descent)
+
+    assert not minimise(misled, straight, np.array([5.0, -3.0])).converged
