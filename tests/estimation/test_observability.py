@@ -1,13 +1,11 @@
 """What is seen and what is not, from information matrices made by hand."""
 
-import inspect
-
 import numpy as np
 import pytest
 from builders import ATTITUDE, COM, INERTIA, MASS, RATE
 
 from equipoise.estimation import observability
-from equipoise.estimation.observability import Visibility, natural_sizes
+from equipoise.estimation.observability import Visibility, natural_sizes, scale_of
 from equipoise.estimation.unknowns import JP, Layout, R, Unknowns, physical
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
@@ -24,13 +22,8 @@ SHARP = 1e6  # information that gives an sd of 1e-3 natural sizes
 
 def examine(natural: np.ndarray) -> Visibility:
     """Examine information given in natural sizes."""
-    return observability.examine(natural / np.outer(SIZE, SIZE), *told())
-
-
-def told() -> tuple:
-    if "scale" in inspect.signature(observability.examine).parameters:
-        return observability.scale_of(VALUES, SIZE), SIZE, LAYOUT.names
-    return VALUES, SIZE, LAYOUT
+    information = natural / np.outer(SIZE, SIZE)
+    return observability.examine(information, scale_of(VALUES, SIZE), SIZE, LAYOUT.names)
 
 
 def without(*directions) -> np.ndarray:

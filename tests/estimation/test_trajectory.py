@@ -64,7 +64,7 @@ def sharp(testbed):
 
 @pytest.mark.parametrize("gyro", [0.0, 20.0], ids=["camera", "camera and gyro"])
 def test_without_noise_the_truth_comes_back(gyro):
-    """From a guess 17 % and 79 um off, to 1e-6 of the size of each parameter."""
+    """From a guess 10 % and 79 um off, to 1e-6 of the size of each parameter."""
     testbed = guessed_wrong(sharp(platform(gyro=gyro > 0)))
     fitted = fit(clean(gyro=gyro), testbed, Params())
     assert fitted.converged

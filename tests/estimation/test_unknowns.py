@@ -16,6 +16,7 @@ from equipoise.estimation.unknowns import (
     physical,
     possible_step,
     retract,
+    stride,
 )
 from equipoise.maths.attitude import difference
 from equipoise.maths.levenberg_marquardt import Quadratic, promise, scaled_solve
@@ -26,7 +27,7 @@ from equipoise.model.mass_properties import parallel_axis, second_moments, small
 LAYOUT = Layout(("viscous_y", "sag_xz"), ("error_x_1",), bias=True)
 FLAT = np.array([0.4, 0.5, 0.899, 0.0, 0.0, 0.0])  # least second moment (0.4 + 0.5 - 0.899) / 2
 # J by 5e-4 kg m2: the platform is flat, its least second moment is 4e-3
-SIZES = np.array([0.3] * 3 + [0.02] * 3 + [5e-4] * 6 + [1e-5] * 3 + [1e-4, 1e-6, 1e-3] + [1e-3] * 3)
+SIZES = np.repeat([0.03, 0.02, 5e-4, 1e-5, 1e-4, 1e-6, 1e-3], [3, 3, 6, 3, 1, 1, 4])
 steps = arrays(np.float64, LAYOUT.size, elements=st.floats(-1.0, 1.0)).map(lambda s: s * SIZES)
 
 
@@ -142,6 +143,16 @@ def test_at_the_boundary_the_step_is_the_best_possible(seed):
     across = left - along * (along @ left)
     assert np.linalg.norm(across) < 0.05 * np.linalg.norm(left)
     assert promise(model, step) > 0
+
+
+@pytest.mark.parametrize("name", ["turn_y", "rate_z", "inertia_P_xx"])
+def test_no_step_is_longer_than_can_be_believed(name):
+    """A radian, a radian a second, the trace of J: a hundred times that is cut to one."""
+    pull = np.zeros(LAYOUT.size)
+    k = LAYOUT.names.index(name)
+    pull[k] = 100.0 * (np.trace(unpack_symmetric(INERTIA)) if name.startswith("inertia") else 1.0)
+    step = possible_step(point(), MASS, LAYOUT, Quadratic(0.0, np.eye(LAYOUT.size), pull), 0.0)
+    assert 0 < stride(step, point(), MASS) <= 1 + 1e-12
 
 
 @given(steps, st.sampled_from([INERTIA, FLAT]))
