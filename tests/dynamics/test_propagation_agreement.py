@@ -1,5 +1,7 @@
 """The compiled propagator against a few lines of NumPy, its own order, and finite differences."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from builders import (
@@ -14,11 +16,11 @@ from builders import (
     line_of,
     move_at,
     sliding_masses,
-    travel,
 )
 
+from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.actuators.stops import stop_errors
-from equipoise.dynamics.propagation import Columns, body_of
+from equipoise.dynamics.propagation import NO_COLUMNS, Columns, body_of, propagate
 from equipoise.dynamics.rigid_body import (
     ERROR,
     KNOWN_D,
@@ -39,9 +41,17 @@ from equipoise.model.mass_properties import parallel_axis
 from equipoise.model.recording import Samples
 
 FAST = np.array([0.3, -0.2, 0.5])  # rad/s: RK4 errors stand far above rounding
-MOVE = move_at(5.0, 20.0)
+SKEWED = tuple(  # rails at odd angles, so that every entry of J changes
+    replace(m, axis=normalise(m.axis + [0.3, -0.2, 0.4])) for m in sliding_masses(accuracy=1e-3)
+)
+FROM_HOME = move_at(5.0, 20.0)
+MOVE = Samples(FROM_HOME.t, FROM_HOME.values + [0.02, 0, 0])  # x stands 20 mm out to begin with
 WHEEL = Samples(np.array([0.0, 8.0, 12.0]), np.outer([1, 1, 4], [1e-3, -2e-3, 5e-4]))
 PUSH = Samples(np.array([0.0, 3.0, 20.0]), np.outer([0, 2, 1], [1e-4, 2e-5, -1e-4]))
+
+
+def travel(line, rigid, columns=NO_COLUMNS, q0=ATTITUDE, w0=FAST):
+    return propagate(rigid, mass_maps(SKEWED), line, q0, w0, columns)
 
 
 # --- A plain twin -----------------------------------------------------------------------------
@@ -50,7 +60,7 @@ PUSH = Samples(np.array([0.0, 3.0, 20.0]), np.outer([0, 2, 1], [1e-4, 2e-5, -1e-
 def platform_at(d, speed):
     """Return J, mu and h with every mass a point on its rail."""
     J, mu, h = unpack_symmetric(INERTIA), MASS * COM, np.zeros(3)
-    for mass, way, v in zip(sliding_masses(), d, speed, strict=True):
+    for mass, way, v in zip(SKEWED, d, speed, strict=True):
         place = mass.home + way * mass.axis
         J = J - parallel_axis(mass.mass, mass.home) + parallel_axis(mass.mass, place)
         mu = mu + mass.mass * way * mass.axis
@@ -124,15 +134,15 @@ def test_integrator_earns_order_four(track):
 
 # --- Sensitivities ----------------------------------------------------------------------------
 
-KINDS = {TURN: 3, RATE_KIND: 3, INERTIA_KIND: 6, MOMENT: 3, TORQUE: 16, ERROR: 3}
+KINDS = {TURN: 3, RATE_KIND: 3, INERTIA_KIND: 6, MOMENT: 3, TORQUE: 16, ERROR: 4}
 PAIRS = np.array([(kind, k) for kind, n in KINDS.items() for k in range(n)])
 COLUMNS = Columns(PAIRS[:, 0].copy(), PAIRS[:, 1].copy())
 TIMES = np.linspace(0, 20, 41)
 
 
 def felt_line():
-    """A timeline whose three stops have an unknown error each."""
-    errors = stop_errors(MOVE, sliding_masses(accuracy=1e-3))
+    """A timeline whose four stops have an unknown error each, the first from the start."""
+    errors = stop_errors(MOVE, SKEWED)
     return timeline(TIMES, np.zeros(0), MOVE, 3, 0.05, WHEEL, PUSH, errors.felt, errors.owner)
 
 
