@@ -1,0 +1,3 @@
+def demo() -> int:
+    """demo."""
+    return 0

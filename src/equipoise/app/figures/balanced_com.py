@@ -1,0 +1,52 @@
+"""Centre of mass in the process of automatic balancing (Ivanov 2021 Fig. 14)."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.com_panels import draw_com, include
+from equipoise.app.figures.style import BAND, line, panels, styled
+from equipoise.app.units import UM
+from equipoise.model.arrays import Series1, Series3, Vector3
+from equipoise.model.recording import Recording
+
+CAPTION = (
+    "Centre of mass with the masses as they stand, um in body axes, while the platform is "
+    "balanced: tracker (line, band of two standard deviations), estimates of the procedure "
+    "(circles, bars of two standard deviations), target with its tolerance (shaded), simulated "
+    "truth (dashed). Grey: masses travel."
+)
+Curve = tuple[Series1, Series3, Series3]  # s, m, m (one sd)
+Look = tuple[float, Vector3, Vector3]  # s, m, m (one sd)
+
+
+@styled
+def draw(
+    curve: Curve,
+    looks: Sequence[Look],
+    target: Vector3,
+    tolerance: Vector3,
+    recording: Recording,
+    truth: tuple[Series1, Series3] | None = None,
+) -> Figure:
+    """Return the figure."""
+    figure, grid = panels(3, height=1.5)
+    column = [row[0] for row in grid]
+    draw_com(column, *curve, recording)
+    for i, axes in enumerate(column):
+        low, high = (target[i] - tolerance[i]) * UM, (target[i] + tolerance[i]) * UM
+        axes.axhspan(low, high, color="black", alpha=0.10, linewidth=0)
+        include(axes, low, high)
+        for t, com, sd in looks:
+            axes.errorbar(
+                t, com[i] * UM, BAND * sd[i] * UM, fmt="o", color="black", markersize=3.5,
+                markerfacecolor="white", elinewidth=1, capsize=2.5, zorder=5,
+            )  # fmt: skip
+            spread = BAND * sd[i] * UM
+            if np.isfinite(spread):
+                include(axes, com[i] * UM - spread, com[i] * UM + spread)
+        if truth is not None:
+            line(axes, truth[0], truth[1][:, i] * UM, "black", linestyle="--", linewidth=0.9)
+    figure.align_ylabels()
+    return figure
