@@ -1,11 +1,15 @@
 """Before and after: what balancing did to a platform, as rows for a table."""
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
-from equipoise.app.numbers import fixed, is_known, with_sd
-from equipoise.app.units import MICRO, UM
+import numpy as np
+
+from equipoise.app.numbers import decimals_for, fixed, is_known, with_sd
+from equipoise.app.units import MICRO, UM, Unit
 from equipoise.assessment.residual_torque import Uncertain, level_torque, swing_period
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.mass_properties import MassProperties
@@ -51,67 +55,52 @@ HEADS = ("", "unit", "before", "after", "target", "truth before", "truth after")
 def rows(change: Change) -> Iterator[Row]:
     """Yield centre of mass, torque when level, period of swing."""
     for i, axis in enumerate("xyz"):
-        yield Row(
-            f"centre of mass {axis}",
-            "um",
-            *(_shown(Uncertain(b.com[i], b.sd[i]), UM) for b in (change.before, change.after)),
-            fixed(change.target[i] * UM, 1),
-            *(_true(truth and truth.com[i], UM) for truth in _truths(change)),
-        )
-    yield _torque(change)
-    yield _period(change)
+        yield _row(f"centre of mass {axis}", Unit("um", UM), change, partial(_component, i))
+    yield _row("gravity torque when level", Unit("uN m", MICRO), change, _torque)
+    yield _row("period of swing", Unit("s", 1.0), change, _period)
 
 
-def _truths(change: Change) -> tuple[MassProperties | None, MassProperties | None]:
-    return change.truth_before, change.truth_after
+Quantity = Callable[[Change, Believed, Matrix3], Uncertain]
 
 
-def _torque(change: Change) -> Row:
-    bed = change.testbed
-    weight, zero = bed.body.mass * bed.gravity, change.target * 0
-
-    def torque(com: Vector3, sd: Vector3) -> Uncertain:
-        return level_torque(weight, com, sd, bed.up)
-
-    return Row(
-        "gravity torque when level",
-        "uN m",
-        *(_shown(torque(b.com, b.sd), MICRO) for b in (change.before, change.after)),
-        fixed(torque(change.target, zero).value * MICRO, 0),
-        *(_true(truth and torque(truth.com, zero).value, MICRO) for truth in _truths(change)),
-    )
+def _component(axis: int, change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
+    return Uncertain(float(at.com[axis]), float(at.sd[axis]))
 
 
-def _period(change: Change) -> Row:
-    bed = change.testbed
-    weight, zero = bed.body.mass * bed.gravity, change.target * 0
-
-    def period(com: Vector3, sd: Vector3, inertia: Matrix3) -> Uncertain:
-        return swing_period(weight, com, sd, inertia, bed.up)
-
-    return Row(
-        "period of swing",
-        "s",
-        *(
-            _shown(period(b.com, b.sd, change.inertia_P), 1.0)
-            for b in (change.before, change.after)
-        ),
-        _true(period(change.target, zero, change.inertia_P).value, 1.0),
-        *(
-            _true(truth and period(truth.com, zero, truth.inertia_P).value, 1.0)
-            for truth in _truths(change)
-        ),
-    )
+def _torque(change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
+    return level_torque(_weight(change), at.com, at.sd, change.testbed.up)
 
 
-def _shown(number: Uncertain, factor: float) -> str:
-    value, sd = number.value * factor, number.sd * factor
-    if is_known(value, sd):
-        return " ± ".join(with_sd(value, sd))
-    return _true(number.value, factor)
+def _period(change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
+    return swing_period(_weight(change), at.com, at.sd, inertia, change.testbed.up)
 
 
-def _true(value: float | None, factor: float) -> str:
-    if value is None:
-        return ""
-    return f"{value * factor:.4g}" if abs(value) < float("inf") else "topples"
+def _weight(change: Change) -> float:
+    return change.testbed.body.mass * change.testbed.gravity
+
+
+def _row(name: str, unit: Unit, change: Change, quantity: Quantity) -> Row:
+    """Return one line: the truths and the target with the digits that the result bears."""
+    believed = [quantity(change, at, change.inertia_P) for at in (change.before, change.after)]
+    before, after = (Uncertain(n.value * unit.factor, n.sd * unit.factor) for n in believed)
+
+    def exact(com: Vector3, inertia: Matrix3) -> str:
+        value = quantity(change, Believed(com, np.zeros(3)), inertia).value * unit.factor
+        return _exact(value, after)
+
+    truths = (change.truth_before, change.truth_after)
+    shown = ("" if truth is None else exact(truth.com, truth.inertia_P) for truth in truths)
+    target = exact(change.target, change.inertia_P)
+    return Row(name, unit.name, _shown(before), _shown(after), target, *shown)
+
+
+def _shown(number: Uncertain) -> str:
+    if is_known(*number):
+        return " ± ".join(with_sd(*number))
+    return _exact(number.value, number)
+
+
+def _exact(value: float, like: Uncertain) -> str:
+    if not math.isfinite(value):
+        return "topples"
+    return fixed(value, decimals_for(like.sd)) if is_known(*like) else f"{value:.4g}"

@@ -46,8 +46,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
         sys.stdout = None  # whoever read our output has left: no further word, no traceback
     except OSError as error:
         complain(f"{error.filename or 'system'}: {error.strerror or error}")
-    except KeyboardInterrupt:
-        complain("stopped by hand")
+    except KeyboardInterrupt as by_hand:
+        complain(": ".join(("stopped by hand", *map(str, by_hand.args))))
         return BY_HAND
     return WRONG_USE
 

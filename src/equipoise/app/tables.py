@@ -5,8 +5,9 @@ from collections.abc import Iterator, Sequence
 from rich.table import Table
 from rich.text import Text
 
+from equipoise.app.change import HEADS, Change, rows
 from equipoise.app.numbers import fixed, interval, with_sd
-from equipoise.app.units import PER_DEG, UM, unit_for
+from equipoise.app.units import PER_DEG, unit_for
 from equipoise.assessment.finding import Finding
 from equipoise.model.estimate import COM, Estimate, Parameter, Residual
 from equipoise.model.step import Step
@@ -94,6 +95,13 @@ def _rms(value: float | None) -> str:
     return "?" if value is None else f"{value * PER_DEG:.3g}"
 
 
-def vector_um(values: Sequence[float]) -> str:
-    """Return a vector given in m as '(1.2, -3.4, -98.7) um'."""
-    return "(" + ", ".join(fixed(v * UM, 1) for v in values) + ") um"
+def change_table(change: Change) -> Table:
+    """Return before and after side by side; the truth beside it when it is known."""
+    lines = list(rows(change))
+    shown = len(HEADS) if lines[0].truth_before else len(HEADS) - 2
+    table = quiet_table("Before and after")
+    for k, head in enumerate(HEADS[:shown]):
+        table.add_column(head, justify="left" if k < 2 else "right", style="bold" if not k else "")
+    for line in lines:
+        table.add_row(*line[:shown])
+    return table

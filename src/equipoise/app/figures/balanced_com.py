@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.com_panels import draw_com, include
-from equipoise.app.figures.style import BAND, line, panels, styled
+from equipoise.app.figures.style import BAND, legend, panels, styled
 from equipoise.app.units import UM
 from equipoise.model.arrays import Series1, Series3, Vector3
 from equipoise.model.recording import Recording
@@ -15,7 +16,7 @@ CAPTION = (
     "Centre of mass with the masses as they stand, um in body axes, while the platform is "
     "balanced: tracker (line, band of two standard deviations), estimates of the procedure "
     "(circles, bars of two standard deviations), target with its tolerance (shaded), simulated "
-    "truth (dashed). Grey: masses travel."
+    "truth at each step (crosses). Grey: masses travel."
 )
 Curve = tuple[Series1, Series3, Series3]  # s, m, m (one sd)
 Look = tuple[float, Vector3, Vector3]  # s, m, m (one sd)
@@ -36,17 +37,24 @@ def draw(
     draw_com(column, *curve, recording)
     for i, axes in enumerate(column):
         low, high = (target[i] - tolerance[i]) * UM, (target[i] + tolerance[i]) * UM
-        axes.axhspan(low, high, color="black", alpha=0.10, linewidth=0)
+        axes.axhspan(low, high, color="black", alpha=0.10, linewidth=0, label="target")
         include(axes, low, high)
-        for t, com, sd in looks:
-            axes.errorbar(
-                t, com[i] * UM, BAND * sd[i] * UM, fmt="o", color="black", markersize=3.5,
-                markerfacecolor="white", elinewidth=1, capsize=2.5, zorder=5,
-            )  # fmt: skip
-            spread = BAND * sd[i] * UM
-            if np.isfinite(spread):
-                include(axes, com[i] * UM - spread, com[i] * UM + spread)
+        mark_looks(axes, i, looks)
         if truth is not None:
-            line(axes, truth[0], truth[1][:, i] * UM, "black", linestyle="--", linewidth=0.9)
+            t, y = truth[0], truth[1][:, i] * UM
+            axes.plot(t, y, "x", color="black", markersize=4.5, zorder=6, label="truth")
+    legend(figure, column[0])
     figure.align_ylabels()
     return figure
+
+
+def mark_looks(axes: Axes, i: int, looks: Sequence[Look]) -> None:
+    """Draw one component of the procedure's estimates, with bars of two sd."""
+    for k, (t, com, sd) in enumerate(looks):
+        y, spread = com[i] * UM, BAND * sd[i] * UM
+        axes.errorbar(
+            t, y, spread, fmt="o", color="black", markersize=5, markerfacecolor="white",
+            elinewidth=1, capsize=2.5, zorder=5, label=None if k else "estimate",
+        )  # fmt: skip
+        if np.isfinite(spread):
+            include(axes, y - spread, y + spread)

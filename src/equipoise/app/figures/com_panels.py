@@ -19,8 +19,8 @@ def draw_com(
     late = slice(int(SETTLED * len(t)), None)
     for i, axes in enumerate(every):
         value, spread = com[:, i] * UM, sd[:, i] * UM
-        band(axes, t, value, spread, XYZ[i])
-        line(axes, t, value, XYZ[i])
+        band(axes, t, value, spread, XYZ[i], "two sd")
+        line(axes, t, value, XYZ[i], "tracker")
         axes.set_ylim(around(value[late], spread[late]))
         axes.set_ylabel(f"$r_{AXES[i]}$, um")
     mark_travel(every, recording)
@@ -34,3 +34,9 @@ def include(axes: Axes, low: float, high: float) -> None:
     axes.set_ylim(low - air * (low < now[0]), high + air * (high > now[1]))
 
 
+
+
+def draw_truth(every: Sequence[Axes], t: Series1, com: Series3) -> None:
+    """Draw the simulated truth (m), dashed; rows of NaN break it."""
+    for i, axes in enumerate(every):
+        axes.plot(t, com[:, i] * UM, color="black", linestyle="--", linewidth=0.9, label="truth")

@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.style import XYZ, line, panels, styled
+from equipoise.app.figures.style import XYZ, course, panels, styled
 from equipoise.app.units import MM
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import SlidingMass, Testbed
@@ -20,7 +20,7 @@ def draw(recording: Recording, testbed: Testbed) -> Figure:
         assert tracks is not None
         for k, (column, mass) in enumerate(group):
             y = tracks.values[:, column] * MM
-            line(axes, tracks.t, y, XYZ[k % len(XYZ)], mass.name)
+            course(axes, tracks.t, y, XYZ[k % len(XYZ)], mass.name)
             for end in mass.travel:
                 axes.axhline(end * MM, color="#888888", linestyle=":", linewidth=0.9)
         axes.set_ylabel("mm")

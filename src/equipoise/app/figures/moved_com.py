@@ -2,9 +2,8 @@
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.com_panels import draw_com, include
-from equipoise.app.figures.style import line, panels, styled
-from equipoise.app.units import UM
+from equipoise.app.figures.com_panels import draw_com, draw_truth, include
+from equipoise.app.figures.style import legend, panels, styled
 from equipoise.model.arrays import Series1, Series3
 from equipoise.model.recording import Recording
 
@@ -26,12 +25,12 @@ def draw(
         column = [row[k] for row in grid]
         draw_com(column, *curve, recording)
         column[0].set_title(title)
-        for i, axes in enumerate(column if truth is not None else ()):
-            assert truth is not None
-            line(axes, truth[0], truth[1][:, i] * UM, "black", linestyle="--", linewidth=0.9)
+        if truth is not None:
+            draw_truth(column, *truth)
     for left, right in grid:
         include(left, *right.get_ylim())
         right.set(ylim=left.get_ylim(), ylabel="")
         right.tick_params(labelleft=False)
+    legend(figure, grid[0][0])
     figure.align_ylabels()
     return figure

@@ -4,7 +4,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.attitude_fit import COMPONENTS
-from equipoise.app.figures.style import AXES, SIX, XYZ, dots, line, panels, styled
+from equipoise.app.figures.style import AXES, SIX, XYZ, course, dots, panels, styled
 from equipoise.app.units import MM, PER_DEG
 from equipoise.maths.attitude import continuous
 from equipoise.model.recording import Recording, Samples
@@ -40,5 +40,5 @@ def _rate(axes: Axes, channel: Samples, _: tuple[str, ...]) -> None:
 
 def _masses(axes: Axes, channel: Samples, names: tuple[str, ...]) -> None:
     for i, name in enumerate(names):
-        line(axes, channel.t, channel.values[:, i] * MM, SIX[i % len(SIX)], name)
+        course(axes, channel.t, channel.values[:, i] * MM, SIX[i % len(SIX)], name)
     axes.set_ylabel("masses, mm")

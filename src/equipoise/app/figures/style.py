@@ -80,14 +80,19 @@ def thinned(n: int) -> slice:
     return slice(None, None, max(1, n // MOST))
 
 
-def line(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "", **more: Any) -> None:
-    """Draw a line, broken where the record has a gap."""
+def line(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
+    """Draw a line through rows, broken where the record has a gap."""
     keep = thinned(len(t))
     t, y = t[keep], y[keep]
     if len(t) > 2:
         gap = np.flatnonzero(np.diff(t) > 10 * np.median(np.diff(t)))
         t, y = np.insert(t, gap + 1, t[gap]), np.insert(y, gap + 1, np.nan)
-    axes.plot(t, y, color=colour, label=label or None, **more)
+    axes.plot(t, y, color=colour, label=label or None)
+
+
+def course(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
+    """Draw what is straight between its rows, however far apart they are."""
+    axes.plot(t, y, color=colour, label=label or None)
 
 
 def dots(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:

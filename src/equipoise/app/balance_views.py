@@ -1,0 +1,92 @@
+"""A balancing run for terminal, JSON and report."""
+
+import numpy as np
+
+from equipoise.app.account import Account, origin
+from equipoise.app.balancing import Balancing, change_of, inertia_of, looks
+from equipoise.app.numbers import fixed
+from equipoise.app.pictures import Picture, TrueCourse, of_balancing, of_tracking
+from equipoise.app.tables import change_table, step_line
+from equipoise.app.terminal import stdout
+from equipoise.app.units import UM
+from equipoise.app.views_json import View, balance_json
+from equipoise.model.arrays import Vector3
+from equipoise.model.step import Step
+
+
+def show_step(step: Step) -> None:
+    """Print a step as it comes."""
+    stdout().print(step_line(step))
+
+
+def show_result(done: Balancing) -> None:
+    """Print before and after, and the verdict."""
+    console, change, verdict = stdout(), change_of(done), done.verdict
+    console.print()
+    if change is not None:
+        console.print(change_table(change))
+        console.print()
+    style = "bold green" if verdict.passed else "bold red"
+    console.print(verdict.sentence, style=style, markup=False)
+
+
+def document_of(done: Balancing, seed: int) -> View:
+    """Return the run as JSON."""
+    truth = done.truths[-1] if done.truths else None
+    provenance = origin(testbed=done.testbed.source, seed=str(seed))
+    return balance_json(done.steps, done.verdict, truth, provenance)
+
+
+def account_of(done: Balancing, seed: int) -> Account:
+    """Return the run as a report."""
+    return Account(
+        title="Balancing",
+        asked=asked(done),
+        testbed=done.testbed,
+        steps=done.steps,
+        origin=origin(testbed=done.testbed.source, seed=str(seed)),
+        estimate=done.estimate,
+        verdict=done.verdict,
+        change=change_of(done),
+        pictures=[*pictures_of_first_look(done), *pictures_of(done)],
+    )
+
+
+def asked(done: Balancing) -> dict[str, str]:
+    """Return target and tolerance as texts."""
+    return {
+        "target": _um(done.goal.target),
+        "tolerance": _um(done.goal.tolerance),
+        "bench": "simulated",
+    }
+
+
+def pictures_of_first_look(done: Balancing) -> list[Picture]:
+    """Return Figs. 11 and 12 of the first look, in which the masses stand still."""
+    first = next((s.recording for s in done.steps if s.recording is not None), None)
+    if first is None or first.attitude is None:
+        return []
+    truth = None if done.truth_before is None else done.truth_before.com
+    return list(of_tracking(first, done.testbed, inertia_of(done.estimate), truth))
+
+
+def pictures_of(done: Balancing) -> list[Picture]:
+    """Return Figs. 14 and 15."""
+    recording = done.recording
+    if recording is None or recording.attitude is None:
+        return []
+    goal = done.goal.target, done.goal.tolerance
+    inertia = inertia_of(done.estimate)
+    drawn = of_balancing(recording, done.testbed, inertia, looks(done), goal, true_course(done))
+    return list(drawn)
+
+
+def true_course(done: Balancing) -> TrueCourse | None:
+    """Return where the centre of mass really was at every step."""
+    if not done.truths:
+        return None
+    return np.array([s.time for s in done.steps]), np.array([t.com for t in done.truths])
+
+
+def _um(vector: Vector3) -> str:
+    return f"({', '.join(fixed(float(v) * UM, 1) for v in vector)}) um"
