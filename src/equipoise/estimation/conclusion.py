@@ -7,7 +7,7 @@ import numpy as np
 from equipoise import __version__
 from equipoise.actuators.sliding_masses import com_shift
 from equipoise.dynamics.rigid_body import KNOWN_D
-from equipoise.estimation.observability import Visibility, examine, natural_sizes
+from equipoise.estimation.observability import OPEN, Visibility, examine, natural_sizes, scale_of
 from equipoise.estimation.trajectory_problem import Evaluation, Problem
 from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unknowns, physical
 from equipoise.maths.attitude import logarithm
@@ -159,6 +159,13 @@ def parameters_of(
     return tuple(found), covariance
 
 
+def without_scale(view: Visibility, layout: Layout) -> Visibility:
+    """Return the view of a fit in which one moment of inertia was held only for the search."""
+    hidden = view.hidden.copy()
+    hidden[JP.start : FIXED + len(layout.terms)] = True
+    return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True)
+
+
 def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
     """Return the estimate. Units are SI; ``com_end`` is with the masses as they stand at the end.
 
@@ -167,7 +174,10 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
     size = natural_sizes(fitted.point, problem.mass, layout)
-    view = examine(fitted.at.normal, values, size, layout)
+    information = fitted.at.normal - np.diag(np.where(problem.prior.held, 0.0, problem.prior.anchor))
+    view = examine(information, scale_of(values, size), size, layout.names)
+    if problem.scale_open:
+        view = without_scale(view, layout)
     residual = residual_of(fitted)
     factor = widening(residual)
     parameters, covariance = parameters_of(fitted, view, factor)

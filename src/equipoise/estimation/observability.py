@@ -10,14 +10,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unknowns
+from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unknowns, term_sizes
 from equipoise.maths.linalg import symmetrise
 from equipoise.model.arrays import Floats, Square
 
 SEEN = 4.0  # 1 / (half a natural size)^2
 PART = 1e-3  # chosen: a smaller component of an unseen direction is rounding
 DISTANCE = 1e-5  # m, a centre of mass that is not worth calling an offset
-SCALE = "the common scale of inertia and centre of mass"
+ALONG = 0.9  # chosen: cosine beyond which an unseen direction is the scale
+OPEN = (
+    "the data do not see the common scale of inertia and centre of mass: motion without a known "
+    "move or stored momentum shows ratios only; move a mass, or hold one value that is known"
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,34 +39,34 @@ def natural_sizes(point: Unknowns, mass: float, layout: Layout) -> Floats:
     size = np.ones(layout.size)
     inertia = float(np.trace(point.body(mass).inertia_P)) / 3
     distance = max(float(np.linalg.norm(point.com)), DISTANCE)
-    weight = mass * 9.81 * DISTANCE
     size[TURN], size[RATE], size[JP], size[R] = 1.0, 0.1, inertia, distance
-    by_group = {"viscous": 0.1 * inertia, "quadratic": inertia, "sag": DISTANCE, "drift": 1e-6}
     n = len(layout.terms)
-    for k, term in enumerate(layout.terms):
-        size[FIXED + k] = by_group.get(term.split("_")[0], weight)
+    size[FIXED : FIXED + n] = term_sizes(layout.terms, inertia, 9.81 * mass)
     size[FIXED + n : FIXED + n + len(layout.errors)] = 1e-3
     if layout.bias:
         size[-3:] = 0.1
     return size
 
 
-def is_scale(direction: Floats, physical: Floats) -> bool:
-    """Say whether a direction stretches J and r alike (in natural sizes)."""
-    stretched = np.zeros_like(direction)
-    stretched[JP], stretched[R] = physical[JP], physical[R]
-    cosine = abs(float(direction @ stretched)) / float(np.linalg.norm(stretched))
-    return cosine > 0.9
+def scale_of(values: Floats, size: Floats) -> Floats:
+    """Return the direction that stretches J and r alike, in natural sizes."""
+    stretched = np.zeros_like(values)
+    stretched[JP], stretched[R] = values[JP], values[R]
+    return stretched / size / float(np.linalg.norm(stretched / size))
 
 
-def describe(direction: Floats, layout: Layout) -> str:
+def describe(direction: Floats, names: tuple[str, ...]) -> str:
     """Name the parameters that an unseen direction mixes."""
     weight = np.abs(direction)
-    chosen = [layout.names[k] for k in np.argsort(-weight) if weight[k] > 0.3 * weight.max()]
-    return "the data cannot tell " + ", ".join(chosen) + (" apart" if len(chosen) > 1 else "")
+    chosen = [names[k] for k in np.argsort(-weight) if weight[k] > 0.3 * weight.max()]
+    if len(chosen) == 1:
+        return f"the data do not see {chosen[0]}"
+    return "the data cannot tell apart: " + ", ".join(chosen)
 
 
-def examine(information: Square, physical: Floats, size: Floats, layout: Layout) -> Visibility:
+def examine(
+    information: Square, scale: Floats, size: Floats, names: tuple[str, ...]
+) -> Visibility:
     """Return covariance, visibility and the sentences about what is not seen."""
     values, vectors = np.linalg.eigh(symmetrise(information * size[:, None] * size))
     unseen = values < SEEN
@@ -71,12 +75,9 @@ def examine(information: Square, physical: Floats, size: Floats, layout: Layout)
     hidden = np.any(np.abs(vectors[:, unseen]) > PART, axis=1)
     scale_open, sentences = False, []
     for direction in vectors[:, unseen].T:
-        if is_scale(direction, physical / size):
+        if abs(float(direction @ scale)) > ALONG:
             scale_open = True
-            sentences.append(
-                f"{SCALE}: motion without a known move or momentum shows ratios only; "
-                "move a mass, or hold one value that is known"
-            )
+            sentences.append(OPEN)
         else:
-            sentences.append(describe(direction, layout))
+            sentences.append(describe(direction, names))
     return Visibility(covariance, hidden, tuple(sentences), scale_open)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.attitude import exponential, normalise
+from equipoise.maths.attitude import exponential, level, normalise
 from equipoise.maths.compiled import kernel
 from equipoise.maths.local_motion import half_window, local_motion
 from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4
@@ -24,12 +24,6 @@ class SampledMotion(NamedTuple):
     t: Series1
     q: Series4
     w: Series3
-
-
-def level(up: Floats) -> Quaternion:
-    """Return an attitude with the body axis ``up`` along the laboratory's vertical."""
-    axis = np.cross(up, [0.0, 0.0, 1.0])
-    return normalise(np.concatenate([[1.0 + up[2]], axis])) if up[2] > -0.999 else np.eye(4)[1]
 
 
 @kernel

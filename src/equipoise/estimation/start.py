@@ -16,6 +16,7 @@ from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.levenberg_marquardt import scaled_solve
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import parallel_axis
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -26,17 +27,41 @@ COM_TRUST = 3e-4  # m, least sd of the testbed's centre of mass
 CORRELATED = 5.0  # chosen: smoothed rates err together over some 25 rows, so rows count as fewer
 
 
-def start(recording: Recording, testbed: Testbed, layout: Layout, first: float) -> Unknowns:
+def start(
+    recording: Recording,
+    testbed: Testbed,
+    layout: Layout,
+    first: float,
+    hold: tuple[str, ...] = (),
+) -> Unknowns:
     """Return a point near the optimum; ``first`` is the time (s) of the first node."""
     motion = sampled_motion(recording, testbed)
     inertia, com, momentum = solve(recording, testbed, motion)
     w0 = first_rate(recording, testbed, motion, inertia, momentum)
+    inertia, com = kept(inertia, com, testbed, hold)
     inertia_C = inertia - parallel_axis(testbed.body.mass, com)
     turn = exponential(w0 * (first - motion.t[0]))
     return Unknowns(
         multiply(motion.q[0], turn), w0, pseudo_inertia.from_inertia(inertia_C), com,
         np.zeros(N_TORQUES), np.zeros(len(layout.errors)), np.zeros(3),
     )  # fmt: skip
+
+
+def kept(
+    inertia: Matrix3, com: Vector3, testbed: Testbed, hold: tuple[str, ...]
+) -> tuple[Matrix3, Vector3]:
+    """Return J and com with held entries at the testbed's value, the rest stretched to match."""
+    found, wanted = (
+        np.concatenate([pack_symmetric(J), r])
+        for J, r in ((inertia, com), (testbed.body.inertia_P, testbed.body.com))
+    )
+    names = (*INERTIA, *COM)
+    for name in hold:
+        k = names.index(name)
+        stretch = wanted[k] / found[k] if wanted[k] * found[k] > 0 else 1.0
+        found *= stretch if name == hold[0] else 1.0
+        found[k] = wanted[k]
+    return unpack_symmetric(found[:6]), found[6:]
 
 
 def first_rate(
@@ -65,12 +90,13 @@ def solve(
     )
     guess = np.concatenate([pack_symmetric(body.inertia_P), body.first_moment])
     scale = np.append(spread, np.full(3, float(sizes.max()) * 0.1))
-    # what misfit the rows have anyway decides how much the priors weigh
     A = rows.regressor * scale
     normal, right = A.T @ A, A.T @ rows.known
-    left = rows.known - A @ scaled_solve(normal, right, 1e-10)
+    # with the inertia as guessed, what misfit is left decides how much the priors weigh
+    rest = scaled_solve(normal[6:, 6:], right[6:] - normal[6:, :6] @ (guess / spread)[:6], 1e-10)
+    left = rows.known - A @ np.concatenate([(guess / spread)[:6], rest])
     noise = max(CORRELATED * float(np.sqrt(np.mean(left**2))), 1e-9)
     prior = np.append(np.ones(9), np.zeros(3))
-    normal = normal / noise**2 + np.diag(prior)
-    best = scale * scaled_solve(normal, right / noise**2 + np.append(guess / spread, np.zeros(3)), 0)
+    pull = np.append(guess / spread, np.zeros(3))
+    best = scale * scaled_solve(normal / noise**2 + np.diag(prior), right / noise**2 + pull, 0.0)
     return unpack_symmetric(best[:6]), best[6:9] / body.mass, best[9:12]

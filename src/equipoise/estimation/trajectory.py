@@ -22,7 +22,9 @@ import numpy as np
 from equipoise.estimation.conclusion import Fitted, conclude, residual_of
 from equipoise.estimation.start import start
 from equipoise.estimation.trajectory_problem import (
+    ANCHOR,
     Problem,
+    changes,
     descend,
     evaluate,
     pose,
@@ -32,7 +34,7 @@ from equipoise.estimation.trajectory_problem import (
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.estimate import Estimate, Residual
+from equipoise.model.estimate import INERTIA, Estimate, Residual
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, window
 from equipoise.model.testbed import Testbed
@@ -41,6 +43,9 @@ METHOD = "trajectory"
 CAPTURE = 0.5  # rad rms, chosen: beyond this the first guess is not followed to the end
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
 FEWEST = 4  # rows
+SHORTEST = 0.02  # of the record, the least part to begin with
+GUIDED = 0.1  # natural sizes of torques, on the way
+COARSE = 0.01  # rad, rad/s, chosen: half a degree
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,12 +82,18 @@ def fastest_rate(recording: Recording) -> float:
     return max(float(np.percentile(r, 95)) for r in rates)
 
 
-def problem_of(recording: Recording, testbed: Testbed, params: Params) -> Problem:
+def problem_of(
+    recording: Recording, testbed: Testbed, params: Params, torque_anchor: float = ANCHOR
+) -> Problem:
     """Return the least-squares problem of a record."""
     layout, stops = layout_of(recording, testbed, params), stops_of(recording, testbed)
-    prior = prior_of(testbed, stops, layout, params.use_prior, params.hold)
+    scale_open = not (params.use_prior or params.hold or changes(recording))
+    largest = INERTIA[int(np.argmax(np.diag(testbed.body.inertia_P)))]
+    hold = (largest,) if scale_open else params.hold
+    prior = prior_of(testbed, stops, layout, params.use_prior, hold, torque_anchor)
     limit = HUBER if params.robust else 0.0
-    return pose(recording, testbed, layout, stops, prior, fastest_rate(recording), limit)
+    fastest = fastest_rate(recording)
+    return pose(recording, testbed, layout, stops, prior, fastest, limit, scale_open)
 
 
 def settle(problem: Problem, point: Unknowns) -> Fitted:
@@ -100,22 +111,39 @@ def misfit(problem: Problem, point: Unknowns) -> float:
 
 
 def approach(recording: Recording, testbed: Testbed, params: Params, point: Unknowns) -> Unknowns:
-    """Return a point from which the whole record can be fitted: fit a growing first part."""
+    """Return a point from which the whole record can be fitted: fit a growing first part.
+
+    On the way the testbed's inertia counts as prior, torques are kept small and the camera counts
+    as coarse, so that a part too short to show them, or a model that does not hold, cannot drive
+    the search away.
+    """
     start_t, end_t = recording.span
-    length = end_t - start_t
+    coarse, guided = coarsened(testbed), replace(params, use_prior=True)
+
+    def part(share: float) -> Recording:
+        return window(recording, start_t, start_t + share * (end_t - start_t))
+
+    def posed(share: float) -> tuple[Problem, Unknowns]:
+        problem = problem_of(part(share), coarse, guided, GUIDED)
+        return problem, replace(point, error=np.zeros(len(problem.layout.errors)))
+
     share = 1.0
-    while share > 0.02:
-        part = window(recording, start_t, start_t + share * length)
-        if misfit(problem_of(part, testbed, params), part_point(part, testbed, params, point)) < CAPTURE:
-            break
+    while share > SHORTEST and misfit(*posed(share)) > CAPTURE:
         share /= 2
-    while share < 1.0:
-        part = window(recording, start_t, start_t + share * length)
-        problem = problem_of(part, testbed, replace(params, use_prior=True))
-        found = settle(problem, part_point(part, testbed, params, point)).point
-        point = replace(found, error=point.error)
+    while share <= 1.0:
+        point = replace(settle(*posed(share)).point, error=point.error)
         share *= 2
     return point
+
+
+def coarsened(testbed: Testbed) -> Testbed:
+    """Return the testbed with sensors that are no better than the model is early in the search."""
+    camera, gyro = testbed.attitude, testbed.gyro
+    return replace(
+        testbed,
+        attitude=camera and replace(camera, noise=max(camera.noise, COARSE)),
+        gyro=gyro and replace(gyro, noise=max(gyro.noise, COARSE)),
+    )
 
 
 def part_point(
@@ -132,8 +160,8 @@ def fit(
     problem = problem_of(recording, testbed, params)
     if guess is None:
         first = float(problem.line.t[0])
-        point = start(recording, testbed, problem.layout, first)
-        if misfit(problem, point) > CAPTURE:
+        point = start(recording, testbed, problem.layout, first, params.hold)
+        if params.terms or misfit(problem, point) > CAPTURE:
             point = approach(recording, testbed, params, point)
     else:
         point = guess

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.actuators.stops import StopErrors, stop_errors
@@ -11,6 +12,7 @@ from equipoise.dynamics.propagation import Columns, body_of, stacked
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.estimation.normal_equations import Seen, accumulate
 from equipoise.estimation.unknowns import (
+    FIXED,
     JP,
     R,
     Layout,
@@ -18,6 +20,7 @@ from equipoise.estimation.unknowns import (
     physical,
     possible_step,
     retract,
+    term_sizes,
 )
 from equipoise.maths.levenberg_marquardt import Quadratic, Solution, minimise, promise
 from equipoise.maths.linalg import pack_symmetric
@@ -27,16 +30,23 @@ from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import seen_at
 
 LONGEST_STEP = 1.0  # s, chosen: a thirtieth of the shortest swing worth fitting
-HELD = 1e-6  # relative sd of a value that the user holds
+HELD = 1e-9  # relative sd reported of a value that the user holds
+ANCHOR = 10.0  # chosen: natural sizes by which what the data leave open may stray from the guess
 NOTHING = Samples(np.zeros(0), np.zeros((0, 1)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Prior:
-    """Independent normal priors in physical coordinates; weight 0 means none."""
+    """Independent normal priors in physical coordinates; weight 0 means none.
+
+    The anchor is a prior so wide that it only decides what the data leave open. It keeps the
+    search from wandering, and is taken out of the information again before that is judged.
+    """
 
     mean: Floats
     weight: Floats  # 1 / sd^2
+    anchor: Floats  # 1 / sd^2, part of ``weight``
+    held: NDArray[np.bool_]  # coordinates that do not move
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,6 +63,7 @@ class Problem:
     columns: Columns
     prior: Prior
     limit: float  # Huber's, in sd; 0: none
+    scale_open: bool  # nothing known changes: one moment of inertia is held for the search
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,7 +85,12 @@ def columns_of(layout: Layout) -> Columns:
 
 
 def prior_of(
-    testbed: Testbed, stops: StopErrors, layout: Layout, inertia_and_com: bool, hold: tuple[str, ...]
+    testbed: Testbed,
+    stops: StopErrors,
+    layout: Layout,
+    inertia_and_com: bool,
+    hold: tuple[str, ...],
+    torque_anchor: float = ANCHOR,
 ) -> Prior:
     """Return what is known beforehand: stops and bias always, mass properties when asked."""
     names = layout.names
@@ -84,14 +100,24 @@ def prior_of(
     size = np.sqrt(pack_symmetric(np.outer(moments, moments)))
     if inertia_and_com:
         sd[JP], sd[R] = testbed.inertia_sd * size, testbed.com_sd
-    for name in hold:
-        k = names.index(name)
-        sd[k] = HELD * max(abs(mean[k]), 1e-3 * float(size.max()))
     for k, name in enumerate(layout.errors):
         sd[names.index(name)] = stops.sd[k]
     if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
         sd[-3:] = testbed.gyro.bias_sd
-    return Prior(mean, sd**-2)
+    anchor = anchors(testbed, layout, torque_anchor)
+    held = np.array([name in hold for name in names])
+    return Prior(mean, sd**-2 + anchor, anchor, held)
+
+
+def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
+    """Return weights of the anchor: inertia within its own size, com within ten sd, torques
+    within ``torque_anchor`` natural sizes."""
+    weight = np.zeros(layout.size)
+    inertia = float(np.trace(testbed.body.inertia_P)) / 3
+    weight[JP], weight[R] = inertia**-2, (ANCHOR * testbed.com_sd) ** -2
+    size = term_sizes(layout.terms, inertia, testbed.body.mass * testbed.gravity)
+    weight[FIXED : FIXED + len(size)] = (torque_anchor * size) ** -2
+    return weight
 
 
 def pose(
@@ -102,6 +128,7 @@ def pose(
     prior: Prior,
     fastest: float,
     limit: float,
+    scale_open: bool,
 ) -> Problem:
     """Return the problem of a recording; ``fastest`` (rad/s) sets the integration step."""
     attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
@@ -127,7 +154,7 @@ def pose(
     maps = mass_maps(testbed.masses)
     columns = columns_of(layout)
     return Problem(testbed.body.mass, testbed.gravity, maps, stops, line, seen, layout, columns,
-                   prior, limit)  # fmt: skip
+                   prior, limit, scale_open)  # fmt: skip
 
 
 def with_errors(problem: Problem, error: Floats) -> Floats:
@@ -155,6 +182,8 @@ def evaluate(problem: Problem, point: Unknowns) -> Evaluation:
         problem.line.error_mass, problem.columns, point.q0, point.w0, point.bias, seen,
         problem.limit, normal, descent, left_q, left_w,
     )  # fmt: skip
+    if not (np.isfinite(cost) and np.all(np.isfinite(normal))):
+        return Evaluation(np.inf, np.eye(size), np.zeros(size), left_q, left_w)
     normal += np.tril(normal, -1).T
     scale = np.ones(size)
     scale[R] = problem.mass  # the propagator's columns are by first moment
@@ -163,7 +192,11 @@ def evaluate(problem: Problem, point: Unknowns) -> Evaluation:
     off = problem.prior.mean - physical(point, problem.mass, layout)
     cost += 0.5 * float(np.sum(problem.prior.weight * off**2))
     normal[np.diag_indices(size)] += problem.prior.weight
-    return Evaluation(cost, normal, descent + problem.prior.weight * off, left_q, left_w)
+    descent += problem.prior.weight * off
+    held = problem.prior.held
+    normal[held], normal[:, held], descent[held] = 0.0, 0.0, 0.0
+    normal[held, held] = (HELD * np.maximum(np.abs(problem.prior.mean[held]), 1e-9)) ** -2
+    return Evaluation(cost, normal, descent, left_q, left_w)
 
 
 def descend(problem: Problem, point: Unknowns) -> Solution[Unknowns]:
@@ -173,7 +206,15 @@ def descend(problem: Problem, point: Unknowns) -> Solution[Unknowns]:
         step = possible_step(x, problem.mass, problem.layout, local, damping)
         return retract(x, step, problem.mass, problem.layout), promise(local, step)
 
-    return minimise(lambda x: evaluate(problem, x), propose, point)
+    rows = 3 * (len(problem.seen.attitude) + len(problem.seen.rate))
+    return minimise(lambda x: evaluate(problem, x), propose, point, rows=rows)
+
+
+def changes(recording: Recording) -> bool:
+    """Say whether anything known changes during a record: masses, stored momentum, torque."""
+    masses, others = recording.masses, (recording.momentum, recording.torque)
+    moved = masses is not None and bool(np.any(np.ptp(masses.values, axis=0) > 0))
+    return moved or any(c is not None and bool(np.any(c.values)) for c in others)
 
 
 def stops_of(recording: Recording, testbed: Testbed) -> StopErrors:

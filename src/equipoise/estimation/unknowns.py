@@ -86,6 +86,13 @@ class Unknowns:
         return from_centre(mass, self.com, pseudo_inertia.to_inertia(self.six))
 
 
+def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:
+    """Return a size natural to each torque coefficient, for a moment of inertia (kg m^2) and a
+    weight (N): damping in 10 s, the torque of 10 um, a sag of 10 um, a drift of 1 um/s."""
+    by_group = {"viscous": 0.1 * inertia, "quadratic": inertia, "sag": 1e-5, "drift": 1e-6}
+    return np.array([by_group.get(term.split("_")[0], 1e-5 * weight) for term in terms])
+
+
 def physical(point: Unknowns, mass: float, layout: Layout) -> Floats:
     """Return the physical coordinates; the turn of the first attitude is zero at the point."""
     inertia = pack_symmetric(point.body(mass).inertia_P)
@@ -116,14 +123,23 @@ def possible_step(
     point: Unknowns, mass: float, layout: Layout, local: Quadratic, damping: float
 ) -> Floats:
     """Return the damped step to the least of the local model among possible bodies."""
-    free = step = scaled_solve(local.normal, local.descent, damping)
+    free = scaled_solve(local.normal, local.descent, damping)
+    free = step = free / max(1.0, stride(free, point, mass))
     for _ in range(8):
         rows, gaps = boundary(point, mass, layout, step)
         if not len(rows):
             break
         toward = np.column_stack([scaled_solve(local.normal, row, damping) for row in rows])
         step = free + toward @ np.linalg.solve(rows @ toward, gaps - rows @ free)
-    return step
+    return step / max(1.0, stride(step, point, mass))
+
+
+def stride(step: Floats, point: Unknowns, mass: float) -> float:
+    """Return the length of a step in units beyond which no local model is to be believed: a
+    radian, a radian a second, the body's own inertia."""
+    size = float(np.trace(point.body(mass).inertia_P))
+    parts = np.concatenate([step[TURN], step[RATE], step[JP] / size])
+    return float(np.linalg.norm(parts))
 
 
 def retract(point: Unknowns, step: Floats, mass: float, layout: Layout) -> Unknowns:

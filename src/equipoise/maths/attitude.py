@@ -5,7 +5,7 @@ Every function takes one quaternion or a series of them along the first axis.
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Series4
+from equipoise.model.arrays import Floats, Quaternion, Series4, Vector3
 
 
 def normalise(q: Floats) -> Floats:
@@ -73,6 +73,12 @@ def from_euler321(roll: Floats, pitch: Floats, yaw: Floats) -> Floats:
         return exponential(np.stack([x, y, z], axis=-1))
 
     return multiply(turn(zero, zero, yaw), multiply(turn(zero, pitch, zero), turn(roll, zero, zero)))
+
+
+def level(up: Vector3) -> Quaternion:
+    """Return an attitude with the body axis ``up`` along the laboratory's vertical."""
+    axis = np.cross(up, [0.0, 0.0, 1.0])
+    return normalise(np.concatenate([[1.0 + up[2]], axis])) if up[2] > -0.999 else np.eye(4)[1]
 
 
 def tilt(q: Floats, up: Floats) -> Floats:

@@ -54,27 +54,30 @@ def minimise(
     evaluate: Callable[[Point], Quadratic],
     propose: Callable[[Point, Quadratic, float], tuple[Point, float]],
     start: Point,
-    tolerance: float = 1e-6,
-    most: int = 60,
+    tolerance: float = 1e-4,
+    most: int = 300,
     damping: float = 1e-6,
+    rows: int = 0,
 ) -> Solution[Point]:
     """Return a local minimum from ``start``.
 
     ``propose`` gives the next point for a damping, and its promise. Converged means that the step
     promises to lower twice the cost by less than ``tolerance``; for residuals in units of their sd
-    that is a step of sqrt(tolerance) standard deviations.
+    that is a step of sqrt(tolerance) standard deviations. ``rows``, when given, lets the tolerance
+    grow with a misfit beyond one sd a row, where digits run out and the sd mean less.
     """
     point, local = start, evaluate(start)
     evaluations, growth = 1, 2.0
-    while evaluations < most:
+    while evaluations < most and np.isfinite(local.cost):
         trial, promised = propose(point, local, damping)
-        if promised < tolerance:
+        misfit = max(1.0, 2 * local.cost / rows) if rows else 1.0
+        if promised < tolerance * misfit:
             return Solution(point, local, True, evaluations)
         there = evaluate(trial)
         evaluations += 1
         gained = 2.0 * (local.cost - there.cost)
         if not np.isfinite(gained) or gained < 0:
-            damping, growth = max(damping, 1e-5) * growth, 4.0 * growth
+            damping, growth = max(damping, 1e-6) * growth, 2.0 * growth
             continue
         trust, point, local, growth = gained / promised, trial, there, 2.0
         damping = max(damping * max(0.1, 1.0 - (2.0 * trust - 1.0) ** 3), 1e-12)

@@ -1,12 +1,13 @@
 """The bench protocol: what simulated, replayed and real benches have in common."""
 
 from collections.abc import Mapping
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
 
+@runtime_checkable
 class Bench(Protocol):
     """Three verbs. Nothing is clipped: a move beyond a limit raises MoveRefused, nothing moves."""
 

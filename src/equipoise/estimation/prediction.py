@@ -1,0 +1,67 @@
+"""What a set of mass properties says the sensors should have seen."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.regressor import N_TORQUES
+from equipoise.dynamics.timeline import TURN_PER_STEP, timeline
+from equipoise.estimation.sampled_motion import sampled_motion
+from equipoise.estimation.trajectory import fastest_rate
+from equipoise.maths.attitude import exponential
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4, Vector3
+from equipoise.model.estimate import Estimate
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import TERMS
+from equipoise.sensors.timing import seen_at
+
+RATE = ("rate_x", "rate_y", "rate_z")
+ATTITUDE = ("attitude_x", "attitude_y", "attitude_z")
+
+
+class Prediction(NamedTuple):
+    """Attitude and rate at the times of the camera's rows (or the gyro's, without a camera)."""
+
+    t: Series1
+    q: Series4
+    rate: Series3
+
+
+def run(
+    recording: Recording, testbed: Testbed, body: MassProperties, q0: Quaternion, w0: Vector3,
+    torque: Floats,
+) -> Prediction:
+    """Return the motion of a body through the record's moves."""
+    rows, sensor = recording.attitude, testbed.attitude
+    if rows is None or not len(rows):
+        rows, sensor = recording.rate, testbed.gyro
+    assert rows is not None
+    t = seen_at(rows.t, sensor)
+    line = timeline(
+        t, np.zeros(0), recording.masses, len(testbed.masses),
+        min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
+        recording.momentum, recording.torque,
+    )  # fmt: skip
+    rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment,
+                    torque)  # fmt: skip
+    motion = propagate(rigid, mass_maps(testbed.masses), line, q0, w0)
+    return Prediction(rows.t, motion.q[line.attitude_node], motion.rate[line.attitude_node])
+
+
+def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Prediction:
+    """Return what an estimate of the trajectory method says of its own record."""
+    torque = np.array([estimate.values((t,))[0] if estimate.has(t) else 0.0 for t in TERMS])
+    body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
+    q0 = exponential(estimate.values(ATTITUDE))
+    return run(recording, testbed, body, q0, estimate.values(RATE), torque)
+
+
+def before(recording: Recording, testbed: Testbed) -> Prediction:
+    """Return what the testbed's first guess says, from the first attitudes (paper Fig. 6a)."""
+    motion = sampled_motion(recording, testbed)
+    return run(recording, testbed, testbed.body, motion.q[0], motion.w[0], np.zeros(N_TORQUES))

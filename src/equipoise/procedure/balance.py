@@ -1,0 +1,205 @@
+"""Balance: look, move, look, until the verdict passes or there is a reason to stop.
+
+One fit runs through the whole record, moves included, so that every look adds to the last. A move
+is made when the centre of mass is known well enough for it to help, or when waiting would let the
+platform tilt too far. (Ivanov 2021 section 5 moves every 25 s; this moves when it pays.)
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from equipoise.maths.attitude import tilt
+from equipoise.model.arrays import Vector3
+from equipoise.model.bench import Bench
+from equipoise.model.move import Move
+from equipoise.model.recording import Recording
+from equipoise.model.step import Step
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.choose_move import GUARD, Option, best_option, direct, move_of
+from equipoise.procedure.foresight import state_now
+from equipoise.procedure.knowledge import Knowledge, learn
+from equipoise.procedure.verify import fresh_enough, is_within, verdict
+
+UM = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BalanceOptions:
+    """Where the centre of mass should go, and what may be spent on it."""
+
+    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
+    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
+    max_moves: int = 3
+    max_time: float = 120.0  # s on the bench's clock
+
+
+FIRST_LOOK = 2.0  # s, before anything is fitted
+LOOK = 1.0  # s between fits
+KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
+SETTLE = 20.0  # s to keep for the look after the last move
+BRAKED = 0.5  # of the tilt limit: a peak small enough to go on from a brake
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Progress:
+    """Where the procedure stands."""
+
+    knowledge: Knowledge
+    moves: tuple[Move, ...] = ()
+    still_since: float = 0.0  # s, when the last move ended
+    braking: bool = False
+
+
+def balance(bench: Bench, options: BalanceOptions) -> Iterator[Step]:
+    """Yield Steps; the last is a verification, or a stop that says why, with a verdict."""
+    began = bench.time
+    yield from ()
+    fresh = bench.read(FIRST_LOOK)
+    progress = Progress(learn(None, fresh, bench.testbed), still_since=began)
+    yield look_step(bench, fresh)
+    while True:
+        why = reason_to_stop(bench, progress, options, began)
+        if why:
+            bench.stop()
+            yield final(bench, progress, options, why)
+            return
+        option = decide(bench, progress, options, began)
+        if option is None:
+            fresh = bench.read(LOOK)
+            progress = again(progress, learn(progress.knowledge, fresh, bench.testbed))
+            continue
+        yield estimate_step(bench, progress)
+        move = move_of(progress.knowledge, bench.testbed, option, reason_of(option))
+        yield Step("move", bench.time, sentence_of(move), move=move)
+        bench.move(move.targets)
+        fresh = bench.read(move.duration + LOOK)
+        knowledge = learn(progress.knowledge, fresh, bench.testbed)
+        still = bench.time - LOOK
+        progress = Progress(knowledge, (*progress.moves, move), still, option.brake)
+        yield look_step(bench, fresh)
+
+
+def again(progress: Progress, knowledge: Knowledge) -> Progress:
+    """Return the progress with more known."""
+    return Progress(knowledge, progress.moves, progress.still_since, progress.braking)
+
+
+def reason_to_stop(
+    bench: Bench, progress: Progress, options: BalanceOptions, began: float
+) -> str:
+    """Return why to stop now, or nothing."""
+    knowledge = progress.knowledge
+    if tilt_of(knowledge.recording, bench) > bench.testbed.tilt_limit:
+        return "the platform tilts beyond its limit"
+    judged = fresh_enough(knowledge, progress.still_since) and not progress.braking
+    if judged and is_within(knowledge, options.target, options.tolerance):
+        return "within tolerance"
+    if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
+        return "the estimate cannot be used"
+    if bench.time - began + LOOK > options.max_time:
+        return "the time is used up"
+    spent = len(progress.moves) >= options.max_moves
+    hopeless = np.abs(knowledge.com - options.target) - 2 * knowledge.sd > options.tolerance
+    if spent and judged and bool(hopeless.any()):
+        return "the moves are used up"
+    return ""
+
+
+def tilt_of(recording: Recording, bench: Bench) -> float:
+    """Return the present tilt, rad; the median of the last three rows, as one may be noise."""
+    if recording.attitude is None or not len(recording.attitude):
+        return 0.0
+    return float(np.median(tilt(recording.attitude.values[-3:], bench.testbed.up)))
+
+
+def decide(
+    bench: Bench, progress: Progress, options: BalanceOptions, began: float
+) -> Option | None:
+    """Return a move to make now, or None to look on."""
+    left = options.max_moves - len(progress.moves)
+    knowledge, testbed = progress.knowledge, bench.testbed
+    if left == 0 or not testbed.masses:
+        return None
+    state = state_now(knowledge, testbed)
+    if progress.braking:
+        straight = direct(knowledge, testbed, state, options.target)
+        later = direct(knowledge, testbed, state, options.target, LOOK)
+        settled = straight.peak <= BRAKED * testbed.tilt_limit
+        return straight if settled or straight.peak < later.peak else None
+    if urgent(bench, knowledge, state, options):
+        return best_option(knowledge, testbed, state, options.target, left > 1)
+    return direct(knowledge, testbed, state, options.target) if ripe(
+        bench, progress, options, began
+    ) else None
+
+
+def urgent(
+    bench: Bench, knowledge: Knowledge, state: tuple[Vector3, Vector3], options: BalanceOptions
+) -> bool:
+    """Say whether waiting for one more look would let the tilt pass the guard."""
+    guard = GUARD * bench.testbed.tilt_limit
+    later = direct(knowledge, bench.testbed, state, options.target, LOOK)
+    return later.peak > guard and tilt_grows(knowledge, bench, state)
+
+
+def tilt_grows(knowledge: Knowledge, bench: Bench, state: tuple[Vector3, Vector3]) -> bool:
+    """Say whether the masses as they stand would let the tilt pass the guard."""
+    from equipoise.procedure.foresight import peak_tilt
+
+    stay = peak_tilt(knowledge, bench.testbed, state, knowledge.displacement, 0.0)
+    return stay > GUARD * bench.testbed.tilt_limit
+
+
+def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> bool:
+    """Say whether a move would help: the offset is known, or time presses, and is worth it."""
+    knowledge = progress.knowledge
+    off, sd = np.abs(knowledge.com - options.target), knowledge.sd
+    worth = bool(np.any(off + sd > options.tolerance))
+    known = bool(np.all((sd < KNOWN * options.tolerance) | (sd < 0.1 * off)))
+    left = options.max_moves - len(progress.moves)
+    share = (options.max_time - SETTLE) * (1 - left / (options.max_moves + 1))
+    late = bench.time - began > share
+    return worth and (known or late) and fresh_enough(knowledge, progress.still_since)
+
+
+def reason_of(option: Option) -> str:
+    """Return why this move."""
+    return "brake: the platform falls faster than it can be caught" if option.brake else "to target"
+
+
+def sentence_of(move: Move) -> str:
+    """Return a move in words."""
+    x, y, z = 1e6 * move.predicted_com
+    return (
+        f"Move ({move.reason}): {1e3 * move.travel:.0f} mm in {move.duration:.1f} s; "
+        f"should leave ({x:.1f}, {y:.1f}, {z:.1f}) um."
+    )
+
+
+def look_step(bench: Bench, fresh: Recording) -> Step:
+    """Return the step of a look."""
+    start, end = fresh.span
+    return Step("look", bench.time, f"Looked for {end - start:.1f} s.", recording=fresh)
+
+
+def estimate_step(bench: Bench, progress: Progress) -> Step:
+    """Return the step of an estimate."""
+    knowledge = progress.knowledge
+    x, y, z = (f"{1e6 * c:.1f} +/- {1e6 * s:.1f}" for c, s in zip(
+        knowledge.com, knowledge.sd, strict=True))  # fmt: skip
+    text = f"Centre of mass at ({x}, {y}, {z}) um."
+    return Step("estimate", bench.time, text, knowledge.recording, knowledge.estimate)
+
+
+def final(bench: Bench, progress: Progress, options: BalanceOptions, why: str) -> Step:
+    """Return the verification, or the stop with its reason."""
+    knowledge = progress.knowledge
+    last = progress.moves[-1] if progress.moves else None
+    judged = verdict(knowledge, last, progress.still_since, options.target, options.tolerance)
+    if why == "the platform tilts beyond its limit":
+        judged = Verdict(False, f"Stopped: {why}.", knowledge.com, knowledge.sd)
+    kind = "verify" if why == "within tolerance" else "stop"
+    text = f"{why[0].upper()}{why[1:]}. {judged.sentence}"
+    return Step(kind, bench.time, text, knowledge.recording, knowledge.estimate, verdict=judged)

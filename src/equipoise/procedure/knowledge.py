@@ -1,0 +1,74 @@
+"""What a procedure knows so far: everything recorded, and the one fit through all of it."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.estimation import trajectory
+from equipoise.estimation.conclusion import END, Fitted, conclude
+from equipoise.estimation.unknowns import Layout, Unknowns
+from equipoise.model.arrays import Floats, Matrix3, Vector3
+from equipoise.model.estimate import COM, Estimate
+from equipoise.model.recording import Recording, join
+from equipoise.model.testbed import Testbed
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Knowledge:
+    """The record so far and what it says."""
+
+    recording: Recording
+    fitted: Fitted
+    estimate: Estimate
+
+    @property
+    def com(self) -> Vector3:
+        """Centre of mass with the masses as they stand, m."""
+        return self.estimate.values(self.standing)
+
+    @property
+    def covariance(self) -> Matrix3:
+        """Covariance of ``com``, m^2."""
+        return self.estimate.covariance_of(self.standing)
+
+    @property
+    def sd(self) -> Vector3:
+        """Standard deviations of ``com``, m."""
+        return np.sqrt(np.diag(self.covariance))
+
+    @property
+    def standing(self) -> tuple[str, ...]:
+        """Names of the centre of mass with the masses as they stand."""
+        return END if self.estimate.has(END[0]) else COM
+
+    @property
+    def displacement(self) -> Floats:
+        """Reported displacements at the end, m."""
+        masses = self.recording.masses
+        return np.zeros(0) if masses is None else masses.values[-1]
+
+
+def carried(point: Unknowns, old: Layout, new: Layout) -> Unknowns:
+    """Return a point with the displacement errors of another layout, matched by name."""
+    known = dict(zip(old.errors, point.error, strict=True))
+    return replace(point, error=np.array([known.get(name, 0.0) for name in new.errors]))
+
+
+def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowledge:
+    """Return what is known with a fresh record added; the testbed's values are the prior."""
+    params = trajectory.Params(testbed.disturbances, use_prior=True)
+    if before is None:
+        recording, guess = fresh, None
+    else:
+        recording = join(before.recording, fresh)
+        layout = trajectory.layout_of(recording, testbed, params)
+        guess = carried(before.fitted.point, before.fitted.problem.layout, layout)
+    fitted = trajectory.fit(recording, testbed, params, guess)
+    return Knowledge(recording, fitted, conclude(fitted, trajectory.METHOD, recording))
+
+
+def shifted(knowledge: Knowledge, testbed: Testbed, targets: Floats) -> Vector3:
+    """Return where the centre of mass should be with the masses at ``targets`` (m)."""
+    change = targets - knowledge.displacement
+    return knowledge.com + com_shift(mass_maps(testbed.masses), testbed.body.mass, change)

@@ -1,0 +1,69 @@
+"""Verify: is the centre of mass where it was wanted, on data recorded since the last move?"""
+
+import numpy as np
+from scipy.special import ndtr
+
+from equipoise.model.arrays import Vector3
+from equipoise.model.move import Move
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.knowledge import Knowledge
+
+SURE = 0.95  # probability that each axis is within its tolerance
+CONTRADICTION = 4.0  # sd between what a move predicted and what was found
+FRESH = 8.0  # s, chosen: least record since the last move for a verdict
+
+
+def probability_within(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Vector3:
+    """Return for each axis the probability that the truth is within the tolerance of the target."""
+    low, high = target - tolerance, target + tolerance
+    return np.asarray(ndtr((high - com) / sd) - ndtr((low - com) / sd))
+
+
+def is_within(knowledge: Knowledge, target: Vector3, tolerance: Vector3) -> bool:
+    """Say whether every axis is within its tolerance with sufficient probability."""
+    sure = probability_within(knowledge.com, knowledge.sd, target, tolerance)
+    return bool(np.all(sure >= SURE))
+
+
+def fresh_misfit(knowledge: Knowledge, since: float) -> float:
+    """Return by how many of its sd the chi-square of the rows after ``since`` (s) is too large."""
+    attitude, at = knowledge.recording.attitude, knowledge.fitted.at
+    left = at.left_w
+    if attitude is not None and len(at.left_q):
+        left = at.left_q[attitude.t > since]
+    if not left.size:
+        return 0.0
+    return (float(np.mean(left**2)) - 1.0) / float(np.sqrt(2.0 / left.size))
+
+
+def verdict(
+    knowledge: Knowledge, move: Move | None, since: float, target: Vector3, tolerance: Vector3
+) -> Verdict:
+    """Return the verdict on the record since the last move (ended at ``since``, s)."""
+    com, sd = knowledge.com, knowledge.sd
+    where = ", ".join(f"{1e6 * c:.2f} +/- {1e6 * s:.2f}" for c, s in zip(com, sd, strict=True))
+    found = f"the centre of mass is at ({where}) um"
+    if not knowledge.estimate.outcome.usable:
+        return Verdict(False, f"Cannot tell: {knowledge.estimate.outcome.sentence}", com, sd)
+    if fresh_misfit(knowledge, since) > CONTRADICTION:
+        text = "Failed: the record since the last move does not fit what was found before it."
+        return Verdict(False, text, com, sd)
+    if move is not None:
+        off = com - move.predicted_com
+        spread = np.sqrt(np.diag(move.predicted_covariance))
+        if np.any(np.abs(off) > CONTRADICTION * np.hypot(spread, sd)):
+            text = f"Failed: {found}, which is not where the last move should have left it."
+            return Verdict(False, text, com, sd)
+    sure = probability_within(com, sd, target, tolerance)
+    if np.all(sure >= SURE):
+        return Verdict(True, f"Passed: {found}, within tolerance on every axis.", com, sd)
+    axes = ", ".join("xyz"[k] for k in np.flatnonzero(sure < SURE))
+    missed = np.abs(com - target) > tolerance
+    why = "outside the tolerance" if missed.any() else "not known well enough to be sure"
+    return Verdict(False, f"Failed: {found}; {axes} {why}.", com, sd)
+
+
+def fresh_enough(knowledge: Knowledge, since: float) -> bool:
+    """Say whether enough was recorded since the last move to judge by."""
+    return knowledge.recording.span[1] - since >= FRESH
+

@@ -1,0 +1,164 @@
+"""Sliding masses that are driven open loop, and where they really go.
+
+A stepper reports the steps it was told to make, so the reported displacement is the target rounded
+to the mass's resolution, reached in a straight line at the mass's speed. Meanwhile, in the same
+time, the mass goes in a straight line to where it really stops:
+
+    carriage   += gain * (reported target - reported before)     gain 1: sound, 0: stuck
+    held        = carriage, followed with a play of +-backlash/2
+    real        = held + accuracy * normal                       a new draw for each stop
+
+A fault shows from the bench's ``from_move``-th move on, counted over all masses; from the first
+move on, the carriage then stands ``gain`` times the reported distance from home. A mass that the
+play does not take along stays where it is, error and all. A mass that is sent elsewhere or
+halted on its way goes on from there, with its share of the errors of the two stops.
+At home all is zero: home is where the mass properties are stated.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.model.arrays import Floats, Series1
+from equipoise.model.errors import InputError, MoveRefused, nearest
+from equipoise.model.recording import Samples
+from equipoise.model.testbed import Fault, SlidingMass
+from equipoise.simulation.clock import tick, tick_one
+
+REPORTED, CARRIAGE, HELD, REAL = range(4)  # rows of a displacement, m
+HAIR = 1e-9  # m, chosen: a target on the end of the rail may be rounded beyond it by so much
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Travel:
+    """The last way each of k masses was sent. Before it starts and after it ends they stand."""
+
+    start: Floats  # (k,) s
+    arrive: Floats  # (k,) s
+    begin: Floats  # (4, k) m
+    end: Floats  # (4, k) m
+    moves: int = 0  # accepted so far
+
+
+def at_home(masses: Sequence[SlidingMass]) -> Travel:
+    """Return masses that stand at home and have never moved."""
+    k = len(masses)
+    return Travel(np.zeros(k), np.zeros(k), np.zeros((4, k)), np.zeros((4, k)))
+
+
+def displacement(travel: Travel, t: float) -> Floats:
+    """Return where the masses are at a time not before their last command, (4, k) m."""
+    length = np.maximum(travel.arrive - travel.start, 1e-12)
+    share = np.where(t >= travel.arrive, 1.0, (t - travel.start) / length)
+    return (1.0 - share) * travel.begin + share * travel.end
+
+
+def checked(
+    travel: Travel, now: float, targets: Mapping[str, float], masses: Sequence[SlidingMass]
+) -> dict[int, float]:
+    """Return targets by index, in whole steps (m); InputError or MoveRefused for the first bad."""
+    names = [mass.name for mass in masses]
+    here = displacement(travel, now)[REPORTED]
+    goals: dict[int, float] = {}
+    for name, asked in targets.items():
+        if name not in names:
+            wanted = nearest(name, names) if names else "no masses: this testbed has none"
+            raise InputError("move", f"a mass '{name}'", wanted)
+        if not np.isfinite(asked):
+            raise InputError(f"move: mass {name}", f"{asked}", "a displacement in m")
+        i = names.index(name)
+        goals[i] = in_steps(masses[i], float(asked))
+        low, high = masses[i].travel
+        if min(asked, goals[i]) < low - HAIR or max(asked, goals[i]) > high + HAIR:
+            raise MoveRefused(name, float(here[i]), float(asked), low, high)
+    return goals
+
+
+def in_steps(mass: SlidingMass, asked: float) -> float:
+    """Return the displacement (m) that a motor of this resolution is told to go to."""
+    return asked if mass.resolution == 0 else round(asked / mass.resolution) * mass.resolution
+
+
+def gain_of(faults: Sequence[Fault], name: str, move: int) -> float:
+    """Return the share of its way that a mass goes in a move, counted from 1."""
+    shown = [fault for fault in faults if fault.mass == name and fault.from_move <= move]
+    return max(shown, key=lambda fault: fault.from_move).gain if shown else 1.0
+
+
+def stop_of(here: Floats, goal: float, mass: SlidingMass, gain: float, normal: float) -> Floats:
+    """Return where one mass will stand (4,) when it is sent from ``here`` to ``goal``, m."""
+    carriage = here[CARRIAGE] + gain * (goal - here[REPORTED])
+    play = 0.5 * mass.backlash
+    held = min(max(here[HELD], carriage - play), carriage + play)
+    real = here[REAL] if held == here[HELD] else held + mass.accuracy * normal
+    return np.array([goal, carriage, held, real])
+
+
+def sent(
+    travel: Travel,
+    now: float,
+    goals: Mapping[int, float],
+    masses: Sequence[SlidingMass],
+    faults: Sequence[Fault],
+    rng: np.random.Generator,
+) -> Travel:
+    """Return the masses on their way to goals (m); the others go on as they were."""
+    here = displacement(travel, now)
+    start, arrive = travel.start.copy(), travel.arrive.copy()
+    begin, end = travel.begin.copy(), travel.end.copy()
+    for i, goal in goals.items():
+        start[i] = arrive[i] = now
+        begin[:, i] = end[:, i] = here[:, i]
+        if goal != here[REPORTED, i]:
+            gain = gain_of(faults, masses[i].name, travel.moves + 1)
+            end[:, i] = stop_of(here[:, i], goal, masses[i], gain, rng.standard_normal())
+            arrive[i] = tick_one(now + abs(goal - here[REPORTED, i]) / masses[i].speed)
+    return Travel(start, arrive, begin, end, travel.moves + 1)
+
+
+def halted(travel: Travel, now: float) -> Travel:
+    """Return the masses standing where they are."""
+    here, when = displacement(travel, now), np.full(len(travel.start), now)
+    return Travel(when, when, here, here, travel.moves)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Track:
+    """Where the masses were and, unless told otherwise, will be: straight between the rows."""
+
+    t: Series1  # s
+    reported: Floats  # (n, k) m
+    real: Floats  # (n, k) m
+
+
+def track_home(masses: Sequence[SlidingMass]) -> Track:
+    """Return the track of masses that stand at home."""
+    return Track(np.zeros(1), np.zeros((1, len(masses))), np.zeros((1, len(masses))))
+
+
+def retracked(track: Track, travel: Travel, now: float) -> Track:
+    """Return the track up to a command at ``now`` (s) and on from there."""
+    past = track.t < now
+    ahead = np.unique(np.append(travel.arrive[travel.arrive > now], now))
+    rows = np.array([displacement(travel, t) for t in ahead])
+    return Track(
+        np.append(track.t[past], ahead),
+        np.vstack([track.reported[past], rows[:, REPORTED]]),
+        np.vstack([track.real[past], rows[:, REAL]]),
+    )
+
+
+def lines(t: Series1, track_t: Series1, values: Floats) -> Floats:
+    """Return a track's displacements (m) at times ``t``; constant outside its rows."""
+    if not values.shape[1]:
+        return np.zeros((len(t), 0))
+    columns: list[Floats] = [np.interp(t, track_t, column) for column in values.T]
+    return np.column_stack(columns)
+
+
+def reported_rows(track: Track, start: float, end: float) -> Samples:
+    """Return what a recording from ``start`` to ``end`` (s) holds: both ends and all corners."""
+    corners = track.t[(track.t > start) & (track.t < end)]
+    t = np.unique(np.concatenate([[start], corners, [end]]))
+    return Samples(tick(t), lines(t, track.t, track.reported))

@@ -1,0 +1,172 @@
+"""The simulated bench: the same three verbs as a real one, and a seed that reproduces everything.
+
+The motion is integrated from node to node. Nodes are moments that do not depend on how the bench
+is read: every look of every sensor, corners of the masses' tracks, the noise torque's grid and
+whole seconds. The state is kept at the last node that no later row can look behind, so reads of
+any length return the same rows.
+
+Rows come at most once: those stamped in (previous read, now], the first read with time zero. Mass
+rows reach back by the sensors' delay, as rows look back. A rate that is seen exactly when a mass
+starts or stops is the rate just before. Before time zero the masses stood at home and the platform
+moved as it must have to be at its first attitude and rate at time zero.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import com_shift, inertia_shift, mass_maps
+from equipoise.dynamics.propagation import body_of, stacked
+from equipoise.dynamics.regressor import DRIFT
+from equipoise.maths.attitude import tilt
+from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.model.arrays import Floats, Series1
+from equipoise.model.errors import InputError
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+from equipoise.simulation import actuator
+from equipoise.simulation.camera_and_gyro import (
+    Sensor,
+    camera_rows,
+    gyro_rows,
+    lead,
+    looks,
+    looks_between,
+)
+from equipoise.simulation.clock import multiples, samples, tick_one
+from equipoise.simulation.draw_truth import draw_truth
+from equipoise.simulation.motion import Path, first_state, run
+from equipoise.simulation.noise_torque import extended, forgotten, start_noise, torque_at
+
+ALWAYS = 1.0  # s, chosen: a node at least so often, whatever the sensors do
+A_MOMENT = 1e-3  # s, chosen: a motion needs two nodes even when no time has passed
+
+
+class SimulatedBench:
+    """A bench made of equations; see ``model.bench.Bench``. ``platform`` is what it really is."""
+
+    def __init__(self, testbed: Testbed, seed: int) -> None:
+        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(5)]
+        rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams
+        self._testbed, self._seed = testbed, seed
+        self.platform = draw_truth(testbed, rng)
+        truth, masses = self.platform, testbed.masses
+        inertia = pack_symmetric(truth.body.inertia_P)
+        moment = truth.body.first_moment
+        self._body = body_of(truth.body.mass, testbed.gravity, inertia, moment, truth.torque)
+        self._maps, self._rails = stacked(mass_maps(masses)), mass_maps(masses)
+        self._travel, self._track = actuator.at_home(masses), actuator.track_home(masses)
+        self._noise = start_noise(truth.noise_torque, truth.noise_correlation, self._noise_rng)
+        self._lead = max(lead(testbed.attitude), lead(testbed.gyro))
+        self._time, self._read_until = 0.0, -1.0
+        self._now = first_state(truth.body, truth.attitude, truth.rate)
+        self._node, self._state = 0.0, self._now
+        if self._lead > 0:
+            self._node = -self._lead
+            self._state = self._follow(np.array([0.0, self._node])).y[-1]
+
+    @property
+    def testbed(self) -> Testbed:
+        """What is known of it beforehand."""
+        return self._testbed
+
+    @property
+    def time(self) -> float:
+        """Bench time, s."""
+        return self._time
+
+    def read(self, duration: float) -> Recording:
+        """Let ``duration`` seconds pass and return what was recorded since the last read."""
+        if not 0 <= duration < np.inf:
+            raise InputError("read", f"a duration of {duration} s", "zero or more seconds")
+        since, self._time = self._time, tick_one(self._time + duration)
+        after, self._read_until = self._read_until, self._time
+        t = self._nodes()
+        path = self._follow(t)
+        recording = self._recording(t, path, after, since)
+        self._advance(t, path)
+        return recording
+
+    def move(self, targets: Mapping[str, float]) -> None:
+        """Set masses on their way to displacements from home (m); all of them or none."""
+        masses, faults = self._testbed.masses, self.platform.faults
+        goals = actuator.checked(self._travel, self._time, targets, masses)
+        travel = actuator.sent(self._travel, self._time, goals, masses, faults, self._stops_rng)
+        self._command(travel)
+
+    def stop(self) -> None:
+        """Halt every mass where it is."""
+        self._command(actuator.halted(self._travel, self._time))
+
+    def truth(self) -> MassProperties:
+        """Return the mass properties as the masses really stand now, elastic sag apart."""
+        body, real = self.platform.body, self.displacements
+        drift = self.platform.torque[DRIFT : DRIFT + 3] * self._time
+        com = body.com + drift + com_shift(self._rails, body.mass, real)
+        inertia = body.inertia_P + unpack_symmetric(inertia_shift(self._rails, real))
+        return MassProperties(body.mass, com, inertia)
+
+    @property
+    def displacements(self) -> Floats:
+        """Where the masses really are now, m from home."""
+        return actuator.displacement(self._travel, self._time)[actuator.REAL]
+
+    def tilt_now(self) -> float:
+        """Return the angle between the axis that should point up and the vertical, rad."""
+        return float(tilt(self._now[:4], self._testbed.up))
+
+    def _command(self, travel: actuator.Travel) -> None:
+        self._travel = travel
+        self._track = actuator.retracked(self._track, travel, self._time)
+
+    def _nodes(self) -> Series1:
+        """Return the nodes from the one where the state is kept to now; at least two."""
+        start, now = self._node, self._time
+        self._noise = extended(self._noise, now, self._noise_rng)
+        seen = [looks_between(s, start, now) for s in (self._testbed.attitude, self._testbed.gyro)]
+        others = [self._track.t, multiples(ALWAYS, start, now)]
+        if self._noise.sd > 0:
+            others.append(self._noise.t)
+        t = np.unique(np.concatenate([[start], *seen, *others]))
+        t = t[(t >= start) & (t <= now)]
+        end = now if now > start else now + A_MOMENT
+        return t if len(t) > 1 and t[-1] == now else np.append(t, end)
+
+    def _follow(self, t: Series1) -> Path:
+        """Return the motion along nodes, from where the state is kept."""
+        track = self._track
+        known = np.zeros((len(t), 6 + len(self._testbed.masses)))
+        known[:, 3:6] = torque_at(self._noise, t)
+        known[:, 6:] = actuator.lines(t, track.t, track.real)
+        return run(self._body, self._maps, self._state, t, known)
+
+    def _recording(self, t: Series1, path: Path, after: float, since: float) -> Recording:
+        """Return the rows stamped after a time (s), masses since a time (s)."""
+        testbed, names = self._testbed, tuple(mass.name for mass in self._testbed.masses)
+
+        def seen(sensor: Sensor, motion: Floats) -> tuple[Series1, Floats]:
+            stamps = samples(sensor.rate, after, self._time)
+            return stamps, motion[np.searchsorted(t, looks(sensor, stamps))]
+
+        attitude = rate = masses = None
+        if testbed.attitude is not None:
+            stamps, q = seen(testbed.attitude, path.y[:, :4])
+            attitude = Samples(stamps, camera_rows(q, testbed.attitude, self._camera_rng))
+        if testbed.gyro is not None:
+            stamps, w = seen(testbed.gyro, path.rate)
+            bias = self.platform.gyro_bias
+            rate = Samples(stamps, gyro_rows(w, testbed.gyro, bias, self._gyro_rng))
+        if names:
+            start = max(since - self._lead, 0.0)
+            masses = actuator.reported_rows(self._track, start, self._time)
+        source = f"simulated {testbed.name}, seed {self._seed}"
+        return Recording(attitude, rate, names, masses, source=source)
+
+    def _advance(self, t: Series1, path: Path) -> None:
+        """Keep the state now, and at the last node that no later row can look behind."""
+        now = int(np.searchsorted(t, self._time))
+        self._now = path.y[now]
+        kept = int(np.searchsorted(t, self._time - self._lead, side="right")) - 1
+        self._node, self._state = float(t[kept]), path.y[kept]
+        self._noise = forgotten(self._noise, self._node)

@@ -1,0 +1,56 @@
+"""What camera and gyro report, each at its own times.
+
+Row k is stamped k / rate on the bench's clock. It is the mean over [t - delay - averaging,
+t - delay], by Gauss-Legendre quadrature with five looks; without averaging there is one look.
+
+    attitude   q (x) exp(noise)      mean attitude: mean rotation vector from the middle look
+    rate       w + bias + noise
+"""
+
+import numpy as np
+
+from equipoise.maths.attitude import difference, exponential, multiply
+from equipoise.model.arrays import Floats, Series1, Series3, Series4, Vector3
+from equipoise.model.testbed import AttitudeSensor, Gyro
+from equipoise.simulation.clock import samples, tick
+
+Sensor = AttitudeSensor | Gyro
+
+NODES = 0.5 + 0.5 * np.polynomial.legendre.leggauss(5)[0]  # of the window, 0 to 1
+WEIGHTS = 0.5 * np.polynomial.legendre.leggauss(5)[1]
+
+
+def lead(sensor: Sensor | None) -> float:
+    """Return how far back (s) a row may look."""
+    return 0.0 if sensor is None else sensor.delay + sensor.averaging
+
+
+def looks(sensor: Sensor, t: Series1) -> Floats:
+    """Return when rows stamped ``t`` looked, (n, 1) or (n, 5) s."""
+    if sensor.averaging == 0:
+        return tick(t - sensor.delay)[:, None]
+    return tick(t[:, None] - sensor.delay - sensor.averaging * (1.0 - NODES))
+
+
+def looks_between(sensor: Sensor | None, after: float, until: float) -> Series1:
+    """Return every look in (after, until] s, of rows not yet stamped too."""
+    if sensor is None:
+        return np.zeros(0)
+    t = looks(sensor, samples(sensor.rate, after, until + lead(sensor) + 1 / sensor.rate)).ravel()
+    return t[(t > after) & (t <= until)]
+
+
+def camera_rows(q: Floats, sensor: AttitudeSensor, rng: np.random.Generator) -> Series4:
+    """Return measured attitudes from those at the looks, (n, 1 or 5, 4)."""
+    mean = q[:, 0]
+    if q.shape[1] > 1:
+        middle = q[:, q.shape[1] // 2]
+        turned = difference(q, middle[:, None, :])
+        mean = multiply(middle, exponential(np.einsum("j,njk->nk", WEIGHTS, turned)))
+    return multiply(mean, exponential(sensor.noise * rng.standard_normal((len(q), 3))))
+
+
+def gyro_rows(w: Floats, sensor: Gyro, bias: Vector3, rng: np.random.Generator) -> Series3:
+    """Return measured rates from those at the looks, (n, 1 or 5, 3) rad/s."""
+    mean = w[:, 0] if w.shape[1] == 1 else np.einsum("j,njk->nk", WEIGHTS, w)
+    return mean + bias + sensor.noise * rng.standard_normal((len(w), 3))
