@@ -4,6 +4,7 @@ import numpy as np
 
 from equipoise.app.account import Account, origin
 from equipoise.app.balancing import Balancing, change_of, inertia_of, looks
+from equipoise.app.figures.balanced_com import Story
 from equipoise.app.numbers import fixed
 from equipoise.app.pictures import Picture, TrueCourse, of_balancing, of_tracking
 from equipoise.app.tables import change_table, step_line
@@ -75,10 +76,8 @@ def pictures_of(done: Balancing) -> list[Picture]:
     recording = done.recording
     if recording is None or recording.attitude is None:
         return []
-    goal = done.goal.target, done.goal.tolerance
-    inertia = inertia_of(done.estimate)
-    drawn = of_balancing(recording, done.testbed, inertia, looks(done), goal, true_course(done))
-    return list(drawn)
+    story = Story(looks(done), done.goal.target, done.goal.tolerance, true_course(done))
+    return list(of_balancing(recording, done.testbed, inertia_of(done.estimate), story))
 
 
 def true_course(done: Balancing) -> TrueCourse | None:

@@ -18,7 +18,6 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import BalanceOptions, balance
-from equipoise.procedure.hold import HoldOptions, hold
 from equipoise.simulation.bench import SimulatedBench
 
 END = ("com_end_x", "com_end_y", "com_end_z")
@@ -42,6 +41,7 @@ class Balancing:
     steps: Sequence[Step]
     truth_before: MassProperties | None = None
     truths: Sequence[MassProperties] = ()
+    before: Believed | None = None  # as known otherwise; None: the first estimate's
 
     @property
     def verdict(self) -> Verdict:
@@ -69,14 +69,17 @@ class Limits:
     hold: float = 0.0  # s
 
 
-def run(bench: SimulatedBench, goal: Goal, limits: Limits, show: Callable[[Step], None]) -> Balancing:
+def run(
+    bench: SimulatedBench, goal: Goal, limits: Limits, show: Callable[[Step], None] | None
+) -> Balancing:
     """Balance a simulated bench, show each step as it comes; Ctrl-C halts the bench."""
     before = bench.truth()
     steps: list[Step] = []
     truths: list[MassProperties] = []
     try:
         for step in procedure(bench, goal, limits):
-            show(step)
+            if show is not None:
+                show(step)
             steps.append(step)
             truths.append(bench.truth())
     except KeyboardInterrupt as by_hand:
@@ -94,17 +97,27 @@ def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
         yield step
     passed = last is not None and last.verdict is not None and last.verdict.passed
     if passed and limits.hold > 0 and estimate is not None:
+        from equipoise.procedure.hold import HoldOptions, hold
+
         options = HoldOptions(limits.hold, goal.target, goal.tolerance)
         yield from watched(hold(bench, estimate, options), "holding")
 
 
+def at_home(estimate: Estimate) -> Believed | None:
+    """Return the centre of mass with the masses at home."""
+    return _believed(estimate, COM)
+
+
 def as_it_stands(estimate: Estimate) -> Believed | None:
     """Return the centre of mass with the masses as they stood at the end of what was seen."""
-    for names in (END, COM):
-        if all(map(estimate.has, names)):
-            sd = np.array([estimate.parameters[estimate.index(name)].sd for name in names])
-            return Believed(estimate.values(names), sd)
-    return None
+    return _believed(estimate, END) or at_home(estimate)
+
+
+def _believed(estimate: Estimate, names: tuple[str, ...]) -> Believed | None:
+    if not all(map(estimate.has, names)):
+        return None
+    sd = np.array([estimate.parameters[estimate.index(name)].sd for name in names])
+    return Believed(estimate.values(names), sd)
 
 
 def inertia_of(estimate: Estimate | None) -> Matrix3 | None:
@@ -129,7 +142,7 @@ def looks(done: Balancing) -> list[Look]:
 
 
 def change_of(done: Balancing) -> Change | None:
-    """Return before and after: the first estimate, and the verdict's or else the last one."""
+    """Return before and after: the first estimate, and the verdict or else the last estimate."""
     seen = looks(done)
     if not seen:
         return None
@@ -138,7 +151,7 @@ def change_of(done: Balancing) -> Change | None:
         done.testbed,
         done.testbed.body.inertia_P if inertia is None else inertia,
         done.goal.target,
-        Believed(*seen[0][1:]),
+        done.before or Believed(*seen[0][1:]),
         Believed(*seen[-1][1:]),
         done.truth_before,
         done.truths[-1] if done.truths else None,

@@ -1,6 +1,6 @@
 """Which figures tell a fit, a track, a move and a balancing run; names, captions, drawings."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -86,13 +86,11 @@ def of_balancing(
     recording: Recording,
     testbed: Testbed,
     inertia: Matrix3 | None,
-    looks: Sequence[balanced_com.Look],
-    goal: tuple[Vector3, Vector3],
-    truth: TrueCourse | None,
+    story: balanced_com.Story,
 ) -> Iterator[Picture]:
-    """Yield Figs. 14 and 15; ``goal`` is target and tolerance (m)."""
+    """Yield Figs. 14 and 15."""
     curve = standing(tracked(recording, testbed, inertia), recording, testbed)
-    drawn = balanced_com.draw(curve, looks, *goal, recording, truth)
+    drawn = balanced_com.draw(curve, recording, story)
     yield Picture("figure14_balancing", balanced_com.CAPTION, drawn)
     drawn = displacements.draw(recording, testbed)
     yield Picture("figure15_displacements", displacements.CAPTION, drawn)
@@ -115,5 +113,3 @@ def displacement_at(t: Series1, recording: Recording, testbed: Testbed) -> Float
             column = rows.values[:, recording.mass_names.index(mass.name)]
             at[:, k] = np.interp(t, rows.t, column)
     return at
-
-

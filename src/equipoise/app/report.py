@@ -32,7 +32,9 @@ def report(account: Account, images: Mapping[str, bytes]) -> str:
     parts = [part for section in SECTIONS for part in section(account)]
     parts += [*_figures(account.pictures, images), *_origin(account)]
     title = escape(account.title)
-    return PAGE.substitute(title=title, platform=escape(account.testbed.name), body="\n".join(parts))
+    return PAGE.substitute(
+        title=title, platform=escape(account.testbed.name), body="\n".join(parts)
+    )
 
 
 def _verdict(account: Account) -> Iterator[str]:

@@ -61,6 +61,7 @@ def parameter_table(title: str, parameters: Sequence[Parameter]) -> Table:
 
 def groups(estimate: Estimate) -> Iterator[tuple[str, list[Parameter]]]:
     """Return the parameters in the groups in which they are told."""
+
     def of(*stems: str) -> list[Parameter]:
         return [p for p in estimate.parameters if p.name.startswith(stems)]
 

@@ -2,7 +2,7 @@
 
 import itertools
 import sys
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -41,7 +41,7 @@ def complain(sentence: str) -> None:
 
 
 @contextmanager
-def busy(what: str, announce: bool = True) -> Iterator[None]:
+def busy(what: str, announce: bool = True) -> Generator[None]:
     """Show on stderr that something is being done, and when it is the compiler that takes long.
 
     Cut off from a terminal, ``announce`` says whether it is told that it begins.

@@ -4,7 +4,7 @@
     T = 2 pi sqrt( J / (m g h) )      h = -r.up > 0, J: greatest moment about a horizontal axis
 
 The torque is what attitude actuators have to hold against; at a small tilt it grows by m g h sin.
-The period is that of the slowest small swing; without h > 0 the platform does not swing but topples.
+The period is that of the slowest small swing; without h > 0 it topples instead.
 """
 
 from typing import NamedTuple

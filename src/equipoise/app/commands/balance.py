@@ -65,8 +65,7 @@ def balance(
         from equipoise.simulation.bench import SimulatedBench
 
         bench = SimulatedBench(bed, seed)
-    show = (lambda _: None) if json else show_step
-    done = run(bench, Goal(target, near), Limits(moves, *times), show)
+    done = run(bench, Goal(target, near), Limits(moves, *times), None if json else show_step)
     document = document_of(done, seed)
     if json:
         print(dump(document))

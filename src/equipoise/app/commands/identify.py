@@ -79,7 +79,8 @@ def identify(
     recording = part_of(fitting_recording_of(file, dialect, columns, bed), from_s, to_s)
     found = findings(recording, bed)
     with busy("identifying", announce=False):
-        from equipoise.procedure.identify import IdentifyOptions, identify as procedure
+        from equipoise.procedure.identify import IdentifyOptions
+        from equipoise.procedure.identify import identify as procedure
 
         options = IdentifyOptions(method, terms, hold, prior, robust)
         steps = procedure(recording, bed, options)
@@ -150,5 +151,3 @@ def _account(
         estimate=estimate,
         pictures=list(of_fit(recording, testbed, estimate)),
     )
-
-

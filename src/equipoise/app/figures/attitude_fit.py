@@ -1,12 +1,19 @@
 """Measured attitude and the model's, before and after estimation (Ivanov 2021 Fig. 6)."""
 
-from typing import Protocol
-
 import numpy as np
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.style import (
-    BLUE, GREEN, ORANGE, PURPLE, legend, line, mark_travel, panels, rings, styled,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    legend,
+    line,
+    mark_travel,
+    panels,
+    rings,
+    styled,
 )
 from equipoise.estimation.prediction import Prediction
 from equipoise.maths.attitude import continuous
@@ -15,8 +22,9 @@ from equipoise.model.recording import Recording
 
 COMPONENTS = ((0, "q0", PURPLE), (1, "q1", BLUE), (2, "q2", ORANGE), (3, "q3", GREEN))
 CAPTION = (
-    "Attitude quaternion (body to laboratory, scalar first): measured (rings, not all of them) and predicted by the "
-    "model (lines), (a) with what was known beforehand, (b) with the estimate. Grey: masses travel."
+    "Attitude quaternion (body to laboratory, scalar first), measured (rings, not all of them) "
+    "and predicted by the model (lines): (a) with what was known beforehand, (b) with the "
+    "estimate. Grey: masses travel."
 )
 
 

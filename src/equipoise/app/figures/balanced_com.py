@@ -1,6 +1,7 @@
 """Centre of mass in the process of automatic balancing (Ivanov 2021 Fig. 14)."""
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,22 +23,25 @@ Curve = tuple[Series1, Series3, Series3]  # s, m, m (one sd)
 Look = tuple[float, Vector3, Vector3]  # s, m, m (one sd)
 
 
+class Story(NamedTuple):
+    """What stands beside the tracker's curve."""
+
+    looks: Sequence[Look]
+    target: Vector3  # m
+    tolerance: Vector3  # m
+    truth: tuple[Series1, Series3] | None  # s, m; where the simulated centre really was
+
+
 @styled
-def draw(
-    curve: Curve,
-    looks: Sequence[Look],
-    target: Vector3,
-    tolerance: Vector3,
-    recording: Recording,
-    truth: tuple[Series1, Series3] | None = None,
-) -> Figure:
+def draw(curve: Curve, recording: Recording, story: Story) -> Figure:
     """Return the figure."""
+    looks, target, tolerance, truth = story
     figure, grid = panels(3, height=1.5)
     column = [row[0] for row in grid]
     draw_com(column, *curve, recording)
     for i, axes in enumerate(column):
         low, high = (target[i] - tolerance[i]) * UM, (target[i] + tolerance[i]) * UM
-        axes.axhspan(low, high, color="black", alpha=0.10, linewidth=0, label="target")
+        axes.axhspan(low, high, color="black", alpha=0.16, linewidth=0, label="target")
         include(axes, low, high)
         mark_looks(axes, i, looks)
         if truth is not None:

@@ -19,7 +19,7 @@ def draw_com(
     late = slice(int(SETTLED * len(t)), None)
     for i, axes in enumerate(every):
         value, spread = com[:, i] * UM, sd[:, i] * UM
-        band(axes, t, value, spread, XYZ[i], "two sd")
+        band(axes, t, value, spread, XYZ[i])
         line(axes, t, value, XYZ[i], "tracker")
         axes.set_ylim(around(value[late], spread[late]))
         axes.set_ylabel(f"$r_{AXES[i]}$, um")
@@ -32,8 +32,6 @@ def include(axes: Axes, low: float, high: float) -> None:
     low, high = min(now[0], low), max(now[1], high)
     air = 0.04 * (high - low)
     axes.set_ylim(low - air * (low < now[0]), high + air * (high > now[1]))
-
-
 
 
 def draw_truth(every: Sequence[Axes], t: Series1, com: Series3) -> None:

@@ -3,7 +3,14 @@
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.style import (
-    AXES, XYZ, dots, legend, line, mark_travel, panels, styled,
+    AXES,
+    XYZ,
+    dots,
+    legend,
+    line,
+    mark_travel,
+    panels,
+    styled,
 )
 from equipoise.app.units import PER_DEG
 from equipoise.estimation.prediction import Prediction

@@ -26,7 +26,7 @@ BAND = 2.0  # sd on either side of a line
 MOST = 4000  # points of a line; chosen: more than a page has pixels across
 RINGS = 90  # measurements of a curve drawn as rings; chosen: they do not touch
 WIDE = 6.6  # inches
-STYLE: dict[str, Any] = {
+STYLE: Any = {
     "font.family": "DejaVu Sans",
     "font.size": 9,
     "axes.titlesize": 9,
@@ -98,7 +98,9 @@ def course(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> 
 def dots(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
     """Draw measurements."""
     keep = thinned(len(t))
-    axes.plot(t[keep], y[keep], ".", color=colour, alpha=0.45, markeredgewidth=0, label=label or None)
+    axes.plot(
+        t[keep], y[keep], ".", color=colour, alpha=0.45, markeredgewidth=0, label=label or None
+    )
 
 
 def rings(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
@@ -110,13 +112,11 @@ def rings(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> N
     )  # fmt: skip
 
 
-def band(axes: Axes, t: Series1, y: Series1, sd: Series1, colour: str, label: str = "") -> None:
+def band(axes: Axes, t: Series1, y: Series1, sd: Series1, colour: str) -> None:
     """Shade two sd on either side of a line."""
     keep = thinned(len(t))
-    low, high = y - BAND * sd, y + BAND * sd
-    axes.fill_between(
-        t[keep], low[keep], high[keep], color=colour, alpha=0.2, linewidth=0, label=label or None
-    )
+    low, high = (y - BAND * sd)[keep], (y + BAND * sd)[keep]
+    axes.fill_between(t[keep], low, high, color=colour, alpha=0.2, linewidth=0, label="two sd")
 
 
 def travel_times(masses: Samples | None) -> list[tuple[float, float]]:
@@ -134,13 +134,15 @@ def mark_travel(every: Sequence[Axes], recording: Recording) -> None:
     for axes in every:
         for a, b in travel_times(recording.masses):
             if start <= b and a <= end:
-                axes.axvspan(a, b, color="#bbbbbb", alpha=0.45, linewidth=0, zorder=0)
+                axes.axvspan(a, b, color="#cccccc", alpha=0.35, linewidth=0, zorder=0)
 
 
-def legend(figure: Figure, axes: Axes, columns: int = 6) -> None:
-    """Put the legend above the panels, where it covers nothing."""
+def legend(figure: Figure, axes: Axes) -> None:
+    """Put the legend above the panels, where it covers nothing; each label once."""
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=columns)
+    first = dict(zip(reversed(labels), reversed(handles), strict=True))
+    order = list(dict.fromkeys(labels))
+    figure.legend([first[k] for k in order], order, loc="outside upper center", ncols=6)
 
 
 def around(values: Floats, sd: Floats, share: float = 0.12) -> tuple[float, float]:

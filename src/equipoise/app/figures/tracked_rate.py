@@ -3,7 +3,14 @@
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.style import (
-    AXES, XYZ, band, legend, line, mark_travel, panels, styled,
+    AXES,
+    XYZ,
+    band,
+    legend,
+    line,
+    mark_travel,
+    panels,
+    styled,
 )
 from equipoise.app.units import PER_DEG
 from equipoise.estimation.tracker import Track
