@@ -27,7 +27,7 @@ class Account:
     title: str
     asked: Mapping[str, str]
     testbed: Testbed
-    steps: Sequence[Step]
+    chapters: Mapping[str, Sequence[Step]]  # each with its own clock
     origin: Mapping[str, str]
     findings: Sequence[Finding] = ()
     estimate: Estimate | None = None  # the mass properties to report

@@ -44,7 +44,7 @@ def account_of(done: Balancing, seed: int) -> Account:
         title="Balancing",
         asked=asked(done),
         testbed=done.testbed,
-        steps=done.steps,
+        chapters={"Steps": done.steps},
         origin=origin(testbed=done.testbed.source, seed=str(seed)),
         estimate=done.estimate,
         verdict=done.verdict,

@@ -20,7 +20,9 @@ from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
 from equipoise.model.errors import EquipoiseError
 
-WRONG_USE, BY_HAND = 2, 130  # the second is what shells give a program that Ctrl-C ended
+WRONG_USE = 2
+BY_HAND = 130  # what shells give a program that Ctrl-C ended
+LEFT_ALONE = 1  # as rich ends a program whose output nobody reads any more
 
 app = App(
     name="equipoise",
@@ -44,6 +46,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         complain(str(error))
     except BrokenPipeError:
         sys.stdout = None  # whoever read our output has left: no further word, no traceback
+        return LEFT_ALONE
     except OSError as error:
         complain(f"{error.filename or 'system'}: {error.strerror or error}")
     except KeyboardInterrupt as by_hand:

@@ -82,7 +82,7 @@ def account_of(shown: Demonstration, seed: int) -> Account:
     return replace(
         account,
         title="From unknown and unbalanced to identified, balanced and verified",
-        steps=[*shown.identified, *shown.balancing.steps],
+        chapters={"Identify": shown.identified, "Balance": shown.balancing.steps},
         estimate=shown.estimate,
         pictures=pictures(shown),
     )

@@ -3,7 +3,7 @@
 import math
 
 DIGITS = 2  # of the sd; the second keeps its rounding below 5 %
-EXACT = 1e-9  # an sd below this share of the value is none: the value was held
+EXACT = 1e-6  # chosen: an sd below this share of the value is none; the value was held
 FEW = 4  # significant digits of a number without an sd
 
 

@@ -3,7 +3,7 @@
 import math
 
 from equipoise.model.arrays import Vector3
-from equipoise.model.errors import InputError
+from equipoise.model.errors import InputError, nearest
 
 
 def positive(option: str, value: float) -> float:
@@ -25,6 +25,13 @@ def seed_of(value: int) -> int:
     if not 0 <= value < 2**63:
         raise InputError("--seed", str(value), "a whole number of at least 0")
     return value
+
+
+def one_of(option: str, name: str, known: list[str]) -> str:
+    """Return a name that is known."""
+    if name not in known:
+        raise InputError(option, f"'{name}'", nearest(name, known))
+    return name
 
 
 def vector(option: str, values: tuple[float, float, float], factor: float) -> Vector3:

@@ -95,8 +95,9 @@ def _findings(account: Account) -> Iterator[str]:
 
 
 def _steps(account: Account) -> Iterator[str]:
-    lines = ((fixed(s.time, 1), s.kind, s.sentence) for s in account.steps)
-    yield _section("Steps", _table(("bench time, s", "", ""), lines))
+    for title, steps in account.chapters.items():
+        lines = ((fixed(s.time, 1), s.kind, s.sentence) for s in steps)
+        yield _section(title, _table(("time, s", "", ""), lines))
 
 
 def _mass_properties(account: Account) -> Iterator[str]:

@@ -17,9 +17,14 @@ FINDING_STYLE = {"content": "", "motion": "", "problem": "bold yellow", "mended"
 STEP_STYLE = {"look": "dim", "estimate": "", "move": "cyan", "verify": "bold", "stop": "bold"}
 
 
-def finding_line(finding: Finding) -> Text:
+def finding_line(finding: Finding) -> Table:
     """Return a finding; '!' marks what an estimate will suffer from, '~' what was set right."""
-    return Text(MARKS[finding.kind] + finding.sentence, style=FINDING_STYLE[finding.kind])
+    line = Table.grid()
+    line.add_column(width=2, no_wrap=True)
+    line.add_column()
+    cells_ = (MARKS[finding.kind], finding.sentence)
+    line.add_row(*map(Text, cells_), style=FINDING_STYLE[finding.kind])
+    return line
 
 
 def step_line(step: Step) -> Table:

@@ -6,6 +6,8 @@ from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from equipoise.app.interruption import held_back
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
@@ -53,13 +55,19 @@ def busy(what: str, announce: bool = True) -> Generator[None]:
     class Listener(event.Listener):
         """Hear when a kernel is compiled, not when it is only loaded."""
 
+        depth = 0
+
         def on_start(self, event: Any) -> None:
+            self.depth += 1
             show(f"{what}: {COMPILING}")
 
         def on_end(self, event: Any) -> None:
-            show(what)
+            self.depth -= 1
+            if self.depth == 0:
+                show(what)
+                interruption.carry_out()
 
-    with console.status(f"{what} ...") as status:
+    with held_back() as interruption, console.status(f"{what} ...") as status:
         said = [what]
 
         def show(text: str) -> None:

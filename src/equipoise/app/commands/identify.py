@@ -67,21 +67,26 @@ def identify(
         Folder for figures, report.html and estimate.json.
     """
     from equipoise.app.archive import write_account
+    from equipoise.app.options import one_of
     from equipoise.app.views_json import dump, estimate_json
     from equipoise.app.wiring import fitting_recording_of, part_of, testbed_of
     from equipoise.assessment.record_findings import findings
     from equipoise.io.whole_folder import check_folder
+    from equipoise.model.estimate import COM, INERTIA
     from equipoise.model.torque_terms import expand
 
     bed, terms = testbed_of(testbed), expand(term, "--term")
+    for name in hold:
+        one_of("--hold", name, [*COM, *INERTIA])
     if out is not None:
         check_folder(out)
     recording = part_of(fitting_recording_of(file, dialect, columns, bed), from_s, to_s)
     found = findings(recording, bed)
     with busy("identifying", announce=False):
-        from equipoise.procedure.identify import IdentifyOptions
+        from equipoise.procedure.identify import METHODS, IdentifyOptions
         from equipoise.procedure.identify import identify as procedure
 
+        one_of("--method", method, ["auto", *METHODS])
         options = IdentifyOptions(method, terms, hold, prior, robust)
         steps = procedure(recording, bed, options)
     if not json:
@@ -145,7 +150,7 @@ def _account(
         title="Mass properties from a recording",
         asked={"recording": recording.source, "method": estimate.method},
         testbed=testbed,
-        steps=steps,
+        chapters={"Steps": steps},
         origin=origin(sha256=recording.sha256),
         findings=found,
         estimate=estimate,
