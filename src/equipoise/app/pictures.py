@@ -36,6 +36,16 @@ class Picture:
     figure: Figure
 
 
+def of_estimate(recording: Recording, testbed: Testbed, estimate: Estimate) -> Iterator[Picture]:
+    """Yield the figures that suit the method of an estimate."""
+    if estimate.method != "tracker":
+        yield from of_fit(recording, testbed, estimate)
+    elif recording.attitude is not None:
+        yield from of_tracking(recording, testbed, None, None)
+        if recording.masses is not None and np.any(np.ptp(recording.masses.values, axis=0)):
+            yield from of_move(recording, testbed, None, None)
+
+
 def of_fit(recording: Recording, testbed: Testbed, estimate: Estimate) -> Iterator[Picture]:
     """Yield Figs. 6, 7 and 8 for an estimate that says how its record began."""
     if not all(map(estimate.has, (*COM, *INERTIA, *RATE, *ATTITUDE))):

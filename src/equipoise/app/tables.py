@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
@@ -38,9 +39,14 @@ def step_line(step: Step) -> Table:
     return line
 
 
-def quiet_table(title: str) -> Table:
-    """Return a table without lines between rows, its title at the left."""
-    return Table(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False)
+def quiet_table() -> Table:
+    """Return a table without lines between rows."""
+    return Table(box=None, pad_edge=False)
+
+
+def titled(title: str, table: Table) -> Group:
+    """Return a table under its title, which may be the wider one."""
+    return Group(Text(title, style="bold"), table)
 
 
 def cells(parameter: Parameter) -> tuple[str, str, str, str, str]:
@@ -52,16 +58,16 @@ def cells(parameter: Parameter) -> tuple[str, str, str, str, str]:
     return parameter.name, value_text, sd_text, interval(value, low, high, sd), unit.name
 
 
-def parameter_table(title: str, parameters: Sequence[Parameter]) -> Table:
+def parameter_table(title: str, parameters: Sequence[Parameter]) -> Group:
     """Return named values with sd and 95 % interval."""
-    table = quiet_table(title)
+    table = quiet_table()
     table.add_column("", style="bold")
     for head in ("value", "sd", "95 % interval"):
         table.add_column(head, justify="right")
     table.add_column("unit")
     for parameter in parameters:
         table.add_row(*cells(parameter), style="" if parameter.observable else "dim")
-    return table
+    return titled(title, table)
 
 
 def groups(estimate: Estimate) -> Iterator[tuple[str, list[Parameter]]]:
@@ -77,7 +83,7 @@ def groups(estimate: Estimate) -> Iterator[tuple[str, list[Parameter]]]:
     yield "Ratios, which do not need the scale", list(estimate.ratios)
 
 
-def estimate_tables(estimate: Estimate) -> list[Table]:
+def estimate_tables(estimate: Estimate) -> list[Group]:
     """Return one table for each group that is not empty."""
     return [parameter_table(title, group) for title, group in groups(estimate) if group]
 
@@ -101,13 +107,13 @@ def _rms(value: float | None) -> str:
     return "?" if value is None else f"{value * PER_DEG:.3g}"
 
 
-def change_table(change: Change) -> Table:
+def change_table(change: Change) -> Group:
     """Return before and after side by side; the truth beside it when it is known."""
     lines = list(rows(change))
     shown = len(HEADS) if lines[0].truth_before else len(HEADS) - 2
-    table = quiet_table("Before and after")
+    table = quiet_table()
     for k, head in enumerate(HEADS[:shown]):
         table.add_column(head, justify="left" if k < 2 else "right", style="bold" if not k else "")
     for line in lines:
         table.add_row(*line[:shown])
-    return table
+    return titled("Before and after", table)

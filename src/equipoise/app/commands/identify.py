@@ -142,7 +142,7 @@ def _account(
     steps: "Sequence[Step]",
 ) -> "Account":
     from equipoise.app.account import Account, origin
-    from equipoise.app.pictures import of_fit
+    from equipoise.app.pictures import of_estimate
 
     estimate = steps[-1].estimate
     assert estimate is not None
@@ -154,5 +154,5 @@ def _account(
         origin=origin(sha256=recording.sha256),
         findings=found,
         estimate=estimate,
-        pictures=list(of_fit(recording, testbed, estimate)),
+        pictures=list(of_estimate(recording, testbed, estimate)),
     )

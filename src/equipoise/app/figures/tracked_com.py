@@ -10,8 +10,8 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.recording import Recording
 
 CAPTION = (
-    "Centre of mass as the tracker (Kalman filter) sees it while the masses stand still, um in "
-    "body axes. Bands: two standard deviations. Dashed: the simulated truth."
+    "Centre of mass with the masses at home as the tracker (Kalman filter) sees it, um in body "
+    "axes. Bands: two standard deviations. Dashed: the simulated truth."
 )
 
 
