@@ -6,7 +6,7 @@ platform tilt too far. (Ivanov 2021 section 5 moves every 25 s; this moves when 
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from equipoise.model.move import Move
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.choose_move import GUARD, Option, best_option, direct, move_of
+from equipoise.procedure.choose_move import DOWN, Option, Outlook, good_moment, move_of, safest
 from equipoise.procedure.foresight import state_now
 from equipoise.procedure.knowledge import Knowledge, learn
 from equipoise.procedure.verify import fresh_enough, is_within, verdict
@@ -35,11 +35,12 @@ class BalanceOptions:
     max_time: float = 120.0  # s on the bench's clock
 
 
-FIRST_LOOK = 2.0  # s, before anything is fitted
-LOOK = 1.0  # s between fits
+FIRST_LOOK = 1.6  # s, before anything is fitted
+LOOK = 0.6  # s between fits
 KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
+INFORMED = 0.2  # of the offset: a sideways sd at which the direction of a move is known
+LAST = 0.3  # of the tolerance: the same for the last move
 SETTLE = 20.0  # s to keep for the look after the last move
-BRAKED = 0.5  # of the tilt limit: a peak small enough to go on from a brake
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -122,43 +123,43 @@ def decide(
     knowledge, testbed = progress.knowledge, bench.testbed
     if left == 0 or not testbed.masses:
         return None
-    state = state_now(knowledge, testbed)
-    if progress.braking:
-        straight = direct(knowledge, testbed, state, options.target)
-        later = direct(knowledge, testbed, state, options.target, LOOK)
-        settled = straight.peak <= BRAKED * testbed.tilt_limit
-        return straight if settled or straight.peak < later.peak else None
-    if urgent(bench, knowledge, state, options):
-        return best_option(knowledge, testbed, state, options.target, left > 1)
-    return direct(knowledge, testbed, state, options.target) if ripe(
-        bench, progress, options, began
-    ) else None
+    view = Outlook(knowledge, testbed, state_now(knowledge, testbed))
+    if left > 1 and not progress.braking and urgent(view, options.target):
+        return safest(view, options.target)
+    if not (progress.braking or ripe(bench, progress, options, began)):
+        return None
+    dip = DOWN if left == options.max_moves > 1 else 0.0
+    aim = options.target - dip * testbed.up
+    option = view.option(aim)
+    pressed = bench.time - began > options.max_time - SETTLE
+    return option if pressed or good_moment(view, option) else None
 
 
-def urgent(
-    bench: Bench, knowledge: Knowledge, state: tuple[Vector3, Vector3], options: BalanceOptions
-) -> bool:
-    """Say whether waiting for one more look would let the tilt pass the guard."""
-    guard = GUARD * bench.testbed.tilt_limit
-    later = direct(knowledge, bench.testbed, state, options.target, LOOK)
-    return later.peak > guard and tilt_grows(knowledge, bench, state)
+def urgent(view: Outlook, target: Vector3) -> bool:
+    """Say whether to move because of the tilt.
 
-
-def tilt_grows(knowledge: Knowledge, bench: Bench, state: tuple[Vector3, Vector3]) -> bool:
-    """Say whether the masses as they stand would let the tilt pass the guard."""
-    from equipoise.procedure.foresight import peak_tilt
-
-    stay = peak_tilt(knowledge, bench.testbed, state, knowledge.displacement, 0.0)
-    return stay > GUARD * bench.testbed.tilt_limit
+    When staying would pass the guard: if so would going straight one look later; but as long as
+    little is known, only if even the safest move, one look later, would pass the limit.
+    """
+    knowledge, up = view.knowledge, view.testbed.up
+    later, hopeful = replace(view, wait=LOOK), replace(view, cautious=False)
+    if hopeful.peak(knowledge.displacement) <= view.guard:
+        return False
+    off = float(np.linalg.norm(knowledge.com - target))
+    sideways = knowledge.sd - (knowledge.sd @ up) * up
+    if float(np.linalg.norm(sideways)) < INFORMED * off:
+        return later.option(target).peak > view.guard
+    return safest(replace(hopeful, wait=LOOK), target).peak > view.testbed.tilt_limit
 
 
 def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> bool:
     """Say whether a move would help: the offset is known, or time presses, and is worth it."""
     knowledge = progress.knowledge
+    left = options.max_moves - len(progress.moves)
     off, sd = np.abs(knowledge.com - options.target), knowledge.sd
     worth = bool(np.any(off + sd > options.tolerance))
-    known = bool(np.all((sd < KNOWN * options.tolerance) | (sd < 0.1 * off)))
-    left = options.max_moves - len(progress.moves)
+    enough = LAST if left == 1 else KNOWN
+    known = bool(np.all((sd < enough * options.tolerance) | ((sd < 0.1 * off) & (left > 1))))
     share = (options.max_time - SETTLE) * (1 - left / (options.max_moves + 1))
     late = bench.time - began > share
     return worth and (known or late) and fresh_enough(knowledge, progress.still_since)

@@ -6,7 +6,7 @@ else the one with the least tilt.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,10 +21,13 @@ from equipoise.model.testbed import Testbed
 from equipoise.procedure.foresight import peak_tilt
 from equipoise.procedure.knowledge import Knowledge, shifted
 
-GUARD = 0.75  # of the tilt limit, chosen
+CALM = 0.5  # of the tilt limit, chosen: a peak at which the moment does not matter
+WAITS = (0.6, 1.2, 2.4, 4.0, 6.0)  # s
+GUARD = 0.85  # of the tilt limit, chosen
 HASTE = 30.0  # mm per s, weighs time against travel when a brake is needed
-SIDEWAYS = (0.5, 1.0, 1.5)  # of the present sideways offset, to the far side
-DOWN = (0.0, 40e-6)  # m
+SIDEWAYS = (0.0, 0.5, 1.0, 1.5)  # of the present sideways offset, to the far side
+CATCH_DOWN = 40e-6  # m below the target: stiffer, and soon reached
+DOWN = 100e-6  # m below the target: stiffer, and a larger known change to learn the scale from
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,50 +39,60 @@ class Option:
     brake: bool
 
 
-def direct(
-    knowledge: Knowledge,
-    testbed: Testbed,
-    state: tuple[Quaternion, Vector3],
-    target: Vector3,
-    wait: float = 0.0,
-) -> Option:
-    """Return the move straight to the target (m), beginning after ``wait`` (s)."""
-    now = knowledge.displacement
-    goal = displacements_for(testbed.masses, testbed.body.mass, now, target - knowledge.com)
-    return Option(goal, peak_tilt(knowledge, testbed, state, goal, wait), False)
+@dataclass(frozen=True, slots=True, eq=False)
+class Outlook:
+    """From where a move would start, and how it is judged."""
+
+    knowledge: Knowledge
+    testbed: Testbed
+    state: tuple[Quaternion, Vector3]  # attitude, rate (rad/s)
+    cautious: bool = True  # judge by the worst of the likely centres of mass
+    wait: float = 0.0  # s, until the move begins
+
+    @property
+    def guard(self) -> float:
+        """Return the tilt (rad) that no plan should pass."""
+        return GUARD * self.testbed.tilt_limit
+
+    def peak(self, targets: Floats) -> float:
+        """Return the greatest tilt (rad) to expect with the masses going to ``targets`` (m)."""
+        return peak_tilt(
+            self.knowledge, self.testbed, self.state, targets, self.wait, self.cautious
+        )
+
+    def option(self, aim: Vector3, brake: bool = False, haste: float = 0.0) -> Option:
+        """Return the move that brings the centre of mass to ``aim`` (m)."""
+        now, shift = self.knowledge.displacement, aim - self.knowledge.com
+        masses, total = self.testbed.masses, self.testbed.body.mass
+        goal = displacements_for(masses, total, now, shift, haste)
+        return Option(goal, self.peak(goal), brake)
 
 
-def brakes(
-    knowledge: Knowledge, testbed: Testbed, state: tuple[Quaternion, Vector3], target: Vector3
-) -> Iterator[Option]:
-    """Yield moves beyond the target, the mildest first."""
-    now, offset = knowledge.displacement, knowledge.com - target
-    sideways = offset - (offset @ testbed.up) * testbed.up
+def good_moment(view: Outlook, option: Option) -> bool:
+    """Say whether beginning this move later would not lead to clearly less tilt."""
+    if option.peak <= CALM * view.testbed.tilt_limit:
+        return True
+    later = (replace(view, wait=wait).peak(option.targets) for wait in WAITS)
+    return all(option.peak <= 1.05 * peak for peak in later)
+
+
+def catches(view: Outlook, target: Vector3) -> Iterator[Option]:
+    """Yield hasty moves that stop the platform from falling, the mildest first: to below the
+    target, then to below and beyond it."""
+    up, offset = view.testbed.up, view.knowledge.com - target
+    sideways = offset - (offset @ up) * up
     for share in SIDEWAYS:
-        for down in DOWN:
-            aim = target - share * sideways - down * testbed.up
-            shift = aim - knowledge.com
-            goal = displacements_for(testbed.masses, testbed.body.mass, now, shift, HASTE)
-            yield Option(goal, peak_tilt(knowledge, testbed, state, goal, 0.0), True)
+        aim = target - share * sideways - CATCH_DOWN * up
+        yield view.option(aim, share > 0, HASTE)
 
 
-def best_option(
-    knowledge: Knowledge,
-    testbed: Testbed,
-    state: tuple[Quaternion, Vector3],
-    target: Vector3,
-    may_brake: bool,
-) -> Option:
-    """Return the move to make now."""
-    straight = direct(knowledge, testbed, state, target)
-    guard = GUARD * testbed.tilt_limit
-    if straight.peak <= guard or not may_brake:
-        return straight
-    options = [straight]
-    for option in brakes(knowledge, testbed, state, target):
-        if option.peak <= guard:
-            return option
+def safest(view: Outlook, target: Vector3) -> Option:
+    """Return the mildest move that keeps the tilt within the guard, else the least tilting one."""
+    options: list[Option] = []
+    for option in catches(view, target):
         options.append(option)
+        if option.peak <= view.guard:
+            return option
     return min(options, key=lambda option: option.peak)
 
 

@@ -12,8 +12,8 @@ from equipoise.model.recording import Samples
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.knowledge import Knowledge
 
-HORIZON = 40.0  # s, chosen: a swing of a platform whose centre of mass is 100 um low
-GRID = 0.25  # s
+HORIZON = 25.0  # s, chosen: a swing of a platform whose centre of mass is 100 um low
+GRID = 0.5  # s
 
 
 def travel(now: Floats, targets: Floats, testbed: Testbed, wait: float) -> tuple[Series1, Floats]:
@@ -36,22 +36,34 @@ def state_now(knowledge: Knowledge, testbed: Testbed) -> tuple[Quaternion, Vecto
     return motion.q[-1], motion.rate[-1]
 
 
+def likely_coms(knowledge: Knowledge, testbed: Testbed) -> list[Vector3]:
+    """Return the centre of mass and, one sd off to either side, the worst sideways directions."""
+    across = np.eye(3) - np.outer(testbed.up, testbed.up)
+    values, vectors = np.linalg.eigh(across @ knowledge.covariance @ across)
+    offsets = [sign * np.sqrt(values[k]) * vectors[:, k] for k in (1, 2) for sign in (1.0, -1.0)]
+    return [knowledge.com, *(knowledge.com + offset for offset in offsets)]
+
+
 def peak_tilt(
     knowledge: Knowledge,
     testbed: Testbed,
     state: tuple[Quaternion, Vector3],
     targets: Floats,
     wait: float,
+    cautious: bool,
 ) -> float:
-    """Return the greatest tilt (rad) over the horizon if the move begins after ``wait`` (s)."""
+    """Return the greatest tilt (rad) to expect over the horizon if the move begins after ``wait``
+    (s); ``cautious``: the worst over the likely centres of mass."""
     maps, total = mass_maps(testbed.masses), testbed.body.mass
     now = knowledge.displacement
     t, d = travel(now, targets, testbed, wait)
     line = timeline(np.arange(0.0, wait + HORIZON, GRID), np.zeros(0), Samples(t, d),
                     len(testbed.masses), 1.0)  # fmt: skip
-    body = knowledge.fitted.point.body(total)
-    moment = total * knowledge.com - now @ maps.first_moment  # as if the masses stood at home
-    rigid = body_of(total, testbed.gravity, pack_symmetric(body.inertia_P), moment)
-    motion = propagate(rigid, maps, line, *state)
-    return float(tilt(motion.q, testbed.up).max())
-
+    inertia = pack_symmetric(knowledge.fitted.point.body(total).inertia_P)
+    worst = 0.0
+    for com in likely_coms(knowledge, testbed) if cautious else [knowledge.com]:
+        moment = total * com - now @ maps.first_moment  # as if the masses stood at home
+        rigid = body_of(total, testbed.gravity, inertia, moment)
+        motion = propagate(rigid, maps, line, *state)
+        worst = max(worst, float(tilt(motion.q, testbed.up).max()))
+    return worst

@@ -108,12 +108,10 @@ def sent(
     start, arrive = travel.start.copy(), travel.arrive.copy()
     begin, end = travel.begin.copy(), travel.end.copy()
     for i, goal in goals.items():
-        start[i] = arrive[i] = now
-        begin[:, i] = end[:, i] = here[:, i]
-        if goal != here[REPORTED, i]:
-            gain = gain_of(faults, masses[i].name, travel.moves + 1)
-            end[:, i] = stop_of(here[:, i], goal, masses[i], gain, rng.standard_normal())
-            arrive[i] = tick_one(now + abs(goal - here[REPORTED, i]) / masses[i].speed)
+        gain = gain_of(faults, masses[i].name, travel.moves + 1)
+        start[i], begin[:, i] = now, here[:, i]
+        end[:, i] = stop_of(here[:, i], goal, masses[i], gain, rng.standard_normal())
+        arrive[i] = tick_one(now + abs(goal - here[REPORTED, i]) / masses[i].speed)
     return Travel(start, arrive, begin, end, travel.moves + 1)
 
 

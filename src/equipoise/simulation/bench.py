@@ -40,7 +40,7 @@ from equipoise.simulation.motion import Path, first_state, run
 from equipoise.simulation.noise_torque import extended, forgotten, start_noise, torque_at
 
 ALWAYS = 1.0  # s, chosen: a node at least so often, whatever the sensors do
-A_MOMENT = 1e-3  # s, chosen: a motion needs two nodes even when no time has passed
+A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on when now is a node
 
 
 class SimulatedBench:
@@ -83,7 +83,8 @@ class SimulatedBench:
         since, self._time = self._time, tick_one(self._time + duration)
         after, self._read_until = self._read_until, self._time
         t = self._nodes()
-        path = self._follow(t)
+        end = self._time if self._time > t[-1] else t[-1] + A_MOMENT
+        path = self._follow(np.append(t, end))
         recording = self._recording(t, path, after, since)
         self._advance(t, path)
         return recording
@@ -121,7 +122,7 @@ class SimulatedBench:
         self._track = actuator.retracked(self._track, travel, self._time)
 
     def _nodes(self) -> Series1:
-        """Return the nodes from the one where the state is kept to now; at least two."""
+        """Return the nodes from the one where the state is kept to now."""
         start, now = self._node, self._time
         self._noise = extended(self._noise, now, self._noise_rng)
         seen = [looks_between(s, start, now) for s in (self._testbed.attitude, self._testbed.gyro)]
@@ -129,9 +130,7 @@ class SimulatedBench:
         if self._noise.sd > 0:
             others.append(self._noise.t)
         t = np.unique(np.concatenate([[start], *seen, *others]))
-        t = t[(t >= start) & (t <= now)]
-        end = now if now > start else now + A_MOMENT
-        return t if len(t) > 1 and t[-1] == now else np.append(t, end)
+        return t[(t >= start) & (t <= now)]
 
     def _follow(self, t: Series1) -> Path:
         """Return the motion along nodes, from where the state is kept."""
@@ -165,8 +164,7 @@ class SimulatedBench:
 
     def _advance(self, t: Series1, path: Path) -> None:
         """Keep the state now, and at the last node that no later row can look behind."""
-        now = int(np.searchsorted(t, self._time))
-        self._now = path.y[now]
+        self._now = path.y[int(np.searchsorted(t, self._time))]
         kept = int(np.searchsorted(t, self._time - self._lead, side="right")) - 1
         self._node, self._state = float(t[kept]), path.y[kept]
         self._noise = forgotten(self._noise, self._node)
