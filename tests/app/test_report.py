@@ -71,3 +71,31 @@ def test_identify_reports_too(equipoise, record_file, tmp_path):
     names = {path.name for path in (tmp_path / "out").iterdir()}
     assert {"report.html", "estimate.json", "figure06_attitude.png"} <= names
     assert "predicted for" in done.out
+
+
+def test_balance_reports_too(equipoise, tmp_path):
+    done = equipoise("balance", "sputnix", "--seed", "3", "--out", "out")
+    assert done.code in (0, 1)
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert {"report.html", "balance.json", "figure14_balancing.png"} <= names
+    assert "Before and after" in done.out
+    assert "truth after" in done.out
+
+
+def test_a_record_is_drawn_on_request(equipoise, record_file, tmp_path):
+    for name in ("record.png", "record.svg", "record.pdf"):
+        assert equipoise("inspect", record_file, "--figure", name).code == 0
+        assert (tmp_path / name).stat().st_size > 5000
+
+
+def test_a_new_testbed_reads_back(equipoise):
+    assert equipoise("new", "sputnix").code == 0
+    assert equipoise("simulate", "sputnix.toml", "--out", "a.csv", "--duration-s", "5").code == 0
+
+
+def test_the_same_seed_gives_the_same_record(equipoise, tmp_path):
+    for name, seed in (("a.csv", 1), ("b.csv", 1), ("c.csv", 2)):
+        words = ["--out", name, "--duration-s", "5", "--seed", seed]
+        assert equipoise("simulate", "sputnix", *words).code == 0
+    a, b, c = ((tmp_path / name).read_bytes() for name in ("a.csv", "b.csv", "c.csv"))
+    assert a == b != c

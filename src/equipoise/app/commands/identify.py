@@ -3,17 +3,13 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.terminal import busy, stdout, tell_paths, watched
+from equipoise.app.terminal import busy, tell_paths, watched
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from equipoise.app.account import Account
-    from equipoise.assessment.finding import Finding
-    from equipoise.model.estimate import Estimate
+    from equipoise.app.identify_views import Identification
     from equipoise.model.recording import Recording
-    from equipoise.model.step import Step
     from equipoise.model.testbed import Testbed
+    from equipoise.procedure.identify import IdentifyOptions
 
 
 def identify(
@@ -66,11 +62,8 @@ def identify(
     out
         Folder for figures, report.html and estimate.json.
     """
-    from equipoise.app.archive import write_account
     from equipoise.app.options import one_of
-    from equipoise.app.views_json import dump, estimate_json
     from equipoise.app.wiring import fitting_recording_of, part_of, testbed_of
-    from equipoise.assessment.record_findings import findings
     from equipoise.io.whole_folder import check_folder
     from equipoise.model.estimate import COM, INERTIA
     from equipoise.model.torque_terms import expand
@@ -81,78 +74,43 @@ def identify(
     if out is not None:
         check_folder(out)
     recording = part_of(fitting_recording_of(file, dialect, columns, bed), from_s, to_s)
-    found = findings(recording, bed)
     with busy("identifying", announce=False):
         from equipoise.procedure.identify import METHODS, IdentifyOptions
-        from equipoise.procedure.identify import identify as procedure
 
-        one_of("--method", method, ["auto", *METHODS])
-        options = IdentifyOptions(method, terms, hold, prior, robust)
-        steps = procedure(recording, bed, options)
-    if not json:
-        _show_findings(found)
-    done = list(watched(steps, "identifying"))
-    estimate = done[-1].estimate
-    assert estimate is not None
+    one_of("--method", method, ["auto", *METHODS])
+    options = IdentifyOptions(method, terms, hold, prior, robust)
+    done = _carried_out(recording, bed, options, quiet=json)
+    _tell(done, json, out)
+    return 0 if done.estimate.outcome.usable else 1
+
+
+def _carried_out(
+    recording: "Recording", testbed: "Testbed", options: "IdentifyOptions", quiet: bool
+) -> "Identification":
+    """Identify; what the recording holds is told before."""
+    from equipoise.app.identify_views import Identification, show_findings
+    from equipoise.assessment.record_findings import findings
+    from equipoise.procedure.identify import identify as procedure
+
+    found = findings(recording, testbed)
+    if not quiet:
+        show_findings(found)
+    steps = list(watched(procedure(recording, testbed, options), "identifying"))
+    return Identification(testbed, recording, found, steps)
+
+
+def _tell(done: "Identification", json: bool, out: Path | None) -> None:
+    """Print the result, and write it down if that is asked for."""
+    from equipoise.app.archive import write_account
+    from equipoise.app.identify_views import account_of, document_of, show_result
+    from equipoise.app.views_json import dump
+
+    document = document_of(done)
     if json:
-        print(dump(estimate_json(estimate, found)))
+        print(dump(document))
     else:
-        _show(done, estimate)
+        show_result(done)
     if out is not None:
         with busy("drawing"):
-            account = _account(recording, bed, found, done)
-            document = estimate_json(estimate, found)
-            paths = write_account(account, document, "estimate", out)
+            paths = write_account(account_of(done), document, "estimate", out)
         tell_paths(paths, json)
-    return 0 if estimate.outcome.usable else 1
-
-
-def _show_findings(found: "Sequence[Finding]") -> None:
-    from equipoise.app.tables import finding_line
-
-    console = stdout()
-    for finding in found:
-        console.print(finding_line(finding))
-
-
-def _show(steps: "Sequence[Step]", estimate: "Estimate") -> None:
-    """Print what was done, the tables, what was not seen, and the sentence that sums it up."""
-    from equipoise.app.tables import estimate_tables, residual_line, step_line
-
-    console = stdout()
-    console.print()
-    for step in steps:
-        console.print(step_line(step))
-    for table in estimate_tables(estimate):
-        console.print()
-        console.print(table)
-    console.print()
-    for sentence in estimate.unobservable:
-        console.print(f"not seen: {sentence}", style="yellow", markup=False)
-    if estimate.residual is not None:
-        console.print(residual_line(estimate.residual), markup=False)
-    style = "bold green" if estimate.outcome.usable else "bold red"
-    console.print(estimate.outcome.sentence, style=style, markup=False)
-
-
-def _account(
-    recording: "Recording",
-    testbed: "Testbed",
-    found: "Sequence[Finding]",
-    steps: "Sequence[Step]",
-) -> "Account":
-    from equipoise.app.account import Account, origin
-    from equipoise.app.pictures import of_estimate
-
-    estimate = steps[-1].estimate
-    assert estimate is not None
-    return Account(
-        title="Mass properties from a recording",
-        asked={"recording": recording.source, "method": estimate.method},
-        testbed=testbed,
-        chapters={"Steps": steps},
-        origin=origin(sha256=recording.sha256),
-        findings=found,
-        estimate=estimate,
-        pictures=list(of_estimate(recording, testbed, estimate)),
-    )

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.terminal import stdout
+from equipoise.app.terminal import stdout, tell_paths
 
 
 def inspect(
@@ -50,9 +50,8 @@ def inspect(
     if json:
         print(dump(findings_json(recording, found)))
         return 0
-    console = stdout()
     for finding in found:
-        console.print(finding_line(finding))
+        stdout().print(finding_line(finding))
     if figure is not None:
-        console.print(f"wrote {figure}", markup=False)
+        tell_paths([figure])
     return 0

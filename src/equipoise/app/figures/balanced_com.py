@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -60,5 +59,4 @@ def mark_looks(axes: Axes, i: int, looks: Sequence[Look]) -> None:
             t, y, spread, fmt="o", color="black", markersize=5, markerfacecolor="white",
             elinewidth=1, capsize=2.5, zorder=5, label=None if k else "estimate",
         )  # fmt: skip
-        if np.isfinite(spread):
-            include(axes, y - spread, y + spread)
+        include(axes, y, y)  # long bars of a first estimate may run off the panel
