@@ -6,6 +6,7 @@ import numpy as np
 
 from equipoise import __version__
 from equipoise.actuators.sliding_masses import com_shift
+from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.observability import OPEN, Visibility, examine, natural_sizes, scale_of
 from equipoise.estimation.trajectory_problem import Evaluation, Problem
@@ -70,21 +71,26 @@ def selection(layout: Layout) -> list[int]:
 
 
 def end_rows(fitted: Fitted) -> tuple[Floats, Floats] | None:
-    """Return com with the masses as they stand at the end, and its derivative; None at home."""
-    problem, size = fitted.problem, fitted.problem.layout.size
-    k = len(problem.maps.momentum)
-    last = problem.line.known[-1]
-    d = last[KNOWN_D : KNOWN_D + k]
-    if not np.any(d):
+    """Return com at the end, masses as they stand and drift included, and its derivative; None
+    where that is the com with the masses at home."""
+    problem, layout = fitted.problem, fitted.problem.layout
+    k, line = len(problem.maps.momentum), problem.line
+    last, seconds = line.known[-1], float(line.t[-1] - line.t[0])
+    d, felt = last[KNOWN_D : KNOWN_D + k], last[KNOWN_D + k :]
+    drifts = [(j, FIXED + layout.terms.index(f"drift_{axis}")) for j, axis in enumerate("xyz")
+              if f"drift_{axis}" in layout.terms]  # fmt: skip
+    if not (np.any(d) or drifts):
         return None
-    felt, errors = last[KNOWN_D + k :], FIXED + len(problem.layout.terms)
-    rows = np.zeros((3, size))
+    rows, actual = np.zeros((3, layout.size)), d.copy()
     rows[:, R] = np.eye(3)
-    actual = d.copy()
     for j, owner in enumerate(problem.stops.owner):
         actual[owner] += felt[j] * fitted.point.error[j]
-        rows[:, errors + j] = felt[j] * problem.maps.first_moment[owner] / problem.mass
-    return fitted.point.com + com_shift(problem.maps, problem.mass, actual), rows
+        column = FIXED + len(layout.terms) + j
+        rows[:, column] = felt[j] * problem.maps.first_moment[owner] / problem.mass
+    for j, column in drifts:
+        rows[j, column] = seconds
+    moved = seconds * fitted.point.torque[DRIFT : DRIFT + 3]
+    return fitted.point.com + moved + com_shift(problem.maps, problem.mass, actual), rows
 
 
 def ratios_of(values: Floats, view: Visibility, layout: Layout) -> tuple[Parameter, ...]:

@@ -14,8 +14,9 @@ from equipoise.estimation.normal_equations import Seen, accumulate
 from equipoise.estimation.unknowns import (
     FIXED,
     JP,
-    R,
+    TURN,
     Layout,
+    R,
     Unknowns,
     physical,
     possible_step,
@@ -114,6 +115,7 @@ def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
     within ``torque_anchor`` natural sizes."""
     weight = np.zeros(layout.size)
     inertia = float(np.trace(testbed.body.inertia_P)) / 3
+    weight[TURN] = 1.0  # a step of 1 rad: without a camera nothing else ends a turn in heading
     weight[JP], weight[R] = inertia**-2, (ANCHOR * testbed.com_sd) ** -2
     size = term_sizes(layout.terms, inertia, testbed.body.mass * testbed.gravity)
     weight[FIXED : FIXED + len(size)] = (torque_anchor * size) ** -2

@@ -5,7 +5,7 @@ is made when the centre of mass is known well enough for it to help, or when wai
 platform tilt too far. (Ivanov 2021 section 5 moves every 25 s; this moves when it pays.)
 """
 
-from collections.abc import Iterator
+from collections.abc import Generator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -53,10 +53,10 @@ class Progress:
     braking: bool = False
 
 
-def balance(bench: Bench, options: BalanceOptions) -> Iterator[Step]:
-    """Yield Steps; the last is a verification, or a stop that says why, with a verdict."""
+def balance(bench: Bench, options: BalanceOptions) -> Generator[Step, None, Knowledge]:
+    """Yield Steps; the last is a verification, or a stop that says why, with a verdict. What is
+    known in the end is the generator's return value."""
     began = bench.time
-    yield from ()
     fresh = bench.read(FIRST_LOOK)
     progress = Progress(learn(None, fresh, bench.testbed), still_since=began)
     yield look_step(bench, fresh)
@@ -65,7 +65,7 @@ def balance(bench: Bench, options: BalanceOptions) -> Iterator[Step]:
         if why:
             bench.stop()
             yield final(bench, progress, options, why)
-            return
+            return progress.knowledge
         option = decide(bench, progress, options, began)
         if option is None:
             fresh = bench.read(LOOK)

@@ -26,7 +26,7 @@ WAITS = (0.6, 1.2, 2.4, 4.0, 6.0)  # s
 GUARD = 0.85  # of the tilt limit, chosen
 HASTE = 30.0  # mm per s, weighs time against travel when a brake is needed
 SIDEWAYS = (0.0, 0.5, 1.0, 1.5)  # of the present sideways offset, to the far side
-CATCH_DOWN = 40e-6  # m below the target: stiffer, and soon reached
+CATCH_DOWN = 60e-6  # m below the target: stiffer, and soon reached
 DOWN = 100e-6  # m below the target: stiffer, and a larger known change to learn the scale from
 
 

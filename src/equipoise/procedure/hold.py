@@ -1,0 +1,174 @@
+"""Hold: keep the centre of mass where it is, while the platform warms up and drifts.
+
+The tracker follows the centre of mass with the inertia found by balancing; the masses follow it
+whenever a step of theirs brings it closer.
+"""
+
+from collections.abc import Generator, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
+from equipoise.estimation import tracker
+from equipoise.maths.attitude import tilt
+from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.bench import Bench
+from equipoise.model.move import Move
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.balance import UM, BalanceOptions, balance
+from equipoise.procedure.foresight import state_now
+from equipoise.procedure.knowledge import Knowledge
+
+LOOK = 5.0  # s between decisions
+ACT = 0.35  # of the tolerance, chosen: an offset from which a move is considered
+GAIN = 0.15  # of the tolerance: what a move must better the worst axis by
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HoldOptions:
+    """For how long, where, and how closely."""
+
+    duration: float  # s
+    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
+    tolerance: Vector3 = field(default_factory=lambda: np.full(3, 3 * UM))  # m
+
+
+def balance_and_hold(
+    bench: Bench, balancing: BalanceOptions, holding: HoldOptions
+) -> Iterator[Step]:
+    """Yield the Steps of balancing and, if its verdict passes, of holding."""
+    last: list[Step] = []
+
+    def watched() -> Generator[Step, None, Knowledge]:
+        steps = balance(bench, balancing)
+        while True:
+            try:
+                last[:] = [next(steps)]
+            except StopIteration as ended:
+                return ended.value
+            yield last[0]
+
+    knowledge = yield from watched()
+    if last[0].verdict is not None and last[0].verdict.passed:
+        yield from hold(bench, knowledge, holding)
+
+
+def first_belief(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
+    """Return the tracker's belief at the end of what balancing recorded."""
+    q, rate = state_now(knowledge, testbed)
+    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, knowledge.displacement)
+    t = float(knowledge.fitted.problem.line.t[-1])
+    state = tracker.first_state(t, q, testbed, knowledge.com - shift, knowledge.covariance)
+    return tracker.State(t, q, rate, state.com, state.bias, state.covariance)
+
+
+def standing(
+    state: tracker.State, testbed: Testbed, displacement: Floats
+) -> tuple[Vector3, Vector3]:
+    """Return the centre of mass with the masses as they stand, and its sd (m)."""
+    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, displacement)
+    return state.com + shift, np.sqrt(np.diag(state.covariance)[6:9])
+
+
+def correction(
+    com: Vector3, displacement: Floats, testbed: Testbed, options: HoldOptions
+) -> Floats | None:
+    """Return displacements (m) that bring the centre of mass closer, or None."""
+    now = np.abs(com - options.target) / options.tolerance
+    if now.max() < ACT:
+        return None
+    masses, total = testbed.masses, testbed.body.mass
+    goal = displacements_for(masses, total, displacement, options.target - com)
+    change = com_shift(mass_maps(masses), total, goal - displacement)
+    then = np.abs(com + change - options.target) / options.tolerance
+    return goal if then.max() < now.max() - GAIN else None
+
+
+def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
+    """Yield a move whenever one is made, and a verdict at the end."""
+    testbed, end = bench.testbed, bench.time + options.duration
+    state, displacement = first_belief(knowledge, testbed), knowledge.displacement
+    fitted = knowledge.fitted.point
+    params = tracker.Params(
+        inertia_P=fitted.body(testbed.body.mass).inertia_P, torque=without_drift(fitted.torque)
+    )
+    worst = np.zeros(3)
+    while bench.time < end - 1e-9:
+        fresh = bench.read(min(LOOK, end - bench.time))
+        track = tracker.track(fresh, testbed, params, state)
+        state = track.end
+        displacement = last_of(fresh, displacement)
+        com, sd = standing(state, testbed, displacement)
+        worst = np.maximum(worst, np.abs(com - options.target))
+        if tilted(fresh, testbed):
+            bench.stop()
+            break
+        goal = correction(com, displacement, testbed, options)
+        if goal is not None:
+            move = move_of(com, state, displacement, goal, testbed)
+            bench.move(move.targets)
+            yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
+    yield verdict_step(bench, options, state, displacement, worst, bench.time < end - 1e-9)
+
+
+def without_drift(torque: Floats) -> Floats:
+    """Return torque coefficients without the drift, which the tracker follows by itself."""
+    kept = torque.copy()
+    kept[-3:] = 0.0
+    return kept
+
+
+def last_of(fresh: Recording, before: Floats) -> Floats:
+    """Return the reported displacements at the end of a record."""
+    masses: Samples | None = fresh.masses
+    return before if masses is None or not len(masses) else masses.values[-1]
+
+
+def tilted(fresh: Recording, testbed: Testbed) -> bool:
+    """Say whether the platform tilts beyond its limit."""
+    rows = fresh.attitude
+    if rows is None or not len(rows):
+        return False
+    return float(np.median(tilt(rows.values[-3:], testbed.up))) > testbed.tilt_limit
+
+
+def move_of(
+    com: Vector3, state: tracker.State, now: Floats, goal: Floats, testbed: Testbed
+) -> Move:
+    """Return the move to ``goal`` (m) with what it should lead to."""
+    speed = np.array([mass.speed for mass in testbed.masses])
+    change = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - now)
+    return Move(
+        targets={m.name: float(d) for m, d in zip(testbed.masses, goal, strict=True)},
+        travel=float(np.abs(goal - now).sum()),
+        duration=float((np.abs(goal - now) / speed).max()),
+        predicted_com=com + change,
+        predicted_covariance=state.covariance[6:9, 6:9],
+        reason="drift",
+    )
+
+
+def sentence_of(move: Move, com: Vector3) -> str:
+    """Return a correction in words."""
+    was = ", ".join(f"{1e6 * c:.1f}" for c in com)
+    return f"Drifted to ({was}) um; moved masses by {1e3 * move.travel:.0f} mm in all."
+
+
+def verdict_step(
+    bench: Bench, options: HoldOptions, state: tracker.State, displacement: Floats,
+    worst: Vector3, tilted_out: bool,
+) -> Step:
+    """Return the verdict on the whole hold."""
+    com, sd = standing(state, bench.testbed, displacement)
+    passed = bool(np.all(worst <= options.tolerance)) and not tilted_out
+    far = ", ".join(f"{1e6 * w:.1f}" for w in worst)
+    text = f"Held for {options.duration / 60:.3g} min; at most ({far}) um from the target."
+    if tilted_out:
+        text = "Stopped: the platform tilts beyond its limit."
+    verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, com, sd)
+    return Step("verify" if not tilted_out else "stop", bench.time, verdict.sentence,
+                verdict=verdict)  # fmt: skip

@@ -1,0 +1,193 @@
+"""Masses on rails against point masses put together, and the way back against brute force."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from builders import MASS, maps, sliding_masses
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from equipoise.actuators.sliding_masses import (
+    com_shift,
+    com_shift_covariance,
+    displacements_for,
+    inertia_shift,
+    mass_maps,
+)
+from equipoise.maths.linalg import unpack_symmetric
+from equipoise.model.mass_properties import MassProperties, combine, parallel_axis
+from equipoise.model.testbed import SlidingMass
+
+THREE = sliding_masses()
+HALF_STEP = 0.5e-3 * 0.0156 / MASS * (1 + 1e-6)  # m, what half a motor step does to the centre
+along = st.floats(-0.05, 0.05)
+displacements = arrays(np.float64, 3, elements=along)
+
+
+def rail(mass, home, axis, **more) -> SlidingMass:
+    axis = np.asarray(axis, dtype=float)
+    plain = SlidingMass(
+        "m", mass, np.asarray(home, dtype=float), axis / np.linalg.norm(axis),
+        (-0.05, 0.05), 1e-3, 0.0, 0.0, 0.01,
+    )  # fmt: skip
+    return replace(plain, **more)
+
+
+SKEW = (
+    rail(0.02, [0.2, 0.05, 0.0], [1.0, 0.3, 0.0]),
+    rail(0.03, [-0.1, 0.2, 0.1], [0.2, 1.0, -0.4]),
+    rail(0.01, [0.0, -0.1, 0.3], [0.3, 0.0, 1.0]),
+)
+
+
+def as_points(masses, d):
+    """Return the masses at their places, put together one by one."""
+    body = MassProperties(1e-9, np.zeros(3), np.zeros((3, 3)))
+    for mass, way in zip(masses, d, strict=True):
+        place = mass.home + way * mass.axis
+        point = MassProperties(mass.mass, place, parallel_axis(mass.mass, place))
+        body = combine(body, point)
+    return body
+
+
+def test_one_mass_by_hand():
+    """1 kg from (0, 0.2, 0) by 0.1 m along z: J_xx 0.04 -> 0.05, J_yy 0 -> 0.01, J_yz -0.02."""
+    one = mass_maps([rail(1.0, [0.0, 0.2, 0.0], [0.0, 0.0, 1.0])])
+    d = np.array([0.1])
+    np.testing.assert_allclose(inertia_shift(one, d), [0.01, 0.01, 0, 0, 0, -0.02], atol=1e-17)
+    np.testing.assert_allclose(com_shift(one, 10.0, d), [0, 0, 0.01])
+    np.testing.assert_allclose(one.momentum, [[0.2, 0.0, 0.0]])  # y x z = x
+
+
+@pytest.mark.parametrize("masses", [THREE, SKEW])
+@given(d=displacements)
+def test_shifts_are_those_of_point_masses(masses, d):
+    """J and com after minus before, from point masses at their places (rounding of 1e-3 kg m2)."""
+    before, after = as_points(masses, np.zeros(3)), as_points(masses, d)
+    change = unpack_symmetric(inertia_shift(mass_maps(masses), d))
+    np.testing.assert_allclose(change, after.inertia_P - before.inertia_P, atol=1e-16)
+    moved = com_shift(mass_maps(masses), MASS, d) * MASS
+    np.testing.assert_allclose(moved, after.first_moment - before.first_moment, atol=1e-16)
+
+
+@pytest.mark.parametrize("masses", [THREE, SKEW])
+@given(d=displacements, speed=displacements)
+def test_momentum_is_that_of_moving_points(masses, d, speed):
+    """sum m r x dr/dt by central differences; r is linear in time, so only rounding is left."""
+    step = 1e-3
+
+    def place(mass, way):
+        return mass.home + way * mass.axis
+
+    by_points = np.zeros(3)
+    for mass, x, v in zip(masses, d, speed, strict=True):
+        velocity = (place(mass, x + v * step) - place(mass, x - v * step)) / (2 * step)
+        by_points += mass.mass * np.cross(place(mass, x), velocity)
+    np.testing.assert_allclose(speed @ mass_maps(masses).momentum, by_points, atol=1e-14)
+
+
+@given(displacements, displacements)
+def test_there_and_back_within_half_a_step(now, wanted):
+    """A shift that the rails allow is made to half a motor step on each axis."""
+    now = np.round(now, 3)
+    shift = com_shift(maps(), MASS, wanted - now)
+    d = displacements_for(THREE, MASS, now, shift)
+    assert np.abs(com_shift(maps(), MASS, d - now) - shift).max() <= HALF_STEP
+    assert np.abs(d).max() <= 0.05 + 1e-12
+    np.testing.assert_allclose(d * 1e3, np.round(d * 1e3), atol=1e-9)
+
+
+@given(displacements)
+def test_without_steps_the_way_back_is_exact(wanted):
+    """Resolution 0: any place will do, and the shift is met to a nanometre."""
+    free = sliding_masses(resolution=0.0)
+    d = displacements_for(free, MASS, np.zeros(3), com_shift(maps(), MASS, wanted))
+    np.testing.assert_allclose(d, wanted, atol=1e-6)
+
+
+@given(displacements)
+def test_skew_rails_there_and_back(wanted):
+    """Axes that are not at right angles: steps that lead somewhere lead back there."""
+    wanted = np.round(wanted, 3)
+    shift = com_shift(mass_maps(SKEW), MASS, wanted)
+    d = displacements_for(SKEW, MASS, np.zeros(3), shift)
+    np.testing.assert_allclose(d, wanted, atol=1e-9)
+
+
+def test_unreachable_is_approached():
+    """A shift of 200 um along z needs 183 mm: the rail's end, and x and y are met all the same."""
+    shift = np.array([10e-6, -5e-6, 200e-6])
+    d = displacements_for(THREE, MASS, np.zeros(3), shift)
+    np.testing.assert_allclose(d, [0.009, -0.005, 0.05])  # 9.13 and 4.56 steps
+
+
+def test_where_a_mass_stands_off_its_steps_it_still_moves_by_whole_steps():
+    """From 0.4 mm, steps of 1 mm lead to 10.4 mm."""
+    now = np.array([0.0004, 0.0, 0.0])
+    shift = np.array([0.0101 * 0.0156 / MASS, 0.0, 0.0])
+    d = displacements_for(THREE, MASS, now, shift)
+    np.testing.assert_allclose(d, [0.0104, 0.0, 0.0], atol=1e-12)
+
+
+def best_of_grid(masses, shift):
+    """Try every whole number of millimetres: least error (sum over axes), then least travel."""
+    ways = np.array(list(itertools.product(np.arange(-5, 6) * 1e-3, repeat=len(masses))))
+    moment = mass_maps(masses).first_moment / MASS
+    error = np.abs(ways @ moment - shift).sum(axis=1)
+    least = error <= error.min() + 1e-12
+    return error.min(), np.abs(ways[least]).sum(axis=1).min()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_least_error_then_least_travel(seed):
+    """Against all 11^3 places on skew rails of 5 mm, reachable or not."""
+    rng = np.random.default_rng(seed)
+    masses = tuple(replace(m, travel=(-0.005, 0.005)) for m in SKEW)
+    shift = rng.uniform(-1, 1, 3) * 12e-6
+    d = displacements_for(masses, MASS, np.zeros(3), shift)
+    error = np.abs(d @ mass_maps(masses).first_moment / MASS - shift).sum()
+    least_error, least_travel = best_of_grid(masses, shift)
+    assert error == pytest.approx(least_error, abs=1e-11)
+    assert np.abs(d).sum() <= least_travel + 1e-9
+
+
+def test_redundant_masses_take_the_shortest_way():
+    """Six masses, two an axis, one of them three times as heavy: the heavy ones go alone.
+
+    Grid of whole steps on one axis: 30 um of 14.24 kg are 427 g mm: 9 x 46.8 g mm + 0.4 steps of
+    15.6 g mm, and 9 steps is less travel than 27 of the light one.
+    """
+    heavy = tuple(replace(m, name=m.name + "2", mass=3 * m.mass) for m in THREE)
+    shift = np.full(3, 9 * 3 * 0.0156e-3 / MASS)
+    d = displacements_for(THREE + heavy, MASS, np.zeros(6), shift)
+    np.testing.assert_allclose(d, [0, 0, 0, 0.009, 0.009, 0.009], atol=1e-12)
+
+
+def test_twins_share_only_when_in_haste():
+    """Two equal masses: alone, one goes all the way; in haste they share it and finish sooner."""
+    twins = (THREE[0], replace(THREE[0], name="x2"))
+    shift = np.array([20 * 0.0156e-3 / MASS, 0.0, 0.0])
+    alone = displacements_for(twins, MASS, np.zeros(2), shift)
+    hasty = displacements_for(twins, MASS, np.zeros(2), shift, haste=1.0)
+    np.testing.assert_allclose(np.sort(alone), [0.0, 0.02], atol=1e-12)
+    np.testing.assert_allclose(hasty, [0.01, 0.01], atol=1e-12)
+
+
+def test_uncertainty_of_a_move_by_hand():
+    """Only masses that move add: 15.6 g stopping within 1/3 mm spread 14.24 kg by 0.365 um."""
+    accuracy, moved = np.full(3, 1e-3 / 3), np.array([1.0, 0.0, 1.0])
+    found = com_shift_covariance(maps(), MASS, accuracy, moved)
+    sd = 0.0156 / MASS * 1e-3 / 3
+    np.testing.assert_allclose(found, np.diag([sd**2, 0.0, sd**2]), atol=1e-22)
+
+
+def test_uncertainty_of_a_move_on_skew_rails():
+    """The spread of 200 000 drawn stops; 4 sd of a variance are 1.3 %, of the largest entry."""
+    rng, sd = np.random.default_rng(2), np.array([1e-4, 3e-4, 2e-4])
+    drawn = sd * rng.normal(size=(200_000, 3))
+    cloud = drawn @ mass_maps(SKEW).first_moment / MASS
+    found = com_shift_covariance(mass_maps(SKEW), MASS, sd, np.ones(3))
+    np.testing.assert_allclose(found, np.cov(cloud.T), rtol=0, atol=0.013 * found.max())

@@ -1,0 +1,109 @@
+"""When masses stood, and how far the error of each stop is felt."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from builders import sliding_masses
+
+from equipoise.actuators.stops import felt, stop_errors, travels
+from equipoise.model.recording import Samples
+
+SPEED, SD = 0.01, 3e-4
+X, Y, Z = sliding_masses(accuracy=SD)
+
+
+def track(*columns) -> Samples:
+    """Millimetres at 0, 10, 11, 20, 22, 30 s."""
+    return Samples(np.array([0.0, 10, 11, 20, 22, 30]), np.array(columns).T * 1e-3)
+
+
+HOME = [0, 0, 0, 0, 0, 0]
+ONCE = [0, 0, 10, 10, 10, 10]
+TWICE = [0, 0, 10, 10, 30, 30]
+
+
+def test_travels_by_hand():
+    """Rows 1 to 2 and 3 to 4 are travels, the rest is standing."""
+    t, d = track(TWICE).t, track(TWICE).values[:, 0]
+    assert travels(t, d, SPEED) == [(1, 2), (3, 4)]
+
+
+def test_a_travel_of_many_rows_is_one():
+    """Ten rows on the way from 10 to 11 s are one travel; readout noise is not."""
+    t = np.concatenate([np.arange(0.0, 10), np.linspace(10, 11, 11), np.arange(12.0, 20)])
+    d = np.interp(t, [10, 11], [0, 0.01]) + 1e-5 * (-1.0) ** np.arange(len(t))
+    assert travels(t, d, SPEED) == [(10, 20)]
+
+
+def test_standing_still_has_no_travel():
+    """A mass that never moves, and one that is moving from the first row to the last."""
+    t = np.arange(5.0)
+    assert travels(t, np.zeros(5), SPEED) == []
+    assert travels(t, 0.01 * t, SPEED) == [(0, 4)]
+
+
+def test_felt_up_on_down_by_hand():
+    """Arriving from 10 to 11 s, leaving from 20 to 22 s: 0, then 1, then half-way gone at 21 s."""
+    t = np.array([0.0, 10, 10.5, 11, 20, 21, 22, 30])
+    assert felt(t, (1, 3), (4, 6)).tolist() == [0, 0, 0.5, 1, 1, 0.5, 0, 0]
+
+
+def test_felt_from_the_first_row_and_to_the_last():
+    """A stop that the record begins with is felt at once; one that it ends with, to the end."""
+    t = np.arange(5.0)
+    assert felt(t, (0, 0), (2, 3)).tolist() == [1, 1, 1, 0, 0]
+    assert felt(t, (1, 2), (4, 4)).tolist() == [0, 0, 1, 1, 1]
+
+
+def test_home_has_no_error():
+    """Starting at home, one move: one unknown, felt after the travel, none for x at home."""
+    found = stop_errors(track(ONCE, HOME, HOME), (X, Y, Z))
+    assert found.names == ("error_x_1",)
+    assert found.owner.tolist() == [0]
+    assert found.sd.tolist() == [SD]
+    assert found.felt is not None
+    assert found.felt.values[:, 0].tolist() == [0, 0, 1, 1, 1, 1]
+
+
+def test_off_home_start_has_an_error_of_its_own():
+    """A mass already 20 mm out stands there with an error, until it leaves."""
+    found = stop_errors(track([20, 20, 30, 30, 30, 30]), (X,))
+    assert found.names == ("error_x_1", "error_x_2")
+    assert found.felt is not None
+    assert found.felt.values.T.tolist() == [[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 1, 1]]
+
+
+def test_two_moves_hand_the_error_over():
+    """Each stop has its own error; during travel the first goes as the second comes."""
+    found = stop_errors(track(TWICE, HOME, ONCE), (X, Y, Z))
+    assert found.names == ("error_x_1", "error_x_2", "error_z_1")
+    assert found.owner.tolist() == [0, 0, 2]
+    assert found.felt is not None
+    first, second, _ = found.felt.values.T
+    assert first.tolist() == [0, 0, 1, 1, 0, 0]
+    assert second.tolist() == [0, 0, 0, 0, 1, 1]
+
+
+def test_off_home_and_never_moved():
+    """Standing 20 mm out for the whole record: one error, always felt."""
+    found = stop_errors(track([20] * 6), (X,))
+    assert found.felt is not None
+    assert found.felt.values[:, 0].tolist() == [1] * 6
+
+
+@pytest.mark.parametrize("masses", [(replace(X, accuracy=0.0),), ()])
+def test_exact_masses_have_no_errors(masses):
+    """Accuracy 0, or no masses: nothing unknown."""
+    found = stop_errors(track(TWICE) if masses else None, masses)
+    assert found.felt is None
+    assert found.names == ()
+    assert found.owner.shape == found.sd.shape == (0,)
+
+
+def test_each_mass_keeps_its_own_accuracy():
+    """x exact, y to 0.3 mm, z to 1 mm."""
+    masses = (replace(X, accuracy=0.0), Y, replace(Z, accuracy=1e-3))
+    found = stop_errors(track(ONCE, ONCE, ONCE), masses)
+    assert found.owner.tolist() == [1, 2]
+    assert found.sd.tolist() == [SD, 1e-3]

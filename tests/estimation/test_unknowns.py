@@ -1,0 +1,162 @@
+"""Steps of the search: consistent coordinates, and never out of the bodies that can exist."""
+
+import numpy as np
+import pytest
+from builders import ATTITUDE, COM, INERTIA, MASS, RATE
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from equipoise.estimation.unknowns import (
+    JP,
+    Layout,
+    R,
+    Unknowns,
+    boundary,
+    physical,
+    possible_step,
+    retract,
+    stride,
+)
+from equipoise.maths.attitude import difference
+from equipoise.maths.levenberg_marquardt import Quadratic, promise, scaled_solve
+from equipoise.maths.linalg import unpack_symmetric
+from equipoise.maths.pseudo_inertia import FLOOR, from_inertia
+from equipoise.model.mass_properties import parallel_axis, second_moments, smallest_second_moment
+
+LAYOUT = Layout(("viscous_y", "sag_xz"), ("error_x_1",), bias=True)
+FLAT = np.array([0.4, 0.5, 0.899, 0.0, 0.0, 0.0])  # least second moment (0.4 + 0.5 - 0.899) / 2
+# J by 5e-4 kg m2: the platform is flat, its least second moment is 4e-3
+SIZES = np.repeat([0.03, 0.02, 5e-4, 1e-5, 1e-4, 1e-6, 1e-3], [3, 3, 6, 3, 1, 1, 4])
+steps = arrays(np.float64, LAYOUT.size, elements=st.floats(-1.0, 1.0)).map(lambda s: s * SIZES)
+
+
+def point(inertia=INERTIA, com=COM) -> Unknowns:
+    six = from_inertia(unpack_symmetric(inertia) - parallel_axis(MASS, com))
+    return Unknowns(ATTITUDE, RATE, six, com, np.zeros(16), np.zeros(1), np.zeros(3))
+
+
+def local(seed: int, pull: np.ndarray) -> Quadratic:
+    """A local model with its free optimum at ``pull`` and correlated unknowns."""
+    mix = np.random.default_rng(seed).normal(size=(40, LAYOUT.size)) / SIZES
+    normal = mix.T @ mix
+    return Quadratic(0.0, normal, normal @ pull)
+
+
+def test_names_units_and_coordinates_have_one_length():
+    """Optional unknowns come in the order: torques, errors, bias."""
+    assert LAYOUT.size == 15 + 2 + 1 + 3
+    assert len(LAYOUT.names) == len(LAYOUT.units) == LAYOUT.size
+    assert LAYOUT.names[15:19] == ("viscous_y", "sag_xz", "error_x_1", "gyro_bias_x")
+    assert len(physical(point(), MASS, LAYOUT)) == LAYOUT.size
+
+
+@given(steps)
+def test_a_step_adds_to_the_coordinates(step):
+    """Each coordinate moves by its own part, to rounding; the first attitude turns by it."""
+    before = point()
+    after = retract(before, step, MASS, LAYOUT)
+    moved = physical(after, MASS, LAYOUT) - physical(before, MASS, LAYOUT)
+    np.testing.assert_allclose(moved[3:], step[3:], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(difference(after.q0, before.q0), step[:3], atol=1e-14)
+
+
+def test_each_torque_goes_to_its_own_place():
+    """viscous_y is the second of the sixteen, sag_xz the twelfth."""
+    step = np.zeros(LAYOUT.size)
+    step[15:17] = 1.0, 2.0
+    found = retract(point(), step, MASS, LAYOUT).torque
+    assert np.flatnonzero(found).tolist() == [1, 11]
+    assert found[[1, 11]].tolist() == [1.0, 2.0]
+
+
+def test_without_bias_the_bias_stays():
+    """A layout without gyro has no place for it."""
+    start, layout = point(), Layout()
+    start.bias[:] = 1.0
+    after = retract(start, np.zeros(layout.size), MASS, layout)
+    assert after.bias.tolist() == [1.0] * 3
+
+
+def outward() -> np.ndarray:
+    """A step that takes zz beyond xx + yy."""
+    step = np.zeros(LAYOUT.size)
+    step[JP] = 0.003, -0.004, 0.004, 0.001, -0.002, 0.001
+    step[R] = 2e-6, -3e-6, 1e-6
+    return step
+
+
+def second_moment_along(v, start, step):
+    com = start.com + step[R]
+    inertia = start.body(MASS).inertia_P + unpack_symmetric(step[JP])
+    return v @ second_moments(inertia - parallel_axis(MASS, com)) @ v
+
+
+def test_boundary_rows_are_the_derivative_of_the_second_moment():
+    """d(v.Sigma_C v) by central differences of 1e-4, along the direction in which it gets lost."""
+    start, step = point(FLAT, np.array([5e-3, -2e-3, 4e-3])), outward()
+    rows, gaps = boundary(start, MASS, LAYOUT, step)
+    assert len(rows) == 1
+    com = start.com + step[R]
+    there = start.body(MASS).inertia_P + unpack_symmetric(step[JP]) - parallel_axis(MASS, com)
+    v = np.linalg.eigh(second_moments(there))[1][:, 0]
+    numeric = [
+        (second_moment_along(v, start, e) - second_moment_along(v, start, -e)) / 2e-4
+        for e in 1e-4 * np.eye(LAYOUT.size)
+    ]
+    np.testing.assert_allclose(rows[0], numeric, atol=1e-10)
+    floor = gaps[0] + second_moment_along(v, start, np.zeros(LAYOUT.size))
+    trace = np.trace(unpack_symmetric(FLAT))
+    assert FLOOR * trace <= floor <= 10 * FLOOR * trace  # just inside what is kept possible
+
+
+def test_a_possible_step_meets_no_boundary():
+    """Well inside, nothing is in the way."""
+    rows, gaps = boundary(point(), MASS, LAYOUT, 0.1 * outward())
+    assert rows.shape == (0, LAYOUT.size)
+    assert gaps.shape == (0,)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_inside_the_step_is_the_free_one(seed):
+    """The optimum of the local model, damped as told."""
+    model = local(seed, 0.1 * outward())
+    for damping in (1e-6, 0.5):
+        found = possible_step(point(), MASS, LAYOUT, model, damping)
+        free = scaled_solve(model.normal, model.descent, damping)
+        np.testing.assert_allclose(found, free, rtol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_at_the_boundary_the_step_is_the_best_possible(seed):
+    """It ends on the boundary, and no change along the boundary lowers the local model."""
+    start, model = point(FLAT), local(seed, outward())
+    free = scaled_solve(model.normal, model.descent, 0.0)
+    assert len(boundary(start, MASS, LAYOUT, free)[0]) == 1
+    step = possible_step(start, MASS, LAYOUT, model, 0.0)
+    after = retract(start, step, MASS, LAYOUT).body(MASS)
+    least, trace = smallest_second_moment(after.inertia_C), np.trace(after.inertia_P)
+    assert 0 < least < 1e-4 * trace  # the boundary is bent: its tangent leaves it a little
+    rows, _ = boundary(start, MASS, LAYOUT, free)
+    left = (model.descent - model.normal @ step) * SIZES
+    along = rows[0] * SIZES / np.linalg.norm(rows[0] * SIZES)
+    across = left - along * (along @ left)
+    assert np.linalg.norm(across) < 0.05 * np.linalg.norm(left)
+    assert promise(model, step) > 0
+
+
+@pytest.mark.parametrize("name", ["turn_y", "rate_z", "inertia_P_xx"])
+def test_no_step_is_longer_than_can_be_believed(name):
+    """A radian, a radian a second, the trace of J: a hundred times that is cut to one."""
+    pull = np.zeros(LAYOUT.size)
+    k = LAYOUT.names.index(name)
+    pull[k] = 100.0 * (np.trace(unpack_symmetric(INERTIA)) if name.startswith("inertia") else 1.0)
+    step = possible_step(point(), MASS, LAYOUT, Quadratic(0.0, np.eye(LAYOUT.size), pull), 0.0)
+    assert 0 < stride(step, point(), MASS) <= 1 + 1e-12
+
+
+@given(steps, st.sampled_from([INERTIA, FLAT]))
+def test_no_step_leaves_the_possible_bodies(step, inertia):
+    """Even one that asks for it."""
+    after = retract(point(inertia), 200 * step, MASS, LAYOUT).body(MASS)
+    assert smallest_second_moment(after.inertia_C) > 0

@@ -1,0 +1,72 @@
+"""Cross products, six numbers of a symmetric matrix, inverses and whiteness."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from equipoise.maths.linalg import inverse_spd, lag_one, pack_symmetric, skew, unpack_symmetric
+
+vectors = arrays(np.float64, 3, elements=st.floats(-10.0, 10.0))
+sixes = arrays(np.float64, 6, elements=st.floats(-10.0, 10.0))
+
+
+@given(vectors, vectors)
+def test_skew_is_the_cross_product(a, b):
+    """[a x] b = a x b, and [a x] is antisymmetric."""
+    np.testing.assert_allclose(skew(a) @ b, np.cross(a, b), atol=1e-13)
+    assert (skew(a) + skew(a).T == 0).all()
+
+
+def test_order_of_the_six_numbers_by_hand():
+    """xx yy zz xy xz yz."""
+    expected = [[1.0, 4.0, 5.0], [4.0, 2.0, 6.0], [5.0, 6.0, 3.0]]
+    assert unpack_symmetric(np.arange(1.0, 7.0)).tolist() == expected
+
+
+@given(sixes)
+def test_six_numbers_there_and_back(six):
+    """Nothing is lost: the way back gives the same bits, and the matrix is symmetric."""
+    matrix = unpack_symmetric(six)
+    assert pack_symmetric(matrix).tolist() == six.tolist()
+    assert (matrix == matrix.T).all()
+
+
+@pytest.mark.parametrize("powers", [(0, 0, 0, 0), (-8, 0, 6, 3), (10, -10, 0, 5)])
+def test_inverse_does_not_mind_units(powers):
+    """Rounding stays that of the unit-diagonal matrix (condition below 30) in any units."""
+    unit = 0.3 * np.ones((4, 4)) + 0.7 * np.eye(4)
+    scale = 10.0 ** np.array(powers)
+    matrix = unit * np.outer(scale, scale)
+    found = inverse_spd(matrix) * np.outer(scale, scale)
+    np.testing.assert_allclose(found @ unit, np.eye(4), atol=1e-14)
+    assert (found == found.T).all()
+
+
+@pytest.mark.parametrize("rho", [-0.5, 0.0, 0.8])
+def test_lag_one_of_an_autoregression(rho):
+    """x_k = rho x_{k-1} + noise has lag-one correlation rho; 4 sd of 60 000 rows are 0.016."""
+    rng = np.random.default_rng(7)
+    x = np.zeros((20_000, 3))
+    noise = rng.normal(size=x.shape)
+    for k in range(1, len(x)):
+        x[k] = rho * x[k - 1] + noise[k]
+    assert lag_one(x + [1.0, -2.0, 0.0]) == pytest.approx(rho, abs=0.017)
+
+
+def test_lag_one_by_hand():
+    """-1 1 -1 1: three neighbours of product -1 over a power of 4."""
+    assert lag_one(np.array([[-1.0], [1.0], [-1.0], [1.0]])) == -0.75
+
+
+@pytest.mark.parametrize("rows", [0, 1, 2])
+def test_lag_one_of_too_few_rows_is_nothing(rows):
+    """Two rows always have correlation -1/2: that says nothing."""
+    with np.errstate(invalid="raise"):
+        assert lag_one(np.arange(3.0 * rows).reshape(rows, 3)) == 0.0
+
+
+def test_lag_one_of_a_constant_is_nothing():
+    """No power, no correlation, and no division by zero."""
+    assert lag_one(np.ones((5, 3))) == 0.0

@@ -1,0 +1,101 @@
+"""Six numbers give every possible inertia and no other."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.maths.pseudo_inertia import (
+    FLOOR,
+    from_inertia,
+    jacobian,
+    nearest_possible,
+    to_inertia,
+)
+from equipoise.model.mass_properties import (
+    inertia_from_second_moments,
+    second_moments,
+    smallest_second_moment,
+)
+
+sixes = arrays(np.float64, 6, elements=st.floats(-3.0, 3.0))
+
+
+@st.composite
+def possible(draw):
+    """Inertias of boxes with sides of 0.05 to 2 m in any orientation."""
+    sides = draw(arrays(np.float64, 3, elements=st.floats(0.05, 2.0)))
+    turn, _ = np.linalg.qr(draw(arrays(np.float64, (3, 3), elements=st.floats(-1, 1))) + np.eye(3))
+    sigma = turn @ np.diag(sides**2) @ turn.T
+    return inertia_from_second_moments(0.5 * (sigma + sigma.T))
+
+
+@given(possible())
+def test_inertia_there_and_back(inertia):
+    """A possible inertia comes back to rounding of its size."""
+    back = to_inertia(from_inertia(inertia))
+    np.testing.assert_allclose(back, inertia, rtol=0, atol=1e-13 * np.trace(inertia))
+
+
+@given(sixes)
+def test_every_six_numbers_are_a_body(six):
+    """J is symmetric, its second moments are positive, hence so are its moments.
+
+    Positive means the determinant of the factor, e^(a1 + a2 + a3) > 0; rounding may hide moments
+    less than 1e-15 of the largest, so it is asked of the numbers' own determinant.
+    """
+    inertia = to_inertia(six)
+    assert (inertia == inertia.T).all()
+    assert smallest_second_moment(inertia) > -1e-14 * np.trace(inertia)
+    sign, log_det = np.linalg.slogdet(np.linalg.cholesky(second_moments(inertia)))
+    assert sign == 1
+    assert log_det == pytest.approx(six[:3].sum(), abs=1e-3)
+
+
+@given(sixes)
+def test_jacobian_by_finite_differences(six):
+    """Central differences of 1e-5: entries up to e^6 = 400, error 1e-10 of them and rounding."""
+    step = 1e-5
+    numeric = [
+        pack_symmetric(to_inertia(six + e) - to_inertia(six - e)) / (2 * step)
+        for e in step * np.eye(6)
+    ]
+    np.testing.assert_allclose(jacobian(six), np.column_stack(numeric), atol=1e-6)
+
+
+def test_sphere_by_hand():
+    """Sigma = E: a_i = 0, b = 0, J = 2 E."""
+    assert to_inertia(np.zeros(6)).tolist() == (2 * np.eye(3)).tolist()
+    np.testing.assert_allclose(from_inertia(2 * np.eye(3)), 0.0, atol=1e-16)
+
+
+@pytest.mark.parametrize(
+    "impossible",
+    [
+        np.diag([1.0, 1.0, 3.0]),  # triangle inequality
+        np.diag([-0.2, 1.0, 1.0]),
+        np.array([[1.0, 0.9, 0.0], [0.9, 1.0, 0.2], [0.0, 0.2, 1.0]]),
+    ],
+)
+def test_impossible_is_moved_to_the_floor_and_no_further(impossible):
+    """Second moments below the floor are raised to it; directions and the others stay."""
+    values, vectors = np.linalg.eigh(second_moments(impossible))
+    moved = second_moments(nearest_possible(impossible))
+    expected = np.maximum(values, FLOOR * np.trace(impossible))
+    assert values[0] < 0 < smallest_second_moment(nearest_possible(impossible))
+    np.testing.assert_allclose(vectors.T @ moved @ vectors, np.diag(expected), atol=1e-13)
+
+
+@given(possible())
+def test_possible_stays(inertia):
+    """Nothing is done to what needs nothing."""
+    found = nearest_possible(inertia)
+    np.testing.assert_allclose(found, inertia, rtol=0, atol=1e-13 * np.trace(inertia))
+
+
+def test_nothing_at_all_still_gives_a_body():
+    """A zero or negative trace has no size to take a fraction of; the result is finite."""
+    assert smallest_second_moment(nearest_possible(np.zeros((3, 3)))) > 0
+    assert smallest_second_moment(nearest_possible(-np.eye(3))) > 0
