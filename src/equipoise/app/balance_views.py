@@ -49,7 +49,7 @@ def account_of(done: Balancing, seed: int) -> Account:
         estimate=done.estimate,
         verdict=done.verdict,
         change=change_of(done),
-        pictures=[*pictures_of_first_look(done), *pictures_of(done)],
+        pictures=[*pictures_of_tracking(done), *pictures_of(done)],
     )
 
 
@@ -62,13 +62,12 @@ def asked(done: Balancing) -> dict[str, str]:
     }
 
 
-def pictures_of_first_look(done: Balancing) -> list[Picture]:
-    """Return Figs. 11 and 12 of the first look, in which the masses stand still."""
-    first = next((s.recording for s in done.steps if s.recording is not None), None)
-    if first is None or first.attitude is None:
+def pictures_of_tracking(done: Balancing) -> list[Picture]:
+    """Return Figs. 11 and 12; the tracker's centre of mass is with the masses at home."""
+    if done.recording is None or done.recording.attitude is None:
         return []
     truth = None if done.truth_before is None else done.truth_before.com
-    return list(of_tracking(first, done.testbed, inertia_of(done.estimate), truth))
+    return list(of_tracking(done.recording, done.testbed, inertia_of(done.estimate), truth))
 
 
 def pictures_of(done: Balancing) -> list[Picture]:

@@ -2,22 +2,23 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import reduce
 
 import numpy as np
 
 from equipoise.app.change import Believed, Change
 from equipoise.app.figures.balanced_com import Look
+from equipoise.app.recorded_bench import RecordedBench
 from equipoise.app.terminal import watched
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.mass_properties import MassProperties
-from equipoise.model.recording import Recording, join
+from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.procedure.hold import HoldOptions, balance_and_hold
 from equipoise.simulation.bench import SimulatedBench
 
 END = ("com_end_x", "com_end_y", "com_end_z")
@@ -39,6 +40,7 @@ class Balancing:
     testbed: Testbed
     goal: Goal
     steps: Sequence[Step]
+    recording: Recording | None = None  # all that the bench was read
     truth_before: MassProperties | None = None
     truths: Sequence[MassProperties] = ()
     before: Believed | None = None  # as known otherwise; None: the first estimate's
@@ -52,12 +54,6 @@ class Balancing:
     def estimate(self) -> Estimate | None:
         """Return the last estimate."""
         return next((s.estimate for s in reversed(self.steps) if s.estimate is not None), None)
-
-    @property
-    def recording(self) -> Recording | None:
-        """Return all that was recorded, as one."""
-        parts = [step.recording for step in self.steps if step.recording is not None]
-        return reduce(join, parts) if parts else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,11 +69,11 @@ def run(
     bench: SimulatedBench, goal: Goal, limits: Limits, show: Callable[[Step], None] | None
 ) -> Balancing:
     """Balance a simulated bench, show each step as it comes; Ctrl-C halts the bench."""
-    before = bench.truth()
+    before, recorded = bench.truth(), RecordedBench(bench)
     steps: list[Step] = []
     truths: list[MassProperties] = []
     try:
-        for step in procedure(bench, goal, limits):
+        for step in watched(procedure(recorded, goal, limits), "balancing"):
             if show is not None:
                 show(step)
             steps.append(step)
@@ -85,22 +81,15 @@ def run(
     except KeyboardInterrupt as by_hand:
         bench.stop()
         raise KeyboardInterrupt(HALTED) from by_hand
-    return Balancing(bench.testbed, goal, steps, before, truths)
+    return Balancing(bench.testbed, goal, steps, recorded.recording(), before, truths)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
-    """Yield the steps of balancing and, when that passes and it is asked for, of holding."""
-    options = BalanceOptions(goal.target, goal.tolerance, limits.max_moves, limits.max_time)
-    last, estimate = None, None
-    for step in watched(balance(bench, options), "balancing"):
-        last, estimate = step, step.estimate or estimate
-        yield step
-    passed = last is not None and last.verdict is not None and last.verdict.passed
-    if passed and limits.hold > 0 and estimate is not None:
-        from equipoise.procedure.hold import HoldOptions, hold
-
-        options = HoldOptions(limits.hold, goal.target, goal.tolerance)
-        yield from watched(hold(bench, estimate, options), "holding")
+    """Return the steps of balancing and, when that passes and it is asked for, of holding."""
+    balancing = BalanceOptions(goal.target, goal.tolerance, limits.max_moves, limits.max_time)
+    if limits.hold == 0:
+        return balance(bench, balancing)
+    return balance_and_hold(bench, balancing, HoldOptions(limits.hold, goal.target, goal.tolerance))
 
 
 def at_home(estimate: Estimate) -> Believed | None:

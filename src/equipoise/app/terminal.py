@@ -72,7 +72,7 @@ def busy(what: str, announce: bool = True) -> Generator[None]:
 
         def show(text: str) -> None:
             status.update(f"{text} ...")
-            if not console.is_terminal and text not in said:
+            if announce and not console.is_terminal and text not in said:
                 said.append(text)
                 console.print(f"{text} ...")
 
