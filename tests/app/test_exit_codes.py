@@ -134,3 +134,10 @@ def test_unwritable_outputs_are_told_before_any_work(equipoise, tmp_path, record
         assert (done.code, done.out) == (2, ""), words
         assert is_one_sentence(done.err), words
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_holding_follows_balancing(equipoise):
+    """The verdict of the hold is the last word."""
+    done = equipoise("balance", "sputnix", "--seed", "3", "--hold-min", "0.5")
+    assert done.code in (0, 1)
+    assert "0.5 min" in done.out

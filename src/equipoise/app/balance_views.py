@@ -66,8 +66,7 @@ def pictures_of_tracking(done: Balancing) -> list[Picture]:
     """Return Figs. 11 and 12; the tracker's centre of mass is with the masses at home."""
     if done.recording is None or done.recording.attitude is None:
         return []
-    truth = None if done.truth_before is None else done.truth_before.com
-    return list(of_tracking(done.recording, done.testbed, inertia_of(done.estimate), truth))
+    return list(of_tracking(done.recording, done.testbed, inertia_of(done.estimate), None))
 
 
 def pictures_of(done: Balancing) -> list[Picture]:

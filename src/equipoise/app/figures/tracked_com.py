@@ -11,7 +11,7 @@ from equipoise.model.recording import Recording
 
 CAPTION = (
     "Centre of mass with the masses at home as the tracker (Kalman filter) sees it, um in body "
-    "axes. Bands: two standard deviations. Dashed: the simulated truth."
+    "axes. Bands: two standard deviations. Dashed, if drawn: the simulated truth."
 )
 
 
