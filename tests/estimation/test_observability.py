@@ -91,7 +91,7 @@ def test_open_scale_is_called_by_its_name():
     assert view.scale_open
     assert "scale" in view.sentences[0]
     assert {"com_z", "inertia_P_xx", "inertia_P_yy", "inertia_P_zz"} <= hidden(view)
-    assert not hidden(view) & {"rate_x", "turn_z", "swirl", "error_x_1", "gyro_bias_x"}
+    assert not hidden(view) & {"rate_x", "attitude_z", "swirl", "error_x_1", "gyro_bias_x"}
 
 
 def test_ratios_keep_their_sd_when_the_scale_is_open():

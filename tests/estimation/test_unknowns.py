@@ -145,7 +145,7 @@ def test_at_the_boundary_the_step_is_the_best_possible(seed):
     assert promise(model, step) > 0
 
 
-@pytest.mark.parametrize("name", ["turn_y", "rate_z", "inertia_P_xx"])
+@pytest.mark.parametrize("name", ["attitude_y", "rate_z", "inertia_P_xx"])
 def test_no_step_is_longer_than_can_be_believed(name):
     """A radian, a radian a second, the trace of J: a hundred times that is cut to one."""
     pull = np.zeros(LAYOUT.size)

@@ -118,7 +118,6 @@ def test_unseen_parameter_stays():
     np.testing.assert_allclose(step, [1.0, 0.0], atol=1e-8)
 
 
-@pytest.mark.xfail(reason="heavy damping shrinks the promise below the tolerance", strict=True)
 def test_a_point_where_every_step_fails_is_not_called_converged():
     """A gradient of the wrong sign: the cost can only rise, and that is no convergence."""
 

@@ -147,9 +147,7 @@ def parameters_of(
     values = physical(fitted.point, problem.mass, layout)
     values[TURN] = logarithm(fitted.point.q0)
     order = selection(layout)
-    rows, names, units = np.eye(layout.size)[order], [*layout.names], [*layout.units]
-    names[0:3] = "attitude_x", "attitude_y", "attitude_z"
-    labels = [(names[k], units[k]) for k in order]
+    rows, labels = np.eye(layout.size)[order], [(layout.names[k], layout.units[k]) for k in order]
     reported = values[order]
     end = end_rows(fitted)
     if end is not None:

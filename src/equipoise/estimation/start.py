@@ -17,7 +17,7 @@ from equipoise.maths.levenberg_marquardt import scaled_solve
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.model.mass_properties import parallel_axis
+from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -38,6 +38,8 @@ def start(
     motion = sampled_motion(recording, testbed)
     inertia, com, momentum = solve(recording, testbed, motion)
     w0 = first_rate(recording, testbed, motion, inertia, momentum)
+    if not is_possible(MassProperties(testbed.body.mass, com, inertia)):
+        inertia, com = testbed.body.inertia_P, testbed.body.com
     inertia, com = kept(inertia, com, testbed, hold)
     inertia_C = inertia - parallel_axis(testbed.body.mass, com)
     turn = exponential(w0 * (first - motion.t[0]))

@@ -82,14 +82,24 @@ def fastest_rate(recording: Recording) -> float:
     return max(float(np.percentile(r, 95)) for r in rates)
 
 
+def is_scale_open(recording: Recording, params: Params) -> bool:
+    """Say whether nothing in the record or the options fixes the scale of J and com."""
+    return not (params.use_prior or params.hold or changes(recording))
+
+
+def held_names(recording: Recording, testbed: Testbed, params: Params) -> tuple[str, ...]:
+    """Return the parameters that do not move: the user's, or one moment for an open scale."""
+    largest = INERTIA[int(np.argmax(np.diag(testbed.body.inertia_P)))]
+    return (largest,) if is_scale_open(recording, params) else params.hold
+
+
 def problem_of(
     recording: Recording, testbed: Testbed, params: Params, torque_anchor: float = ANCHOR
 ) -> Problem:
     """Return the least-squares problem of a record."""
     layout, stops = layout_of(recording, testbed, params), stops_of(recording, testbed)
-    scale_open = not (params.use_prior or params.hold or changes(recording))
-    largest = INERTIA[int(np.argmax(np.diag(testbed.body.inertia_P)))]
-    hold = (largest,) if scale_open else params.hold
+    scale_open = is_scale_open(recording, params)
+    hold = held_names(recording, testbed, params)
     prior = prior_of(testbed, stops, layout, params.use_prior, hold, torque_anchor)
     limit = HUBER if params.robust else 0.0
     fastest = fastest_rate(recording)
@@ -160,7 +170,9 @@ def fit(
     problem = problem_of(recording, testbed, params)
     if guess is None:
         first = float(problem.line.t[0])
-        point = start(recording, testbed, problem.layout, first, params.hold)
+        point = start(
+            recording, testbed, problem.layout, first, held_names(recording, testbed, params)
+        )
         if params.terms or misfit(problem, point) > CAPTURE:
             point = approach(recording, testbed, params, point)
     else:
@@ -179,9 +191,10 @@ def held_out(recording: Recording, testbed: Testbed, params: Params, fitted: Fit
     ahead = replace(early, error=fitted.point.error)
     at, seen = evaluate(fitted.problem, ahead), fitted.problem.seen
     camera = len(at.left_q) > 0
-    t = recording.attitude.t if camera and recording.attitude else recording.rate.t
+    rows = recording.attitude if camera else recording.rate
+    assert rows is not None
     left = (at.left_q * seen.attitude_sd) if camera else (at.left_w * seen.rate_sd)
-    fresh = left[t > cut]
+    fresh = left[rows.t > cut]
     rms = float(np.sqrt(np.mean(fresh**2))) if len(fresh) else None
     return replace(residual, held_out_rms=rms, held_out_span=(cut, last))
 

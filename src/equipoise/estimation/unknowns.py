@@ -52,7 +52,7 @@ class Layout:
     @property
     def names(self) -> tuple[str, ...]:
         """Return the names in physical coordinates."""
-        first = ("turn_x", "turn_y", "turn_z", "rate_x", "rate_y", "rate_z")
+        first = ("attitude_x", "attitude_y", "attitude_z", "rate_x", "rate_y", "rate_z")
         bias = ("gyro_bias_x", "gyro_bias_y", "gyro_bias_z") if self.bias else ()
         return (*first, *INERTIA, *COM, *self.terms, *self.errors, *bias)
 

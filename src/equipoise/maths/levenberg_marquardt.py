@@ -15,6 +15,8 @@ import numpy as np
 from equipoise.model.arrays import Floats, Square
 
 Point = TypeVar("Point")
+FREE = 1e-2  # damping beyond which a small promise may only say that steps are kept small
+NEAR = 100.0  # by how much the promise of a bolder step may exceed the tolerance: 0.1 sd
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,7 +74,8 @@ def minimise(
         trial, promised = propose(point, local, damping)
         misfit = max(1.0, 2 * local.cost / rows) if rows else 1.0
         if promised < tolerance * misfit:
-            return Solution(point, local, True, evaluations)
+            bold = promised if damping < FREE else propose(point, local, FREE)[1]
+            return Solution(point, local, abs(bold) < NEAR * tolerance * misfit, evaluations)
         there = evaluate(trial)
         evaluations += 1
         gained = 2.0 * (local.cost - there.cost)

@@ -40,7 +40,8 @@ class HoldOptions:
 def balance_and_hold(
     bench: Bench, balancing: BalanceOptions, holding: HoldOptions
 ) -> Iterator[Step]:
-    """Yield the Steps of balancing and, if its verdict passes, of holding."""
+    """Yield the Steps of balancing and then of holding, unless balancing ended in a stop for tilt
+    or with an estimate that cannot be used; a verdict missed by a little holding can mend."""
     last: list[Step] = []
 
     def watched() -> Generator[Step, None, Knowledge]:
@@ -53,7 +54,8 @@ def balance_and_hold(
             yield last[0]
 
     knowledge = yield from watched()
-    if last[0].verdict is not None and last[0].verdict.passed:
+    tilted_out = tilted(knowledge.recording, bench.testbed)
+    if knowledge.estimate.outcome.usable and not tilted_out:
         yield from hold(bench, knowledge, holding)
 
 
