@@ -2,9 +2,8 @@
 
 from pathlib import Path
 
+from equipoise.app.commands.kinds import Flag, Triple
 from equipoise.app.terminal import busy, tell_paths
-
-Triple = tuple[float, float, float]
 
 
 def balance(
@@ -17,7 +16,7 @@ def balance(
     max_moves: int = 3,
     max_time_s: float = 120.0,
     hold_min: float = 0.0,
-    json: bool = False,
+    json: Flag = False,
     out: Path | None = None,
 ) -> int:
     """Balance a simulated platform: look, move masses, look again; then test the result.

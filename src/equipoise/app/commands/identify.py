@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from equipoise.app.commands.kinds import Flag, Names
 from equipoise.app.terminal import busy, tell_paths, watched
 
 if TYPE_CHECKING:
@@ -18,15 +19,15 @@ def identify(
     *,
     testbed: str,
     method: str = "auto",
-    hold: tuple[str, ...] = (),
-    term: tuple[str, ...] = (),
-    prior: bool = False,
-    robust: bool = False,
+    hold: Names = (),
+    term: Names = (),
+    prior: Flag = False,
+    robust: Flag = False,
     from_s: float | None = None,
     to_s: float | None = None,
     dialect: str | None = None,
     columns: str | None = None,
-    json: bool = False,
+    json: Flag = False,
     out: Path | None = None,
 ) -> int:
     """Estimate centre of mass and inertia from a recording, and say what it cannot show.

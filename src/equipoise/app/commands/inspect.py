@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from equipoise.app.commands.kinds import Flag
 from equipoise.app.terminal import stdout, tell_paths
 
 
@@ -12,7 +13,7 @@ def inspect(
     testbed: str | None = None,
     dialect: str | None = None,
     columns: str | None = None,
-    json: bool = False,
+    json: Flag = False,
     figure: Path | None = None,
 ) -> int:
     """Say what a recording holds, and what is wrong with it.

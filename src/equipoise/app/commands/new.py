@@ -2,11 +2,12 @@
 
 from pathlib import Path
 
+from equipoise.app.commands.kinds import Flag
 from equipoise.app.terminal import stdout
 from equipoise.model.errors import InputError
 
 
-def new(preset: str, /, *, out: Path | None = None, force: bool = False) -> int:
+def new(preset: str, /, *, out: Path | None = None, force: Flag = False) -> int:
     """Write a preset testbed to a file, to start one's own from.
 
     Parameters

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from equipoise.app.commands.kinds import Names
 from equipoise.app.terminal import busy, stdout
 
 
@@ -11,7 +12,7 @@ def simulate(
     *,
     out: Path,
     duration_s: float = 120.0,
-    move: tuple[str, ...] = (),
+    move: Names = (),
     seed: int = 1,
 ) -> int:
     """Simulate a platform in free motion, and write what its sensors record.
