@@ -122,6 +122,15 @@ def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
     return weight
 
 
+def longest_step(testbed: Testbed, fastest: float) -> float:
+    """Return the integration step (s) that suits the motion: a tenth of a radian of turning, or
+    of the swing of a pendulum as the testbed describes it."""
+    body = testbed.body
+    lever = float(np.linalg.norm(body.com) + 2 * np.max(testbed.com_sd))
+    stiffness = body.mass * testbed.gravity * lever / float(np.linalg.eigvalsh(body.inertia_P)[0])
+    return min(LONGEST_STEP, TURN_PER_STEP / max(fastest, np.sqrt(stiffness)))
+
+
 def pose(
     recording: Recording,
     testbed: Testbed,
@@ -139,18 +148,21 @@ def pose(
         seen_at(rate.t, testbed.gyro),
         recording.masses,
         len(testbed.masses),
-        min(LONGEST_STEP, TURN_PER_STEP / max(fastest, 1e-6)),
+        longest_step(testbed, fastest),
         recording.momentum,
         recording.torque,
         stops.felt,
         stops.owner,
+        at_nodes=False,
     )
     seen = Seen(
         np.ascontiguousarray(attitude.values if len(attitude) else np.zeros((0, 4))),
         line.attitude_node,
+        line.attitude_share,
         testbed.attitude.noise if testbed.attitude else 1.0,
         np.ascontiguousarray(rate.values if len(rate) else np.zeros((0, 3))),
         line.rate_node,
+        line.rate_share,
         testbed.gyro.noise if testbed.gyro else 1.0,
     )
     maps = mass_maps(testbed.masses)
