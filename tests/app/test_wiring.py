@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from equipoise.app import wiring
-from equipoise.app.wiring import move_of, part_of, with_masses_of
+from equipoise.app.wiring import move_of, part_of
 from equipoise.io.presets import read_preset
 from equipoise.model.errors import InputError
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import Recording, Samples, arranged
 
 BED = read_preset("sputnix")
 
@@ -34,7 +34,7 @@ def test_masses_come_in_the_testbeds_order():
     """A file may name some of them, in any order; the others are at home."""
     t = np.arange(3.0)
     values = np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]) * 1e-3
-    there = with_masses_of(Recording(mass_names=("z1", "x2"), masses=Samples(t, values)), BED)
+    there = arranged(Recording(mass_names=("z1", "x2"), masses=Samples(t, values)), BED.mass_names)
     assert there.mass_names == ("x1", "x2", "y1", "y2", "z1", "z2")
     assert there.masses is not None
     np.testing.assert_array_equal(there.masses.values[:, [1, 4]], values[:, ::-1])

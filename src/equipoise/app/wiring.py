@@ -1,10 +1,7 @@
 """From what a person types to objects: a testbed, a recording, moves."""
 
 import re
-from dataclasses import replace
 from pathlib import Path
-
-import numpy as np
 
 from equipoise.io.column_map import ColumnMap
 from equipoise.io.column_map_file import read_column_map
@@ -13,7 +10,7 @@ from equipoise.io.presets import preset_names, read_preset
 from equipoise.io.recording_file import read_recording
 from equipoise.io.testbed_file import read_testbed
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.recording import Recording, Samples, window
+from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
 MOVE = re.compile(r"\s*(?P<time>[^:\s]+)\s*:\s*(?P<goals>\S+=\S+(?:[\s,]+\S+=\S+)*)\s*")
@@ -42,21 +39,7 @@ def fitting_recording_of(
     """Return a recording that fits a testbed: masses are the testbed's, gravity points down."""
     recording = read_recording(file, _columns(dialect, columns), testbed)
     check_frame(recording, testbed)
-    return with_masses_of(recording, testbed)
-
-
-def with_masses_of(recording: Recording, testbed: Testbed) -> Recording:
-    """Return the recording with a column for every mass of the testbed, in its order.
-
-    A mass that was not recorded is taken to have stayed at home.
-    """
-    rows, names = recording.masses, tuple(mass.name for mass in testbed.masses)
-    if rows is None or recording.mass_names == names:
-        return recording
-    values = np.zeros((len(rows), len(names)))
-    for column, name in zip(rows.values.T, recording.mass_names, strict=True):
-        values[:, names.index(name)] = column
-    return replace(recording, mass_names=names, masses=Samples(rows.t, values))
+    return arranged(recording, testbed.mass_names)
 
 
 def _columns(dialect: str | None, columns: str | None) -> str | ColumnMap | None:

@@ -22,7 +22,7 @@ from equipoise.maths.linalg import lag_one, skew
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.estimate import COM, Estimate, Parameter
 from equipoise.model.outcome import Outcome
-from equipoise.model.recording import Recording
+from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import seen_at
 
@@ -89,6 +89,7 @@ def solve(rests: list[tuple[Vector3, float, Vector3]]) -> tuple[Vector3, Matrix3
 
 def estimate(recording: Recording, testbed: Testbed) -> Estimate:
     """Return the centre of mass with the masses at home."""
+    recording = arranged(recording, testbed.mass_names)
     rests = stops(recording, testbed)
     across = sum((skew(n).T @ skew(n) for n, _, _ in rests), np.zeros((3, 3)))
     if len(rests) < 2 or np.linalg.eigvalsh(across)[0] < WEAKEST * len(rests):

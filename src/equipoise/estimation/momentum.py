@@ -24,7 +24,7 @@ from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter, Residual
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.outcome import Outcome
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import Recording, Samples, arranged
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import unit_of
 
@@ -111,6 +111,7 @@ def estimate(
     recording: Recording, testbed: Testbed, axes: Axes, terms: tuple[str, ...] = ()
 ) -> Estimate:
     """Return the estimate; needs attitude or rates, and tilt in two directions."""
+    recording = arranged(recording, testbed.mass_names)
     method, mass = f"momentum_{axes}", testbed.body.mass
     seen = max(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     if seen < FEWEST:

@@ -18,7 +18,7 @@ from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4, Vector3
 from equipoise.model.estimate import Estimate
 from equipoise.model.mass_properties import MassProperties
-from equipoise.model.recording import Recording
+from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS
 from equipoise.sensors.timing import seen_at
@@ -40,6 +40,7 @@ def run(
     torque: Floats, late: Mapping[str, float],
 ) -> Prediction:
     """Return the motion of a body through the record's moves; ``late`` are displacement errors."""
+    recording = arranged(recording, testbed.mass_names)
     rows, sensor = recording.attitude, testbed.attitude
     if rows is None or not len(rows):
         rows, sensor = recording.rate, testbed.gyro
@@ -62,6 +63,7 @@ def run(
 
 def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Prediction:
     """Return what an estimate of the trajectory method says of its own record."""
+    recording = arranged(recording, testbed.mass_names)
     torque = np.array([estimate.values((t,))[0] if estimate.has(t) else 0.0 for t in TERMS])
     body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
     q0 = exponential(estimate.values(ATTITUDE))
@@ -71,5 +73,6 @@ def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Predi
 
 def before(recording: Recording, testbed: Testbed) -> Prediction:
     """Return what the testbed's first guess says, from the first attitudes (paper Fig. 6a)."""
+    recording = arranged(recording, testbed.mass_names)
     motion = sampled_motion(recording, testbed)
     return run(recording, testbed, testbed.body, motion.q[0], motion.w[0], np.zeros(N_TORQUES), {})

@@ -44,7 +44,7 @@ class Params:
     """What the tracker is told."""
 
     moves: Moves = "fed"
-    com_walk: float = 1e-7  # m/sqrt(s): 0.1 um, thermal drift by methods of the field
+    com_walk: float = 5e-8  # m/sqrt(s): 0.05 um, thermal drift; chosen within 0.01 to 0.1
     torque_walk: float = 1e-6  # N m sqrt(s): air and bearing torques on a platform of some kg
     bias_walk: float = 1e-7  # rad/s/sqrt(s)
     inertia_P: Matrix3 | None = None  # kg m^2, masses at home; None: the testbed's

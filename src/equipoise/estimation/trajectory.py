@@ -36,7 +36,7 @@ from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import INERTIA, Estimate, Residual
 from equipoise.model.outcome import Outcome
-from equipoise.model.recording import Recording, window
+from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
 METHOD = "trajectory"
@@ -167,6 +167,7 @@ def fit(
     recording: Recording, testbed: Testbed, params: Params, guess: Unknowns | None = None
 ) -> Fitted:
     """Return the optimum for a record, from a given point or from the linear methods."""
+    recording = arranged(recording, testbed.mass_names)
     problem = problem_of(recording, testbed, params)
     if guess is None:
         first = float(problem.line.t[0])
@@ -201,6 +202,7 @@ def held_out(recording: Recording, testbed: Testbed, params: Params, fitted: Fit
 
 def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
     """Return the estimate of a record, with its residual on a part that was held out."""
+    recording = arranged(recording, testbed.mass_names)
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     if rows < FEWEST:
         outcome = Outcome(False, f"Only {rows} rows: nothing can be estimated.")

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.model.arrays import Series, Series1
+from equipoise.model.errors import InputError, nearest
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,3 +85,22 @@ def join(first: Recording, second: Recording) -> Recording:
 
     parts = {name: both(getattr(first, name), getattr(second, name)) for name in CHANNELS}
     return replace(first, mass_names=first.mass_names or second.mass_names, **parts)
+
+
+def arranged(recording: Recording, names: tuple[str, ...]) -> Recording:
+    """Return the recording with its mass columns in the order of ``names``, absent masses at home.
+
+    Raises InputError for a mass that is not among the names.
+    """
+    masses = recording.masses
+    if masses is None or recording.mass_names == names:
+        return recording
+    have = recording.mass_names or names[: masses.values.shape[1]]
+    for name in have:
+        if name not in names:
+            where = f"{recording.source or 'recording'}: masses"
+            raise InputError(where, f"'{name}'", nearest(name, list(names)))
+    values = np.zeros((len(masses), len(names)))
+    for column, name in zip(masses.values.T, have, strict=True):
+        values[:, names.index(name)] = column
+    return replace(recording, mass_names=names, masses=Samples(masses.t, values))

@@ -96,6 +96,11 @@ class Testbed:
     assumed: Mapping[str, str] = field(default_factory=dict[str, str])  # key: why it is assumed
     source: str = ""  # where it was read
 
+    @property
+    def mass_names(self) -> tuple[str, ...]:
+        """Return the names of the sliding masses, in order."""
+        return tuple(mass.name for mass in self.masses)
+
     def mass_named(self, name: str) -> SlidingMass:
         """Return the sliding mass of that name; KeyError if there is none."""
         return {mass.name: mass for mass in self.masses}[name]

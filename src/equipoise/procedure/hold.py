@@ -11,8 +11,8 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
 from equipoise.estimation import tracker
-from equipoise.maths.attitude import tilt
-from equipoise.model.arrays import Floats, Vector3
+from equipoise.maths.attitude import tilt, to_matrix
+from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.move import Move
 from equipoise.model.recording import Recording, Samples
@@ -25,6 +25,8 @@ from equipoise.procedure.knowledge import Knowledge
 
 LOOK = 5.0  # s between decisions
 ACT = 0.35  # of the tolerance, chosen: an offset from which a move is considered
+PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
+FAR = 0.6  # of the tilt limit: a swing that corrections should calm
 GAIN = 0.15  # of the tolerance: what a move must better the worst axis by
 
 
@@ -90,6 +92,42 @@ def correction(
     return goal if then.max() < now.max() - GAIN else None
 
 
+def swing_amplitude(
+    state: tracker.State, com: Vector3, inertia_P: Matrix3, testbed: Testbed
+) -> float:
+    """Return the tilt (rad) that the present swing reaches: all its energy as height.
+
+        1/2 w.J w (w across the vertical) + m g (R r).z = -m g |r| cos(amplitude)
+    """
+    R = to_matrix(state.q)
+    across = state.rate - (state.rate @ R[2]) * R[2]
+    weight = testbed.body.mass * testbed.gravity * float(np.linalg.norm(com))
+    height = testbed.body.mass * testbed.gravity * float((R @ com)[2])
+    energy = 0.5 * float(across @ inertia_P @ across) + height
+    return float(np.arccos(np.clip(-energy / weight, -1.0, 1.0)))
+
+
+def calming(state: tracker.State, shift: Vector3, testbed: Testbed) -> bool:
+    """Say whether a shift d of the centre of mass (m) takes energy out of the swing now.
+
+    At attitude R it adds m g (R d)_z, less what it moves the whole swing up or down: m g d.up.
+    """
+    return float((to_matrix(state.q) @ shift)[2]) <= float(shift @ testbed.up)
+
+
+def timely(
+    state: tracker.State, com: Vector3, now: Floats, goal: Floats, testbed: Testbed,
+    params: tracker.Params, options: HoldOptions,
+) -> bool:
+    """Say whether to make a correction now. Corrections at any moment would pump an undamped
+    platform; once it swings far, only those that calm it are made, and soon there is one."""
+    assert params.inertia_P is not None
+    far = swing_amplitude(state, com, params.inertia_P, testbed) > FAR * testbed.tilt_limit
+    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - now)
+    pressing = bool(np.any(np.abs(com - options.target) > PRESSING * options.tolerance))
+    return pressing or not far or calming(state, shift, testbed)
+
+
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
     """Yield a move whenever one is made, and a verdict at the end."""
     testbed, end = bench.testbed, bench.time + options.duration
@@ -110,7 +148,7 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
             bench.stop()
             break
         goal = correction(com, displacement, testbed, options)
-        if goal is not None:
+        if goal is not None and timely(state, com, displacement, goal, testbed, params, options):
             move = move_of(com, state, displacement, goal, testbed)
             bench.move(move.targets)
             yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
