@@ -33,7 +33,11 @@ class Prediction(NamedTuple):
 
 
 def run(
-    recording: Recording, testbed: Testbed, body: MassProperties, q0: Quaternion, w0: Vector3,
+    recording: Recording,
+    testbed: Testbed,
+    body: MassProperties,
+    q0: Quaternion,
+    w0: Vector3,
     torque: Floats,
 ) -> Prediction:
     """Return the motion of a body through the record's moves."""

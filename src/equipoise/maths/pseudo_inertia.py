@@ -52,5 +52,3 @@ def jacobian(six: Vector6) -> Floats:
 def nearest_possible(inertia_C: Matrix3) -> Matrix3:
     """Return J_C itself when possible, else with its second moments raised to the floor."""
     return to_inertia(from_inertia(inertia_C))
-
-
