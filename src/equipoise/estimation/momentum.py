@@ -42,7 +42,7 @@ def solve(rows: Balance, trace: float | None) -> tuple[Floats, Square, Floats]:
     fixed = normal.copy()
     if trace is not None:
         row = np.zeros(len(right))
-        row[:3] = np.sqrt(np.trace(normal)) / trace
+        row[:3] = np.sqrt(np.trace(normal[:3, :3])) / trace  # as large as the rows of J
         fixed += 1e6 * np.outer(row, row)
         right = right + 1e6 * row * row[0] * trace
     found = scaled_solve(fixed, right, 1e-14)
