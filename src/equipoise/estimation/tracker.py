@@ -126,8 +126,9 @@ def stop_covariances(
     for i, mass in enumerate(testbed.masses if track is not None else ()):
         assert track is not None
         for _, last in travels(track.t, track.values[:, i], mass.speed):
-            if track.t[last] > after and mass.accuracy > 0:
-                nodes.append(min(int(np.searchsorted(line.t, track.t[last])), len(line.t) - 1))
+            when = float(track.t[last])
+            if when > after and mass.accuracy > 0:
+                nodes.append(min(int(np.searchsorted(line.t, when)), len(line.t) - 1))
                 shift: Vector3 = mass.mass * mass.accuracy / total * mass.axis
                 added.append(shift[:, None] * shift)
     order = np.argsort(nodes, kind="stable")
