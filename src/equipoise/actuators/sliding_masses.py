@@ -95,16 +95,18 @@ def displacements_for(
     upper = np.concatenate(
         [np.floor(high + 1e-9).clip(0), np.floor(-low + 1e-9).clip(0), np.full(7, np.inf)]
     )
-    whole = np.array([m.resolution > 0 for m in masses], dtype=float)
+    whole = np.array([int(m.resolution > 0) for m in masses], dtype=np.int64)
+    integer = np.concatenate([whole, whole, np.zeros(7, dtype=np.int64)])
     answer = milp(
         cost,
-        integrality=np.concatenate([whole, whole, np.zeros(7)]),
+        integrality=integer,
         bounds=Bounds(np.zeros(2 * k + 7), upper),
         constraints=[
             LinearConstraint(balance, shift * 1e6, shift * 1e6),
             LinearConstraint(clock, -np.inf, 0.0),
         ],
     )
+    assert answer.x is not None  # standing still is always allowed
     forward, backward = answer.x[:k], answer.x[k : 2 * k]
     go = np.where(whole > 0, np.round(forward - backward), forward - backward)
     return now + step * go

@@ -30,7 +30,8 @@ def travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]]:
     """Return first and last row of every travel of one mass."""
     moving = np.abs(np.diff(d)) > STILL * speed * np.diff(t)
     edges = np.diff(np.concatenate([[0], moving.astype(int), [0]]))
-    return list(zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1), strict=True))
+    first, last = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
+    return [(int(a), int(b)) for a, b in zip(first, last, strict=True)]
 
 
 def felt(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -> Floats:

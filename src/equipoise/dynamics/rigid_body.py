@@ -265,7 +265,7 @@ def forcing(
         kind, k = kinds[c], indices[c]
         if kind == ERROR:
             felt = KNOWN_D + maps.shape[0] + k
-            f, b = error_column(maps, t, known, i, share, owners[k], felt, w, g)
+            f, b = error_column(maps, t, known, i, share, int(owners[k]), felt, w, g)
             for j in range(3):
                 fb[j, c], fb[3 + j, c] = f[j], b[j]
             continue
@@ -286,8 +286,8 @@ def sensitivity_rates(
     n = fb.shape[1]
     for c in range(n):
         i = ROWS + c
-        turn = (y[i], y[i + n], y[i + 2 * n])
-        dH = (y[i + 3 * n], y[i + 4 * n], y[i + 5 * n])
+        turn: Triple = (y[i], y[i + n], y[i + 2 * n])
+        dH: Triple = (y[i + 3 * n], y[i + 4 * n], y[i + 5 * n])
         dw = times(inverse, (dH[0] - fb[0, c], dH[1] - fb[1, c], dH[2] - fb[2, c]))
         p, r = cross(w, turn), cross(w, dH)
         s, v = dot(by_turn, turn), dot(by_rate, dw)

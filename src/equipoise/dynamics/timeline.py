@@ -36,7 +36,7 @@ def fill(times: Series1, longest: float) -> Series1:
         return times
     starts = np.repeat(times[:-1], parts)
     lengths = np.repeat(np.diff(times) / parts, parts)
-    within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    within = np.arange(int(parts.sum())) - np.repeat(np.cumsum(parts) - parts, parts)
     return np.append(starts + within * lengths, times[-1])
 
 
@@ -44,7 +44,7 @@ def straight_lines(channel: Samples | None, t: Series1, width: int) -> Floats:
     """Return a known input at times ``t``: straight between its rows, constant outside."""
     if channel is None or not len(channel):
         return np.zeros((len(t), width))
-    columns = [np.interp(t, channel.t, column) for column in channel.values.T]
+    columns: list[Floats] = [np.interp(t, channel.t, column) for column in channel.values.T]
     return np.column_stack(columns) if columns else np.zeros((len(t), width))
 
 

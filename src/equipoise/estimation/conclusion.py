@@ -9,6 +9,7 @@ from equipoise.actuators.sliding_masses import com_shift
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.observability import OPEN, Visibility, examine, natural_sizes, scale_of
+from equipoise.estimation.ratios import ratios_of
 from equipoise.estimation.trajectory_problem import Evaluation, Problem
 from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unknowns, physical
 from equipoise.maths.attitude import logarithm
@@ -21,6 +22,7 @@ from equipoise.model.recording import Recording
 SURE = 4.0  # sd of a statistic before it counts as more than chance
 WHITE = 0.2  # chosen: a lag-one correlation below this widens an interval by less than a quarter
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
+CORE = slice(JP.start, R.stop)  # inertia and centre of mass
 END = ("com_end_x", "com_end_y", "com_end_z")
 
 
@@ -71,8 +73,10 @@ def selection(layout: Layout) -> list[int]:
 
 
 def end_rows(fitted: Fitted) -> tuple[Floats, Floats] | None:
-    """Return com at the end, masses as they stand and drift included, and its derivative; None
-    where that is the com with the masses at home."""
+    """Return com at the end, masses as they stand and drift included, and its derivative.
+
+    None where that is the com with the masses at home.
+    """
     problem, layout = fitted.problem, fitted.problem.layout
     k, line = len(problem.maps.momentum), problem.line
     last, seconds = line.known[-1], float(line.t[-1] - line.t[0])
@@ -91,22 +95,6 @@ def end_rows(fitted: Fitted) -> tuple[Floats, Floats] | None:
         rows[j, column] = seconds
     moved = seconds * fitted.point.torque[DRIFT : DRIFT + 3]
     return fitted.point.com + moved + com_shift(problem.maps, problem.mass, actual), rows
-
-
-def ratios_of(values: Floats, view: Visibility, layout: Layout) -> tuple[Parameter, ...]:
-    """Return J and com over the largest moment of inertia: what free motion does show."""
-    reference = JP.start + int(np.argmax(values[JP.start : JP.start + 3]))
-    found: list[Parameter] = []
-    for k in [*range(R.start, R.stop), *range(JP.start, JP.stop)]:
-        if k == reference:
-            continue
-        ratio = float(values[k] / values[reference])
-        gradient = np.zeros(layout.size)
-        gradient[k], gradient[reference] = 1.0, -ratio
-        sd = float(np.sqrt(gradient @ view.covariance @ gradient)) / float(values[reference])
-        unit = "1/(kg m)" if k in range(R.start, R.stop) else "-"
-        found.append(Parameter(f"{layout.names[k]}/{layout.names[reference]}", unit, ratio, sd))
-    return tuple(found)
 
 
 def sentence_of(fitted: Fitted, residual: Residual, view: Visibility, factor: float) -> Outcome:
@@ -178,7 +166,8 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
     size = natural_sizes(fitted.point, problem.mass, layout)
-    information = fitted.at.normal - np.diag(np.where(problem.prior.held, 0.0, problem.prior.anchor))
+    anchor = np.where(problem.prior.held, 0.0, problem.prior.anchor)
+    information = fitted.at.normal - np.diag(anchor)
     view = examine(information, scale_of(values, size), size, layout.names)
     if problem.scale_open:
         view = without_scale(view, layout)
@@ -192,7 +181,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
         covariance,
         residual,
         view.sentences,
-        ratios_of(values, view, layout) if view.scale_open else (),
+        ratios_of(values[CORE], view.covariance[CORE, CORE]) if view.scale_open else (),
         True,
         provenance={
             "version": __version__,
@@ -201,4 +190,3 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
             "evaluations": str(fitted.evaluations),
         },
     )
-

@@ -47,10 +47,11 @@ def quiet_spans(recording: Recording, testbed: Testbed) -> list[tuple[float, flo
 def mean_direction(n: Floats) -> tuple[Vector3, float]:
     """Return the mean unit vector and the sd (rad) of its direction."""
     mean = n.mean(axis=0)
-    off = n - mean
+    off: Floats = n - mean
     rho = min(max(lag_one(off), 0.0), 0.999)
     independent = max(len(n) * (1 - rho) / (1 + rho), 1.0)
-    spread = float(np.sqrt(np.mean(np.sum(off**2, axis=1)) / 2 / independent))
+    square: Floats = np.sum(off**2, axis=1)
+    spread = float(np.sqrt(np.mean(square) / 2 / independent))
     return mean / float(np.linalg.norm(mean)), max(spread, 1e-9)
 
 
@@ -83,7 +84,7 @@ def solve(rests: list[tuple[Vector3, float, Vector3]]) -> tuple[Vector3, Matrix3
             weight = (sd * lever) ** -2
             across = skew(n).T @ skew(n) * weight
             normal, right = normal + across, right - across @ shift
-        com = np.linalg.lstsq(normal, right, rcond=1e-12)[0]
+        com = np.linalg.lstsq(normal, right, rcond=1e-12)[0].astype(np.float64, copy=False)
     return com, normal
 
 
@@ -100,7 +101,7 @@ def estimate(recording: Recording, testbed: Testbed) -> Estimate:
         unseen = ("the data do not see how far the centre of mass is from the centre of rotation",)
         return Estimate(METHOD, Outcome(False, text), (), np.zeros((0, 0)), None, unseen)
     com, normal = solve(rests)
-    covariance = np.linalg.inv(normal)
+    covariance = np.linalg.inv(normal).astype(np.float64, copy=False)
     sd = np.sqrt(np.diag(covariance))
     parameters = tuple(
         Parameter(name, "m", float(com[k]), float(sd[k])) for k, name in enumerate(COM)

@@ -16,6 +16,7 @@ from equipoise import __version__
 from equipoise.actuators.stops import stop_errors
 from equipoise.estimation.momentum_integral import Axes, Balance, balance
 from equipoise.estimation.observability import OPEN
+from equipoise.estimation.ratios import ratios_of
 from equipoise.estimation.sampled_motion import SampledMotion, sampled_motion
 from equipoise.estimation.unknowns import Layout
 from equipoise.maths.levenberg_marquardt import scaled_solve
@@ -41,7 +42,7 @@ def solve(rows: Balance, trace: float | None) -> tuple[Floats, Square, Floats]:
     fixed = normal.copy()
     if trace is not None:
         row = np.zeros(len(right))
-        row[:3] = np.sqrt(np.trace(normal)) / trace
+        row[:3] = np.sqrt(np.trace(normal[:3, :3])) / trace  # as large as the rows of J
         fixed += 1e6 * np.outer(row, row)
         right = right + 1e6 * row * row[0] * trace
     found = scaled_solve(fixed, right, 1e-14)
@@ -49,14 +50,19 @@ def solve(rows: Balance, trace: float | None) -> tuple[Floats, Square, Floats]:
 
 
 def stop_spread(
-    recording: Recording, testbed: Testbed, layout: Layout, motion: SampledMotion, axes: Axes,
+    recording: Recording,
+    testbed: Testbed,
+    layout: Layout,
+    motion: SampledMotion,
+    axes: Axes,
     best: Floats,
 ) -> Square:
     """Return the covariance that the accuracy of the stops adds."""
     added = np.zeros((len(best), len(best)))
     errors = stop_errors(recording.masses, testbed.masses)
     for j, owner in enumerate(errors.owner):
-        assert recording.masses is not None and errors.felt is not None
+        assert recording.masses is not None
+        assert errors.felt is not None
         moved = recording.masses.values.copy()
         moved[:, owner] += errors.sd[j] * errors.felt.values[:, j]
         off = replace(recording, masses=Samples(recording.masses.t, moved))
@@ -81,21 +87,6 @@ def named(
 def order_of(n: int) -> list[int]:
     """Return the order of report: centre of mass first."""
     return [6, 7, 8, 0, 1, 2, 3, 4, 5, *range(9, n)]
-
-
-def ratios_of(values: Floats, covariance: Square) -> tuple[Parameter, ...]:
-    """Return com and J over the largest moment of inertia."""
-    names, top = [*INERTIA, *COM], int(np.argmax(values[:3]))
-    found: list[Parameter] = []
-    for k in order_of(9):
-        if k == top:
-            continue
-        ratio, gradient = float(values[k] / values[top]), np.zeros(len(values))
-        gradient[k], gradient[top] = 1.0, -ratio
-        sd = float(np.sqrt(gradient @ covariance @ gradient)) / float(values[top])
-        unit = "1/(kg m)" if k > 5 else "-"
-        found.append(Parameter(f"{names[k]}/{names[top]}", unit, ratio, sd))
-    return tuple(found)
 
 
 def outcome_of(values: Floats, mass: float, scale_open: bool) -> Outcome:
@@ -139,7 +130,7 @@ def estimate(
         covariance[np.ix_(order_of(n), order_of(n))],
         Residual(None, None, float(len(left)), len(left) - len(best), correlation),
         (OPEN,) if scale_open else (),
-        ratios_of(values, covariance) if scale_open else (),
+        ratios_of(values[:9], covariance[:9, :9]) if scale_open else (),
         outcome.usable,
         {"version": __version__, "source": recording.source, "sha256": recording.sha256},
     )

@@ -1,5 +1,6 @@
-"""Momentum integral: the balance of angular momentum between the start and every sample, linear
-in inertia, first moment and torque coefficients.
+"""Momentum integral: angular momentum balanced between the start and every sample.
+
+The rows are linear in inertia, first moment and torque coefficients.
 
 Body axes (da Silva 2021 Eqs. 16-21 with the t0 terms restored; Kim and Agrawal 2009; Lee Eq. 6):
 

@@ -58,22 +58,21 @@ def scale_of(values: Floats, size: Floats) -> Floats:
 def describe(direction: Floats, names: tuple[str, ...]) -> str:
     """Name the parameters that an unseen direction mixes."""
     weight = np.abs(direction)
-    chosen = [names[k] for k in np.argsort(-weight) if weight[k] > 0.3 * weight.max()]
+    chosen: list[str] = [names[k] for k in np.argsort(-weight) if weight[k] > 0.3 * weight.max()]
     if len(chosen) == 1:
         return f"the data do not see {chosen[0]}"
     return "the data cannot tell apart: " + ", ".join(chosen)
 
 
-def examine(
-    information: Square, scale: Floats, size: Floats, names: tuple[str, ...]
-) -> Visibility:
+def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, ...]) -> Visibility:
     """Return covariance, visibility and the sentences about what is not seen."""
     values, vectors = np.linalg.eigh(symmetrise(information * size[:, None] * size))
     unseen = values < SEEN
     good = vectors[:, ~unseen]
     covariance = (good / values[~unseen]) @ good.T * size[:, None] * size
     hidden = np.any(np.abs(vectors[:, unseen]) > PART, axis=1)
-    scale_open, sentences = False, []
+    scale_open = False
+    sentences: list[str] = []
     for direction in vectors[:, unseen].T:
         if abs(float(direction @ scale)) > ALONG:
             scale_open = True

@@ -36,8 +36,13 @@ class Prediction(NamedTuple):
 
 
 def run(
-    recording: Recording, testbed: Testbed, body: MassProperties, q0: Quaternion, w0: Vector3,
-    torque: Floats, late: Mapping[str, float],
+    recording: Recording,
+    testbed: Testbed,
+    body: MassProperties,
+    q0: Quaternion,
+    w0: Vector3,
+    torque: Floats,
+    late: Mapping[str, float],
 ) -> Prediction:
     """Return the motion of a body through the record's moves; ``late`` are displacement errors."""
     recording = arranged(recording, testbed.mass_names)

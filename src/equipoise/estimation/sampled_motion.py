@@ -68,4 +68,3 @@ def sampled_motion(recording: Recording, testbed: Testbed) -> SampledMotion:
         period = float(np.median(np.diff(t)))
         w = np.where(inside[:, None], averaged(seen, rate.values, t, period), w)
     return SampledMotion(t, q, w)
-

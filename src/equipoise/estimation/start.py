@@ -75,7 +75,8 @@ def first_rate(
 ) -> Vector3:
     """Return w(t0) = J^-1 (R^T H0_N - k), rad/s."""
     k, _ = known_momentum(recording, testbed, motion.t[:3], motion.w[:3])
-    return np.linalg.solve(inertia, to_matrix(motion.q[0]).T @ momentum_N - k[0])
+    momentum: Vector3 = to_matrix(motion.q[0]).T @ momentum_N - k[0]
+    return np.linalg.solve(inertia, momentum).astype(np.float64, copy=False)
 
 
 def solve(
@@ -87,9 +88,7 @@ def solve(
     moments = np.diag(body.inertia_P)
     sizes = np.sqrt(pack_symmetric(np.outer(moments, moments)))
     trust = WITHOUT if recording.rate is None else WITH_GYRO
-    spread = np.concatenate(
-        [trust * sizes, body.mass * np.maximum(3 * testbed.com_sd, COM_TRUST)]
-    )
+    spread = np.concatenate([trust * sizes, body.mass * np.maximum(3 * testbed.com_sd, COM_TRUST)])
     guess = np.concatenate([pack_symmetric(body.inertia_P), body.first_moment])
     scale = np.append(spread, np.full(3, float(sizes.max()) * 0.1))
     A = rows.regressor * scale

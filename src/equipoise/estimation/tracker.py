@@ -6,8 +6,9 @@
     z_w = w_meas - w_pred - b,          H = [0 E 0 E],  R = sd_w^2 E
     q+  = q_pred (x) exp( dth+ )
 
-Ivanov 2021 section 5 with errata I7-I11: the error is the whole rotation vector, so no block carries
-a factor 2 or 1/2; the gyroscopic block is J^-1 ([Jw x] - [w x] J); R is the variance of the angle.
+Ivanov 2021 section 5 with errata I7-I11: the error is the whole rotation vector, so no block
+carries a factor 2 or 1/2; the gyroscopic block is J^-1 ([Jw x] - [w x] J); R is the variance of
+the angle.
 A commanded move enters the prediction with the covariance of where masses stop (fed), or is left
 out so that the estimate has to find the new centre of mass by itself (ignored; paper Fig. 13).
 
@@ -27,8 +28,18 @@ from equipoise.dynamics.rigid_body import MOMENT, RATE, TURN
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.estimation.tracker_step import SIZE, run_filter
 from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.arrays import Floats, Matrix3, Quaternion, Series, Series1, Series3, Series4
-from equipoise.model.arrays import Square, Vector3
+from equipoise.model.arrays import (
+    Floats,
+    Ints,
+    Matrix3,
+    Quaternion,
+    Series,
+    Series1,
+    Series3,
+    Series4,
+    Square,
+    Vector3,
+)
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import seen_at
@@ -88,7 +99,10 @@ class Track:
 
 
 def first_state(
-    t: float, q: Quaternion, testbed: Testbed, com: Vector3 | None = None,
+    t: float,
+    q: Quaternion,
+    testbed: Testbed,
+    com: Vector3 | None = None,
     com_covariance: Matrix3 | None = None,
 ) -> State:
     """Return a belief from one attitude: at rest within 0.1 rad/s, com as known beforehand."""
@@ -97,27 +111,29 @@ def first_state(
     bias = testbed.gyro.bias_sd if testbed.gyro else 0.0
     spread = [noise**2] * 3 + [0.1**2] * 3 + [0.0] * 3 + [bias**2] * 3
     covariance[np.diag_indices(SIZE)] = spread
-    covariance[6:9, 6:9] = (
-        np.diag(testbed.com_sd**2) if com_covariance is None else com_covariance
-    )
+    covariance[6:9, 6:9] = np.diag(testbed.com_sd**2) if com_covariance is None else com_covariance
     return State(t, q, np.zeros(3), testbed.body.com if com is None else com, np.zeros(3),
                  covariance)  # fmt: skip
 
 
 def stop_covariances(
     recording: Recording, testbed: Testbed, line: Timeline, after: float
-) -> tuple[Floats, Floats]:
-    """Return the nodes at which masses came to a stop, and what that adds to the covariance of r."""
+) -> tuple[Ints, Floats]:
+    """Return the nodes at which masses stopped, and what that adds to the covariance of r.
+
+    A mass that travels up to the end has not stopped yet: the record that goes on counts it.
+    """
     nodes: list[int] = []
     added: list[Floats] = []
     track, total = recording.masses, testbed.body.mass
     for i, mass in enumerate(testbed.masses if track is not None else ()):
         assert track is not None
         for _, last in travels(track.t, track.values[:, i], mass.speed):
-            if track.t[last] > after and mass.accuracy > 0:
-                nodes.append(min(int(np.searchsorted(line.t, track.t[last])), len(line.t) - 1))
-                shift = mass.mass * mass.accuracy / total * mass.axis
-                added.append(np.outer(shift, shift))
+            when = float(track.t[last])
+            if after < when < line.t[-1] and mass.accuracy > 0:
+                nodes.append(min(int(np.searchsorted(line.t, when)), len(line.t) - 1))
+                shift: Vector3 = mass.mass * mass.accuracy / total * mass.axis
+                added.append(shift[:, None] * shift)
     order = np.argsort(nodes, kind="stable")
     stacked_up = np.array(added).reshape(-1, 3, 3)
     return np.array(nodes, dtype=np.int64)[order], stacked_up[order]

@@ -6,11 +6,13 @@
 H picks three rows of the error state (and the bias), so H P is a few rows of P.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from equipoise.dynamics.propagation import Columns, step
 from equipoise.dynamics.regressor import WIDTH, Triple
-from equipoise.dynamics.rigid_body import ROWS, Body, body_at, rate_of, times
+from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, body_at, rate_of, times
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.local_motion import turn
 from equipoise.model.arrays import Floats, Ints
@@ -41,8 +43,9 @@ def unit_columns(body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: 
 
 
 @part
-def transition(body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: Floats,
-               phi: Floats) -> None:
+def transition(
+    body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: Floats, phi: Floats
+) -> None:
     """Write Phi over step i from the sensitivities at its end."""
     now = body_at(body, maps, t, known, i, 1.0)
     for c in range(N):
@@ -55,9 +58,8 @@ def transition(body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: Fl
 
 
 @part
-def predict_covariance(body: Body, phi: Floats, noise: Floats, dt: float, P: Floats,
-                       A: Floats) -> None:
-    """Write Phi P Phi^T + Q dt in place; torque noise reaches the rate through J."""
+def times_covariance(phi: Floats, P: Floats, A: Floats) -> None:
+    """Write A = Phi P; below its sixth row Phi is the unit matrix."""
     for i in range(SIZE):
         for j in range(SIZE):
             total = P[i, j] if i >= 6 else 0.0
@@ -65,6 +67,11 @@ def predict_covariance(body: Body, phi: Floats, noise: Floats, dt: float, P: Flo
                 for k in range(N):
                     total += phi[i, k] * P[k, j]
             A[i, j] = total
+
+
+@part
+def times_transpose(A: Floats, phi: Floats, P: Floats) -> None:
+    """Write P = A Phi^T."""
     for i in range(SIZE):
         for j in range(SIZE):
             total = A[i, j] if j >= 6 else 0.0
@@ -72,9 +79,27 @@ def predict_covariance(body: Body, phi: Floats, noise: Floats, dt: float, P: Flo
                 for k in range(N):
                     total += A[i, k] * phi[j, k]
             P[i, j] = total
+
+
+@part
+def predict_covariance(
+    body: Body, phi: Floats, noise: Floats, dt: float, P: Floats, A: Floats
+) -> None:
+    """Write Phi P Phi^T + Q dt in place; torque noise reaches the rate through J."""
+    times_covariance(phi, P, A)
+    times_transpose(A, phi, P)
     for j in range(SIZE):
         spread = noise[j] / body.inertia[j - 3] if 3 <= j < 6 else noise[j]
         P[j, j] += spread * spread * dt
+
+
+@part
+def add_stops(stop: int, node: int, stop_node: Ints, stop_added: Floats, P: Floats) -> int:
+    """Add what the stops up to a node do to the covariance of r; return the next stop."""
+    while stop < stop_node.shape[0] and stop_node[stop] <= node:
+        P[6:9, 6:9] += stop_added[stop]
+        stop += 1
+    return stop
 
 
 @part
@@ -91,11 +116,21 @@ def invert3(S: Floats, out: Floats) -> None:
     out[1, 0], out[2, 0], out[2, 1] = out[0, 1], out[0, 2], out[1, 2]
 
 
+class Work(NamedTuple):
+    """Arrays that a correction works in, made once."""
+
+    x: Floats  # (12,) error state
+    HP: Floats  # (3, 12)
+    S: Floats  # (3, 3) covariance of the innovation
+    inverse: Floats  # (3, 3) of S
+    K: Floats  # (12, 3)
+    A: Floats  # (12, 12)
+
+
 @part
-def correct(P: Floats, first: int, second: int, z: Triple, sd: float, x: Floats, HP: Floats,
-            S: Floats, inverse: Floats, K: Floats, A: Floats) -> float:
-    """Write x = K z and P+ for H = unit rows at ``first`` (and ``second`` if >= 0); return the
-    squared innovation over its covariance."""
+def expect(P: Floats, first: int, second: int, sd: float, work: Work) -> None:
+    """Write H P, S = H P H^T + R and its inverse."""
+    HP, S = work.HP, work.S
     for r in range(3):
         for j in range(SIZE):
             HP[r, j] = P[first + r, j] + (P[second + r, j] if second >= 0 else 0.0)
@@ -103,7 +138,13 @@ def correct(P: Floats, first: int, second: int, z: Triple, sd: float, x: Floats,
         for c in range(3):
             S[r, c] = HP[r, first + c] + (HP[r, second + c] if second >= 0 else 0.0)
         S[r, r] += sd * sd
-    invert3(S, inverse)
+    invert3(S, work.inverse)
+
+
+@part
+def weigh(z: Triple, work: Work) -> float:
+    """Write K = P H^T S^-1 and x = K z; return the squared innovation over its covariance."""
+    x, HP, inverse, K = work.x, work.HP, work.inverse, work.K
     surprise = 0.0
     for r in range(3):
         for c in range(3):
@@ -115,7 +156,13 @@ def correct(P: Floats, first: int, second: int, z: Triple, sd: float, x: Floats,
             for r in range(3):
                 K[i, c] += HP[r, i] * inverse[r, c]
             x[i] += K[i, c] * z[c]
-    # Joseph form by parts: A = P - K H P;  P+ = A - A H^T K^T + K R K^T
+    return surprise
+
+
+@part
+def shrink(P: Floats, first: int, second: int, sd: float, work: Work) -> None:
+    """Write P+ in Joseph's form, by parts: A = P - K H P;  P+ = A - A H^T K^T + K R K^T."""
+    HP, K, A = work.HP, work.K, work.A
     for i in range(SIZE):
         for j in range(SIZE):
             A[i, j] = P[i, j]
@@ -128,11 +175,22 @@ def correct(P: Floats, first: int, second: int, z: Triple, sd: float, x: Floats,
                 felt = A[i, first + c] + (A[i, second + c] if second >= 0 else 0.0)
                 total += (sd * sd * K[i, c] - felt) * K[j, c]
             P[i, j] = total
+
+
+@part
+def correct(P: Floats, first: int, second: int, z: Triple, sd: float, work: Work) -> float:
+    """Write x and P+, return the squared innovation over its covariance.
+
+    H is unit rows at ``first``, and at ``second`` if that is not negative.
+    """
+    expect(P, first, second, sd, work)
+    surprise = weigh(z, work)
+    shrink(P, first, second, sd, work)
     return surprise
 
 
 @part
-def apply(x: Floats, inertia: Floats, y: Floats, com: Floats, bias: Floats) -> None:
+def apply(x: Floats, inertia: Six, y: Floats, com: Floats, bias: Floats) -> None:
     """Correct attitude, momentum, centre of mass and bias by the error state."""
     angle = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) ** 0.5
     s = 0.5 if angle < 1e-9 else np.sin(0.5 * angle) / angle
@@ -149,61 +207,74 @@ def apply(x: Floats, inertia: Floats, y: Floats, com: Floats, bias: Floats) -> N
         bias[m] += x[9 + m]
 
 
-@kernel
-def run_filter(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    attitude: Floats, q_node: Ints, sd_q: float, rate: Floats, w_node: Ints, sd_w: float,
-    stop_node: Ints, stop_added: Floats, noise: Floats, end: Floats, P: Floats, out: Floats,
-) -> None:
-    """Filter every row; ``end`` (q, w, com, bias) and P go in and come out; a row of ``out`` is
-    t, q, w, com, bias, twelve sd, surprise."""
-    y = np.zeros(ROWS + 6 * N)
-    at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
-    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros((6, N)), np.zeros((6, N))
-    x, HP, S, inverse = np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3))
-    K, A = np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE))
-    com, bias = end[7:10], end[10:13]
-    now = body_at(body, maps, t, known, 0, 0.0)
+@part
+def begin(now: Now, end: Floats, y: Floats) -> None:
+    """Write attitude and momentum of a belief (q, w, ...)."""
     H = times(now.inertia, (end[4], end[5], end[6]))
     for j in range(4):
         y[j] = end[j]
     for j in range(3):
         y[4 + j] = H[j] + now.momentum[j]
-    row, iq, iw, stop = 0, 0, 0, 0
+
+
+@part
+def innovation(now: Now, y: Floats, bias: Floats, seen: Floats) -> Triple:
+    """Return measured minus predicted rate."""
+    w = rate_of(now, y)
+    return (seen[0] - w[0] - bias[0], seen[1] - w[1] - bias[1], seen[2] - w[2] - bias[2])
+
+
+@part
+def settle(now: Now, t: float, surprise: float, work: Work, y: Floats, end: Floats, P: Floats,
+           out: Floats) -> None:  # fmt: skip
+    """Correct the belief by the error state and write the row: t, q, w, com, bias, sd, surprise."""
+    com, bias = end[7:10], end[10:13]
+    apply(work.x, now.inertia, y, com, bias)
+    w = rate_of(now, y)
+    out[0], out[26] = t, surprise
+    for j in range(4):
+        out[1 + j] = y[j]
+    for j in range(3):
+        end[4 + j] = w[j]
+        out[5 + j], out[8 + j], out[11 + j] = w[j], com[j], bias[j]
+    for j in range(SIZE):
+        out[14 + j] = P[j, j] ** 0.5
+
+
+@kernel
+def run_filter(
+    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
+    attitude: Floats, q_node: Ints, sd_q: float, rate: Floats, w_node: Ints, sd_w: float,
+    stop_node: Ints, stop_added: Floats, noise: Floats, end: Floats, P: Floats, out: Floats,
+) -> None:  # fmt: skip
+    """Filter every row into one of ``out``; ``end`` (q, w, com, bias) and P come in and go out."""
+    y = np.zeros(ROWS + 6 * N)
+    at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
+    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros((6, N)), np.zeros((6, N))
+    work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
+                np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
+    com, bias = end[7:10], end[10:13]
+    now = body_at(body, maps, t, known, 0, 0.0)
+    begin(now, end, y)
+    iq, iw, stop = 0, 0, 0
     for i in range(t.shape[0] - 1):
         body = with_moment(body, com)
         unit_columns(body, maps, t, known, i, y)
         step(body, maps, t, known, owners, columns, i, y, regress, fb, at, dy, total)
         transition(body, maps, t, known, i, y, phi)
-        predict_covariance(body, phi, noise, t[i + 1] - t[i], P, A)
-        while stop < stop_node.shape[0] and stop_node[stop] <= i + 1:
-            P[6:9, 6:9] += stop_added[stop]
-            stop += 1
+        predict_covariance(body, phi, noise, t[i + 1] - t[i], P, work.A)
+        stop = add_stops(stop, i + 1, stop_node, stop_added, P)
         now = body_at(body, maps, t, known, i, 1.0)
         for source in range(2):
             if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
-                z = turn(y, attitude[iq])
-                out[row, 26] = correct(P, 0, -1, z, sd_q, x, HP, S, inverse, K, A)
+                surprise = correct(P, 0, -1, turn(y, attitude[iq]), sd_q, work)
                 iq += 1
             elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
-                w = rate_of(now, y)
-                z = (rate[iw, 0] - w[0] - bias[0], rate[iw, 1] - w[1] - bias[1],
-                     rate[iw, 2] - w[2] - bias[2])  # fmt: skip
-                out[row, 26] = correct(P, 3, 9, z, sd_w, x, HP, S, inverse, K, A)
+                surprise = correct(P, 3, 9, innovation(now, y, bias, rate[iw]), sd_w, work)
                 iw += 1
             else:
                 continue
-            apply(x, now.inertia, y, com, bias)
-            w = rate_of(now, y)
-            out[row, 0] = t[i + 1]
-            for j in range(4):
-                out[row, 1 + j] = y[j]
-            for j in range(3):
-                end[4 + j] = w[j]
-                out[row, 5 + j], out[row, 8 + j], out[row, 11 + j] = w[j], com[j], bias[j]
-            for j in range(SIZE):
-                out[row, 14 + j] = P[j, j] ** 0.5
-            row += 1
+            settle(now, t[i + 1], surprise, work, y, end, P, out[iq + iw - 1])
     w = rate_of(now, y)
     for j in range(4):
         end[j] = y[j]

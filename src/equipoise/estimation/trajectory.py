@@ -117,7 +117,8 @@ def misfit(problem: Problem, point: Unknowns) -> float:
     """Return the rms residual vector in rad (with a camera) or rad/s."""
     at = evaluate(problem, point)
     left = at.left_q * problem.seen.attitude_sd if len(at.left_q) else at.left_w
-    return float(np.sqrt(np.mean(np.sum(left**2, axis=1))))
+    square: Floats = np.sum(left**2, axis=1)
+    return float(np.sqrt(np.mean(square)))
 
 
 def approach(recording: Recording, testbed: Testbed, params: Params, point: Unknowns) -> Unknowns:
@@ -156,9 +157,7 @@ def coarsened(testbed: Testbed) -> Testbed:
     )
 
 
-def part_point(
-    part: Recording, testbed: Testbed, params: Params, point: Unknowns
-) -> Unknowns:
+def part_point(part: Recording, testbed: Testbed, params: Params, point: Unknowns) -> Unknowns:
     """Return the point without the displacement errors that a part of the record cannot have."""
     return replace(point, error=np.zeros(len(layout_of(part, testbed, params).errors)))
 

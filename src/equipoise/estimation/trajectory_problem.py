@@ -113,8 +113,10 @@ def prior_of(
 
 
 def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
-    """Return weights of the anchor: inertia within its own size, com within ten sd, torques
-    within ``torque_anchor`` natural sizes."""
+    """Return weights of the anchor.
+
+    Inertia within its own size, com within ten sd, torques within ``torque_anchor`` natural sizes.
+    """
     weight = np.zeros(layout.size)
     inertia = float(np.trace(testbed.body.inertia_P)) / 3
     weight[TURN] = 1.0  # a step of 1 rad: without a camera nothing else ends a turn in heading

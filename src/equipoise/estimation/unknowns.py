@@ -22,7 +22,7 @@ import numpy as np
 from equipoise.maths import attitude, pseudo_inertia
 from equipoise.maths.levenberg_marquardt import Quadratic, scaled_solve
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
-from equipoise.model.arrays import Floats, Quaternion, Vector3, Vector6
+from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3, Vector6
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import (
     MassProperties,
@@ -94,8 +94,11 @@ def body_of_point(point: Unknowns, mass: float) -> MassProperties:
 
 
 def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:
-    """Return a size natural to each torque coefficient, for a moment of inertia (kg m^2) and a
-    weight (N): damping in 10 s, the torque of 10 um, a sag of 10 um, a drift of 1 um/s."""
+    """Return a size natural to each torque coefficient.
+
+    For a moment of inertia (kg m^2) and a weight (N): damping in 10 s, the torque of 10 um, a sag
+    of 10 um, a drift of 1 um/s.
+    """
     by_group = {"viscous": 0.1 * inertia, "quadratic": inertia, "sag": 1e-5, "drift": 1e-6}
     return np.array([by_group.get(term.split("_")[0], 1e-5 * weight) for term in terms])
 
@@ -109,8 +112,11 @@ def physical(point: Unknowns, mass: float, layout: Layout) -> Floats:
 
 
 def boundary(point: Unknowns, mass: float, layout: Layout, step: Floats) -> tuple[Floats, Floats]:
-    """Return rows C and gaps d with C step = d on the boundary, for each moment that a step takes
-    below the floor; none when the step leads to a possible body."""
+    """Return rows C and gaps d with C step = d on the boundary.
+
+    One for each moment that a step takes below the floor; none when the step leads to a possible
+    body.
+    """
     inertia = point.body(mass).inertia_P
     com = point.com + step[R]
     there = inertia + unpack_symmetric(step[JP]) - parallel_axis(mass, com)
@@ -120,7 +126,8 @@ def boundary(point: Unknowns, mass: float, layout: Layout, step: Floats) -> tupl
     rows, gaps = np.zeros((len(beyond), layout.size)), np.zeros(len(beyond))
     now = second_moments(point.body(mass).inertia_C)
     for k, v in enumerate(beyond):
-        rows[k, JP] = 0.5 * np.array([1, 1, 1, 0, 0, 0]) - pack_symmetric(np.outer(v, v)) * DOUBLE
+        square: Matrix3 = v[:, None] * v
+        rows[k, JP] = 0.5 * np.array([1, 1, 1, 0, 0, 0]) - pack_symmetric(square) * DOUBLE
         rows[k, R] = -2 * mass * (v @ point.com) * v
         gaps[k] = floor - v @ now @ v
     return rows, gaps
@@ -142,8 +149,10 @@ def possible_step(
 
 
 def stride(step: Floats, point: Unknowns, mass: float) -> float:
-    """Return the length of a step in units beyond which no local model is to be believed: a
-    radian, a radian a second, the body's own inertia."""
+    """Return the length of a step in units beyond which no local model is to be believed.
+
+    These are a radian, a radian a second, the body's own inertia.
+    """
     size = float(np.trace(point.body(mass).inertia_P))
     parts = np.concatenate([step[TURN], step[RATE], step[JP] / size])
     return float(np.linalg.norm(parts))

@@ -40,7 +40,8 @@ def to_matrix(q: Floats) -> Floats:
 def exponential(vector: Floats) -> Floats:
     """Return the quaternion of a rotation vector (rad)."""
     angle = np.linalg.norm(vector, axis=-1, keepdims=True)
-    return np.concatenate([np.cos(angle / 2), 0.5 * np.sinc(angle / (2 * np.pi)) * vector], axis=-1)
+    half_sine = 0.5 * np.sinc(angle / (2 * np.pi))
+    return np.concatenate([np.cos(angle / 2), half_sine * vector], axis=-1)
 
 
 def logarithm(q: Floats) -> Floats:
@@ -72,7 +73,8 @@ def from_euler321(roll: Floats, pitch: Floats, yaw: Floats) -> Floats:
     def turn(x: Floats, y: Floats, z: Floats) -> Floats:
         return exponential(np.stack([x, y, z], axis=-1))
 
-    return multiply(turn(zero, zero, yaw), multiply(turn(zero, pitch, zero), turn(roll, zero, zero)))
+    pitched = multiply(turn(zero, pitch, zero), turn(roll, zero, zero))
+    return multiply(turn(zero, zero, yaw), pitched)
 
 
 def level(up: Vector3) -> Quaternion:

@@ -5,7 +5,7 @@ multiply-add and reassociation are allowed; NaN and infinity keep their meaning.
 """
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numba
 
@@ -20,7 +20,7 @@ drop_stale()
 def kernel(function: Function) -> Function:
     """Compile a function of arrays and numbers; it runs without the interpreter's lock."""
     compile_ = numba.njit(cache=True, nogil=True, fastmath=FAST, error_model="numpy")
-    return compile_(function)
+    return cast(Function, compile_(function))
 
 
 def part(function: Function) -> Function:
@@ -31,4 +31,4 @@ def part(function: Function) -> Function:
     compile_ = numba.njit(
         cache=True, nogil=True, fastmath=FAST, error_model="numpy", forceinline=True
     )
-    return compile_(function)
+    return cast(Function, compile_(function))

@@ -32,7 +32,8 @@ def inverse_spd(matrix: Square) -> Square:
     """Return the inverse of a positive definite matrix, scaled to unit diagonal beforehand."""
     scale = 1.0 / np.sqrt(np.diag(matrix))
     unit = matrix * np.outer(scale, scale)
-    return symmetrise(np.linalg.inv(unit)) * np.outer(scale, scale)
+    inverse: Square = np.linalg.inv(unit).astype(np.float64, copy=False)
+    return symmetrise(inverse) * np.outer(scale, scale)
 
 
 def lag_one(residual: Series) -> float:

@@ -39,6 +39,17 @@ def turn(p: Floats, q: Floats) -> tuple[float, float, float]:
     return scale * x, scale * y, scale * z
 
 
+@part
+def _add(powers: Floats, phi: tuple[float, float, float], normal: Floats, right: Floats) -> None:
+    """Add one neighbour to the normal equations."""
+    n = right.shape[0]
+    for a in range(n):
+        for b in range(n):
+            normal[a, b] += powers[a] * powers[b]
+        for c in range(3):
+            right[a, c] += powers[a] * phi[c]
+
+
 @kernel
 def _fit(t: Floats, q: Floats, reach: int, stride: int, scale: float, out: Floats) -> None:
     """Write constant term and slope, shape (n, 2, 3)."""
@@ -52,11 +63,7 @@ def _fit(t: Floats, q: Floats, reach: int, stride: int, scale: float, out: Float
             powers[0] = 1.0
             for a in range(order):
                 powers[a + 1] = powers[a] * (t[j] - t[k]) / scale
-            for a in range(order + 1):
-                for b in range(order + 1):
-                    normal[a, b] += powers[a] * powers[b]
-                for c in range(3):
-                    right[a, c] += powers[a] * phi[c]
+            _add(powers, phi, normal, right)
         for a in range(order + 1):
             normal[a, a] += 1e-9
         found = np.linalg.solve(normal, right)

@@ -30,7 +30,7 @@ def to_inertia(six: Vector6) -> Matrix3:
 def from_inertia(inertia_C: Matrix3) -> Vector6:
     """Return the six numbers of J_C; an impossible one is first moved to the nearest possible."""
     values, vectors = np.linalg.eigh(second_moments(inertia_C))
-    values = np.maximum(values, FLOOR * max(float(np.trace(inertia_C)), 1e-12))
+    values = np.maximum(values, FLOOR * max(float(np.abs(values).sum()), 1e-12))
     factor = np.linalg.cholesky((vectors * values) @ vectors.T)
     logs = np.log(np.diag(factor))
     return np.array([*logs, factor[1, 0], factor[2, 0], factor[2, 1]])
@@ -52,5 +52,3 @@ def jacobian(six: Vector6) -> Floats:
 def nearest_possible(inertia_C: Matrix3) -> Matrix3:
     """Return J_C itself when possible, else with its second moments raised to the floor."""
     return to_inertia(from_inertia(inertia_C))
-
-

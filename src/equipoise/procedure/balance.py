@@ -17,8 +17,8 @@ from equipoise.model.move import Move
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.choose_move import DOWN, Option, Outlook, good_moment, move_of, safest
-from equipoise.procedure.foresight import state_now
+from equipoise.procedure.choose_move import DOWN, Option, good_moment, move_of, option_for, safest
+from equipoise.procedure.foresight import Outlook, state_now
 from equipoise.procedure.knowledge import Knowledge, learn
 from equipoise.procedure.verify import fresh_enough, is_within, verdict
 
@@ -54,8 +54,10 @@ class Progress:
 
 
 def balance(bench: Bench, options: BalanceOptions) -> Generator[Step, None, Knowledge]:
-    """Yield Steps; the last is a verification, or a stop that says why, with a verdict. What is
-    known in the end is the generator's return value."""
+    """Yield Steps; the last is a verification, or a stop that says why, with a verdict.
+
+    What is known in the end is the generator's return value.
+    """
     began = bench.time
     fresh = bench.read(FIRST_LOOK)
     progress = Progress(learn(None, fresh, bench.testbed), still_since=began)
@@ -87,9 +89,7 @@ def again(progress: Progress, knowledge: Knowledge) -> Progress:
     return Progress(knowledge, progress.moves, progress.still_since, progress.braking)
 
 
-def reason_to_stop(
-    bench: Bench, progress: Progress, options: BalanceOptions, began: float
-) -> str:
+def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> str:
     """Return why to stop now, or nothing."""
     knowledge = progress.knowledge
     if tilt_of(knowledge.recording, bench) > bench.testbed.tilt_limit:
@@ -130,7 +130,7 @@ def decide(
         return None
     dip = DOWN if left == options.max_moves > 1 else 0.0
     aim = options.target - dip * testbed.up
-    option = view.option(aim)
+    option = option_for(view, aim)
     pressed = bench.time - began > options.max_time - SETTLE
     return option if pressed or good_moment(view, option) else None
 
@@ -148,8 +148,8 @@ def urgent(view: Outlook, target: Vector3) -> bool:
     off = float(np.linalg.norm(knowledge.com - target))
     sideways = knowledge.sd - (knowledge.sd @ up) * up
     if float(np.linalg.norm(sideways)) < INFORMED * off:
-        return later.option(target).peak > view.guard
-    return safest(replace(hopeful, wait=LOOK), target).peak > view.testbed.tilt_limit
+        return bool(option_for(later, target).peak > view.guard)
+    return bool(safest(replace(hopeful, wait=LOOK), target).peak > view.testbed.tilt_limit)
 
 
 def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> bool:

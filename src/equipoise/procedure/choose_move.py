@@ -15,15 +15,14 @@ from equipoise.actuators.sliding_masses import (
     displacements_for,
     mass_maps,
 )
-from equipoise.model.arrays import Floats, Quaternion, Vector3
+from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.move import Move
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.foresight import peak_tilt
+from equipoise.procedure.foresight import Outlook
 from equipoise.procedure.knowledge import Knowledge, shifted
 
 CALM = 0.5  # of the tilt limit, chosen: a peak at which the moment does not matter
 WAITS = (0.6, 1.2, 2.4, 4.0, 6.0)  # s
-GUARD = 0.85  # of the tilt limit, chosen
 HASTE = 30.0  # mm per s, weighs time against travel when a brake is needed
 SIDEWAYS = (0.0, 0.5, 1.0, 1.5)  # of the present sideways offset, to the far side
 CATCH_DOWN = 60e-6  # m below the target: stiffer, and soon reached
@@ -39,33 +38,12 @@ class Option:
     brake: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Outlook:
-    """From where a move would start, and how it is judged."""
-
-    knowledge: Knowledge
-    testbed: Testbed
-    state: tuple[Quaternion, Vector3]  # attitude, rate (rad/s)
-    cautious: bool = True  # judge by the worst of the likely centres of mass
-    wait: float = 0.0  # s, until the move begins
-
-    @property
-    def guard(self) -> float:
-        """Return the tilt (rad) that no plan should pass."""
-        return GUARD * self.testbed.tilt_limit
-
-    def peak(self, targets: Floats) -> float:
-        """Return the greatest tilt (rad) to expect with the masses going to ``targets`` (m)."""
-        return peak_tilt(
-            self.knowledge, self.testbed, self.state, targets, self.wait, self.cautious
-        )
-
-    def option(self, aim: Vector3, brake: bool = False, haste: float = 0.0) -> Option:
-        """Return the move that brings the centre of mass to ``aim`` (m)."""
-        now, shift = self.knowledge.displacement, aim - self.knowledge.com
-        masses, total = self.testbed.masses, self.testbed.body.mass
-        goal = displacements_for(masses, total, now, shift, haste)
-        return Option(goal, self.peak(goal), brake)
+def option_for(view: Outlook, aim: Vector3, brake: bool = False, haste: float = 0.0) -> Option:
+    """Return the move that brings the centre of mass to ``aim`` (m)."""
+    now, shift = view.knowledge.displacement, aim - view.knowledge.com
+    masses, total = view.testbed.masses, view.testbed.body.mass
+    goal = displacements_for(masses, total, now, shift, haste)
+    return Option(goal, view.peak(goal), brake)
 
 
 def good_moment(view: Outlook, option: Option) -> bool:
@@ -77,13 +55,15 @@ def good_moment(view: Outlook, option: Option) -> bool:
 
 
 def catches(view: Outlook, target: Vector3) -> Iterator[Option]:
-    """Yield hasty moves that stop the platform from falling, the mildest first: to below the
-    target, then to below and beyond it."""
+    """Yield hasty moves that stop the platform from falling, the mildest first.
+
+    They go to below the target, then to below and beyond it.
+    """
     up, offset = view.testbed.up, view.knowledge.com - target
     sideways = offset - (offset @ up) * up
     for share in SIDEWAYS:
         aim = target - share * sideways - CATCH_DOWN * up
-        yield view.option(aim, share > 0, HASTE)
+        yield option_for(view, aim, share > 0, HASTE)
 
 
 def safest(view: Outlook, target: Vector3) -> Option:

@@ -1,5 +1,7 @@
 """How far the platform will tilt if the masses go where a plan says."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
@@ -14,6 +16,7 @@ from equipoise.procedure.knowledge import Knowledge
 
 HORIZON = 25.0  # s, chosen: a swing of a platform whose centre of mass is 100 um low
 GRID = 0.5  # s
+GUARD = 0.85  # of the tilt limit, chosen
 
 
 def travel(now: Floats, targets: Floats, testbed: Testbed, wait: float) -> tuple[Series1, Floats]:
@@ -44,26 +47,40 @@ def likely_coms(knowledge: Knowledge, testbed: Testbed) -> list[Vector3]:
     return [knowledge.com, *(knowledge.com + offset for offset in offsets)]
 
 
-def peak_tilt(
-    knowledge: Knowledge,
-    testbed: Testbed,
-    state: tuple[Quaternion, Vector3],
-    targets: Floats,
-    wait: float,
-    cautious: bool,
-) -> float:
-    """Return the greatest tilt (rad) to expect over the horizon if the move begins after ``wait``
-    (s); ``cautious``: the worst over the likely centres of mass."""
-    maps, total = mass_maps(testbed.masses), testbed.body.mass
-    now = knowledge.displacement
-    t, d = travel(now, targets, testbed, wait)
-    line = timeline(np.arange(0.0, wait + HORIZON, GRID), np.zeros(0), Samples(t, d),
-                    len(testbed.masses), 1.0)  # fmt: skip
-    inertia = pack_symmetric(knowledge.fitted.point.body(total).inertia_P)
-    worst = 0.0
-    for com in likely_coms(knowledge, testbed) if cautious else [knowledge.com]:
-        moment = total * com - now @ maps.first_moment  # as if the masses stood at home
-        rigid = body_of(total, testbed.gravity, inertia, moment)
-        motion = propagate(rigid, maps, line, *state)
-        worst = max(worst, float(tilt(motion.q, testbed.up).max()))
-    return worst
+@dataclass(frozen=True, slots=True, eq=False)
+class Outlook:
+    """From where a move would start, and how it is judged."""
+
+    knowledge: Knowledge
+    testbed: Testbed
+    state: tuple[Quaternion, Vector3]  # attitude, rate (rad/s)
+    cautious: bool = True  # judge by the worst of the likely centres of mass
+    wait: float = 0.0  # s, until the move begins
+
+    @property
+    def guard(self) -> float:
+        """Return the tilt (rad) that no plan should pass."""
+        return GUARD * self.testbed.tilt_limit
+
+    @property
+    def coms(self) -> list[Vector3]:
+        """Return the centres of mass (m) to reckon with."""
+        if self.cautious:
+            return likely_coms(self.knowledge, self.testbed)
+        return [self.knowledge.com]
+
+    def peak(self, targets: Floats) -> float:
+        """Return the greatest tilt (rad) to expect with the masses going to ``targets`` (m)."""
+        masses, total = self.testbed.masses, self.testbed.body.mass
+        maps, now = mass_maps(masses), self.knowledge.displacement
+        t, d = travel(now, targets, self.testbed, self.wait)
+        grid = np.arange(0.0, self.wait + HORIZON, GRID)
+        line = timeline(grid, np.zeros(0), Samples(t, d), len(masses), 1.0)
+        inertia = pack_symmetric(self.knowledge.fitted.point.body(total).inertia_P)
+        worst = 0.0
+        for com in self.coms:
+            moment = total * com - now @ maps.first_moment  # as if the masses stood at home
+            rigid = body_of(total, self.testbed.gravity, inertia, moment)
+            motion = propagate(rigid, maps, line, *self.state)
+            worst = max(worst, float(tilt(motion.q, self.testbed.up).max()))
+        return worst

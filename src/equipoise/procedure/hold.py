@@ -42,8 +42,11 @@ class HoldOptions:
 def balance_and_hold(
     bench: Bench, balancing: BalanceOptions, holding: HoldOptions
 ) -> Iterator[Step]:
-    """Yield the Steps of balancing and then of holding, unless balancing ended in a stop for tilt
-    or with an estimate that cannot be used; a verdict missed by a little holding can mend."""
+    """Yield the Steps of balancing and then of holding.
+
+    Not of holding when balancing ended in a stop for tilt or with an estimate that cannot be used;
+    a verdict missed by a little holding can mend.
+    """
     last: list[Step] = []
 
     def watched() -> Generator[Step, None, Knowledge]:
@@ -142,7 +145,7 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
         track = tracker.track(fresh, testbed, params, state)
         state = track.end
         displacement = last_of(fresh, displacement)
-        com, sd = standing(state, testbed, displacement)
+        com, _ = standing(state, testbed, displacement)
         worst = np.maximum(worst, np.abs(com - options.target))
         if tilted(fresh, testbed):
             bench.stop()
@@ -152,7 +155,8 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
             move = move_of(com, state, displacement, goal, testbed)
             bench.move(move.targets)
             yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
-    yield verdict_step(bench, options, state, displacement, worst, bench.time < end - 1e-9)
+    belief = standing(state, testbed, displacement)
+    yield verdict_step(bench, options, belief, worst, bench.time < end - 1e-9)
 
 
 def without_drift(torque: Floats) -> Floats:
@@ -199,16 +203,18 @@ def sentence_of(move: Move, com: Vector3) -> str:
 
 
 def verdict_step(
-    bench: Bench, options: HoldOptions, state: tracker.State, displacement: Floats,
-    worst: Vector3, tilted_out: bool,
+    bench: Bench,
+    options: HoldOptions,
+    belief: tuple[Vector3, Vector3],
+    worst: Vector3,
+    tilted_out: bool,
 ) -> Step:
-    """Return the verdict on the whole hold."""
-    com, sd = standing(state, bench.testbed, displacement)
+    """Return the verdict on the whole hold; the belief is a centre of mass and its sd (m)."""
     passed = bool(np.all(worst <= options.tolerance)) and not tilted_out
     far = ", ".join(f"{1e6 * w:.1f}" for w in worst)
     text = f"Held for {options.duration / 60:.3g} min; at most ({far}) um from the target."
     if tilted_out:
         text = "Stopped: the platform tilts beyond its limit."
-    verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, com, sd)
+    verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, *belief)
     return Step("verify" if not tilted_out else "stop", bench.time, verdict.sentence,
                 verdict=verdict)  # fmt: skip

@@ -100,9 +100,7 @@ def step_of(recording: Recording, estimate: Estimate) -> Step:
     return Step("estimate", recording.span[1], sentence, estimate=estimate)
 
 
-def identify(
-    recording: Recording, testbed: Testbed, options: IdentifyOptions
-) -> Iterator[Step]:
+def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Iterator[Step]:
     """Yield a look, then one estimate for each method that the record allows; the last counts.
 
     Raises InputError for a method or a held parameter that does not exist.

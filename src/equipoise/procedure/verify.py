@@ -1,4 +1,4 @@
-"""Verify: is the centre of mass where it was wanted, on data recorded since the last move?"""
+"""Verify that the centre of mass is where it was wanted, on data since the last move."""
 
 import numpy as np
 from scipy.special import ndtr
@@ -66,4 +66,3 @@ def verdict(
 def fresh_enough(knowledge: Knowledge, since: float) -> bool:
     """Say whether enough was recorded since the last move to judge by."""
     return knowledge.recording.span[1] - since >= FRESH
-

@@ -1,0 +1,81 @@
+"""The tracker ends where the fit ends, and follows or finds what the masses do."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from builders import COM, MASS, move_at, noisy, platform, recording
+
+from equipoise.estimation import trajectory
+from equipoise.estimation.tracker import Params, first_state, track
+from equipoise.model.estimate import COM as COM_NAMES
+from equipoise.model.recording import window
+
+SHIFT = np.array([-10e-3, -10e-3, -50e-3]) * 0.0156 / MASS  # m, what the move does
+both_sensors = pytest.mark.parametrize("gyro", [0.0, 20.0], ids=["camera", "camera and gyro"])
+
+
+def bed(gyro: float):
+    return platform(accuracy=1e-4, gyro=gyro > 0)
+
+
+@cache
+def seen(gyro: float, seed: int = 3):
+    return noisy(recording(120.0, move_at(60.0, 120.0), 5.0, gyro), seed)
+
+
+def tracked(gyro: float, params: Params, record=None):
+    record = seen(gyro) if record is None else record
+    return track(record, bed(gyro), params, start(gyro))
+
+
+def start(gyro: float):
+    return first_state(0.0, seen(gyro).attitude.values[0], bed(gyro))
+
+
+@both_sensors
+def test_with_the_inertia_known_it_ends_where_the_fit_ends(gyro):
+    """Centre of mass within one combined sd of the whole-record fit, on every axis."""
+    known = replace(bed(gyro), inertia_sd=1e-6)
+    fit = trajectory.estimate(seen(gyro), known, trajectory.Params(use_prior=True))
+    found = tracked(gyro, Params())
+    sd = np.sqrt(np.diag(fit.covariance_of(COM_NAMES)))
+    assert np.all(np.abs(found.com[-1] - fit.com) < np.hypot(sd, found.com_sd[-1]))
+
+
+@both_sensors
+@pytest.mark.parametrize("cut", [47.03, 62.0])
+def test_in_parts_it_is_the_same(gyro, cut):
+    """Called again from where it ended, in the middle of a travel too: to 1e-9 of a metre."""
+    whole = tracked(gyro, Params())
+    first = tracked(gyro, Params(), window(seen(gyro), 0.0, cut))
+    rest = track(window(seen(gyro), cut, 120.0), bed(gyro), Params(), first.end)
+    np.testing.assert_array_equal(np.append(first.t, rest.t), whole.t)
+    np.testing.assert_allclose(np.vstack([first.com, rest.com]), whole.com, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(np.vstack([first.sd, rest.sd]), whole.sd, rtol=1e-6)
+
+
+@both_sensors
+def test_a_fed_move_is_no_surprise(gyro):
+    """Centre of mass (masses at home) within 4 sd after the move; where they stop adds to it."""
+    found = tracked(gyro, Params())
+    after = found.t > 65.5
+    assert np.all(np.abs(found.com[after] - COM) < 4 * found.com_sd[after])
+    assert found.surprise.mean() / 3 == pytest.approx(1.0, abs=4 * np.sqrt(2 / 3 / len(found.t)))
+    before, later = (found.com_sd[np.searchsorted(found.t, t)] for t in (60.8, 61.2))
+    assert np.all(later[:2] > before[:2])
+
+
+@both_sensors
+def test_a_move_that_it_is_not_told_is_found(gyro):
+    """Allowed to wander by 3 um/sqrt(s), it ends within 3 sd of where the masses left it."""
+    found = tracked(gyro, Params(moves="ignored", com_walk=3e-6))
+    assert np.all(np.abs(found.com[-1] - COM - SHIFT) < 3 * found.com_sd[-1])
+    assert np.all(np.abs(found.com[-1] - COM)[:2] > 5e-6)
+
+
+def test_a_gyro_sharpens_the_rate():
+    """0.1 mrad/s at 20 Hz beside 0.2 deg at 5 Hz: the rate is known at least twice as well."""
+    camera, both = (tracked(gyro, Params()).rate_sd[-1] for gyro in (0.0, 20.0))
+    assert np.all(both < 0.5 * camera)
