@@ -5,6 +5,8 @@ seeds chance is larger, and the band is the wider of the claim's and the one tha
 leaves once in a thousand runs. Bands follow from the chi-square and binomial distributions.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import binom, chi2
@@ -34,6 +36,18 @@ def ratio_limits(covariance: Array, seeds: int) -> tuple[float, float]:
         ratios[k] = np.sqrt(np.mean((rng.normal(size=(seeds, len(sd))) @ root.T) ** 2, axis=0))
     mean, greatest = ratios.mean(axis=1), ratios.max(axis=1)
     return float(np.quantile(mean, 1 - RARE)), float(np.quantile(greatest, 1 - RARE))
+
+
+def mean_square_band(correlations: Sequence[Array]) -> tuple[float, float]:
+    """Return the band of the mean square of groups of unit errors, each group correlated so."""
+    rng = np.random.default_rng(0)
+    total, count = np.zeros(DRAWS), 0
+    for correlation in correlations:
+        root = np.linalg.cholesky(correlation + 1e-9 * np.eye(len(correlation)))
+        total += np.sum((rng.normal(size=(DRAWS, len(root))) @ root.T) ** 2, axis=1)
+        count += len(root)
+    low, high = np.quantile(total / count, [RARE / 2, 1 - RARE / 2])
+    return float(low), float(high)
 
 
 def share_band(

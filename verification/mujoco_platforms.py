@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
 
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.estimate import COM, INERTIA
@@ -13,7 +13,7 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from equipoise.procedure.identify import IdentifyOptions, identify
 from tests.oracle import mujoco_bench as oracle
-from verification.chance import RARE
+from verification.chance import mean_square_band
 from verification.result import Result, Row, Spread, at_most, between, in_turn
 
 STATED = 20  # platforms for which the claim is stated
@@ -38,36 +38,42 @@ def logged(case: str, seed: int) -> tuple[oracle.Platform, Recording, Testbed]:
     return platform, recording, oracle.testbed_for(platform, rng, attitude=camera, gyro=gyro)
 
 
-def errors(case: str, seed: int) -> tuple[NDArray[np.float64], bool]:
-    """Return the errors of com and inertia in stated sd, and whether the outcome is usable."""
+class Found(NamedTuple):
+    """One record identified."""
+
+    z: NDArray[np.float64]  # errors of com and inertia, in stated sd
+    correlation: NDArray[np.float64]  # of these nine, as stated
+    usable: bool
+
+
+def identified(case: str, seed: int) -> Found:
+    """Identify one record."""
     platform, recording, testbed = logged(case, seed)
     *_, last = identify(recording, testbed, IdentifyOptions("trajectory"))
     estimate = last.estimate
     true = np.concatenate([platform.com, pack_symmetric(platform.inertia_P)])
     sd = np.array([estimate.parameters[estimate.index(name)].sd for name in COM + INERTIA])
-    return (estimate.values(COM + INERTIA) - true) / sd, estimate.outcome.usable
+    correlation = estimate.covariance_of(COM + INERTIA) / np.outer(sd, sd)
+    z = (estimate.values(COM + INERTIA) - true) / sd
+    return Found(z, correlation, estimate.outcome.usable)
 
 
-def square_band(platforms: int) -> tuple[float, float]:
-    """Return the band of the mean square: as stated, or wider by chance with fewer platforms.
-
-    Nine errors a platform, of which correlation leaves some five independent (measured on the
-    information of twenty platforms: trace^2 of the correlation over its squared norm is 4 to 6).
-    """
-    if platforms >= STATED:
+def square_band(found: Sequence[Found]) -> tuple[float, float]:
+    """Return the band of the mean square: as stated, or with fewer platforms wider by chance."""
+    if len(found) >= STATED:
         return SQUARE
-    low, high = chi2.ppf([RARE / 2, 1 - RARE / 2], 5 * platforms) / (5 * platforms)
-    return float(min(low, SQUARE[0])), float(max(high, SQUARE[1]))
+    low, high = mean_square_band([each.correlation for each in found])
+    return min(low, SQUARE[0]), max(high, SQUARE[1])
 
 
 def rows_of(case: str, seeds: Sequence[int], spread: Spread) -> tuple[Row, ...]:
     """Return the rows of one set of sensors."""
-    found = spread(partial(errors, case), seeds)
-    z = np.array([each for each, _ in found])
+    found = spread(partial(identified, case), seeds)
+    z = np.array([each.z for each in found])
     return (
-        between(f"{case}: mean square of error / sd", float(np.mean(z**2)), square_band(len(seeds))),
+        between(f"{case}: mean square of error / sd", float(np.mean(z**2)), square_band(found)),
         at_most(f"{case}: greatest error / sd", float(np.abs(z).max()), WORST),
-        at_most(f"{case}: outcomes not usable", sum(not usable for _, usable in found), 0, "d"),
+        at_most(f"{case}: outcomes not usable", sum(not each.usable for each in found), 0, "d"),
     )
 
 
