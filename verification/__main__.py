@@ -42,8 +42,8 @@ class Check:
 CHECKS = {
     "independent_truth": Check(independent_truth.measure, 10),
     "mujoco_platforms": Check(mujoco_platforms.measure, 20),
-    "efficiency": Check(efficiency.measure, 200),
-    "tracker_honesty": Check(tracker_honesty.measure, 100),
+    "efficiency": Check(efficiency.measure, 2000),
+    "tracker_honesty": Check(tracker_honesty.measure, 200),
     "balanced": Check(balanced.measure, 200),
     "drift": Check(drift.measure, 20),
     "real_record": Check(real_record.measure, 1),

@@ -1,4 +1,9 @@
-"""The trajectory fit beside the Cramer-Rao bound, and its intervals beside the truth."""
+"""The trajectory fit beside the Cramer-Rao bound, and its intervals beside the truth.
+
+The claim is stated for 200 seeds. Of that many, perfect 95 % intervals of fifteen parameters leave
+92-98 % somewhere in every third run or so (the page says how often), so single parameters are
+judged on all seeds (2000 by default: once in ten thousand), and the rest on the first 200 and on all.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -12,7 +17,7 @@ from equipoise.estimation.unknowns import JP, RATE, TURN, R, physical
 from equipoise.maths.attitude import difference
 from equipoise.model.estimate import NORMAL_95
 from verification import paper_runs
-from verification.chance import FULL, nees_band, ratio_limits, share_band
+from verification.chance import FULL, leaving, nees_band, ratio_limits, share_band
 from verification.result import Result, Row, Spread, at_most, between, in_turn
 
 MEAN, GREATEST = 1.1, 1.2  # RMSE / bound
@@ -46,31 +51,57 @@ def fitted(seed: int) -> Run:
 
 def ratio_rows(runs: Sequence[Run]) -> tuple[Row, ...]:
     """Return RMSE over bound. Each error counts in units of its own run's bound."""
+    n = len(runs)
     error = np.array([run.error / np.sqrt(np.diag(run.bound)) for run in runs])
     ratio = np.sqrt(np.mean(error**2, axis=0))[JUDGED]
     worst = int(np.argmax(ratio))
-    few = len(runs) < FULL
-    chance = ratio_limits(runs[0].bound[np.ix_(JUDGED, JUDGED)], len(runs)) if few else (0.0, 0.0)
+    bound = runs[0].bound[np.ix_(JUDGED, JUDGED)]
+    chance = ratio_limits(bound, n) if n < FULL else (0.0, 0.0)
     name = runs[0].names[JUDGED[worst]]
+    mean, greatest = max(MEAN, chance[0]), max(GREATEST, chance[1])
     return (
-        at_most("RMSE / bound, mean over r, J, w0", float(ratio.mean()), max(MEAN, chance[0])),
-        at_most(
-            f"RMSE / bound, greatest ({name})", float(ratio[worst]), max(GREATEST, chance[1])
-        ),
+        at_most(f"{n} seeds: RMSE / bound, mean over r, J, w0", float(ratio.mean()), mean),
+        at_most(f"{n} seeds: RMSE / bound, greatest ({name})", float(ratio[worst]), greatest),
     )
 
 
-def cover_rows(runs: Sequence[Run]) -> tuple[Row, ...]:
-    """Return how often the 95 % intervals hold the truth."""
+def inside_of(runs: Sequence[Run]) -> NDArray[np.bool_]:
+    """Return whether each 95 % interval holds the truth, one row a run."""
     z = np.array([run.error / np.sqrt(np.diag(run.stated)) for run in runs])
-    inside = np.abs(z) < NORMAL_95
-    each, names, n = inside.mean(axis=0), runs[0].names, len(runs)
-    low, high = int(np.argmin(each)), int(np.argmax(each))
-    band = share_band(COVER, 0.95, n, len(each))
+    return np.abs(z) < NORMAL_95
+
+
+def whole_rows(runs: Sequence[Run]) -> tuple[Row, ...]:
+    """Return intervals and covariances of all parameters together."""
+    n, size = len(runs), len(runs[0].error)
+    nees = float(np.mean([run.error @ np.linalg.solve(run.stated, run.error) for run in runs]))
+    pooled = float(inside_of(runs).mean())
     return (
-        between("95 % intervals hold the truth, all", float(inside.mean()), COVER, ".1%"),
-        between(f"the same, least ({names[low]})", float(each[low]), band, ".1%"),
-        between(f"the same, most ({names[high]})", float(each[high]), band, ".1%"),
+        between(f"{n} seeds: 95 % intervals that hold the truth", pooled, COVER, ".1%"),
+        between(f"{n} seeds: mean NEES, {size} unknowns", nees, nees_band(size, n), ".2f"),
+    )
+
+
+def single_rows(runs: Sequence[Run]) -> tuple[Row, ...]:
+    """Return the least and the most covered of the parameters."""
+    each, names, n = inside_of(runs).mean(axis=0), runs[0].names, len(runs)
+    band = share_band(COVER, 0.95, n, len(each))
+    low, high = int(np.argmin(each)), int(np.argmax(each))
+    return (
+        between(f"{n} seeds: intervals of the least covered, {names[low]}", float(each[low]),
+                band, ".1%"),
+        between(f"{n} seeds: intervals of the most covered, {names[high]}", float(each[high]),
+                band, ".1%"),
+    )  # fmt: skip
+
+
+def single_note(runs: Sequence[Run]) -> str:
+    """Return the same for the seeds of the claim, and what chance does to it."""
+    each, n = inside_of(runs).mean(axis=0), len(runs)
+    out = leaving(COVER, [run.stated for run in runs[:20]], n)
+    return (
+        f"Single parameters over the first {n} seeds: {each.min():.1%} to {each.max():.1%}; perfect "
+        f"intervals would leave {COVER[0]:.0%}-{COVER[1]:.0%} somewhere in {out:.0%} of such runs."
     )
 
 
@@ -85,15 +116,14 @@ def scale_note(runs: Sequence[Run]) -> str:
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Fit one record for each seed."""
     runs = spread(fitted, seeds)
-    nees = [run.error @ np.linalg.solve(run.stated, run.error) for run in runs]
-    size = len(runs[0].error)
-    rows = (
-        *ratio_rows(runs),
-        *cover_rows(runs),
-        between(f"mean NEES, {size} unknowns", float(np.mean(nees)), nees_band(size, len(runs))),
-    )
+    stated = runs[:FULL]
+    rows = (*ratio_rows(stated), *whole_rows(stated))
+    if len(runs) > len(stated):
+        rows = (*rows, *ratio_rows(runs), *whole_rows(runs))
     claim = (
-        f"Camera alone (5 Hz, 0.2 deg), 120 s, one exact move, start tilted 3-5 deg, {len(runs)} "
-        "seeds: errors are at the Cramer-Rao bound and the stated intervals hold the truth."
+        "Camera alone (5 Hz, 0.2 deg), 120 s, one exact move, start tilted 3-5 deg: "
+        "errors are at the Cramer-Rao bound and the stated intervals hold the truth."
     )
-    return Result("efficiency", claim, rows, (scale_note(runs),))
+    return Result("efficiency", claim, (*rows, *single_rows(runs)), (
+        single_note(stated), scale_note(runs)
+    ))  # fmt: skip
