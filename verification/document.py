@@ -70,8 +70,9 @@ def page(sections: Sequence[str], date: str, results: Sequence[Result]) -> str:
     rows = [row for result in results for row in result.rows]
     missed = sum(not row.ok for row in rows)
     head = (
-        "# What was verified\n\nWritten by `make verify`; do not edit. Each section is one file of "
-        "`verification/`. Tests in `tests/statistical` call the same functions with fewer seeds.\n\n"
+        "# What was verified\n\nWritten by `make verify`; do not edit. Each section is one "
+        "file of `verification/`. Tests in `tests/statistical` call the same functions with "
+        "fewer seeds.\n\n"
         f"{date}. {versions()}. {len(rows)} numbers, {missed} not as wanted."
     )
     return "\n\n".join([head, *sections]) + "\n"

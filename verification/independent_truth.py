@@ -50,5 +50,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         f"Over {SECONDS:.0f} s, with masses moved on the way, the propagator agrees with MuJoCo "
         f"within {LIMIT:g} rad on {len(seeds)} random platforms of 4-40 kg."
     )
-    note = f"Without the moves the two would part by {np.degrees(found[:, 1].min()):.2g} deg or more."
+    note = (
+        f"Without the moves the two would part by {np.degrees(found[:, 1].min()):.2g} deg or more."
+    )
     return Result("independent_truth", claim, tuple(rows), (note,))

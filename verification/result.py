@@ -42,9 +42,7 @@ def at_least(quantity: str, found: float, limit: float, form: str = ".3g") -> Ro
     return Row(quantity, f"{found:{form}}", f"at least {limit:{form}}", bool(found >= limit))
 
 
-def between(
-    quantity: str, found: float, band: tuple[float, float], form: str = ".3g"
-) -> Row:
+def between(quantity: str, found: float, band: tuple[float, float], form: str = ".3g") -> Row:
     """Return a row whose number belongs in a band, ends included."""
     low, high = band
     wanted = f"{low:{form}} to {high:{form}}"

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from equipoise.estimation import tracker, trajectory
 from equipoise.estimation.unknowns import JP, R
+from equipoise.maths.linalg import unpack_symmetric
 from tests import builders
 from verification import paper_runs
 from verification.chance import FULL, nees_band, ratio_limits, share_band
@@ -36,7 +37,7 @@ def tracked(moves: tracker.Moves, seed: int) -> Run:
     recording, q0 = paper_runs.run(seed)
     testbed, attitude = paper_runs.testbed(), recording.attitude
     walk = STILL if moves == "fed" else ALERT
-    params = tracker.Params(moves, walk, STILL, inertia_P=paper_runs.inertia_P())
+    params = tracker.Params(moves, walk, STILL, inertia_P=unpack_symmetric(paper_runs.PUBLISHED))
     first = tracker.first_state(0.0, attitude.values[0], testbed)
     track = tracker.track(recording, testbed, params, first)
     true = builders.COM if moves == "fed" else builders.COM + paper_runs.SHIFT

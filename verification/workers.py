@@ -8,7 +8,9 @@ from typing import Any
 from verification.result import Spread
 
 
-def spread_over(workers: int, tell: Callable[[int, int], None] = lambda done, total: None) -> Spread:
+def spread_over(
+    workers: int, tell: Callable[[int, int], None] = lambda done, total: None
+) -> Spread:
     """Return a way to spread work over processes that tells how far it has come."""
 
     def spread(work: Callable[[Any], Any], items: Iterable[Any]) -> list[Any]:
