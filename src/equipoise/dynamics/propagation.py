@@ -126,27 +126,78 @@ def slope(
 
 
 @part
-def step(
+def slope_at(
     body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    i: int, y: Floats, regress: Floats, fb: Floats, at: Floats, dy: Floats, total: Floats,
+    i: int, share: float, y: Floats, regress: Floats, fb: Floats, dy: Floats,
 ) -> None:
-    """Take y over step i, in place."""
+    """Write y' at ``share`` of step i."""
+    now, w, g = look(body, maps, t, known, owners, columns, i, share, y, regress, fb)
+    slope(body, now, w, g, y, regress, fb, dy)
+
+
+@part
+def step_from(
+    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
+    i: int, y: Floats, first: Floats, regress: Floats, fb: Floats, at: Floats, dy: Floats,
+    total: Floats,
+) -> None:
+    """Take y over step i, in place; ``first`` is the slope at its beginning."""
     h, m = t[i + 1] - t[i], y.shape[0]
     for j in range(m):
-        at[j], total[j] = y[j], 0.0
-    for k in range(4):
-        share = 0.0 if k == 0 else (1.0 if k == 3 else 0.5)
-        now, w, g = look(body, maps, t, known, owners, columns, i, share, at, regress, fb)
-        slope(body, now, w, g, at, regress, fb, dy)
-        weight, ahead = 1.0 if k in (0, 3) else 2.0, h if k == 2 else 0.5 * h
+        total[j] = first[j]
+        at[j] = y[j] + 0.5 * h * first[j]
+    for k in range(1, 4):
+        share, weight = (1.0, 1.0) if k == 3 else (0.5, 2.0)
+        ahead = h if k == 2 else 0.5 * h
+        slope_at(body, maps, t, known, owners, columns, i, share, at, regress, fb, dy)
         for j in range(m):
             total[j] += weight * dy[j]
             at[j] = y[j] + ahead * dy[j]
     for j in range(m):
         y[j] += h / 6 * total[j]
+    to_unit(y)
+
+
+@part
+def to_unit(y: Floats) -> None:
+    """Bring the quaternion to unit length."""
     norm = (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + y[3] * y[3]) ** -0.5
     for j in range(4):
         y[j] *= norm
+
+
+@part
+def step(
+    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
+    i: int, y: Floats, regress: Floats, fb: Floats, at: Floats, dy: Floats, total: Floats,
+) -> None:
+    """Take y over step i, in place."""
+    slope_at(body, maps, t, known, owners, columns, i, 0.0, y, regress, fb, total)
+    step_from(body, maps, t, known, owners, columns, i, y, total, regress, fb, at, dy, total)
+
+
+@part
+def steady(known: Floats, i: int) -> bool:
+    """Say whether no known input changes over step i."""
+    for j in range(known.shape[1]):
+        if known[i, j] != known[i + 1, j]:
+            return False
+    return True
+
+
+@part
+def interpolate(
+    y0: Floats, dy0: Floats, y1: Floats, dy1: Floats, h: float, share: float, out: Floats
+) -> None:
+    """Write the state within a step of h seconds: the cubic through both ends and their slopes.
+
+    It errs by (w h)^4 / 384 of a motion's amplitude, w being its frequency.
+    """
+    s, r = share, 1.0 - share
+    a, b, c, d = (1 + 2 * s) * r * r, h * s * r * r, s * s * (3 - 2 * s), -h * s * s * r
+    for j in range(out.shape[0]):
+        out[j] = a * y0[j] + b * dy0[j] + c * y1[j] + d * dy1[j]
+    to_unit(out)
 
 
 @part

@@ -1,8 +1,9 @@
 """The times at which a record is integrated, and what is known at each of them.
 
-The grid holds every time at which a sensor looked and every corner of the known inputs (mass
-displacements, stored momentum, torque), so that inputs are straight lines within a step. Between
-these, steps are as long as the motion allows.
+The grid holds every corner of the known inputs (mass displacements, stored momentum, torque), so
+that inputs are straight lines within a step. Between these, steps are as long as the motion allows.
+Sensors look either at nodes of their own, or anywhere within a step (``at_nodes`` false), where the
+fit reads the state by cubic interpolation: a fast sensor then costs no more steps than a slow one.
 """
 
 from typing import NamedTuple
@@ -22,8 +23,10 @@ class Timeline(NamedTuple):
     known: Floats  # (n+1, 6 + k + e): wheel momentum N m s, torque N m, displacements m, and how
     # far each displacement error is felt, 0 to 1
     error_mass: Ints  # (e,) the mass that each error belongs to
-    attitude_node: Ints  # (n_q,) where the attitude was seen
-    rate_node: Ints  # (n_w,) where the rate was seen
+    attitude_node: Ints  # (n_q,) where the attitude was seen: this node
+    attitude_share: Floats  # (n_q,) and this share of the step that leaves it
+    rate_node: Ints  # (n_w,) the same for the rate
+    rate_share: Floats  # (n_w,)
 
 
 def fill(times: Series1, longest: float) -> Series1:
@@ -68,18 +71,27 @@ def timeline(
     torque: Samples | None = None,
     errors: Samples | None = None,
     error_mass: Ints | None = None,
+    at_nodes: bool = True,
 ) -> Timeline:
     """Return the grid for sensors that looked at these times (s)."""
     seen = np.concatenate([attitude_t, rate_t])
     start, end = float(seen.min()), float(seen.max())
     knots = [corners(c, start, end) for c in (masses, momentum, torque, errors)]
-    t = fill(np.unique(np.concatenate([seen, *knots])), longest)
+    firm = seen if at_nodes else np.array([start, end])
+    t = fill(np.unique(np.concatenate([firm, *knots])), longest)
     owners = np.zeros(0, dtype=np.int64) if error_mass is None else error_mass
     inputs = ((momentum, 3), (torque, 3), (masses, n_masses), (errors, len(owners)))
     return Timeline(
         t,
         np.hstack([straight_lines(channel, t, width) for channel, width in inputs]),
         owners,
-        np.searchsorted(t, attitude_t).astype(np.int64),
-        np.searchsorted(t, rate_t).astype(np.int64),
+        *place(t, attitude_t),
+        *place(t, rate_t),
     )
+
+
+def place(t: Series1, seen: Series1) -> tuple[Ints, Floats]:
+    """Return the node at or before each time, and the share of the step behind it."""
+    node = np.searchsorted(t, seen, side="right") - 1
+    length = np.append(np.diff(t), 1.0)
+    return node.astype(np.int64), (seen - t[node]) / length[node]

@@ -112,10 +112,11 @@ def estimate(
 ) -> Estimate:
     """Return the estimate; needs attitude or rates, and tilt in two directions."""
     method, mass = f"momentum_{axes}", testbed.body.mass
-    motion = sampled_motion(recording, testbed)
-    if len(motion.t) < FEWEST:
-        outcome = Outcome(False, f"Only {len(motion.t)} rows: the integral has nothing to fit.")
+    seen = max(len(c) for c in (recording.attitude, recording.rate) if c is not None)
+    if seen < FEWEST:
+        outcome = Outcome(False, f"Only {seen} rows: the integral has nothing to fit.")
         return Estimate(method, outcome, (), np.zeros((0, 0)))
+    motion = sampled_motion(recording, testbed)
     layout = Layout(terms)
     rows = balance(recording, testbed, layout, *motion, axes)
     scale_open = not np.any(rows.known)

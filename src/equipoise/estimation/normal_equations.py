@@ -14,7 +14,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.dynamics.propagation import Columns, arrive, rate_sensitivity, start, step
+from equipoise.dynamics.propagation import (
+    Columns,
+    interpolate,
+    look,
+    rate_sensitivity,
+    slope_at,
+    start,
+    steady,
+    step_from,
+)
 from equipoise.dynamics.regressor import WIDTH, Triple
 from equipoise.dynamics.rigid_body import ROWS, Body
 from equipoise.maths.compiled import kernel, part
@@ -27,9 +36,11 @@ class Seen(NamedTuple):
 
     attitude: Floats  # (n_q, 4)
     attitude_node: Ints
+    attitude_share: Floats  # of the step behind the node
     attitude_sd: float  # rad
     rate: Floats  # (n_w, 3) rad/s
     rate_node: Ints
+    rate_share: Floats
     rate_sd: float  # rad/s
 
 
@@ -77,6 +88,17 @@ def rate_rows(w: Triple, bias: Floats, seen: Floats, sd: float, n: int, S: Float
     )
 
 
+@part
+def weigh(
+    e: Triple, limit: float, S: Floats, normal: Floats, descent: Floats, left: Floats
+) -> float:
+    """Add a residual to the normal equations, keep it, and return its half-square cost."""
+    left[0], left[1], left[2] = e
+    weight, cost = huber(e, limit)
+    add_row(S, e, weight, normal, descent)
+    return cost
+
+
 @kernel
 def accumulate(
     body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
@@ -84,29 +106,36 @@ def accumulate(
     normal: Floats, descent: Floats, left_q: Floats, left_w: Floats,
 ) -> float:
     """Add to the normal equations, write the residuals in units of sd, return half the cost."""
-    n = columns.kinds.shape[0]
+    n, last = columns.kinds.shape[0], t.shape[0] - 2
     m = ROWS + 6 * n
-    y, at, dy, total = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
+    y, y0, dy0, dy1 = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
+    at, dy, total = np.empty(m), np.empty(m), np.empty(m)
     regress, fb, S = np.zeros((3, WIDTH)), np.zeros((6, n)), np.zeros((3, normal.shape[0]))
-    attitude, q_node, q_sd = seen.attitude, seen.attitude_node, seen.attitude_sd
-    rate, w_node, w_sd = seen.rate, seen.rate_node, seen.rate_sd
+    attitude, rate = seen.attitude, seen.rate
+    q_node, w_node, q_share, w_share = (seen.attitude_node, seen.rate_node, seen.attitude_share,
+                                        seen.rate_share)  # fmt: skip
     start(body, maps, t, known, owners, columns, q0, w0, y, regress, fb)
     cost, iq, iw = 0.0, 0, 0
-    for node in range(t.shape[0]):
-        if iq < q_node.shape[0] and q_node[iq] == node:
-            e = attitude_rows(y, attitude[iq], q_sd, n, S)
-            left_q[iq, 0], left_q[iq, 1], left_q[iq, 2] = e
-            weight, more = huber(e, limit)
-            add_row(S, e, weight, normal, descent)
-            cost, iq = cost + more, iq + 1
-        if iw < w_node.shape[0] and w_node[iw] == node:
-            now, w, _ = arrive(body, maps, t, known, owners, columns, node, y, regress, fb)
-            rate_sensitivity(now, y, fb, S)
-            e = rate_rows(w, bias, rate[iw], w_sd, n, S)
-            left_w[iw, 0], left_w[iw, 1], left_w[iw, 2] = e
-            weight, more = huber(e, limit)
-            add_row(S, e, weight, normal, descent)
-            cost, iw = cost + more, iw + 1
-        if node < t.shape[0] - 1:
-            step(body, maps, t, known, owners, columns, node, y, regress, fb, at, dy, total)
+    for i in range(last + 1):
+        if i == 0 or not (steady(known, i - 1) and steady(known, i)):
+            slope_at(body, maps, t, known, owners, columns, i, 0.0, y, regress, fb, dy1)
+        for j in range(m):
+            y0[j], dy0[j] = y[j], dy1[j]
+        step_from(body, maps, t, known, owners, columns, i, y, dy0, regress, fb, at, dy, total)
+        slope_at(body, maps, t, known, owners, columns, i, 1.0, y, regress, fb, dy1)
+        h = t[i + 1] - t[i]
+        while iq < q_node.shape[0] and (q_node[iq] == i or i == last):
+            share = q_share[iq] if q_node[iq] == i else 1.0
+            interpolate(y0, dy0, y, dy1, h, share, at)
+            e = attitude_rows(at, attitude[iq], seen.attitude_sd, n, S)
+            cost += weigh(e, limit, S, normal, descent, left_q[iq])
+            iq += 1
+        while iw < w_node.shape[0] and (w_node[iw] == i or i == last):
+            share = w_share[iw] if w_node[iw] == i else 1.0
+            interpolate(y0, dy0, y, dy1, h, share, at)
+            now, w, _ = look(body, maps, t, known, owners, columns, i, share, at, regress, fb)
+            rate_sensitivity(now, at, fb, S)
+            e = rate_rows(w, bias, rate[iw], seen.rate_sd, n, S)
+            cost += weigh(e, limit, S, normal, descent, left_w[iw])
+            iw += 1
     return cost

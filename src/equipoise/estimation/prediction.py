@@ -1,12 +1,15 @@
 """What a set of mass properties says the sensors should have seen."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.actuators.stops import stop_errors
 from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.regressor import N_TORQUES
+from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import TURN_PER_STEP, timeline
 from equipoise.estimation.sampled_motion import sampled_motion
 from equipoise.estimation.trajectory import fastest_rate
@@ -34,19 +37,23 @@ class Prediction(NamedTuple):
 
 def run(
     recording: Recording, testbed: Testbed, body: MassProperties, q0: Quaternion, w0: Vector3,
-    torque: Floats,
+    torque: Floats, late: Mapping[str, float],
 ) -> Prediction:
-    """Return the motion of a body through the record's moves."""
+    """Return the motion of a body through the record's moves; ``late`` are displacement errors."""
     rows, sensor = recording.attitude, testbed.attitude
     if rows is None or not len(rows):
         rows, sensor = recording.rate, testbed.gyro
     assert rows is not None
     t = seen_at(rows.t, sensor)
+    stops = stop_errors(recording.masses, testbed.masses)
     line = timeline(
         t, np.zeros(0), recording.masses, len(testbed.masses),
         min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
-        recording.momentum, recording.torque,
+        recording.momentum, recording.torque, stops.felt, stops.owner,
     )  # fmt: skip
+    first = KNOWN_D + len(testbed.masses)
+    for j, (name, owner) in enumerate(zip(stops.names, stops.owner, strict=True)):
+        line.known[:, KNOWN_D + owner] += late.get(name, 0.0) * line.known[:, first + j]
     rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment,
                     torque)  # fmt: skip
     motion = propagate(rigid, mass_maps(testbed.masses), line, q0, w0)
@@ -58,10 +65,11 @@ def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Predi
     torque = np.array([estimate.values((t,))[0] if estimate.has(t) else 0.0 for t in TERMS])
     body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
     q0 = exponential(estimate.values(ATTITUDE))
-    return run(recording, testbed, body, q0, estimate.values(RATE), torque)
+    late = {p.name: p.value for p in estimate.parameters if p.name.startswith("error_")}
+    return run(recording, testbed, body, q0, estimate.values(RATE), torque, late)
 
 
 def before(recording: Recording, testbed: Testbed) -> Prediction:
     """Return what the testbed's first guess says, from the first attitudes (paper Fig. 6a)."""
     motion = sampled_motion(recording, testbed)
-    return run(recording, testbed, testbed.body, motion.q[0], motion.w[0], np.zeros(N_TORQUES))
+    return run(recording, testbed, testbed.body, motion.q[0], motion.w[0], np.zeros(N_TORQUES), {})

@@ -15,6 +15,7 @@ step that would leave the possible bodies is sought again along their boundary
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -83,7 +84,13 @@ class Unknowns:
 
     def body(self, mass: float) -> MassProperties:
         """Return the mass properties with the masses at home."""
-        return from_centre(mass, self.com, pseudo_inertia.to_inertia(self.six))
+        return body_of_point(self, mass)
+
+
+@lru_cache(maxsize=8)  # a step of the search asks a point for its body some ten times
+def body_of_point(point: Unknowns, mass: float) -> MassProperties:
+    """Return the mass properties of a point with the masses at home."""
+    return from_centre(mass, point.com, pseudo_inertia.to_inertia(point.six))
 
 
 def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:

@@ -1,0 +1,54 @@
+"""``python -m benchmarks [--quick]``: the speed of the fit beside its peers, and of the rest."""
+
+import os
+
+for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(name, "1")  # small matrices: threads of the library only get in the way
+
+import sys  # noqa: E402
+
+from rich.console import Console  # noqa: E402
+from rich.table import Table  # noqa: E402
+
+from benchmarks import fits, others  # noqa: E402
+
+console = Console()
+
+
+def show_fits(quick: bool) -> None:
+    """Print the fits side by side."""
+    rows, missing = fits.table(quick=quick)
+    ours = rows[0].seconds
+    table = Table(title="One fit: 601 rows, 15 unknowns, covariance included, one process")
+    for title in ("method", "ms a fit", "set-up s", "evaluations", "times ours", "sd from ours"):
+        table.add_column(title, justify="left" if title == "method" else "right")
+    for row in rows:
+        table.add_row(row.name, f"{1e3 * row.seconds:.2f}", f"{row.setup:.2f}",
+                      str(row.evaluations), f"{row.seconds / ours:.1f}", f"{row.apart:.4f}")  # fmt: skip
+    console.print(table)
+    for text in missing:
+        console.print(text)
+
+
+def show_others() -> None:
+    """Print tracker, simulator, lengths and throughput."""
+    console.print(f"Tracker: {others.tracker_step():.1f} us a step (wanted: at most 15).")
+    for length in (25.0, 120.0):
+        times = others.simulator(length)
+        console.print(f"Simulator, sputnix, reads of {length:.0f} s: {times:,.0f} x real time "
+                      "(wanted: at least 20 000).")  # fmt: skip
+    table = Table(title="One pass over a record: residuals and normal equations")
+    for title in ("rows", "ms", "us a row", "peak MB of the process"):
+        table.add_column(title, justify="right")
+    for rows in (1_000, 10_000, 100_000, 1_000_000):
+        n, seconds, memory = others.length_row(rows)
+        table.add_row(f"{n:,}", f"{1e3 * seconds:.2f}", f"{1e6 * seconds / n:.3f}", f"{memory:.0f}")
+    console.print(table)
+    alone, together = others.throughput()
+    console.print(f"Batch of 200 fits: {alone:.0f} a second in one thread, {together:.0f} on "
+                  f"{os.cpu_count()} cores ({1e3 / together:.2f} ms a fit).")  # fmt: skip
+
+
+if __name__ == "__main__":
+    show_fits("--quick" in sys.argv)
+    show_others()

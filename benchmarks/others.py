@@ -1,0 +1,98 @@
+"""Tracker, simulator, cost against length, throughput on all cores."""
+
+import os
+import resource
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+
+from benchmarks import ours
+from benchmarks.problem import make_problem
+from equipoise.estimation import tracker, trajectory
+from equipoise.estimation.trajectory_problem import evaluate
+from equipoise.io.presets import read_preset
+from equipoise.maths.attitude import exponential, multiply
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import AttitudeSensor
+from equipoise.simulation.bench import SimulatedBench
+
+
+def tracker_step() -> float:
+    """Return the median microseconds of one step over a 601-row record."""
+    problem = make_problem(1)
+    recording, testbed = ours.recording_of(problem), ours.testbed_of(problem)
+    state = tracker.first_state(0.0, problem.q_meas[0], testbed)
+    _, seconds = ours.timed(
+        lambda: tracker.track(recording, testbed, tracker.Params(), state), 30
+    )
+    return 1e6 * seconds / (len(problem.t) - 1)
+
+
+def simulator(length: float) -> float:
+    """Return how many times faster than real time the preset runs, camera rows included."""
+    bench = SimulatedBench(read_preset("sputnix"), 3)
+    bench.move({"x1": 0.01, "z1": -0.02})
+    bench.read(length)
+    best = min(_seconds(lambda: bench.read(length)) for _ in range(9))
+    return length / best
+
+
+def _seconds(call) -> float:
+    began = time.perf_counter()
+    call()
+    return time.perf_counter() - began
+
+
+def record_of(rows: int) -> tuple[Recording, ours.Testbed]:
+    """Return a camera record of that many rows at 100 Hz, masses moved half-way."""
+    bench = replace(read_preset("sputnix"), attitude=AttitudeSensor(100.0, np.radians(0.05)))
+    seconds = (rows - 1) / 100.0
+    simulated = SimulatedBench(bench, 3)
+    first = simulated.read(seconds / 2)
+    simulated.move({"x1": -0.01, "y1": -0.01, "z1": -0.05})
+    from equipoise.model.recording import join
+
+    return join(first, simulated.read(seconds / 2)), bench
+
+
+def length_row(rows: int) -> tuple[int, float, float]:
+    """Return rows, seconds of one pass (residuals and normal equations), and peak memory (MB)."""
+    recording, testbed = record_of(rows)
+    problem = trajectory.problem_of(recording, testbed, trajectory.Params())
+    assert recording.attitude is not None
+    point = ours.unknowns_of(make_problem(1), make_problem(1).start)
+    point = replace(point, error=np.zeros(len(problem.layout.errors)))
+    evaluate(problem, point)
+    seconds = min(_seconds(lambda: evaluate(problem, point)) for _ in range(3))
+    return rows, seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def noisy_copies(count: int) -> list[Recording]:
+    """Return the bench's record with fresh noise, many times over."""
+    recording = ours.recording_of(make_problem(1))
+    assert recording.attitude is not None
+    rng = np.random.default_rng(7)
+    q = recording.attitude.values
+    return [
+        replace(recording, attitude=Samples(
+            recording.attitude.t,
+            multiply(q, exponential(rng.normal(0, 1e-3, (len(q), 3))))))
+        for _ in range(count)
+    ]  # fmt: skip
+
+
+def throughput(count: int = 200) -> tuple[float, float]:
+    """Return fits per second in one thread and on all cores."""
+    testbed = ours.testbed_of(make_problem(1))
+    copies = noisy_copies(count)
+
+    def one(recording: Recording) -> float:
+        return trajectory.fit(recording, testbed, trajectory.Params()).at.cost
+
+    one(copies[0])
+    alone = _seconds(lambda: [one(r) for r in copies])
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        together = _seconds(lambda: list(pool.map(one, copies)))
+    return count / alone, count / together

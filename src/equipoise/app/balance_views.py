@@ -1,0 +1,89 @@
+"""A balancing run for terminal, JSON and report."""
+
+import numpy as np
+
+from equipoise.app.account import Account, origin
+from equipoise.app.balancing import Balancing, change_of, inertia_of, looks
+from equipoise.app.figures.balanced_com import Story
+from equipoise.app.numbers import fixed
+from equipoise.app.pictures import Picture, TrueCourse, of_balancing, of_tracking
+from equipoise.app.tables import change_table, step_line
+from equipoise.app.terminal import stdout
+from equipoise.app.units import UM
+from equipoise.app.views_json import View, balance_json
+from equipoise.model.arrays import Vector3
+from equipoise.model.step import Step
+
+
+def show_step(step: Step) -> None:
+    """Print a step as it comes."""
+    stdout().print(step_line(step))
+
+
+def show_result(done: Balancing) -> None:
+    """Print before and after, and the verdict."""
+    console, change, verdict = stdout(), change_of(done), done.verdict
+    console.print()
+    if change is not None:
+        console.print(change_table(change))
+        console.print()
+    style = "bold green" if verdict.passed else "bold red"
+    console.print(verdict.sentence, style=style, markup=False)
+
+
+def document_of(done: Balancing, seed: int) -> View:
+    """Return the run as JSON."""
+    truth = done.truths[-1] if done.truths else None
+    provenance = origin(testbed=done.testbed.source, seed=str(seed))
+    return balance_json(done.steps, done.verdict, truth, provenance)
+
+
+def account_of(done: Balancing, seed: int) -> Account:
+    """Return the run as a report."""
+    return Account(
+        title="Balancing",
+        asked=asked(done),
+        testbed=done.testbed,
+        chapters={"Steps": done.steps},
+        origin=origin(testbed=done.testbed.source, seed=str(seed)),
+        estimate=done.estimate,
+        verdict=done.verdict,
+        change=change_of(done),
+        pictures=[*pictures_of_tracking(done), *pictures_of(done)],
+    )
+
+
+def asked(done: Balancing) -> dict[str, str]:
+    """Return target and tolerance as texts."""
+    return {
+        "target": _um(done.goal.target),
+        "tolerance": _um(done.goal.tolerance),
+        "bench": "simulated",
+    }
+
+
+def pictures_of_tracking(done: Balancing) -> list[Picture]:
+    """Return Figs. 11 and 12; the tracker's centre of mass is with the masses at home."""
+    if done.recording is None or done.recording.attitude is None:
+        return []
+    return list(of_tracking(done.recording, done.testbed, inertia_of(done.estimate), None))
+
+
+def pictures_of(done: Balancing) -> list[Picture]:
+    """Return Figs. 14 and 15."""
+    recording = done.recording
+    if recording is None or recording.attitude is None:
+        return []
+    story = Story(looks(done), done.goal.target, done.goal.tolerance, true_course(done))
+    return list(of_balancing(recording, done.testbed, inertia_of(done.estimate), story))
+
+
+def true_course(done: Balancing) -> TrueCourse | None:
+    """Return where the centre of mass really was at every step."""
+    if not done.truths:
+        return None
+    return np.array([s.time for s in done.steps]), np.array([t.com for t in done.truths])
+
+
+def _um(vector: Vector3) -> str:
+    return f"({', '.join(fixed(float(v) * UM, 1) for v in vector)}) um"

@@ -1,0 +1,147 @@
+"""One balancing of a bench: its steps as they come, and what they did to the platform."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.app.change import Believed, Change
+from equipoise.app.figures.balanced_com import Look
+from equipoise.app.recorded_bench import RecordedBench
+from equipoise.app.terminal import watched
+from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.bench import Bench
+from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.recording import Recording
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.procedure.hold import HoldOptions, balance_and_hold
+from equipoise.simulation.bench import SimulatedBench
+
+END = ("com_end_x", "com_end_y", "com_end_z")
+HALTED = "every mass was halted where it is"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Goal:
+    """Where the centre of mass is wanted, m."""
+
+    target: Vector3
+    tolerance: Vector3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Balancing:
+    """What was done, and the truth at every step when it is known."""
+
+    testbed: Testbed
+    goal: Goal
+    steps: Sequence[Step]
+    recording: Recording | None = None  # all that the bench was read
+    truth_before: MassProperties | None = None
+    truths: Sequence[MassProperties] = ()
+    before: Believed | None = None  # as known otherwise; None: the first estimate's
+
+    @property
+    def verdict(self) -> Verdict:
+        """Return the last word."""
+        return next(step.verdict for step in reversed(self.steps) if step.verdict is not None)
+
+    @property
+    def estimate(self) -> Estimate | None:
+        """Return the last estimate."""
+        return next((s.estimate for s in reversed(self.steps) if s.estimate is not None), None)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Limits:
+    """When to give up, and how long to hold what was reached."""
+
+    max_moves: int = 3
+    max_time: float = 120.0  # s
+    hold: float = 0.0  # s
+
+
+def run(
+    bench: SimulatedBench, goal: Goal, limits: Limits, show: Callable[[Step], None] | None
+) -> Balancing:
+    """Balance a simulated bench, show each step as it comes; Ctrl-C halts the bench."""
+    before, recorded = bench.truth(), RecordedBench(bench)
+    steps: list[Step] = []
+    truths: list[MassProperties] = []
+    try:
+        for step in watched(procedure(recorded, goal, limits), "balancing"):
+            if show is not None:
+                show(step)
+            steps.append(step)
+            truths.append(bench.truth())
+    except KeyboardInterrupt as by_hand:
+        bench.stop()
+        raise KeyboardInterrupt(HALTED) from by_hand
+    return Balancing(bench.testbed, goal, steps, recorded.recording(), before, truths)
+
+
+def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
+    """Return the steps of balancing and, when that passes and it is asked for, of holding."""
+    balancing = BalanceOptions(goal.target, goal.tolerance, limits.max_moves, limits.max_time)
+    if limits.hold == 0:
+        return balance(bench, balancing)
+    return balance_and_hold(bench, balancing, HoldOptions(limits.hold, goal.target, goal.tolerance))
+
+
+def at_home(estimate: Estimate) -> Believed | None:
+    """Return the centre of mass with the masses at home."""
+    return _believed(estimate, COM)
+
+
+def as_it_stands(estimate: Estimate) -> Believed | None:
+    """Return the centre of mass with the masses as they stood at the end of what was seen."""
+    return _believed(estimate, END) or at_home(estimate)
+
+
+def _believed(estimate: Estimate, names: tuple[str, ...]) -> Believed | None:
+    if not all(map(estimate.has, names)):
+        return None
+    sd = np.array([estimate.parameters[estimate.index(name)].sd for name in names])
+    return Believed(estimate.values(names), sd)
+
+
+def inertia_of(estimate: Estimate | None) -> Matrix3 | None:
+    """Return the inertia of an estimate that saw all of it."""
+    if estimate is None or not all(map(estimate.has, INERTIA)):
+        return None
+    seen = all(estimate.parameters[estimate.index(name)].observable for name in INERTIA)
+    return estimate.inertia_P if seen else None
+
+
+def looks(done: Balancing) -> list[Look]:
+    """Return time and centre of mass of every estimate and of the verdict."""
+    found: list[Look] = []
+    for step in done.steps:
+        believed = None if step.estimate is None else as_it_stands(step.estimate)
+        if step.verdict is not None and step.verdict.com is not None:
+            sd = step.verdict.sd
+            believed = Believed(step.verdict.com, np.zeros(3) if sd is None else sd)
+        if believed is not None:
+            found.append((step.time, believed.com, believed.sd))
+    return found
+
+
+def change_of(done: Balancing) -> Change | None:
+    """Return before and after: the first estimate, and the verdict or else the last estimate."""
+    seen = looks(done)
+    if not seen:
+        return None
+    inertia = inertia_of(done.estimate)
+    return Change(
+        done.testbed,
+        done.testbed.body.inertia_P if inertia is None else inertia,
+        done.goal.target,
+        done.before or Believed(*seen[0][1:]),
+        Believed(*seen[-1][1:]),
+        done.truth_before,
+        done.truths[-1] if done.truths else None,
+    )

@@ -1,0 +1,68 @@
+"""The door for people: commands, exit codes, and one sentence for whatever goes wrong.
+
+0: done, and the verdict passed. 1: done, and the verdict failed or the estimate is not usable.
+2: wrong use or bad input. 130: stopped by Ctrl-C. No numerical library is imported here; each
+command imports what it needs when it runs.
+"""
+
+import sys
+from collections.abc import Sequence
+from io import TextIOWrapper
+
+from cyclopts import App, CycloptsError, Parameter
+
+from equipoise import __version__
+from equipoise.app.commands.balance import balance
+from equipoise.app.commands.demo import demo
+from equipoise.app.commands.identify import identify
+from equipoise.app.commands.inspect import inspect
+from equipoise.app.commands.new import new
+from equipoise.app.commands.simulate import simulate
+from equipoise.app.terminal import complain
+from equipoise.model.errors import EquipoiseError
+
+WRONG_USE = 2
+BY_HAND = 130  # what shells give a program that Ctrl-C ended
+LEFT_ALONE = 1  # as rich ends a program whose output nobody reads any more
+
+app = App(
+    name="equipoise",
+    help="Identify the mass properties of a satellite mock-up on an air bearing, and balance it.",
+    version=__version__,
+    default_parameter=Parameter(negative=()),
+    result_action="return_value",
+    suppress_keyboard_interrupt=False,
+)
+for command in (demo, new, simulate, inspect, identify, balance):
+    app.command(command)
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Carry out a command line and return its exit code."""
+    try:
+        return app(arguments, exit_on_error=False, print_error=False) or 0
+    except CycloptsError as error:
+        complain(f"{error} (equipoise --help lists what there is)")
+    except EquipoiseError as error:
+        complain(str(error))
+    except BrokenPipeError:
+        sys.stdout = None  # whoever read our output has left: no further word, no traceback
+        return LEFT_ALONE
+    except OSError as error:
+        complain(f"{error.filename or 'system'}: {error.strerror or error}")
+    except KeyboardInterrupt as by_hand:
+        complain(": ".join(("stopped by hand", *map(str, by_hand.args))))
+        return BY_HAND
+    return WRONG_USE
+
+
+def main() -> None:
+    """Run as a program; a terminal that lacks a letter shows another, and nothing fails."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")
+    sys.exit(run())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,77 @@
+"""`equipoise balance`: look, move, look again, until the verdict passes."""
+
+from pathlib import Path
+
+from equipoise.app.commands.kinds import Flag, Triple
+from equipoise.app.terminal import busy, tell_paths
+
+
+def balance(
+    testbed: str,
+    /,
+    *,
+    seed: int = 1,
+    target_um: Triple = (0.0, 0.0, -100.0),
+    tolerance_um: Triple = (2.0, 2.0, 3.0),
+    max_moves: int = 3,
+    max_time_s: float = 120.0,
+    hold_min: float = 0.0,
+    json: Flag = False,
+    out: Path | None = None,
+) -> int:
+    """Balance a simulated platform: look, move masses, look again; then test the result.
+
+    Ends with 1 when the verdict is that the platform is not balanced.
+
+    Parameters
+    ----------
+    testbed
+        Testbed file, or a preset's name. Its [truth] says what the simulated platform is like.
+    seed
+        Seed of all that is drawn: the same seed gives the same run.
+    target_um
+        Where the centre of mass is wanted, from the centre of rotation, body axes.
+    tolerance_um
+        How near to the target is near enough, along each axis.
+    max_moves
+        Moves of the masses before giving up.
+    max_time_s
+        Bench time before giving up.
+    hold_min
+        Then follow the drift and hold the balance for so many minutes.
+    json
+        Print one JSON document instead.
+    out
+        Folder for figures, report.html and balance.json.
+    """
+    from equipoise.app.options import not_negative, positive, seed_of, tolerance, vector
+    from equipoise.app.units import UM
+    from equipoise.app.wiring import testbed_of
+    from equipoise.io.whole_folder import check_folder
+
+    target = vector("--target-um", target_um, 1 / UM)
+    near = tolerance("--tolerance-um", tolerance_um, 1 / UM)
+    moves = int(not_negative("--max-moves", max_moves))
+    times = positive("--max-time-s", max_time_s), not_negative("--hold-min", hold_min) * 60
+    bed, seed = testbed_of(testbed), seed_of(seed)
+    if out is not None:
+        check_folder(out)
+    with busy("preparing the bench", announce=False):
+        from equipoise.app.archive import write_account
+        from equipoise.app.balance_views import account_of, document_of, show_result, show_step
+        from equipoise.app.balancing import Goal, Limits, run
+        from equipoise.app.views_json import dump
+        from equipoise.simulation.bench import SimulatedBench
+
+        bench = SimulatedBench(bed, seed)
+    done = run(bench, Goal(target, near), Limits(moves, *times), None if json else show_step)
+    document = document_of(done, seed)
+    if json:
+        print(dump(document))
+    else:
+        show_result(done)
+    if out is not None:
+        with busy("drawing"):
+            paths = write_account(account_of(done, seed), document, "balance", out)
+        tell_paths(paths, json)
+    return 0 if done.verdict.passed else 1

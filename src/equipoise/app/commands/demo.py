@@ -1,0 +1,36 @@
+"""`equipoise demo`: the whole way, from unknown and unbalanced to balanced and verified."""
+
+from pathlib import Path
+
+from equipoise.app.terminal import busy, stdout, tell_paths
+
+
+def demo(*, out: Path = Path("equipoise-out/demo"), seed: int = 1) -> int:
+    """Identify a simulated mock-up, balance it, test the result, and write a report.
+
+    Parameters
+    ----------
+    out
+        Folder for figures, report.html and balance.json.
+    seed
+        Seed of all that is drawn: the same seed gives the same run.
+    """
+    from equipoise.app.options import seed_of
+    from equipoise.io.presets import read_preset
+    from equipoise.io.whole_folder import check_folder
+
+    bed, seed = read_preset("sputnix"), seed_of(seed)
+    check_folder(out)
+    with busy("preparing the bench", announce=False):
+        from equipoise.app.archive import write_account
+        from equipoise.app.balance_views import document_of, show_result
+        from equipoise.app.demonstration import account_of, run_demo
+
+    shown = run_demo(bed, seed)
+    show_result(shown.balancing)
+    with busy("drawing"):
+        document = document_of(shown.balancing, seed)
+        paths = write_account(account_of(shown, seed), document, "balance", out)
+    stdout().print()
+    tell_paths(paths)
+    return 0 if shown.balancing.verdict.passed else 1

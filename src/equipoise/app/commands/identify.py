@@ -1,0 +1,117 @@
+"""`equipoise identify`: mass properties from a recording."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Flag, Names
+from equipoise.app.terminal import busy, tell_paths, watched
+
+if TYPE_CHECKING:
+    from equipoise.app.identify_views import Identification
+    from equipoise.model.recording import Recording
+    from equipoise.model.testbed import Testbed
+    from equipoise.procedure.identify import IdentifyOptions
+
+
+def identify(
+    file: str,
+    /,
+    *,
+    testbed: str,
+    method: str = "auto",
+    hold: Names = (),
+    term: Names = (),
+    prior: Flag = False,
+    robust: Flag = False,
+    from_s: float | None = None,
+    to_s: float | None = None,
+    dialect: str | None = None,
+    columns: str | None = None,
+    json: Flag = False,
+    out: Path | None = None,
+) -> int:
+    """Estimate centre of mass and inertia from a recording, and say what it cannot show.
+
+    Ends with 1 when the estimate is not usable; the sentence under the tables says why.
+
+    Parameters
+    ----------
+    file
+        Recording, as CSV or Parquet.
+    testbed
+        Testbed file, or a preset's name.
+    method
+        auto, trajectory, momentum_body, momentum_laboratory, equilibrium or tracker.
+    hold
+        Parameter to keep at the testbed's value, such as inertia_P_zz. May be repeated.
+    term
+        Torque to estimate too: viscous, quadratic, constant, swirl, sag or drift. May be repeated.
+    prior
+        Use the testbed's inertia and centre of mass with their sd; this fixes an open scale.
+    robust
+        Give rows that stand far off less weight.
+    from_s
+        Leave out what is before this time.
+    to_s
+        Leave out what is after this time.
+    dialect
+        How to read the table: native, optitrack or ros. Left out: by its header.
+    columns
+        Column map (TOML) for a table of any other kind.
+    json
+        Print one JSON document instead.
+    out
+        Folder for figures, report.html and estimate.json.
+    """
+    from equipoise.app.options import one_of
+    from equipoise.app.wiring import fitting_recording_of, part_of, testbed_of
+    from equipoise.io.whole_folder import check_folder
+    from equipoise.model.estimate import COM, INERTIA
+    from equipoise.model.torque_terms import expand
+
+    bed, terms = testbed_of(testbed), expand(term, "--term")
+    for name in hold:
+        one_of("--hold", name, [*COM, *INERTIA])
+    if out is not None:
+        check_folder(out)
+    recording = part_of(fitting_recording_of(file, dialect, columns, bed), from_s, to_s)
+    with busy("identifying", announce=False):
+        from equipoise.procedure.identify import METHODS, IdentifyOptions
+
+    one_of("--method", method, ["auto", *METHODS])
+    options = IdentifyOptions(method, terms, hold, prior, robust)
+    done = _carried_out(recording, bed, options, quiet=json)
+    _tell(done, json, out)
+    return 0 if done.estimate.outcome.usable else 1
+
+
+def _carried_out(
+    recording: "Recording", testbed: "Testbed", options: "IdentifyOptions", quiet: bool
+) -> "Identification":
+    """Identify; what the recording holds is told before."""
+    from equipoise.app.identify_views import Identification, show_findings
+    from equipoise.assessment.record_findings import findings
+    from equipoise.procedure.identify import identify as procedure
+
+    found = findings(recording, testbed)
+    if not quiet:
+        show_findings(found)
+    steps = list(watched(procedure(recording, testbed, options), "identifying"))
+    return Identification(testbed, recording, found, steps)
+
+
+def _tell(done: "Identification", json: bool, out: Path | None) -> None:
+    """Print the result, and write it down if that is asked for."""
+    from equipoise.app.archive import write_account
+    from equipoise.app.identify_views import account_of, document_of, show_result
+    from equipoise.app.views_json import dump
+
+    document = document_of(done)
+    if json:
+        print(dump(document))
+    else:
+        show_result(done)
+    if out is not None:
+        with busy("drawing"):
+            paths = write_account(account_of(done), document, "estimate", out)
+        tell_paths(paths, json)

@@ -1,0 +1,58 @@
+"""`equipoise inspect`: what a file holds and what is wrong with it."""
+
+from pathlib import Path
+
+from equipoise.app.commands.kinds import Flag
+from equipoise.app.terminal import stdout, tell_paths
+
+
+def inspect(
+    file: str,
+    /,
+    *,
+    testbed: str | None = None,
+    dialect: str | None = None,
+    columns: str | None = None,
+    json: Flag = False,
+    figure: Path | None = None,
+) -> int:
+    """Say what a recording holds, and what is wrong with it.
+
+    Lines with '!' name what an estimate will suffer from, lines with '~' what was set right.
+
+    Parameters
+    ----------
+    file
+        Recording, as CSV or Parquet.
+    testbed
+        Testbed file or preset: adds what only it can tell, such as which axis is up.
+    dialect
+        How to read the table: native, optitrack or ros. Left out: by its header.
+    columns
+        Column map (TOML) for a table of any other kind.
+    json
+        Print one JSON document instead.
+    figure
+        Picture of the record to write, such as record.png.
+    """
+    from equipoise.app.tables import finding_line
+    from equipoise.app.views_json import dump, findings_json
+    from equipoise.app.wiring import recording_of, testbed_of
+    from equipoise.assessment.record_findings import findings
+
+    bed = None if testbed is None else testbed_of(testbed)
+    recording = recording_of(file, dialect, columns)
+    found = findings(recording, bed)
+    if figure is not None:
+        from equipoise.app.figures.record import draw
+        from equipoise.app.outputs import write_figure
+
+        write_figure(draw(recording), figure)
+    if json:
+        print(dump(findings_json(recording, found)))
+        return 0
+    for finding in found:
+        stdout().print(finding_line(finding))
+    if figure is not None:
+        tell_paths([figure])
+    return 0

@@ -1,0 +1,31 @@
+"""`equipoise new`: a preset as a file of one's own."""
+
+from pathlib import Path
+
+from equipoise.app.commands.kinds import Flag
+from equipoise.app.terminal import stdout
+from equipoise.model.errors import InputError
+
+
+def new(preset: str, /, *, out: Path | None = None, force: Flag = False) -> int:
+    """Write a preset testbed to a file, to start one's own from.
+
+    Parameters
+    ----------
+    preset
+        Name of the preset, such as sputnix.
+    out
+        File to write. Left out: PRESET.toml in this folder.
+    force
+        Write over a file that is already there.
+    """
+    from equipoise.io.presets import preset_text
+    from equipoise.io.testbed_file import write_testbed
+
+    text = preset_text(preset)
+    path = out or Path(f"{preset}.toml")
+    if path.exists() and not force:
+        raise InputError(str(path), "a file that is already there", "another --out, or --force")
+    write_testbed(text, path)
+    stdout().print(f"wrote {path}: what is marked 'assumed' is yours to measure", markup=False)
+    return 0

@@ -1,0 +1,76 @@
+"""An identification for terminal, JSON and report."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from equipoise.app.account import Account, origin
+from equipoise.app.pictures import of_estimate
+from equipoise.app.tables import estimate_tables, finding_line, residual_line, step_line
+from equipoise.app.terminal import stdout
+from equipoise.app.views_json import View, estimate_json
+from equipoise.assessment.finding import Finding
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Identification:
+    """What was done with a recording; the last step has the estimate that counts."""
+
+    testbed: Testbed
+    recording: Recording
+    findings: Sequence[Finding]
+    steps: Sequence[Step]
+
+    @property
+    def estimate(self) -> Estimate:
+        """Return the last word."""
+        found = self.steps[-1].estimate
+        assert found is not None
+        return found
+
+
+def show_findings(findings: Sequence[Finding]) -> None:
+    """Print what a recording holds and what is wrong with it."""
+    console = stdout()
+    for finding in findings:
+        console.print(finding_line(finding))
+
+
+def show_result(done: Identification) -> None:
+    """Print what was done, the tables, what was not seen, and the sentence that sums it up."""
+    console, estimate = stdout(), done.estimate
+    console.print()
+    for step in done.steps:
+        console.print(step_line(step))
+    for table in estimate_tables(estimate):
+        console.print()
+        console.print(table)
+    console.print()
+    for sentence in estimate.unobservable:
+        console.print(f"! {sentence}", style="yellow", markup=False)
+    if estimate.residual is not None:
+        console.print(residual_line(estimate.residual), markup=False)
+    style = "bold green" if estimate.outcome.usable else "bold red"
+    console.print(estimate.outcome.sentence, style=style, markup=False)
+
+
+def document_of(done: Identification) -> View:
+    """Return the estimate as JSON, with the findings."""
+    return estimate_json(done.estimate, done.findings)
+
+
+def account_of(done: Identification) -> Account:
+    """Return the identification as a report."""
+    return Account(
+        title="Mass properties from a recording",
+        asked={"recording": done.recording.source, "method": done.estimate.method},
+        testbed=done.testbed,
+        chapters={"Steps": done.steps},
+        origin=origin(sha256=done.recording.sha256),
+        findings=done.findings,
+        estimate=done.estimate,
+        pictures=list(of_estimate(done.recording, done.testbed, done.estimate)),
+    )

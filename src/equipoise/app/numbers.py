@@ -1,0 +1,40 @@
+"""Numbers with as many digits as their uncertainty bears: two digits of the sd."""
+
+import math
+
+DIGITS = 2  # of the sd; the second keeps its rounding below 5 %
+EXACT = 1e-6  # chosen: an sd below this share of the value is none; the value was held
+FEW = 4  # significant digits of a number without an sd
+
+
+def decimals_for(sd: float) -> int:
+    """Return how many decimals show two digits of an sd; negative left of the point."""
+    shown = float(f"{sd:.{DIGITS - 1}e}")  # 0.0996 is shown as 0.10
+    return DIGITS - 1 - math.floor(math.log10(shown))
+
+
+def fixed(value: float, decimals: int) -> str:
+    """Return a number with so many decimals; negative ones round left of the point."""
+    text = f"{round(value, decimals):.{max(decimals, 0)}f}"
+    return text.removeprefix("-") if not float(text) else text
+
+
+def is_known(value: float, sd: float) -> bool:
+    """Say whether an sd is a number from which digits can be taken."""
+    return math.isfinite(sd) and sd > EXACT * abs(value) and sd > 0
+
+
+def with_sd(value: float, sd: float) -> tuple[str, str]:
+    """Return value and sd as texts; what was not seen or was held says so in place of an sd."""
+    if is_known(value, sd):
+        decimals = decimals_for(sd)
+        return fixed(value, decimals), fixed(sd, decimals)
+    return f"{value:.{FEW}g}", "held" if math.isfinite(sd) else "not seen"
+
+
+def interval(value: float, low: float, high: float, sd: float) -> str:
+    """Return a 95 % interval with the digits that the sd bears."""
+    if not is_known(value, sd):
+        return "" if math.isfinite(sd) else "unbounded"
+    decimals = decimals_for(sd)
+    return f"{fixed(low, decimals)} to {fixed(high, decimals)}"

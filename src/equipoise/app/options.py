@@ -1,0 +1,50 @@
+"""Numbers given as options, checked where the command line can still be named."""
+
+import math
+
+from equipoise.model.arrays import Vector3
+from equipoise.model.errors import InputError, nearest
+
+
+def positive(option: str, value: float) -> float:
+    """Return a number above zero."""
+    if not (0 < value < math.inf):
+        raise InputError(option, f"{value:g}", "a number above 0")
+    return value
+
+
+def not_negative(option: str, value: float) -> float:
+    """Return a number of at least zero."""
+    if not (0 <= value < math.inf):
+        raise InputError(option, f"{value:g}", "a number of at least 0")
+    return value
+
+
+def seed_of(value: int) -> int:
+    """Return a seed that every generator takes."""
+    if not 0 <= value < 2**63:
+        raise InputError("--seed", str(value), "a whole number of at least 0")
+    return value
+
+
+def one_of(option: str, name: str, known: list[str]) -> str:
+    """Return a name that is known."""
+    if name not in known:
+        raise InputError(option, f"'{name}'", nearest(name, known))
+    return name
+
+
+def vector(option: str, values: tuple[float, float, float], factor: float) -> Vector3:
+    """Return three finite numbers as a vector in SI."""
+    import numpy as np
+
+    if not all(map(math.isfinite, values)):
+        raise InputError(option, f"{values}", "three finite numbers")
+    return np.array(values, dtype=float) * factor
+
+
+def tolerance(option: str, values: tuple[float, float, float], factor: float) -> Vector3:
+    """Return three numbers above zero as a vector in SI."""
+    for value in values:
+        positive(option, value)
+    return vector(option, values, factor)

@@ -1,0 +1,43 @@
+"""A bench of which every row is kept, whatever a procedure passes on."""
+
+from collections.abc import Mapping
+from functools import reduce
+
+from equipoise.model.bench import Bench
+from equipoise.model.recording import Recording, join
+from equipoise.model.testbed import Testbed
+
+
+class RecordedBench:
+    """The same three verbs (see ``model.bench.Bench``), and a memory."""
+
+    def __init__(self, bench: Bench) -> None:
+        self._bench = bench
+        self._parts: list[Recording] = []
+
+    @property
+    def testbed(self) -> Testbed:
+        """What is known of it beforehand."""
+        return self._bench.testbed
+
+    @property
+    def time(self) -> float:
+        """Bench time, s."""
+        return self._bench.time
+
+    def read(self, duration: float) -> Recording:
+        """Read and remember."""
+        self._parts.append(self._bench.read(duration))
+        return self._parts[-1]
+
+    def move(self, targets: Mapping[str, float]) -> None:
+        """Set masses on their way (m)."""
+        self._bench.move(targets)
+
+    def stop(self) -> None:
+        """Halt every mass where it is."""
+        self._bench.stop()
+
+    def recording(self) -> Recording | None:
+        """Return all that was read, as one; None if nothing was."""
+        return reduce(join, self._parts) if self._parts else None

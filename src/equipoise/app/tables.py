@@ -1,0 +1,119 @@
+"""Estimates, findings and steps as tables and lines for the terminal."""
+
+from collections.abc import Iterator, Sequence
+
+from rich.console import Group
+from rich.table import Table
+from rich.text import Text
+
+from equipoise.app.change import HEADS, Change, rows
+from equipoise.app.numbers import fixed, interval, with_sd
+from equipoise.app.units import PER_DEG, unit_for
+from equipoise.assessment.finding import Finding
+from equipoise.model.estimate import COM, Estimate, Parameter, Residual
+from equipoise.model.step import Step
+
+MARKS = {"content": "  ", "motion": "  ", "problem": "! ", "mended": "~ "}
+FINDING_STYLE = {"content": "", "motion": "", "problem": "bold yellow", "mended": "dim"}
+STEP_STYLE = {"look": "dim", "estimate": "", "move": "cyan", "verify": "bold", "stop": "bold"}
+
+
+def finding_line(finding: Finding) -> Table:
+    """Return a finding; '!' marks what an estimate will suffer from, '~' what was set right."""
+    line = Table.grid()
+    line.add_column(width=2, no_wrap=True)
+    line.add_column()
+    cells_ = (MARKS[finding.kind], finding.sentence)
+    line.add_row(*map(Text, cells_), style=FINDING_STYLE[finding.kind])
+    return line
+
+
+def step_line(step: Step) -> Table:
+    """Return a step: when, what, and what came of it."""
+    line = Table.grid(padding=(0, 2))
+    line.add_column(width=9, justify="right", no_wrap=True)
+    line.add_column(width=8, no_wrap=True)
+    line.add_column()
+    cells_ = (f"{step.time:.1f} s", step.kind, step.sentence)
+    line.add_row(*map(Text, cells_), style=STEP_STYLE[step.kind])
+    return line
+
+
+def quiet_table() -> Table:
+    """Return a table without lines between rows."""
+    return Table(box=None, pad_edge=False)
+
+
+def titled(title: str, table: Table) -> Group:
+    """Return a table under its title, which may be the wider one."""
+    return Group(Text(title, style="bold"), table)
+
+
+def cells(parameter: Parameter) -> tuple[str, str, str, str, str]:
+    """Return name, value, sd, 95 % interval and unit, in the unit of the bench."""
+    unit = unit_for(parameter.name, parameter.unit)
+    value, sd = parameter.value * unit.factor, parameter.sd * unit.factor
+    low, high = parameter.low95 * unit.factor, parameter.high95 * unit.factor
+    value_text, sd_text = with_sd(value, sd)
+    return parameter.name, value_text, sd_text, interval(value, low, high, sd), unit.name
+
+
+def parameter_table(title: str, parameters: Sequence[Parameter]) -> Group:
+    """Return named values with sd and 95 % interval."""
+    table = quiet_table()
+    table.add_column("", style="bold")
+    for head in ("value", "sd", "95 % interval"):
+        table.add_column(head, justify="right")
+    table.add_column("unit")
+    for parameter in parameters:
+        table.add_row(*cells(parameter), style="" if parameter.observable else "dim")
+    return titled(title, table)
+
+
+def groups(estimate: Estimate) -> Iterator[tuple[str, list[Parameter]]]:
+    """Return the parameters in the groups in which they are told."""
+
+    def of(*stems: str) -> list[Parameter]:
+        return [p for p in estimate.parameters if p.name.startswith(stems)]
+
+    yield "Centre of mass and inertia about P, masses at home", of(*COM, "inertia_P_")
+    yield "Centre of mass, masses as they stand at the end", of("com_end_")
+    told = of("com_", "inertia_P_")
+    yield "Also estimated", [p for p in estimate.parameters if p not in told]
+    yield "Ratios, which do not need the scale", list(estimate.ratios)
+
+
+def estimate_tables(estimate: Estimate) -> list[Group]:
+    """Return one table for each group that is not empty."""
+    return [parameter_table(title, group) for title, group in groups(estimate) if group]
+
+
+def residual_line(residual: Residual) -> str:
+    """Return what the model leaves, and what it predicted of rows that it was not shown."""
+    attitude = residual.attitude_rms is not None
+    unit = "deg" if attitude else "deg/s"
+    fitted = residual.attitude_rms if attitude else residual.rate_rms
+    text = f"Residual: {_rms(fitted)} {unit} rms per axis fitted"
+    if residual.held_out_rms is not None and residual.held_out_span is not None:
+        start, end = residual.held_out_span
+        text += (
+            f"; {_rms(residual.held_out_rms)} {unit} predicted for {start:.4g} to {end:.4g} s "
+            "by a fit that was not shown them"
+        )
+    return f"{text}. Lag-one correlation {fixed(residual.lag_one, 2)}."
+
+
+def _rms(value: float | None) -> str:
+    return "?" if value is None else f"{value * PER_DEG:.3g}"
+
+
+def change_table(change: Change) -> Group:
+    """Return before and after side by side; the truth beside it when it is known."""
+    lines = list(rows(change))
+    shown = len(HEADS) if lines[0].truth_before else len(HEADS) - 2
+    table = quiet_table()
+    for k, head in enumerate(HEADS[:shown]):
+        table.add_column(head, justify="left" if k < 2 else "right", style="bold" if not k else "")
+    for line in lines:
+        table.add_row(*line[:shown])
+    return titled("Before and after", table)

@@ -1,0 +1,99 @@
+"""What a person sees at the terminal: results on stdout, progress and errors on stderr."""
+
+import itertools
+import sys
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from equipoise.app.interruption import held_back
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from rich.console import Console
+
+    from equipoise.model.step import Step
+
+COMPILING = "compiling kernels, once"
+
+
+def stdout() -> "Console":
+    """Return the console for results; cut off from a terminal, lines are not folded at 80."""
+    from rich.console import Console
+
+    console = Console(highlight=False, soft_wrap=False)
+    return console if console.is_terminal else Console(highlight=False, width=120)
+
+
+def stderr() -> "Console":
+    """Return the console for everything else."""
+    from rich.console import Console
+
+    return Console(stderr=True, highlight=False, soft_wrap=True)
+
+
+def complain(sentence: str) -> None:
+    """Print what is wrong, in one line."""
+    line = " ".join(sentence.split())
+    if sys.stderr is not None:
+        stderr().print("[bold red]equipoise:[/]", end=" ")
+        stderr().print(line, markup=False)
+
+
+@contextmanager
+def busy(what: str, announce: bool = True) -> Generator[None]:
+    """Show on stderr that something is being done, and when it is the compiler that takes long.
+
+    Cut off from a terminal, ``announce`` says whether it is told that it begins.
+    """
+    from numba.core import event
+
+    console = stderr()
+
+    class Listener(event.Listener):
+        """Hear when a kernel is compiled, not when it is only loaded."""
+
+        depth = 0
+
+        def on_start(self, event: Any) -> None:
+            self.depth += 1
+            show(f"{what}: {COMPILING}")
+
+        def on_end(self, event: Any) -> None:
+            self.depth -= 1
+            if self.depth == 0:
+                show(what)
+                interruption.carry_out()
+
+    with held_back() as interruption, console.status(f"{what} ...") as status:
+        said = [what]
+
+        def show(text: str) -> None:
+            status.update(f"{text} ...")
+            if announce and not console.is_terminal and text not in said:
+                said.append(text)
+                console.print(f"{text} ...")
+
+        if announce and not console.is_terminal:
+            console.print(f"{what} ...")
+        with event.install_listener("numba:compile", Listener()):
+            yield
+
+
+def watched(steps: "Iterator[Step]", what: str) -> "Iterator[Step]":
+    """Return the steps of a procedure, with a sign of life while each is awaited."""
+    for count in itertools.count():
+        with busy(what, announce=count == 0):
+            step = next(steps, None)
+        if step is None:
+            return
+        yield step
+
+
+def tell_paths(paths: "Sequence[Path]", aside: bool = False) -> None:
+    """Say what was written; aside from the results when those are a JSON document."""
+    console = stderr() if aside else stdout()
+    for path in paths:
+        console.print(f"wrote {path}", markup=False, soft_wrap=True)

@@ -1,0 +1,36 @@
+"""The units in which people at a bench think: um, mm, g, deg, deg/s, uN m."""
+
+import math
+from dataclasses import dataclass
+
+PER_DEG = 180 / math.pi
+UM, MM, GRAM, MICRO = 1e6, 1e3, 1e3, 1e6
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit to show: one SI unit is ``factor`` of it."""
+
+    name: str
+    factor: float
+
+
+SHOWN = {
+    "m": Unit("um", UM),
+    "kg": Unit("g", GRAM),
+    "rad": Unit("deg", PER_DEG),
+    "rad/s": Unit("deg/s", PER_DEG),
+    "N m": Unit("uN m", MICRO),
+    "N m s": Unit("uN m s", MICRO),
+    "N m s2": Unit("uN m s2", MICRO),
+    "m/s": Unit("um/min", 60 * UM),
+    "1/(kg m)": Unit("um/(kg m2)", UM),
+}
+TRAVEL = Unit("mm", MM)
+
+
+def unit_for(name: str, si: str) -> Unit:
+    """Return the unit in which to show a parameter; where masses stop is told in mm."""
+    if si == "m" and name.startswith("error_"):
+        return TRAVEL
+    return SHOWN.get(si, Unit(si, 1.0))

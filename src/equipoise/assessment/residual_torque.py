@@ -1,0 +1,43 @@
+"""What a centre of mass off the pivot does to a platform: torque when level, and swing.
+
+    |tau| = m g |r_h|                 r_h: the horizontal part of r when level
+    T = 2 pi sqrt( J / (m g h) )      h = -r.up > 0, J: greatest moment about a horizontal axis
+
+The torque is what attitude actuators have to hold against; at a small tilt it grows by m g h sin.
+The period is that of the slowest small swing; without h > 0 it topples instead.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.model.arrays import Matrix3, Vector3
+
+
+class Uncertain(NamedTuple):
+    """A number and its sd, to first order."""
+
+    value: float
+    sd: float
+
+
+def level_torque(weight: float, com: Vector3, sd: Vector3, up: Vector3) -> Uncertain:
+    """Return the gravity torque (N m) on the level platform; ``weight`` is m g in N."""
+    across = com - (com @ up) * up
+    size = float(np.linalg.norm(across))
+    if size == 0:
+        return Uncertain(0.0, weight * float(np.linalg.norm(sd)))
+    return Uncertain(weight * size, weight * float(np.linalg.norm(across / size * sd)))
+
+
+def swing_period(
+    weight: float, com: Vector3, sd: Vector3, inertia_P: Matrix3, up: Vector3
+) -> Uncertain:
+    """Return the longest period (s) of a small swing; infinite when P is not above the centre."""
+    height = -float(com @ up)
+    if height <= 0:
+        return Uncertain(np.inf, np.inf)
+    level = np.eye(3) - np.outer(up, up)
+    moment = float(np.linalg.eigvalsh(level @ inertia_P @ level)[-1])
+    period = 2 * np.pi * np.sqrt(moment / (weight * height))
+    return Uncertain(period, period / 2 * float(np.linalg.norm(sd * up)) / height)

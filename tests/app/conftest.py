@@ -1,0 +1,50 @@
+"""A platform, a record of it and the command line, for every test of the app."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from equipoise.app.cli import run
+
+KNOWN_MOVE = "60: x1=-10 y1=-10 z1=-50"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def equipoise(capsys, monkeypatch, tmp_path):
+    """Return a function that runs a command line in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*words: object) -> Outcome:
+        capsys.readouterr()
+        code = run([str(word) for word in words])
+        seen = capsys.readouterr()
+        return Outcome(code, seen.out, seen.err)
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def record_file(tmp_path_factory) -> Path:
+    """Return a record of the preset with a known move, as CSV."""
+    path = tmp_path_factory.mktemp("record") / "run.csv"
+    assert run(["simulate", "sputnix", "--out", str(path), "--move", KNOWN_MOVE]) == 0
+    return path
+
+
+@pytest.fixture(scope="session")
+def strict_json():
+    """Return a reader of JSON that refuses NaN and infinity."""
+
+    def refuse(word: str) -> None:
+        raise ValueError(word)
+
+    return lambda text: json.loads(text, parse_constant=refuse)

@@ -1,0 +1,102 @@
+"""Every figure draws what it is given, names its units, and needs no window.
+
+Warnings (a layout that collapses, a missing glyph) are errors in this project.
+"""
+
+import subprocess
+import sys
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+from equipoise.app.demonstration import looked
+from equipoise.app.figures import record
+from equipoise.app.figures.balanced_com import Story
+from equipoise.app.figures.style import MOST, STYLE, thinned
+from equipoise.app.outputs import rendered
+from equipoise.app.pictures import of_balancing, of_fit, of_move, of_tracking
+from equipoise.estimation import trajectory
+from equipoise.io.presets import read_preset
+from equipoise.model.recording import window
+from equipoise.simulation.bench import SimulatedBench
+
+BED = read_preset("sputnix")
+PNG = b"\x89PNG"
+
+
+@pytest.fixture(scope="module")
+def pictures():
+    bench = SimulatedBench(BED, seed=1)
+    recording, truth = looked(bench)
+    estimate = trajectory.estimate(recording, BED, trajectory.Params())
+    inertia = estimate.inertia_P
+    looks = [(30.0, truth[1][0], np.full(3, 1e-6)), (90.0, truth[1][-1], np.full(3, np.inf))]
+    story = Story(looks, np.array([0, 0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]), truth)
+    found = [
+        *of_fit(recording, BED, estimate),
+        *of_tracking(window(recording, 0.0, 60.0), BED, inertia, truth[1][0]),
+        *of_move(recording, BED, inertia, truth),
+        *of_balancing(recording, BED, inertia, story),
+    ]
+    return {picture.name: picture for picture in found}
+
+
+NAMES = {
+    "figure06_attitude": "quaternion",
+    "figure07_residual": "deg",
+    "figure08_rate": "deg/s",
+    "figure11_tracked_rate": "deg/s",
+    "figure12_tracked_com": "um",
+    "figure13_move": "um",
+    "figure14_balancing": "um",
+    "figure15_displacements": "mm",
+}
+
+
+@pytest.mark.parametrize(("name", "unit"), NAMES.items())
+def test_a_figure_has_units_and_ink(pictures, name, unit):
+    figure, caption = pictures[name].figure, pictures[name].caption
+    assert all(axes.lines or axes.collections for axes in figure.axes)
+    assert unit in " ".join(axes.get_ylabel() for axes in figure.axes)
+    assert "s" in figure.axes[-1].get_xlabel()
+    assert caption.endswith(".")
+    assert rendered(figure).startswith(PNG)
+
+
+def test_no_figure_is_missing(pictures):
+    assert set(pictures) == set(NAMES)
+
+
+def test_the_same_figure_gives_the_same_bytes(pictures):
+    figure = pictures["figure08_rate"].figure
+    for kind in ("png", "svg", "pdf"):
+        assert rendered(figure, kind) == rendered(figure, kind)
+
+
+def test_drawing_leaves_matplotlib_as_it_was(pictures):
+    """The caller may be drawing, too."""
+    assert pictures
+    assert mpl.rcParams["axes.grid"] != STYLE["axes.grid"]
+
+
+def test_no_window_is_ever_thought_of():
+    code = "import sys, equipoise.app.demonstration; assert 'matplotlib.pyplot' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_the_model_leaves_noise_in_figure_7(pictures):
+    """The prediction knows where masses really stopped: nine dots in ten lie in the 2 sd band."""
+    for axes in pictures["figure07_residual"].figure.axes:
+        dots = next(line.get_ydata() for line in axes.lines if len(line.get_ydata()) > 100)
+        assert np.mean(np.abs(dots) < 0.4) > 0.9
+
+
+def test_a_recording_is_drawn_channel_by_channel():
+    bench = SimulatedBench(BED, seed=1)
+    assert len(record.draw(bench.read(20.0)).axes) == 2
+
+
+@pytest.mark.parametrize("n", [1, MOST, 10 * MOST, 10**6])
+def test_long_records_are_thinned(n):
+    assert len(range(n)[thinned(n)]) <= 2 * MOST

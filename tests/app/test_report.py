@@ -1,0 +1,101 @@
+"""The report stands alone and tells all that was done."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from equipoise import __version__
+
+VOID = {"meta", "img", "br"}
+
+
+class Balanced(HTMLParser):
+    """Fails on a tag that is not closed in its place."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+
+    def handle_starttag(self, tag, attrs):
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    from equipoise.app.cli import run
+
+    out = tmp_path_factory.mktemp("demo") / "made" / "here"
+    assert run(["demo", "--out", str(out)]) in (0, 1)
+    return out
+
+
+def test_the_demo_writes_every_figure_of_the_paper(folder):
+    figures = sorted(path.name for path in folder.glob("*.png"))
+    assert [name[6:8] for name in figures] == ["06", "07", "08", "11", "12", "13", "14", "15"]
+    others = {path.name for path in folder.iterdir()} - set(figures)
+    assert others == {"report.html", "balance.json"}
+
+
+def test_the_report_needs_no_other_file(folder):
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert "http" not in re.sub(r"data:image/png;base64,[^\"]*", "", page)
+    assert page.count('src="data:image/png;base64,') == 8
+    parser = Balanced()
+    parser.feed(page)
+    assert parser.open == []
+
+
+def test_the_report_tells_how_to_repeat_it(folder):
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    for word in ("command to repeat", "seed", __version__, "preset sputnix", "95 % interval"):
+        assert word in page
+    assert "Before and after" in page
+    assert "What the data cannot see" in page
+
+
+def test_every_step_is_in_the_report(folder, strict_json):
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    document = strict_json((folder / "balance.json").read_text(encoding="utf-8"))
+    for step in document["steps"]:
+        assert step["sentence"].replace("'", "&#x27;").replace(">", "&gt;") in page
+
+
+def test_identify_reports_too(equipoise, record_file, tmp_path):
+    done = equipoise("identify", record_file, "--testbed", "sputnix", "--out", "out")
+    assert done.code == 0
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert {"report.html", "estimate.json", "figure06_attitude.png"} <= names
+    assert "predicted for" in done.out
+
+
+def test_balance_reports_too(equipoise, tmp_path):
+    done = equipoise("balance", "sputnix", "--seed", "3", "--out", "out")
+    assert done.code in (0, 1)
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert {"report.html", "balance.json", "figure14_balancing.png"} <= names
+    assert "Before and after" in done.out
+    assert "truth after" in done.out
+
+
+def test_a_record_is_drawn_on_request(equipoise, record_file, tmp_path):
+    for name in ("record.png", "record.svg", "record.pdf"):
+        assert equipoise("inspect", record_file, "--figure", name).code == 0
+        assert (tmp_path / name).stat().st_size > 5000
+
+
+def test_a_new_testbed_reads_back(equipoise):
+    assert equipoise("new", "sputnix").code == 0
+    assert equipoise("simulate", "sputnix.toml", "--out", "a.csv", "--duration-s", "5").code == 0
+
+
+def test_the_same_seed_gives_the_same_record(equipoise, tmp_path):
+    for name, seed in (("a.csv", 1), ("b.csv", 1), ("c.csv", 2)):
+        words = ["--out", name, "--duration-s", "5", "--seed", seed]
+        assert equipoise("simulate", "sputnix", *words).code == 0
+    a, b, c = ((tmp_path / name).read_bytes() for name in ("a.csv", "b.csv", "c.csv"))
+    assert a == b != c
