@@ -79,6 +79,8 @@ class Run(NamedTuple):
     moves: int
     z: Array  # (n, 3) the tracker's errors in its own sd, at every move and the end
     error: Array  # (n, 3) m, the same
+    at: float  # s since the hold began, of the worst
+    start: Array  # m, true, from the target, as balancing left it
     sentence: str
 
 
@@ -123,8 +125,11 @@ def held(seed: int) -> Run:
     while_held = np.array(bench.t) > began
     off = np.abs(np.array(bench.com)[while_held] - HOLDING.target)
     worst = off.max(axis=0) if len(off) else np.full(3, np.nan)
+    at = np.array(bench.t)[while_held][off.max(axis=1).argmax()] - began if len(off) else np.nan
+    start = np.array(bench.com)[~while_held][-1] - HOLDING.target
     done = bench.time - began >= HOLD - 1e-6
-    return Run(seed, done, worst, moves, np.array(zs)[1:], np.array(errors)[1:], last.sentence)
+    z, error = np.array(zs)[1:], np.array(errors)[1:]
+    return Run(seed, done, worst, moves, z, error, at, start, last.sentence)
 
 
 def row_of(run: Run) -> Row:
@@ -133,6 +138,18 @@ def row_of(run: Run) -> Row:
     found = triple(1e6 * run.worst) if run.held else f"not held to the end: {run.sentence}"
     ok = run.held and bool(np.all(run.worst <= LIMIT))
     return Row(quantity, found, f"at most {1e6 * LIMIT:g} per axis", ok)
+
+
+def note_of(run: Run) -> str:
+    """Return what is to be said of a run that is not as wanted."""
+    start = f"Seed {run.seed}: balancing left it {triple(1e6 * run.start)} um off; "
+    if not run.held:
+        return start + run.sentence
+    mean, sds = 1e6 * np.mean(run.error[:, 2]), np.mean(run.z[:, 2])
+    return start + (
+        f"worst {run.at:.0f} s into the hold; the tracker's error in z is {mean:.2f} um on "
+        f"average, {sds:.1f} of its sd. {run.sentence}"
+    )
 
 
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
@@ -151,7 +168,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     notes = (
         f"{well} of {len(runs)} seeds as wanted.",
         f"The tracker's error is {rms} um rms, {spread_of_z:.2f} times its own sd.",
-        *(f"Seed {r.seed}: {r.sentence}" for r in runs if not row_of(r).ok),
+        *(note_of(run) for run in runs if not row_of(run).ok),
     )
     claim = (
         "Preset sputnix with 1 um/min of drift in a random direction: balanced, then held for "

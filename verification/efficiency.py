@@ -100,7 +100,7 @@ def nees_note(runs: Sequence[Run]) -> str:
     n, size = len(runs), len(runs[0].error)
     low, high = nees_band(size, n)
     return (
-        f"Published body, {n} seeds: mean NEES {mean_nees(runs):.2f}, band of {size} honest unknowns "
+        f"Published body, {n} seeds: mean NEES {mean_nees(runs):.2f}, band of {size} unknowns "
         f"{low:.2f} to {high:.2f}; below it because the body is nearly flat (see the file)."
     )
 
@@ -124,7 +124,8 @@ def single_note(runs: Sequence[Run]) -> str:
     out = leaving(COVER, [run.stated for run in runs[:20]], n)
     return (
         f"Single parameters over the first {n} seeds: {each.min():.1%} to {each.max():.1%}; "
-        f"perfect intervals would leave {COVER[0]:.0%}-{COVER[1]:.0%} somewhere in {out:.0%} of such runs."
+        f"perfect intervals would leave {COVER[0]:.0%}-{COVER[1]:.0%} somewhere in {out:.0%} of "
+        "such runs."
     )
 
 

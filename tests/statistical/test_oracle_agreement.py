@@ -4,7 +4,7 @@ import pytest
 
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
-from verification import independent_truth, mujoco_platforms  # noqa: E402
+from verification import independent_truth, mujoco_platforms
 
 
 def test_propagator_agrees_with_mujoco() -> None:
