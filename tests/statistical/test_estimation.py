@@ -1,0 +1,25 @@
+"""The claims of `make verify` about estimation, with fewer seeds and bands as wide as that costs.
+
+Bands are computed in ``verification.chance``; a sound estimator leaves one once in 1000 changes of
+seeds (the seeds here are fixed, so a test that passes goes on passing).
+"""
+
+import pytest
+
+from verification import efficiency, real_record, tracker_honesty
+
+
+def test_fit_is_at_the_bound_and_its_intervals_are_honest() -> None:
+    """60 paper-like runs, and 60 of a body that is not flat."""
+    assert efficiency.measure(range(60)).missed == ()
+
+
+def test_tracker_is_at_the_bound_and_honest() -> None:
+    """40 paper-like runs, moves fed and moves ignored."""
+    assert tracker_honesty.measure(range(40)).missed == ()
+
+
+@pytest.mark.skipif(not real_record.RECORD.is_file(), reason="the real recording is not at hand")
+def test_real_record_fits_where_it_can_and_is_refused_where_it_cannot() -> None:
+    """All of it: 20-40 s with and without a held value, and the whole minute."""
+    assert real_record.measure().missed == ()

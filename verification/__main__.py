@@ -1,0 +1,115 @@
+"""`python -m verification [NAME ...] [--seeds N]`: measure, print, and write the document.
+
+Exit code 1 if a number is not as wanted.
+"""
+
+import argparse
+import datetime
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from equipoise.io.whole_file import check_writable, write_whole
+from verification import (
+    balanced,
+    drift,
+    efficiency,
+    independent_truth,
+    mujoco_platforms,
+    real_record,
+    tracker_honesty,
+)
+from verification.document import page, section, table_of
+from verification.result import Result, Spread
+from verification.workers import spread_over
+
+PAGE = Path(__file__).parents[1] / "docs" / "verification.md"
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A claim's measurement and the seeds that it is stated for."""
+
+    measure: Callable[[Sequence[int], Spread], Result]
+    seeds: int
+
+
+CHECKS = {
+    "independent_truth": Check(independent_truth.measure, 10),
+    "mujoco_platforms": Check(mujoco_platforms.measure, 20),
+    "efficiency": Check(efficiency.measure, 2000),
+    "tracker_honesty": Check(tracker_honesty.measure, 200),
+    "balanced": Check(balanced.measure, 200),
+    "drift": Check(drift.measure, 20),
+    "real_record": Check(real_record.measure, 1),
+}
+
+
+def arguments(words: Sequence[str]) -> argparse.Namespace:
+    """Return what was asked for."""
+    parser = argparse.ArgumentParser(prog="python -m verification", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(CHECKS))
+    parser.add_argument("--seeds", type=int, help="instead of those that a claim is stated for")
+    parser.add_argument("--workers", type=int, default=2, help="processes (2)")
+    parser.add_argument("--date", default=None, help="to write into the page (today)")
+    parser.add_argument("--output", type=Path, default=None, help=f"page to write ({PAGE.name})")
+    asked = parser.parse_args(words)
+    unknown = [name for name in asked.names if name not in CHECKS]
+    if unknown:
+        parser.error(f"no check is called {unknown[0]}; there are {', '.join(CHECKS)}")
+    if asked.workers < 1 or (asked.seeds is not None and asked.seeds < 1):
+        parser.error("--workers and --seeds must be 1 or more")
+    return asked
+
+
+def command_of(name: str, seeds: int) -> str:
+    """Return the command that measures the same again."""
+    own = "" if seeds == CHECKS[name].seeds else f" --seeds {seeds}"
+    return f"python -m verification {name}{own}"
+
+
+def measured(name: str, seeds: int, workers: int, console: Console) -> tuple[Result, float]:
+    """Measure one claim with a progress bar; return the result and the time it took."""
+    began = time.perf_counter()
+    columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        bar = progress.add_task(name, total=None)
+
+        def tell(done: int, total: int) -> None:
+            progress.update(bar, completed=done, total=total)
+
+        result = CHECKS[name].measure(range(seeds), spread_over(workers, tell))
+    return result, time.perf_counter() - began
+
+
+def main(words: Sequence[str]) -> int:
+    """Measure what was asked for; the page is written when everything was, or at --output."""
+    asked = arguments(words)
+    console = Console()
+    names = asked.names or list(CHECKS)
+    whole = not asked.names and asked.seeds is None
+    target = asked.output or (PAGE if whole else None)
+    if target is not None:
+        check_writable(target)
+    results: list[Result] = []
+    sections: list[str] = []
+    for name in names:
+        seeds = asked.seeds or CHECKS[name].seeds
+        result, seconds = measured(name, seeds, asked.workers, console)
+        console.print(table_of(result))
+        results.append(result)
+        sections.append(section(result, command_of(name, seeds), seconds))
+    if target is not None:
+        date = asked.date or datetime.datetime.now(tz=datetime.UTC).date().isoformat()
+        write_whole(target, page(sections, date, results))
+        console.print(f"Wrote {target}.")
+    return 1 if any(result.missed for result in results) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

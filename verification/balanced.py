@@ -1,0 +1,87 @@
+"""Balancing the preset `sputnix` from random starts, judged by the truth and by its own verdict."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import binom
+
+from equipoise.io.presets import read_preset
+from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.simulation.bench import SimulatedBench
+from verification.chance import FULL, RARE, fewest
+from verification.result import Result, Row, Spread, at_least, at_most, in_turn, triple
+
+SHARE = 0.95  # of runs that end within tolerance
+WRONG = 0.05  # chosen: of all runs, as the verdict is given at 95 %
+OPTIONS = BalanceOptions()
+
+
+class Run(NamedTuple):
+    """One platform balanced."""
+
+    seed: int
+    off: NDArray[np.float64]  # m, true, from the target
+    moves: int
+    seconds: float
+    passed: bool
+    sentence: str
+
+    @property
+    def good(self) -> bool:
+        """Say whether the truth is within tolerance."""
+        return bool(np.all(np.abs(self.off) <= OPTIONS.tolerance))
+
+
+def balanced(seed: int) -> Run:
+    """Balance the platform of one seed."""
+    bench = SimulatedBench(read_preset("sputnix"), seed)
+    steps = list(balance(bench, OPTIONS))
+    moves = sum(step.kind == "move" for step in steps)
+    off = bench.truth().com - OPTIONS.target
+    return Run(seed, off, moves, bench.time, steps[-1].verdict.passed, steps[-1].sentence)
+
+
+def most_wrong(runs: int) -> float:
+    """Return the greatest share of wrong verdicts that agrees with WRONG."""
+    return WRONG if runs >= FULL else float(binom.ppf(1 - RARE, runs, WRONG) / runs)
+
+
+def rows_of(runs: Sequence[Run]) -> tuple[Row, ...]:
+    """Return the rows of all runs."""
+    n = len(runs)
+    good = np.array([run.good for run in runs])
+    passed = np.array([run.passed for run in runs])
+    tolerance = triple(1e6 * OPTIONS.tolerance, ".0f")
+    return (
+        at_least(f"truly within {tolerance} um", float(good.mean()), fewest(SHARE, n), ".1%"),
+        at_most("moves, most", max(run.moves for run in runs), OPTIONS.max_moves, "d"),
+        at_most("bench time, longest, s", max(run.seconds for run in runs), OPTIONS.max_time,
+                ".1f"),
+        at_most("verdict passes a bad run", float(np.mean(passed & ~good)), most_wrong(n), ".1%"),
+        at_most("verdict fails a good run", float(np.mean(~passed & good)), most_wrong(n), ".1%"),
+    )  # fmt: skip
+
+
+def notes_of(runs: Sequence[Run]) -> tuple[str, ...]:
+    """Return a summary, and a line for every run that ended badly or was judged wrongly."""
+    rms = triple(1e6 * np.sqrt(np.mean(np.array([run.off for run in runs]) ** 2, axis=0)))
+    moves, seconds = (np.median([getattr(r, k) for r in runs]) for k in ("moves", "seconds"))
+    first = f"Median: {moves:.0f} moves, {seconds:.0f} s. RMS offset from the target {rms} um."
+    odd = [run for run in runs if not (run.good and run.passed)]
+    return (first, *(
+        f"Seed {run.seed}: off by {triple(1e6 * run.off)} um after {run.moves} moves, "
+        f"{run.seconds:.0f} s; verdict {'pass' if run.passed else 'fail'}: {run.sentence}"
+        for run in odd
+    ))  # fmt: skip
+
+
+def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
+    """Balance one random platform for each seed."""
+    runs = spread(balanced, seeds)
+    claim = (
+        "Preset sputnix, camera alone, inertia 10 % off, centre of mass up to 60 um aside and "
+        f"30-150 um below, target (0, 0, -100) um, {len(runs)} seeds."
+    )
+    return Result("balanced", claim, rows_of(runs), notes_of(runs))

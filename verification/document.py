@@ -1,0 +1,78 @@
+"""Results as a terminal table and as a page of the documentation."""
+
+import platform
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+
+from rich.table import Table
+from rich.text import Text
+
+from equipoise import __version__
+from verification.result import Result, Row
+
+PACKAGES = ("numpy", "scipy", "numba", "mujoco")
+
+
+def verdict_of(row: Row) -> str:
+    """Return a row's verdict in a word."""
+    return "yes" if row.ok else "NO"
+
+
+def table_of(result: Result) -> Table:
+    """Return a result as a table for the terminal."""
+    table = Table(title=result.name, caption="\n".join(result.notes), caption_justify="left")
+    for column in ("quantity", "found", "wanted", "ok"):
+        table.add_column(column, overflow="fold")
+    for row in result.rows:
+        style = "green" if row.ok else "bold red"
+        cells = (row.quantity, row.found, row.wanted)
+        table.add_row(*map(Text, cells), Text(verdict_of(row), style=style))
+    return table
+
+
+def cell(text: str) -> str:
+    """Return text as a cell of a Markdown table."""
+    return text.replace("|", "\\|").replace("\n", " ")
+
+
+def section(result: Result, command: str, seconds: float) -> str:
+    """Return a result as a section of the page."""
+    lines = [f"## {result.name}", "", result.claim, ""]
+    if result.rows:
+        lines += ["| quantity | found | wanted | ok |", "|---|---|---|---|"]
+        lines += [
+            f"| {cell(r.quantity)} | {cell(r.found)} | {cell(r.wanted)} | {verdict_of(r)} |"
+            for r in result.rows
+        ]
+        lines.append("")
+    lines += [line for note in result.notes for line in (note, "")]
+    lines.append(f"Command: `{command}` ({seconds:.0f} s).")
+    return "\n".join(lines)
+
+
+def installed(package: str) -> str:
+    """Return a package with its version."""
+    try:
+        return f"{package} {version(package)}"
+    except PackageNotFoundError:
+        return f"no {package}"
+
+
+def versions() -> str:
+    """Return what the numbers were made with."""
+    python = f"Python {platform.python_version()}"
+    others = ", ".join(installed(package) for package in PACKAGES)
+    return f"Equipoise {__version__}, {python}, {others}, {platform.system()} {platform.machine()}"
+
+
+def page(sections: Sequence[str], date: str, results: Sequence[Result]) -> str:
+    """Return the whole page."""
+    rows = [row for result in results for row in result.rows]
+    missed = sum(not row.ok for row in rows)
+    head = (
+        "# What was verified\n\nWritten by `make verify`; do not edit. Each section is one "
+        "file of `verification/`. Tests in `tests/statistical` call the same functions with "
+        "fewer seeds.\n\n"
+        f"{date}. {versions()}. {len(rows)} numbers, {missed} not as wanted."
+    )
+    return "\n\n".join([head, *sections]) + "\n"
