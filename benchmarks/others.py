@@ -24,9 +24,7 @@ def tracker_step() -> float:
     problem = make_problem(1)
     recording, testbed = ours.recording_of(problem), ours.testbed_of(problem)
     state = tracker.first_state(0.0, problem.q_meas[0], testbed)
-    _, seconds = ours.timed(
-        lambda: tracker.track(recording, testbed, tracker.Params(), state), 30
-    )
+    _, seconds = ours.timed(lambda: tracker.track(recording, testbed, tracker.Params(), state), 30)
     return 1e6 * seconds / (len(problem.t) - 1)
 
 

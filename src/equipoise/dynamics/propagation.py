@@ -64,8 +64,17 @@ def body_of(
 
 @part
 def look(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    i: int, share: float, y: Floats, regress: Floats, fb: Floats,
+    body: Body,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    owners: Ints,
+    columns: Columns,
+    i: int,
+    share: float,
+    y: Floats,
+    regress: Floats,
+    fb: Floats,
 ) -> tuple[Now, Triple, Triple]:
     """Return platform, rate and gravity at ``share`` of step i; write the forcing."""
     now = body_at(body, maps, t, known, i, share)
@@ -78,8 +87,16 @@ def look(
 
 @part
 def arrive(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    node: int, y: Floats, regress: Floats, fb: Floats,
+    body: Body,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    owners: Ints,
+    columns: Columns,
+    node: int,
+    y: Floats,
+    regress: Floats,
+    fb: Floats,
 ) -> tuple[Now, Triple, Triple]:
     """Look at a node; at a corner of the inputs, as the step that leaves it sees them."""
     last = t.shape[0] - 2
@@ -89,8 +106,17 @@ def arrive(
 
 @part
 def start(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    q: Floats, w: Floats, y: Floats, regress: Floats, fb: Floats,
+    body: Body,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    owners: Ints,
+    columns: Columns,
+    q: Floats,
+    w: Floats,
+    y: Floats,
+    regress: Floats,
+    fb: Floats,
 ) -> None:
     """Write q, H = J w + h and their sensitivities at the first node."""
     n = fb.shape[1]
@@ -127,8 +153,18 @@ def slope(
 
 @part
 def slope_at(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    i: int, share: float, y: Floats, regress: Floats, fb: Floats, dy: Floats,
+    body: Body,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    owners: Ints,
+    columns: Columns,
+    i: int,
+    share: float,
+    y: Floats,
+    regress: Floats,
+    fb: Floats,
+    dy: Floats,
 ) -> None:
     """Write y' at ``share`` of step i."""
     now, w, g = look(body, maps, t, known, owners, columns, i, share, y, regress, fb)
@@ -137,8 +173,19 @@ def slope_at(
 
 @part
 def step_from(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    i: int, y: Floats, first: Floats, regress: Floats, fb: Floats, at: Floats, dy: Floats,
+    body: Body,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    owners: Ints,
+    columns: Columns,
+    i: int,
+    y: Floats,
+    first: Floats,
+    regress: Floats,
+    fb: Floats,
+    at: Floats,
+    dy: Floats,
     total: Floats,
 ) -> None:
     """Take y over step i, in place; ``first`` is the slope at its beginning."""
@@ -168,8 +215,19 @@ def to_unit(y: Floats) -> None:
 
 @part
 def step(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    i: int, y: Floats, regress: Floats, fb: Floats, at: Floats, dy: Floats, total: Floats,
+    body: Body,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    owners: Ints,
+    columns: Columns,
+    i: int,
+    y: Floats,
+    regress: Floats,
+    fb: Floats,
+    at: Floats,
+    dy: Floats,
+    total: Floats,
 ) -> None:
     """Take y over step i, in place."""
     slope_at(body, maps, t, known, owners, columns, i, 0.0, y, regress, fb, total)
@@ -179,7 +237,7 @@ def step(
 @part
 def steady(known: Floats, i: int) -> bool:
     """Say whether no known input changes over step i."""
-    for j in range(known.shape[1]):
+    for j in range(known.shape[1]):  # noqa: SIM110 - the compiler takes no generator
         if known[i, j] != known[i + 1, j]:
             return False
     return True
@@ -213,8 +271,19 @@ def rate_sensitivity(now: Now, y: Floats, fb: Floats, out: Floats) -> None:
 
 @kernel
 def _run(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    q0: Floats, w0: Floats, q: Floats, H: Floats, w: Floats, turn_by: Floats, rate_by: Floats,
+    body: Body,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    owners: Ints,
+    columns: Columns,
+    q0: Floats,
+    w0: Floats,
+    q: Floats,
+    H: Floats,
+    w: Floats,
+    turn_by: Floats,
+    rate_by: Floats,
 ) -> None:
     n = columns.kinds.shape[0]
     m = ROWS + 6 * n

@@ -231,8 +231,15 @@ def linearise(body: Body, now: Now, y: Floats, w: Triple, g: Triple) -> tuple[Ni
 
 @part
 def error_column(
-    maps: Floats, t: Floats, known: Floats, i: int, share: float, owner: int, column: int,
-    w: Triple, g: Triple,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    i: int,
+    share: float,
+    owner: int,
+    column: int,
+    w: Triple,
+    g: Triple,
 ) -> tuple[Triple, Triple]:
     """Return f and b of one displacement error, felt as the known input ``column`` says."""
     felt = between(known, i, share, column)
@@ -252,8 +259,20 @@ def error_column(
 
 @part
 def forcing(
-    body: Body, now: Now, maps: Floats, t: Floats, known: Floats, i: int, share: float,
-    owners: Ints, kinds: Ints, indices: Ints, w: Triple, g: Triple, columns: Floats, fb: Floats,
+    body: Body,
+    now: Now,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    i: int,
+    share: float,
+    owners: Ints,
+    kinds: Ints,
+    indices: Ints,
+    w: Triple,
+    g: Triple,
+    columns: Floats,
+    fb: Floats,
 ) -> None:
     """Write f_p (rows 0-2) and b_p (rows 3-5) of every column from the regressor."""
     n = kinds.shape[0]
@@ -286,8 +305,8 @@ def sensitivity_rates(
     n = fb.shape[1]
     for c in range(n):
         i = ROWS + c
-        turn: Triple = (y[i], y[i + n], y[i + 2 * n])
-        dH: Triple = (y[i + 3 * n], y[i + 4 * n], y[i + 5 * n])
+        turn = (float(y[i]), float(y[i + n]), float(y[i + 2 * n]))
+        dH = (float(y[i + 3 * n]), float(y[i + 4 * n]), float(y[i + 5 * n]))
         dw = times(inverse, (dH[0] - fb[0, c], dH[1] - fb[1, c], dH[2] - fb[2, c]))
         p, r = cross(w, turn), cross(w, dH)
         s, v = dot(by_turn, turn), dot(by_rate, dw)

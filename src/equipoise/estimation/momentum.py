@@ -17,7 +17,7 @@ from equipoise.actuators.stops import stop_errors
 from equipoise.estimation.momentum_integral import Axes, Balance, balance
 from equipoise.estimation.observability import OPEN
 from equipoise.estimation.ratios import ratios_of
-from equipoise.estimation.sampled_motion import SampledMotion, sampled_motion
+from equipoise.estimation.sampled_motion import SampledMotion, common_rows, sampled_motion
 from equipoise.estimation.unknowns import Layout
 from equipoise.maths.levenberg_marquardt import scaled_solve
 from equipoise.maths.linalg import inverse_spd, lag_one, unpack_symmetric
@@ -104,7 +104,7 @@ def estimate(
     """Return the estimate; needs attitude or rates, and tilt in two directions."""
     recording = arranged(recording, testbed.mass_names)
     method, mass = f"momentum_{axes}", testbed.body.mass
-    seen = max(len(c) for c in (recording.attitude, recording.rate) if c is not None)
+    seen = common_rows(recording)
     if seen < FEWEST:
         outcome = Outcome(False, f"Only {seen} rows: the integral has nothing to fit.")
         return Estimate(method, outcome, (), np.zeros((0, 0)))

@@ -101,9 +101,21 @@ def weigh(
 
 @kernel
 def accumulate(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    q0: Floats, w0: Floats, bias: Floats, seen: Seen, limit: float,
-    normal: Floats, descent: Floats, left_q: Floats, left_w: Floats,
+    body: Body,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    owners: Ints,
+    columns: Columns,
+    q0: Floats,
+    w0: Floats,
+    bias: Floats,
+    seen: Seen,
+    limit: float,
+    normal: Floats,
+    descent: Floats,
+    left_q: Floats,
+    left_w: Floats,
 ) -> float:
     """Add to the normal equations, write the residuals in units of sd, return half the cost."""
     n, last = columns.kinds.shape[0], t.shape[0] - 2

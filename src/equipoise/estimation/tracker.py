@@ -46,6 +46,7 @@ from equipoise.sensors.timing import seen_at
 
 Moves = Literal["fed", "ignored"]
 LONGEST_STEP = 1.0  # s
+UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump without being told
 NOTHING = Samples(np.zeros(0), np.zeros((0, 4)))
 NO_RATE = Samples(np.zeros(0), np.zeros((0, 3)))
 
@@ -145,6 +146,7 @@ def track(recording: Recording, testbed: Testbed, params: Params, state: State) 
     tq, tw = seen_at(attitude.t, testbed.attitude), seen_at(rate.t, testbed.gyro)
     new_q, new_w = tq > state.t, tw > state.t
     masses = recording.masses if params.moves == "fed" else None
+    walk = params.com_walk if params.moves == "fed" else max(params.com_walk, UNTOLD)
     fastest = float(np.linalg.norm(state.rate)) + 0.2
     line = timeline(
         np.append(state.t, tq[new_q]), tw[new_w], masses, len(testbed.masses),
@@ -154,9 +156,7 @@ def track(recording: Recording, testbed: Testbed, params: Params, state: State) 
     mass = testbed.body.mass
     body = body_of(mass, testbed.gravity, pack_symmetric(inertia), mass * state.com, params.torque)
     stops, added = stop_covariances(recording if masses else Recording(), testbed, line, state.t)
-    noise = np.repeat(
-        [0.0, params.torque_walk, params.com_walk, params.bias_walk if len(rate) else 0.0], 3
-    )
+    noise = np.repeat([0.0, params.torque_walk, walk, params.bias_walk if len(rate) else 0.0], 3)
     n, m = int(new_q.sum()), int(new_w.sum())
     sd_q = testbed.attitude.noise if testbed.attitude else 1.0
     sd_w = testbed.gyro.noise if testbed.gyro else 1.0

@@ -30,7 +30,8 @@ def to_inertia(six: Vector6) -> Matrix3:
 def from_inertia(inertia_C: Matrix3) -> Vector6:
     """Return the six numbers of J_C; an impossible one is first moved to the nearest possible."""
     values, vectors = np.linalg.eigh(second_moments(inertia_C))
-    values = np.maximum(values, FLOOR * max(float(np.abs(values).sum()), 1e-12))
+    size = max(float(np.trace(inertia_C)), float(np.abs(values).sum()), 1e-12)
+    values = np.maximum(values, FLOOR * size)
     factor = np.linalg.cholesky((vectors * values) @ vectors.T)
     logs = np.log(np.diag(factor))
     return np.array([*logs, factor[1, 0], factor[2, 0], factor[2, 1]])

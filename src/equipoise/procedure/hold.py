@@ -100,7 +100,7 @@ def swing_amplitude(
 ) -> float:
     """Return the tilt (rad) that the present swing reaches: all its energy as height.
 
-        1/2 w.J w (w across the vertical) + m g (R r).z = -m g |r| cos(amplitude)
+    1/2 w.J w (w across the vertical) + m g (R r).z = -m g |r| cos(amplitude)
     """
     R = to_matrix(state.q)
     across = state.rate - (state.rate @ R[2]) * R[2]
@@ -119,16 +119,20 @@ def calming(state: tracker.State, shift: Vector3, testbed: Testbed) -> bool:
 
 
 def timely(
-    state: tracker.State, com: Vector3, now: Floats, goal: Floats, testbed: Testbed,
-    params: tracker.Params, options: HoldOptions,
+    state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed, inertia_P: Matrix3
 ) -> bool:
-    """Say whether to make a correction now. Corrections at any moment would pump an undamped
-    platform; once it swings far, only those that calm it are made, and soon there is one."""
-    assert params.inertia_P is not None
-    far = swing_amplitude(state, com, params.inertia_P, testbed) > FAR * testbed.tilt_limit
-    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - now)
-    pressing = bool(np.any(np.abs(com - options.target) > PRESSING * options.tolerance))
-    return pressing or not far or calming(state, shift, testbed)
+    """Say whether to make a correction now.
+
+    Corrections at any moment would pump an undamped platform; once it swings far, only those that
+    calm it are made, and soon there is one.
+    """
+    far = swing_amplitude(state, com, inertia_P, testbed) > FAR * testbed.tilt_limit
+    return not far or calming(state, shift, testbed)
+
+
+def pressing(com: Vector3, options: HoldOptions) -> bool:
+    """Say whether an offset is too near the tolerance to be kept waiting."""
+    return bool(np.any(np.abs(com - options.target) > PRESSING * options.tolerance))
 
 
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
@@ -136,9 +140,8 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
     testbed, end = bench.testbed, bench.time + options.duration
     state, displacement = first_belief(knowledge, testbed), knowledge.displacement
     fitted = knowledge.fitted.point
-    params = tracker.Params(
-        inertia_P=fitted.body(testbed.body.mass).inertia_P, torque=without_drift(fitted.torque)
-    )
+    inertia_P = fitted.body(testbed.body.mass).inertia_P
+    params = tracker.Params(inertia_P=inertia_P, torque=without_drift(fitted.torque))
     worst = np.zeros(3)
     while bench.time < end - 1e-9:
         fresh = bench.read(min(LOOK, end - bench.time))
@@ -151,7 +154,10 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
             bench.stop()
             break
         goal = correction(com, displacement, testbed, options)
-        if goal is not None and timely(state, com, displacement, goal, testbed, params, options):
+        if goal is None:
+            continue
+        shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - displacement)
+        if pressing(com, options) or timely(state, com, shift, testbed, inertia_P):
             move = move_of(com, state, displacement, goal, testbed)
             bench.move(move.targets)
             yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
