@@ -127,9 +127,10 @@ def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
 
 
 def longest_step(testbed: Testbed, fastest: float, rows: int) -> float:
-    """Return the integration step (s): the motion turns, or swings as a pendulum of the testbed's
-    description, by ``turn`` radians at most within a step.
+    """Return the integration step (s).
 
+    Within it the motion turns, or swings as a pendulum of the testbed's description, by ``turn``
+    radians at most.
     Runge-Kutta's phase error over a record grows as turn^4; a tenth of a radian makes it some
     2e-6 rad in a swing of 0.1 rad. Sensors that together see less than COARSE get shorter steps.
     """
