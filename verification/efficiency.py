@@ -98,10 +98,11 @@ def nees_row(runs: Sequence[Run], of: str = "") -> Row:
 def nees_note(runs: Sequence[Run]) -> str:
     """Return the mean NEES of the published body over all seeds, beside its band."""
     n, size = len(runs), len(runs[0].error)
-    low, high = nees_band(size, n)
+    found, (low, high) = mean_nees(runs), nees_band(size, n)
+    flat = "; below it: the body is nearly flat (see the file)" if found < low else ""
     return (
-        f"Published body, {n} seeds: mean NEES {mean_nees(runs):.2f}, band of {size} unknowns "
-        f"{low:.2f} to {high:.2f}; below it because the body is nearly flat (see the file)."
+        f"Published body, {n} seeds: mean NEES {found:.2f}, band of {size} unknowns {low:.2f} to "
+        f"{high:.2f}{flat}."
     )
 
 

@@ -1,13 +1,14 @@
 """The claims of `make verify` about procedures, on fewer platforms."""
 
 from verification import balanced, drift
+from verification.workers import spread_over
 
 
 def test_balancing_ends_within_tolerance_and_its_verdict_knows() -> None:
     """20 platforms: at least as many good ones as 95 % leaves in all but one of 1000 such tests."""
-    assert balanced.measure(range(20)).missed == ()
+    assert balanced.measure(range(20), spread_over(2)).missed == ()
 
 
 def test_drifting_platform_is_held() -> None:
     """Two platforms for half an hour, within 3 um on every axis all the time."""
-    assert drift.measure(range(2)).missed == ()
+    assert drift.measure(range(2), spread_over(2)).missed == ()
