@@ -16,6 +16,7 @@ from equipoise.model.bench import Bench
 from equipoise.model.move import Move
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.choose_move import DOWN, Option, good_moment, move_of, option_for, safest
 from equipoise.procedure.foresight import Outlook, state_now
@@ -36,10 +37,13 @@ class BalanceOptions:
 
 
 FIRST_LOOK = 1.6  # s, before anything is fitted
+DEEPER = 80e-6  # m, the least way down
 LOOK = 0.6  # s between fits
 KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
-INFORMED = 0.2  # of the offset: a sideways sd at which the direction of a move is known
-LAST = 0.3  # of the tolerance: the same for the last move
+INFORMED = 0.3  # of the offset: a sideways sd at which the direction of a move is known
+FIRM = 0.97  # probability of being within tolerance at which to stop before the time is used up
+LATEST = 0.85  # of the time, less the look after: when the last move is made at the latest
+LAST = 0.25  # of the tolerance: the same for the last move
 SETTLE = 20.0  # s to keep for the look after the last move
 
 
@@ -95,7 +99,7 @@ def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, be
     if tilt_of(knowledge.recording, bench) > bench.testbed.tilt_limit:
         return "the platform tilts beyond its limit"
     judged = fresh_enough(knowledge, progress.still_since) and not progress.braking
-    if judged and is_within(knowledge, options.target, options.tolerance):
+    if judged and is_within(knowledge, options.target, options.tolerance, FIRM):
         return "within tolerance"
     if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
         return "the estimate cannot be used"
@@ -124,18 +128,32 @@ def decide(
     if left == 0 or not testbed.masses:
         return None
     view = Outlook(knowledge, testbed, state_now(knowledge, testbed))
-    if left > 1 and not progress.braking and urgent(view, options.target):
-        return safest(view, options.target)
+    may_brake = left > 2  # a brake costs another move to come back, and the last is for the trim
+    if left > 1 and not progress.braking and urgent(view, options.target, may_brake):
+        return safest(view, options.target, may_brake)
     if not (progress.braking or ripe(bench, progress, options, began)):
         return None
-    dip = DOWN if left == options.max_moves > 1 else 0.0
-    aim = options.target - dip * testbed.up
+    aim = (
+        below(knowledge, options.target, testbed)
+        if left == options.max_moves > 1
+        else options.target
+    )
     option = option_for(view, aim)
     pressed = bench.time - began > options.max_time - SETTLE
     return option if pressed or good_moment(view, option) else None
 
 
-def urgent(view: Outlook, target: Vector3) -> bool:
+def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:
+    """Return a place (m) well below both the target and the present centre of mass.
+
+    It makes the platform stiffer, and the known changes on the way there and back are what the
+    scale of inertia and centre of mass is learnt from.
+    """
+    depth = max(DOWN, DEEPER - float((knowledge.com - target) @ testbed.up))
+    return target - depth * testbed.up
+
+
+def urgent(view: Outlook, target: Vector3, may_brake: bool) -> bool:
     """Say whether to move because of the tilt.
 
     When staying would pass the guard: if so would going straight one look later; but as long as
@@ -149,7 +167,9 @@ def urgent(view: Outlook, target: Vector3) -> bool:
     sideways = knowledge.sd - (knowledge.sd @ up) * up
     if float(np.linalg.norm(sideways)) < INFORMED * off:
         return bool(option_for(later, target).peak > view.guard)
-    return bool(safest(replace(hopeful, wait=LOOK), target).peak > view.testbed.tilt_limit)
+    return bool(
+        safest(replace(hopeful, wait=LOOK), target, may_brake).peak > view.testbed.tilt_limit
+    )
 
 
 def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> bool:
@@ -160,8 +180,8 @@ def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float
     worth = bool(np.any(off + sd > options.tolerance))
     enough = LAST if left == 1 else KNOWN
     known = bool(np.all((sd < enough * options.tolerance) | ((sd < 0.1 * off) & (left > 1))))
-    share = (options.max_time - SETTLE) * (1 - left / (options.max_moves + 1))
-    late = bench.time - began > share
+    share = LATEST if left == 1 else 1 - left / (options.max_moves + 1)
+    late = bench.time - began > share * (options.max_time - SETTLE)
     return worth and (known or late) and fresh_enough(knowledge, progress.still_since)
 
 
@@ -201,6 +221,6 @@ def final(bench: Bench, progress: Progress, options: BalanceOptions, why: str) -
     judged = verdict(knowledge, last, progress.still_since, options.target, options.tolerance)
     if why == "the platform tilts beyond its limit":
         judged = Verdict(False, f"Stopped: {why}.", knowledge.com, knowledge.sd)
-    kind = "verify" if why == "within tolerance" else "stop"
+    kind = "verify" if judged.passed else "stop"
     text = f"{why[0].upper()}{why[1:]}. {judged.sentence}"
     return Step(kind, bench.time, text, knowledge.recording, knowledge.estimate, verdict=judged)

@@ -22,7 +22,7 @@ from equipoise.procedure.foresight import Outlook
 from equipoise.procedure.knowledge import Knowledge, shifted
 
 CALM = 0.5  # of the tilt limit, chosen: a peak at which the moment does not matter
-WAITS = (0.6, 1.2, 2.4, 4.0, 6.0)  # s
+WAITS = (0.6, 1.2, 2.4, 4.0, 6.0, 9.0, 12.0)  # s
 HASTE = 30.0  # mm per s, weighs time against travel when a brake is needed
 SIDEWAYS = (0.0, 0.5, 1.0, 1.5)  # of the present sideways offset, to the far side
 CATCH_DOWN = 60e-6  # m below the target: stiffer, and soon reached
@@ -54,22 +54,22 @@ def good_moment(view: Outlook, option: Option) -> bool:
     return all(option.peak <= 1.05 * peak for peak in later)
 
 
-def catches(view: Outlook, target: Vector3) -> Iterator[Option]:
+def catches(view: Outlook, target: Vector3, may_brake: bool) -> Iterator[Option]:
     """Yield hasty moves that stop the platform from falling, the mildest first.
 
     They go to below the target, then to below and beyond it.
     """
     up, offset = view.testbed.up, view.knowledge.com - target
     sideways = offset - (offset @ up) * up
-    for share in SIDEWAYS:
+    for share in SIDEWAYS if may_brake else SIDEWAYS[:1]:
         aim = target - share * sideways - CATCH_DOWN * up
         yield option_for(view, aim, share > 0, HASTE)
 
 
-def safest(view: Outlook, target: Vector3) -> Option:
+def safest(view: Outlook, target: Vector3, may_brake: bool) -> Option:
     """Return the mildest move that keeps the tilt within the guard, else the least tilting one."""
     options: list[Option] = []
-    for option in catches(view, target):
+    for option in catches(view, target, may_brake):
         options.append(option)
         if option.peak <= view.guard:
             return option

@@ -19,10 +19,12 @@ def probability_within(com: Vector3, sd: Vector3, target: Vector3, tolerance: Ve
     return np.asarray(ndtr((high - com) / sd) - ndtr((low - com) / sd))
 
 
-def is_within(knowledge: Knowledge, target: Vector3, tolerance: Vector3) -> bool:
-    """Say whether every axis is within its tolerance with sufficient probability."""
-    sure = probability_within(knowledge.com, knowledge.sd, target, tolerance)
-    return bool(np.all(sure >= SURE))
+def is_within(
+    knowledge: Knowledge, target: Vector3, tolerance: Vector3, sure: float = SURE
+) -> bool:
+    """Say whether every axis is within its tolerance with a probability of ``sure``."""
+    found = probability_within(knowledge.com, knowledge.sd, target, tolerance)
+    return bool(np.all(found >= sure))
 
 
 def fresh_misfit(knowledge: Knowledge, since: float) -> float:
