@@ -9,8 +9,7 @@ Wensing 2022): J > 0 and the triangle inequalities hold for every choice of them
 
 import numpy as np
 
-from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.arrays import Floats, Matrix3, Vector6
+from equipoise.model.arrays import Matrix3, Vector6
 from equipoise.model.mass_properties import inertia_from_second_moments, second_moments
 
 FLOOR = 1e-6  # chosen: an impossible start is moved to this fraction of its trace
@@ -35,21 +34,3 @@ def from_inertia(inertia_C: Matrix3) -> Vector6:
     factor = np.linalg.cholesky((vectors * values) @ vectors.T)
     logs = np.log(np.diag(factor))
     return np.array([*logs, factor[1, 0], factor[2, 0], factor[2, 1]])
-
-
-def jacobian(six: Vector6) -> Floats:
-    """Return d(xx yy zz xy xz yz of J_C)/d(six), shape (6, 6)."""
-    factor = _factor(six)
-    where = ((0, 0), (1, 1), (2, 2), (1, 0), (2, 0), (2, 1))
-    columns: list[Floats] = []
-    for k, (i, j) in enumerate(where):
-        change = np.zeros((3, 3))
-        change[i, j] = factor[i, i] if k < 3 else 1.0
-        moved = change @ factor.T
-        columns.append(pack_symmetric(inertia_from_second_moments(moved + moved.T)))
-    return np.column_stack(columns)
-
-
-def nearest_possible(inertia_C: Matrix3) -> Matrix3:
-    """Return J_C itself when possible, else with its second moments raised to the floor."""
-    return to_inertia(from_inertia(inertia_C))

@@ -7,7 +7,14 @@ from equipoise.app.terminal import stdout
 from equipoise.model.errors import InputError
 
 
-def new(preset: str, /, *, out: Path | None = None, force: Flag = False) -> int:
+def new(
+    preset: str = "sputnix",
+    /,
+    *,
+    out: Path | None = None,
+    force: Flag = False,
+    schema: Flag = False,
+) -> int:
     """Write a preset testbed to a file, to start one's own from.
 
     Parameters
@@ -18,10 +25,17 @@ def new(preset: str, /, *, out: Path | None = None, force: Flag = False) -> int:
         File to write. Left out: PRESET.toml in this folder.
     force
         Write over a file that is already there.
+    schema
+        Print the JSON Schema of testbed files instead, for editors that check keys.
     """
-    from equipoise.io.presets import preset_text
-    from equipoise.io.testbed_file import write_testbed
+    import json
 
+    from equipoise.io.presets import preset_text
+    from equipoise.io.testbed_file import json_schema, write_testbed
+
+    if schema:
+        stdout().out(json.dumps(json_schema(), indent=2), highlight=False)
+        return 0
     text = preset_text(preset)
     path = out or Path(f"{preset}.toml")
     if path.exists() and not force:
