@@ -38,11 +38,13 @@ class BalanceOptions:
 
 FIRST_LOOK = 1.6  # s, before anything is fitted
 DEEPER = 80e-6  # m, the least way down
-LOOK = 0.6  # s between fits
+LOOK = 0.4  # s between fits
 KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
 INFORMED = 0.3  # of the offset: a sideways sd at which the direction of a move is known
-FIRM = 0.97  # probability of being within tolerance at which to stop before the time is used up
-LATEST = 0.85  # of the time, less the look after: when the last move is made at the latest
+FIRM = 0.99  # probability of being within tolerance at which to leave a move unused
+SPENT = 0.97  # the same with no move left, or no time for one
+TRIM = 0.3  # of the tolerance: an offset that the last move, when its time comes, is spent on
+LATEST = 0.97  # of the time, less the look after: when the last move is made at the latest
 LAST = 0.25  # of the tolerance: the same for the last move
 SETTLE = 20.0  # s to keep for the look after the last move
 
@@ -99,7 +101,10 @@ def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, be
     if tilt_of(knowledge.recording, bench) > bench.testbed.tilt_limit:
         return "the platform tilts beyond its limit"
     judged = fresh_enough(knowledge, progress.still_since) and not progress.braking
-    if judged and is_within(knowledge, options.target, options.tolerance, FIRM):
+    movable = len(progress.moves) < options.max_moves
+    early = bench.time - began < LATEST * (options.max_time - SETTLE)
+    sure = FIRM if movable and early else SPENT
+    if judged and is_within(knowledge, options.target, options.tolerance, sure):
         return "within tolerance"
     if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
         return "the estimate cannot be used"
@@ -177,12 +182,12 @@ def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float
     knowledge = progress.knowledge
     left = options.max_moves - len(progress.moves)
     off, sd = np.abs(knowledge.com - options.target), knowledge.sd
-    worth = bool(np.any(off + sd > options.tolerance))
-    enough = LAST if left == 1 else KNOWN
-    known = bool(np.all((sd < enough * options.tolerance) | ((sd < 0.1 * off) & (left > 1))))
     share = LATEST if left == 1 else 1 - left / (options.max_moves + 1)
     late = bench.time - began > share * (options.max_time - SETTLE)
-    return worth and (known or late) and fresh_enough(knowledge, progress.still_since)
+    enough = LAST if left == 1 else KNOWN
+    known = bool(np.all((sd < enough * options.tolerance) | ((sd < 0.1 * off) & (left > 1))))
+    worth = off > TRIM * options.tolerance if late and left == 1 else off + sd > options.tolerance
+    return bool(np.any(worth)) and (known or late) and fresh_enough(knowledge, progress.still_since)
 
 
 def reason_of(option: Option) -> str:
