@@ -20,7 +20,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.choose_move import DOWN, Option, good_moment, move_of, option_for, safest
 from equipoise.procedure.foresight import Outlook, state_now
-from equipoise.procedure.knowledge import Knowledge, learn
+from equipoise.procedure.knowledge import Knowledge, learn, shifted
 from equipoise.procedure.verify import fresh_enough, is_within, verdict
 
 UM = 1e-6
@@ -37,6 +37,7 @@ class BalanceOptions:
 
 
 FIRST_LOOK = 1.6  # s, before anything is fitted
+NOTABLE = 20e-6  # m below the target, beyond what a motor step leaves
 DEEPER = 80e-6  # m, the least way down
 LOOK = 0.4  # s between fits
 KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
@@ -80,7 +81,12 @@ def balance(bench: Bench, options: BalanceOptions) -> Generator[Step, None, Know
             progress = again(progress, learn(progress.knowledge, fresh, bench.testbed))
             continue
         yield estimate_step(bench, progress)
-        move = move_of(progress.knowledge, bench.testbed, option, reason_of(option))
+        move = move_of(
+            progress.knowledge,
+            bench.testbed,
+            option,
+            reason_of(progress.knowledge, bench.testbed, option, options.target),
+        )
         yield Step("move", bench.time, sentence_of(move), move=move)
         bench.move(move.targets)
         fresh = bench.read(move.duration + LOOK)
@@ -190,9 +196,16 @@ def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float
     return bool(np.any(worth)) and (known or late) and fresh_enough(knowledge, progress.still_since)
 
 
-def reason_of(option: Option) -> str:
+def reason_of(knowledge: Knowledge, testbed: Testbed, option: Option, target: Vector3) -> str:
     """Return why this move."""
-    return "brake: the platform falls faster than it can be caught" if option.brake else "to target"
+    if option.brake:
+        return "brake: the platform falls faster than it can be caught"
+    above = float((shifted(knowledge, testbed, option.targets) - target) @ testbed.up)
+    return (
+        "below the target first: stiffer, and more to learn from"
+        if above < -NOTABLE
+        else "to target"
+    )
 
 
 def sentence_of(move: Move) -> str:
