@@ -8,6 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from equipoise.maths.pseudo_inertia import (
     FLOOR,
+    exceeds,
     from_inertia,
     to_inertia,
 )
@@ -91,3 +92,12 @@ def test_nothing_at_all_still_gives_a_body():
     """A zero or negative trace has no size to take a fraction of; the result is finite."""
     assert smallest_second_moment(nearest_possible(np.zeros((3, 3)))) > 0
     assert smallest_second_moment(nearest_possible(-np.eye(3))) > 0
+
+
+@given(arrays(np.float64, (3, 3), elements=st.floats(-2, 2)), st.floats(-1.0, 1.0))
+def test_exceeds_is_the_least_eigenvalue_above_the_floor(matrix, floor):
+    """Leading minors against eigenvalues, away from the edge where rounding decides."""
+    symmetric = matrix + matrix.T
+    least = np.linalg.eigvalsh(symmetric)[0]
+    if abs(least - floor) > 1e-9:
+        assert exceeds(symmetric, floor) == (least > floor)

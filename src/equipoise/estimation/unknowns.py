@@ -120,8 +120,10 @@ def boundary(point: Unknowns, mass: float, layout: Layout, step: Floats) -> tupl
     inertia = point.body(mass).inertia_P
     com = point.com + step[R]
     there = inertia + unpack_symmetric(step[JP]) - parallel_axis(mass, com)
-    values, vectors = np.linalg.eigh(second_moments(there))
     floor = 2 * pseudo_inertia.FLOOR * float(np.trace(inertia))
+    if pseudo_inertia.exceeds(second_moments(there), 0.5 * floor):
+        return np.zeros((0, layout.size)), np.zeros(0)
+    values, vectors = np.linalg.eigh(second_moments(there))
     beyond = vectors[:, values < 0.5 * floor].T
     rows, gaps = np.zeros((len(beyond), layout.size)), np.zeros(len(beyond))
     now = second_moments(point.body(mass).inertia_C)
