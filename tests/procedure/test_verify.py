@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from builders import noisy, platform, recording
 
+from equipoise.model.estimate import Parameter
 from equipoise.model.move import Move
 from equipoise.model.outcome import Outcome
 from equipoise.procedure.knowledge import learn
-from equipoise.procedure.verify import FRESH, fresh_enough, probability_within, verdict
+from equipoise.procedure.verify import FRESH, drift_since, fresh_enough, probability_within, verdict
 
 UM = 1e-6
 
@@ -72,3 +73,19 @@ def test_an_estimate_that_cannot_be_used_is_no_verdict(known):
 def test_a_verdict_needs_fresh_data(known):
     assert fresh_enough(known, 60.0 - FRESH)
     assert not fresh_enough(known, 60.0 - FRESH + 0.1)
+
+
+def test_drift_since_the_move_is_no_contradiction(known):
+    """A drift of 1 um/min over 30 s moves the centre of mass 0.5 um beyond the prediction."""
+    drift = (1 / 60) * UM * np.array([1.0, -2.0, 0.0])
+    extra = tuple(
+        Parameter(f"drift_{axis}", "m/s", float(rate), 1e-9)
+        for axis, rate in zip("xyz", drift, strict=True)
+    )
+    estimate = replace(known.estimate, parameters=(*known.estimate.parameters, *extra))
+    drifting = replace(known, estimate=estimate)
+    np.testing.assert_allclose(drift_since(drifting, 30.0), [0.5 * UM, -1.0 * UM, 0.0], rtol=1e-12)
+    np.testing.assert_array_equal(drift_since(known, 30.0), np.zeros(3))
+    before = known.com - drift_since(drifting, 30.0)
+    move = Move({}, 0.0, 1.0, before, 1e-18 * np.eye(3), "test")
+    assert verdict(drifting, move, 30.0, known.com, wide(known)).passed

@@ -38,6 +38,13 @@ def fresh_misfit(knowledge: Knowledge, since: float) -> float:
     return (float(np.mean(left**2)) - 1.0) / float(np.sqrt(2.0 / left.size))
 
 
+def drift_since(knowledge: Knowledge, since: float) -> Vector3:
+    """Return how far the centre of mass has drifted (m) since a time (s), as far as is known."""
+    names = ("drift_x", "drift_y", "drift_z")
+    rate = [knowledge.estimate.values((n,))[0] if knowledge.estimate.has(n) else 0.0 for n in names]
+    return (knowledge.recording.span[1] - since) * np.array(rate)
+
+
 def verdict(
     knowledge: Knowledge, move: Move | None, since: float, target: Vector3, tolerance: Vector3
 ) -> Verdict:
@@ -51,7 +58,7 @@ def verdict(
         text = "Failed: the record since the last move does not fit what was found before it."
         return Verdict(False, text, com, sd)
     if move is not None:
-        off = com - move.predicted_com
+        off = com - move.predicted_com - drift_since(knowledge, since)
         spread = np.sqrt(np.diag(move.predicted_covariance))
         if np.any(np.abs(off) > CONTRADICTION * np.hypot(spread, sd)):
             text = f"Failed: {found}, which is not where the last move should have left it."
