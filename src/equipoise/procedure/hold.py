@@ -21,9 +21,10 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import UM, BalanceOptions, balance
 from equipoise.procedure.foresight import state_now
-from equipoise.procedure.knowledge import Knowledge
+from equipoise.procedure.knowledge import Knowledge, learn
 
 LOOK = 5.0  # s between decisions
+LEARN = 300.0  # s, chosen: for how long the one fit goes on before the tracker takes over
 ACT = 0.35  # of the tolerance, chosen: an offset from which a move is considered
 PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
 FAR = 0.6  # of the tilt limit: a swing that corrections should calm
@@ -135,19 +136,44 @@ def pressing(com: Vector3, options: HoldOptions) -> bool:
     return bool(np.any(np.abs(com - options.target) > PRESSING * options.tolerance))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Following:
+    """What is believed while holding: all that was recorded at first, the tracker after that."""
+
+    knowledge: Knowledge
+    state: tracker.State
+    params: tracker.Params
+
+
+def following(knowledge: Knowledge, testbed: Testbed) -> Following:
+    """Return the tracker's belief and its inertia from a fit through the whole record."""
+    point = knowledge.fitted.point
+    inertia_P = point.body(testbed.body.mass).inertia_P
+    params = tracker.Params(inertia_P=inertia_P, torque=without_drift(point.torque))
+    return Following(knowledge, first_belief(knowledge, testbed), params)
+
+
+def follow(before: Following, fresh: Recording, testbed: Testbed, learning: bool) -> Following:
+    """Return the belief after a fresh record.
+
+    The tracker takes the inertia as known, and an error of 1 % in it is 1 um at 100 um. So for the
+    first minutes every look still goes into the one fit, which makes the inertia better.
+    """
+    if learning:
+        return following(learn(before.knowledge, fresh, testbed), testbed)
+    state = tracker.track(fresh, testbed, before.params, before.state).end
+    return Following(before.knowledge, state, before.params)
+
+
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
     """Yield a move whenever one is made, and a verdict at the end."""
-    testbed, end = bench.testbed, bench.time + options.duration
-    state, displacement = first_belief(knowledge, testbed), knowledge.displacement
-    fitted = knowledge.fitted.point
-    inertia_P = fitted.body(testbed.body.mass).inertia_P
-    params = tracker.Params(inertia_P=inertia_P, torque=without_drift(fitted.torque))
+    testbed, began, end = bench.testbed, bench.time, bench.time + options.duration
+    belief, displacement = following(knowledge, testbed), knowledge.displacement
     worst = np.zeros(3)
     while bench.time < end - 1e-9:
         fresh = bench.read(min(LOOK, end - bench.time))
-        track = tracker.track(fresh, testbed, params, state)
-        state = track.end
-        displacement = last_of(fresh, displacement)
+        belief = follow(belief, fresh, testbed, bench.time - began < LEARN)
+        state, displacement = belief.state, last_of(fresh, displacement)
         com, _ = standing(state, testbed, displacement)
         worst = np.maximum(worst, np.abs(com - options.target))
         if tilted(fresh, testbed):
@@ -157,12 +183,14 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
         if goal is None:
             continue
         shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - displacement)
+        inertia_P = belief.params.inertia_P
+        assert inertia_P is not None
         if pressing(com, options) or timely(state, com, shift, testbed, inertia_P):
             move = move_of(com, state, displacement, goal, testbed)
             bench.move(move.targets)
             yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
-    belief = standing(state, testbed, displacement)
-    yield verdict_step(bench, options, belief, worst, bench.time < end - 1e-9)
+    last = standing(belief.state, testbed, displacement)
+    yield verdict_step(bench, options, last, worst, bench.time < end - 1e-9)
 
 
 def without_drift(torque: Floats) -> Floats:
