@@ -23,6 +23,7 @@ from equipoise.estimation.conclusion import Fitted, conclude, residual_of
 from equipoise.estimation.start import start
 from equipoise.estimation.trajectory_problem import (
     ANCHOR,
+    Evaluation,
     Problem,
     changes,
     descend,
@@ -109,7 +110,7 @@ def problem_of(
 def settle(problem: Problem, point: Unknowns) -> Fitted:
     """Return the local optimum from a point."""
     found = descend(problem, point)
-    at = evaluate(problem, found.point)
+    at = found.local if isinstance(found.local, Evaluation) else evaluate(problem, found.point)
     return Fitted(problem, found.point, at, found.converged, found.evaluations)
 
 
