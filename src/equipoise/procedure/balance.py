@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from equipoise.maths.attitude import tilt
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.move import Move
@@ -18,9 +17,11 @@ from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.choose_move import DOWN, Option, good_moment, move_of, option_for, safest
+from equipoise.procedure.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.foresight import Outlook, state_now
 from equipoise.procedure.knowledge import Knowledge, learn, shifted
+from equipoise.procedure.planned_move import planned_move
+from equipoise.procedure.tilt_guard import tilted
 from equipoise.procedure.verify import fresh_enough, is_within, verdict
 
 UM = 1e-6
@@ -78,15 +79,14 @@ def balance(bench: Bench, options: BalanceOptions) -> Generator[Step, None, Know
         option = decide(bench, progress, options, began)
         if option is None:
             fresh = bench.read(LOOK)
-            progress = again(progress, learn(progress.knowledge, fresh, bench.testbed))
+            knowledge = learn(progress.knowledge, fresh, bench.testbed)
+            progress = replace(progress, knowledge=knowledge)
             continue
         yield estimate_step(bench, progress)
-        move = move_of(
-            progress.knowledge,
-            bench.testbed,
-            option,
-            reason_of(progress.knowledge, bench.testbed, option, options.target),
-        )
+        knowledge = progress.knowledge
+        reason = reason_of(knowledge, bench.testbed, option, options.target)
+        belief = (knowledge.com, knowledge.covariance)
+        move = planned_move(bench.testbed, knowledge.displacement, option.targets, belief, reason)
         yield Step("move", bench.time, sentence_of(move), move=move)
         bench.move(move.targets)
         fresh = bench.read(move.duration + LOOK)
@@ -96,15 +96,10 @@ def balance(bench: Bench, options: BalanceOptions) -> Generator[Step, None, Know
         yield look_step(bench, fresh)
 
 
-def again(progress: Progress, knowledge: Knowledge) -> Progress:
-    """Return the progress with more known."""
-    return Progress(knowledge, progress.moves, progress.still_since, progress.braking)
-
-
 def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> str:
     """Return why to stop now, or nothing."""
     knowledge = progress.knowledge
-    if tilt_of(knowledge.recording, bench) > bench.testbed.tilt_limit:
+    if tilted(knowledge.recording, bench.testbed):
         return "the platform tilts beyond its limit"
     judged = fresh_enough(knowledge, progress.still_since) and not progress.braking
     movable = len(progress.moves) < options.max_moves
@@ -121,13 +116,6 @@ def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, be
     if spent and judged and bool(hopeless.any()):
         return "the moves are used up"
     return ""
-
-
-def tilt_of(recording: Recording, bench: Bench) -> float:
-    """Return the present tilt, rad; the median of the last three rows, as one may be noise."""
-    if recording.attitude is None or not len(recording.attitude):
-        return 0.0
-    return float(np.median(tilt(recording.attitude.values[-3:], bench.testbed.up)))
 
 
 def decide(

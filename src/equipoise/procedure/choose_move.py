@@ -8,18 +8,11 @@ else the one with the least tilt.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from equipoise.actuators.sliding_masses import (
-    com_shift_covariance,
     displacements_for,
-    mass_maps,
 )
 from equipoise.model.arrays import Floats, Vector3
-from equipoise.model.move import Move
-from equipoise.model.testbed import Testbed
 from equipoise.procedure.foresight import Outlook
-from equipoise.procedure.knowledge import Knowledge, shifted
 
 CALM = 0.5  # of the tilt limit, chosen: a peak at which the moment does not matter
 WAITS = (0.6, 1.2, 2.4, 4.0, 6.0, 9.0, 12.0)  # s
@@ -74,22 +67,3 @@ def safest(view: Outlook, target: Vector3, may_brake: bool) -> Option:
         if option.peak <= view.guard:
             return option
     return min(options, key=lambda option: option.peak)
-
-
-def move_of(knowledge: Knowledge, testbed: Testbed, option: Option, reason: str) -> Move:
-    """Return the move with what it should lead to."""
-    now = knowledge.displacement
-    change = option.targets - now
-    speed = np.array([mass.speed for mass in testbed.masses])
-    accuracy = np.array([mass.accuracy for mass in testbed.masses])
-    stop = com_shift_covariance(
-        mass_maps(testbed.masses), testbed.body.mass, accuracy, (change != 0).astype(float)
-    )
-    return Move(
-        targets={m.name: float(d) for m, d in zip(testbed.masses, option.targets, strict=True)},
-        travel=float(np.abs(change).sum()),
-        duration=float((np.abs(change) / speed).max()),
-        predicted_com=shifted(knowledge, testbed, option.targets),
-        predicted_covariance=knowledge.covariance + stop,
-        reason=reason,
-    )

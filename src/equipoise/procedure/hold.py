@@ -11,7 +11,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
 from equipoise.estimation import tracker
-from equipoise.maths.attitude import tilt, to_matrix
+from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.move import Move
@@ -22,6 +22,8 @@ from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import UM, BalanceOptions, balance
 from equipoise.procedure.foresight import state_now
 from equipoise.procedure.knowledge import Knowledge, learn
+from equipoise.procedure.planned_move import planned_move
+from equipoise.procedure.tilt_guard import tilted
 
 LOOK = 5.0  # s between decisions
 LEARN = 300.0  # s, chosen: for how long the one fit goes on before the tracker takes over
@@ -186,7 +188,8 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
         inertia_P = belief.params.inertia_P
         assert inertia_P is not None
         if pressing(com, options) or timely(state, com, shift, testbed, inertia_P):
-            move = move_of(com, state, displacement, goal, testbed)
+            now = (com, state.covariance[6:9, 6:9])
+            move = planned_move(testbed, displacement, goal, now, "drift")
             bench.move(move.targets)
             yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
     last = standing(belief.state, testbed, displacement)
@@ -204,30 +207,6 @@ def last_of(fresh: Recording, before: Floats) -> Floats:
     """Return the reported displacements at the end of a record."""
     masses: Samples | None = fresh.masses
     return before if masses is None or not len(masses) else masses.values[-1]
-
-
-def tilted(fresh: Recording, testbed: Testbed) -> bool:
-    """Say whether the platform tilts beyond its limit."""
-    rows = fresh.attitude
-    if rows is None or not len(rows):
-        return False
-    return float(np.median(tilt(rows.values[-3:], testbed.up))) > testbed.tilt_limit
-
-
-def move_of(
-    com: Vector3, state: tracker.State, now: Floats, goal: Floats, testbed: Testbed
-) -> Move:
-    """Return the move to ``goal`` (m) with what it should lead to."""
-    speed = np.array([mass.speed for mass in testbed.masses])
-    change = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - now)
-    return Move(
-        targets={m.name: float(d) for m, d in zip(testbed.masses, goal, strict=True)},
-        travel=float(np.abs(goal - now).sum()),
-        duration=float((np.abs(goal - now) / speed).max()),
-        predicted_com=com + change,
-        predicted_covariance=state.covariance[6:9, 6:9],
-        reason="drift",
-    )
 
 
 def sentence_of(move: Move, com: Vector3) -> str:
