@@ -16,7 +16,6 @@ from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
-from equipoise.procedure.balance import BalanceOptions
 from equipoise.procedure.hold import HoldOptions, balance_and_hold
 from equipoise.simulation.bench import SimulatedBench
 from verification.result import Result, Row, Spread, at_most, in_turn, triple
@@ -25,7 +24,7 @@ DRIFT = 1e-6 / 60  # m/s
 HOLD = 1800.0  # s
 LIMIT = 3e-6  # m, per axis
 EVERY = 1.0  # s
-BALANCING, HOLDING = BalanceOptions(), HoldOptions(HOLD)
+HOLDING = HoldOptions(HOLD)
 TERMS = expand(("drift",))
 Array = NDArray[np.float64]
 
@@ -114,7 +113,7 @@ def held(seed: int) -> Run:
     bench = Watched(SimulatedBench(drifting(seed), seed))
     began, moves, last = np.inf, 0, None
     errors, zs = [np.full(3, np.nan)], [np.full(3, np.nan)]
-    for step, error, z in beliefs(balance_and_hold(bench, BALANCING, HOLDING), bench):
+    for step, error, z in beliefs(balance_and_hold(bench, HOLDING.balancing, HOLDING), bench):
         if np.isfinite(began):
             moves += step.kind == "move"
             errors.append(error)
@@ -171,7 +170,9 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         *(note_of(run) for run in runs if not row_of(run).ok),
     )
     claim = (
-        "Preset sputnix with 1 um/min of drift in a random direction: balanced, then held for "
-        f"{HOLD / 60:.0f} min within {1e6 * LIMIT:g} um of the target."
+        "Preset sputnix with 1 um/min of drift in a random direction: balanced to "
+        f"{1e6 * HOLDING.balancing.tolerance[2]:g} um with at most {HOLDING.balancing.max_moves} "
+        f"moves and {HOLDING.balancing.max_time:g} s, then held for {HOLD / 60:.0f} min within "
+        f"{1e6 * LIMIT:g} um of the target."
     )
     return Result("drift", claim, rows, notes)

@@ -1,6 +1,7 @@
 """The tracker beside the bound of the whole record, J known; moves fed, and moves ignored."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -37,8 +38,10 @@ def tracked(moves: tracker.Moves, seed: int) -> Run:
     recording, q0 = paper_runs.run(seed)
     testbed, attitude = paper_runs.testbed(), recording.attitude
     walk = STILL if moves == "fed" else ALERT
-    params = tracker.Params(moves, walk, STILL, inertia_P=unpack_symmetric(paper_runs.PUBLISHED))
-    first = tracker.first_state(0.0, attitude.values[0], testbed)
+    params, belief = tracker.Params(moves, walk, STILL), tracker.belief_of(testbed)
+    belief.covariance[3:, 3:] = 0.0  # J known
+    known = replace(belief, inertia_P=unpack_symmetric(paper_runs.PUBLISHED))
+    first = tracker.first_state(0.0, attitude.values[0], testbed, known)
     track = tracker.track(recording, testbed, params, first)
     true = builders.COM if moves == "fed" else builders.COM + paper_runs.SHIFT
     error, covariance = track.com[-1] - true, track.end.covariance[6:9, 6:9]

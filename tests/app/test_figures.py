@@ -30,14 +30,13 @@ def pictures():
     bench = SimulatedBench(BED, seed=1)
     recording, truth = looked(bench)
     estimate = trajectory.estimate(recording, BED, trajectory.Params())
-    inertia = estimate.inertia_P
     looks = [(30.0, truth[1][0], np.full(3, 1e-6)), (90.0, truth[1][-1], np.full(3, np.inf))]
     story = Story(looks, np.array([0, 0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]), truth)
     found = [
         *of_fit(recording, BED, estimate),
-        *of_tracking(window(recording, 0.0, 60.0), BED, inertia, truth[1][0]),
-        *of_move(recording, BED, inertia, truth),
-        *of_balancing(recording, BED, inertia, story),
+        *of_tracking(window(recording, 0.0, 60.0), BED, estimate, truth[1][0]),
+        *of_move(recording, BED, estimate, truth),
+        *of_balancing(recording, BED, estimate, story),
     ]
     return {picture.name: picture for picture in found}
 

@@ -4,25 +4,25 @@ import numpy as np
 import pytest
 
 from equipoise.io.presets import read_preset
-from equipoise.procedure.balance import BalanceOptions
 from equipoise.procedure.hold import HoldOptions, balance_and_hold, without_drift
 from equipoise.simulation.bench import SimulatedBench
+
+HOLDING = HoldOptions(120.0)
 
 
 @pytest.fixture(scope="module")
 def held():
     bench = SimulatedBench(read_preset("sputnix"), 3)
-    return bench, list(balance_and_hold(bench, BalanceOptions(), HoldOptions(120.0)))
+    return bench, list(balance_and_hold(bench, HOLDING.balancing, HOLDING))
 
 
 def test_a_short_hold_passes(held):
     """By the verdict, and by the truth at the end (3 um on every axis)."""
     bench, steps = held
-    options = HoldOptions(120.0)
     assert steps[-1].kind == "verify"
     assert steps[-1].verdict.passed, steps[-1].sentence
     assert "Held for 2 min" in steps[-1].sentence
-    assert np.all(np.abs(bench.truth().com - options.target) < options.tolerance)
+    assert np.all(np.abs(bench.truth().com - HOLDING.target) < HOLDING.tolerance)
 
 
 def test_it_lasts_as_long_as_asked(held):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from equipoise.app.account import Account, origin
-from equipoise.app.balancing import Balancing, change_of, inertia_of, looks
+from equipoise.app.balancing import Balancing, change_of, looks
 from equipoise.app.figures.balanced_com import Story
 from equipoise.app.numbers import fixed
 from equipoise.app.pictures import Picture, TrueCourse, of_balancing, of_tracking
@@ -66,7 +66,7 @@ def pictures_of_tracking(done: Balancing) -> list[Picture]:
     """Return Figs. 11 and 12; the tracker's centre of mass is with the masses at home."""
     if done.recording is None or done.recording.attitude is None:
         return []
-    return list(of_tracking(done.recording, done.testbed, inertia_of(done.estimate), None))
+    return list(of_tracking(done.recording, done.testbed, done.estimate, None))
 
 
 def pictures_of(done: Balancing) -> list[Picture]:
@@ -75,7 +75,7 @@ def pictures_of(done: Balancing) -> list[Picture]:
     if recording is None or recording.attitude is None:
         return []
     story = Story(looks(done), done.goal.target, done.goal.tolerance, true_course(done))
-    return list(of_balancing(recording, done.testbed, inertia_of(done.estimate), story))
+    return list(of_balancing(recording, done.testbed, done.estimate, story))
 
 
 def true_course(done: Balancing) -> TrueCourse | None:

@@ -1,7 +1,7 @@
 """One balancing of a bench: its steps as they come, and what they did to the platform."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from equipoise.app.change import Believed, Change
 from equipoise.app.figures.balanced_com import Look
 from equipoise.app.recorded_bench import RecordedBench
 from equipoise.app.terminal import watched
-from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.mass_properties import MassProperties
@@ -58,10 +58,10 @@ class Balancing:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Limits:
-    """When to give up, and how long to hold what was reached."""
+    """When to give up (None: as the procedure has it), and how long to hold what was reached."""
 
-    max_moves: int = 3
-    max_time: float = 120.0  # s
+    max_moves: int | None = None
+    max_time: float | None = None  # s
     hold: float = 0.0  # s
 
 
@@ -86,10 +86,13 @@ def run(
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     """Return the steps of balancing and, when that passes and it is asked for, of holding."""
-    balancing = BalanceOptions(goal.target, goal.tolerance, limits.max_moves, limits.max_time)
+    holding = HoldOptions(limits.hold, goal.target, goal.tolerance)
+    usual = holding.balancing if limits.hold > 0 else BalanceOptions(goal.target, goal.tolerance)
+    moves = usual.max_moves if limits.max_moves is None else limits.max_moves
+    balancing = replace(usual, max_moves=moves, max_time=limits.max_time or usual.max_time)
     if limits.hold == 0:
         return balance(bench, balancing)
-    return balance_and_hold(bench, balancing, HoldOptions(limits.hold, goal.target, goal.tolerance))
+    return balance_and_hold(bench, balancing, holding)
 
 
 def at_home(estimate: Estimate) -> Believed | None:
@@ -107,14 +110,6 @@ def _believed(estimate: Estimate, names: tuple[str, ...]) -> Believed | None:
         return None
     sd = np.array([estimate.parameters[estimate.index(name)].sd for name in names])
     return Believed(estimate.values(names), sd)
-
-
-def inertia_of(estimate: Estimate | None) -> Matrix3 | None:
-    """Return the inertia of an estimate that saw all of it."""
-    if estimate is None or not all(map(estimate.has, INERTIA)):
-        return None
-    seen = all(estimate.parameters[estimate.index(name)].observable for name in INERTIA)
-    return estimate.inertia_P if seen else None
 
 
 def looks(done: Balancing) -> list[Look]:
@@ -135,10 +130,11 @@ def change_of(done: Balancing) -> Change | None:
     seen = looks(done)
     if not seen:
         return None
-    inertia = inertia_of(done.estimate)
+    estimate = done.estimate
+    known = estimate is not None and estimate.sees(INERTIA)
     return Change(
         done.testbed,
-        done.testbed.body.inertia_P if inertia is None else inertia,
+        estimate.inertia_P if estimate and known else done.testbed.body.inertia_P,
         done.goal.target,
         done.before or Believed(*seen[0][1:]),
         Believed(*seen[-1][1:]),

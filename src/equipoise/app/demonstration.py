@@ -8,7 +8,7 @@ import numpy as np
 from equipoise.app.account import Account
 from equipoise.app.balance_views import account_of as account_of_balancing
 from equipoise.app.balance_views import pictures_of, show_step
-from equipoise.app.balancing import Balancing, Goal, Limits, at_home, inertia_of, run
+from equipoise.app.balancing import Balancing, Goal, Limits, at_home, run
 from equipoise.app.pictures import Picture, TrueCourse, of_fit, of_move, of_tracking
 from equipoise.app.tables import estimate_tables
 from equipoise.app.terminal import busy, stdout, watched
@@ -90,11 +90,11 @@ def account_of(shown: Demonstration, seed: int) -> Account:
 
 def pictures(shown: Demonstration) -> list[Picture]:
     """Return figures 6, 7, 8, 11, 12, 13, 14 and 15."""
-    bed, recording, inertia = shown.balancing.testbed, shown.recording, inertia_of(shown.estimate)
+    bed, recording, estimate = shown.balancing.testbed, shown.recording, shown.estimate
     still = window(recording, 0.0, LOOK)
     return [
-        *of_fit(recording, bed, shown.estimate),
-        *of_tracking(still, bed, inertia, shown.truth[1][0]),
-        *of_move(recording, bed, inertia, shown.truth),
+        *of_fit(recording, bed, estimate),
+        *of_tracking(still, bed, estimate, shown.truth[1][0]),
+        *of_move(recording, bed, estimate, shown.truth),
         *pictures_of(shown.balancing),
     ]

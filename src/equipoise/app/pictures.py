@@ -19,7 +19,7 @@ from equipoise.app.figures import (
 )
 from equipoise.estimation import tracker
 from equipoise.estimation.prediction import ATTITUDE, RATE, before, predict
-from equipoise.model.arrays import Floats, Matrix3, Series1, Series3, Vector3
+from equipoise.model.arrays import Floats, Series1, Series3, Vector3
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -41,9 +41,9 @@ def of_estimate(recording: Recording, testbed: Testbed, estimate: Estimate) -> I
     if estimate.method != "tracker":
         yield from of_fit(recording, testbed, estimate)
     elif recording.attitude is not None:
-        yield from of_tracking(recording, testbed, None, None)
+        yield from of_tracking(recording, testbed, estimate, None)
         if recording.masses is not None and np.any(np.ptp(recording.masses.values, axis=0)):
-            yield from of_move(recording, testbed, None, None)
+            yield from of_move(recording, testbed, estimate, None)
 
 
 def of_fit(recording: Recording, testbed: Testbed, estimate: Estimate) -> Iterator[Picture]:
@@ -61,20 +61,24 @@ def of_fit(recording: Recording, testbed: Testbed, estimate: Estimate) -> Iterat
 
 
 def tracked(
-    recording: Recording, testbed: Testbed, inertia: Matrix3 | None, moves: tracker.Moves = "fed"
+    recording: Recording, testbed: Testbed, estimate: Estimate | None, moves: tracker.Moves = "fed"
 ) -> tracker.Track:
-    """Return what the tracker believes along a record that has a camera."""
+    """Return what the tracker believes along a record that has a camera.
+
+    It starts from the centre of mass of the testbed's description and the inertia of an estimate.
+    """
     rows = recording.attitude
     assert rows is not None
-    state = tracker.first_state(float(rows.t[0]), rows.values[0], testbed)
-    return tracker.track(recording, testbed, tracker.Params(moves, inertia_P=inertia), state)
+    belief = tracker.belief_of(testbed, estimate)
+    state = tracker.first_state(float(rows.t[0]), rows.values[0], testbed, belief)
+    return tracker.track(recording, testbed, tracker.Params(moves), state)
 
 
 def of_tracking(
-    recording: Recording, testbed: Testbed, inertia: Matrix3 | None, truth: Vector3 | None
+    recording: Recording, testbed: Testbed, estimate: Estimate | None, truth: Vector3 | None
 ) -> Iterator[Picture]:
     """Yield Figs. 11 and 12 for a record in which the masses stand still."""
-    track = tracked(recording, testbed, inertia)
+    track = tracked(recording, testbed, estimate)
     drawn = tracked_rate.draw(track, recording)
     yield Picture("figure11_tracked_rate", tracked_rate.CAPTION, drawn)
     drawn = tracked_com.draw(track, recording, truth)
@@ -82,11 +86,11 @@ def of_tracking(
 
 
 def of_move(
-    recording: Recording, testbed: Testbed, inertia: Matrix3 | None, truth: TrueCourse | None
+    recording: Recording, testbed: Testbed, estimate: Estimate | None, truth: TrueCourse | None
 ) -> Iterator[Picture]:
     """Yield Fig. 13 for a record with a move."""
-    fed = tracked(recording, testbed, inertia)
-    left_out = tracked(recording, testbed, inertia, "ignored")
+    fed = tracked(recording, testbed, estimate)
+    left_out = tracked(recording, testbed, estimate, "ignored")
     curves = standing(fed, recording, testbed), (left_out.t, left_out.com, left_out.com_sd)
     drawn = moved_com.draw(*curves, recording, truth)
     yield Picture("figure13_move", moved_com.CAPTION, drawn)
@@ -95,11 +99,11 @@ def of_move(
 def of_balancing(
     recording: Recording,
     testbed: Testbed,
-    inertia: Matrix3 | None,
+    estimate: Estimate | None,
     story: balanced_com.Story,
 ) -> Iterator[Picture]:
     """Yield Figs. 14 and 15."""
-    curve = standing(tracked(recording, testbed, inertia), recording, testbed)
+    curve = standing(tracked(recording, testbed, estimate), recording, testbed)
     drawn = balanced_com.draw(curve, recording, story)
     yield Picture("figure14_balancing", balanced_com.CAPTION, drawn)
     drawn = displacements.draw(recording, testbed)

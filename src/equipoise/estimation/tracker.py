@@ -1,9 +1,9 @@
-"""Tracker: multiplicative extended Kalman filter of attitude, rate, centre of mass and gyro bias.
+"""Tracker: multiplicative extended Kalman filter of attitude, rate, mass properties and gyro bias.
 
-    error state  x = [ dth, dw, dr, db ]      (body axes; r with the masses at home)
-    prediction   the propagator; Phi from its sensitivities to first attitude, rate and moment
-    z_q = log( q_pred^-1 (x) q_meas ),  H = [E 0 0 0],  R = sd_q^2 E
-    z_w = w_meas - w_pred - b,          H = [0 E 0 E],  R = sd_w^2 E
+    error state  x = [ dth, dw, dr, dJ, db ]      (body axes; r and J with the masses at home)
+    prediction   the propagator; Phi from its sensitivities to first attitude, rate, moment, J
+    z_q = log( q_pred^-1 (x) q_meas ),  H = [E 0 0 0 0],  R = sd_q^2 E
+    z_w = w_meas - w_pred - b,          H = [0 E 0 0 E],  R = sd_w^2 E
     q+  = q_pred (x) exp( dth+ )
 
 Ivanov 2021 section 5 with errata I7-I11: the error is the whole rotation vector, so no block
@@ -12,22 +12,26 @@ the angle.
 A commanded move enters the prediction with the covariance of where masses stop (fed), or is left
 out so that the estimate has to find the new centre of mass by itself (ignored; paper Fig. 13).
 
-The inertia is taken as known: an error of 2 % in it is ten stated sd in r_z. Cannot see r along
-gravity until the platform has tilted.
+The inertia is part of the state with its own sd, since an error of 2 % in it would be ten stated
+sd in r_z: as the swing shows J and r only by their ratio, r is never told better than J until a
+known move separates them. An sd of 0 takes the inertia as known.
+
+Cannot see r along gravity until the platform has tilted. Linearises about its belief, which is too
+coarse from an inertia wrong by more than some 3 %: for a whole record see ``track_again``.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.actuators.stops import travels
+from equipoise.dynamics import rigid_body
 from equipoise.dynamics.propagation import Columns, body_of, stacked
-from equipoise.dynamics.rigid_body import MOMENT, RATE, TURN
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
-from equipoise.estimation.tracker_step import SIZE, run_filter
-from equipoise.maths.linalg import pack_symmetric
+from equipoise.estimation.tracker_step import COM, SIZE, run_filter
+from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (
     Floats,
     Ints,
@@ -40,6 +44,7 @@ from equipoise.model.arrays import (
     Square,
     Vector3,
 )
+from equipoise.model.estimate import INERTIA, Estimate
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import seen_at
@@ -47,6 +52,7 @@ from equipoise.sensors.timing import seen_at
 Moves = Literal["fed", "ignored"]
 LONGEST_STEP = 1.0  # s
 UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump without being told
+WHERE = np.cumsum([4, 3, 3, 6, 3])  # where the parts of a belief written as one array end
 NOTHING = Samples(np.zeros(0), np.zeros((0, 4)))
 NO_RATE = Samples(np.zeros(0), np.zeros((0, 3)))
 
@@ -59,8 +65,16 @@ class Params:
     com_walk: float = 5e-8  # m/sqrt(s): 0.05 um, thermal drift; chosen within 0.01 to 0.1
     torque_walk: float = 1e-6  # N m sqrt(s): air and bearing torques on a platform of some kg
     bias_walk: float = 1e-7  # rad/s/sqrt(s)
-    inertia_P: Matrix3 | None = None  # kg m^2, masses at home; None: the testbed's
     torque: Floats | None = None  # (16,) known coefficients
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Belief:
+    """Mass properties with the masses at home, and how well they are known."""
+
+    com: Vector3  # m
+    inertia_P: Matrix3  # kg m^2
+    covariance: Square  # (9, 9) of com and of J as xx yy zz xy xz yz
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,8 +85,9 @@ class State:
     q: Quaternion
     rate: Vector3  # rad/s
     com: Vector3  # m, masses at home
+    inertia_P: Matrix3  # kg m^2, masses at home
     bias: Vector3  # rad/s
-    covariance: Square  # (12, 12) of dth, dw, dr, db
+    covariance: Square  # (18, 18) of dth, dw, dr, dJ, db
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,15 +98,16 @@ class Track:
     q: Series4
     rate: Series3  # rad/s
     com: Series3  # m, masses at home; with moves ignored: as they stand
+    inertia: Series  # (n, 6) kg m^2, xx yy zz xy xz yz
     bias: Series3
-    sd: Series  # (n, 12) of dth, dw, dr, db
+    sd: Series  # (n, 18) of dth, dw, dr, dJ, db
     surprise: Series1  # squared innovation over its covariance, 3 degrees of freedom
     end: State
 
     @property
     def com_sd(self) -> Series3:
         """Return the sd of the centre of mass, m."""
-        return self.sd[:, 6:9]
+        return self.sd[:, COM]
 
     @property
     def rate_sd(self) -> Series3:
@@ -99,22 +115,27 @@ class Track:
         return self.sd[:, 3:6]
 
 
-def first_state(
-    t: float,
-    q: Quaternion,
-    testbed: Testbed,
-    com: Vector3 | None = None,
-    com_covariance: Matrix3 | None = None,
-) -> State:
-    """Return a belief from one attitude: at rest within 0.1 rad/s, com as known beforehand."""
+def belief_of(testbed: Testbed, estimate: Estimate | None = None) -> Belief:
+    """Return what the testbed says, with the inertia of an estimate if that saw it."""
+    moments = np.diag(testbed.body.inertia_P)
+    size = np.sqrt(pack_symmetric(np.outer(moments, moments)))
+    variance = np.concatenate([testbed.com_sd, testbed.inertia_sd * size]) ** 2
+    covariance, inertia_P = np.diag(variance), testbed.body.inertia_P
+    if estimate is not None and estimate.sees(INERTIA):
+        covariance[3:, 3:], inertia_P = estimate.covariance_of(INERTIA), estimate.inertia_P
+    return Belief(testbed.body.com, inertia_P, covariance)
+
+
+def first_state(t: float, q: Quaternion, testbed: Testbed, belief: Belief | None = None) -> State:
+    """Return a state from one attitude: at rest within 0.1 rad/s, the body as known beforehand."""
+    belief = belief or belief_of(testbed)
     covariance = np.zeros((SIZE, SIZE))
     noise = testbed.attitude.noise if testbed.attitude else 0.1
     bias = testbed.gyro.bias_sd if testbed.gyro else 0.0
-    spread = [noise**2] * 3 + [0.1**2] * 3 + [0.0] * 3 + [bias**2] * 3
+    spread = [noise**2] * 3 + [0.1**2] * 3 + [0.0] * 9 + [bias**2] * 3
     covariance[np.diag_indices(SIZE)] = spread
-    covariance[6:9, 6:9] = np.diag(testbed.com_sd**2) if com_covariance is None else com_covariance
-    return State(t, q, np.zeros(3), testbed.body.com if com is None else com, np.zeros(3),
-                 covariance)  # fmt: skip
+    covariance[6:15, 6:15] = belief.covariance
+    return State(t, q, np.zeros(3), belief.com, belief.inertia_P, np.zeros(3), covariance)
 
 
 def stop_covariances(
@@ -152,16 +173,16 @@ def track(recording: Recording, testbed: Testbed, params: Params, state: State) 
         np.append(state.t, tq[new_q]), tw[new_w], masses, len(testbed.masses),
         min(LONGEST_STEP, TURN_PER_STEP / fastest), recording.momentum, recording.torque,
     )  # fmt: skip
-    inertia = testbed.body.inertia_P if params.inertia_P is None else params.inertia_P
-    mass = testbed.body.mass
-    body = body_of(mass, testbed.gravity, pack_symmetric(inertia), mass * state.com, params.torque)
+    inertia, mass = pack_symmetric(state.inertia_P), testbed.body.mass
+    body = body_of(mass, testbed.gravity, inertia, mass * state.com, params.torque)
     stops, added = stop_covariances(recording if masses else Recording(), testbed, line, state.t)
-    noise = np.repeat([0.0, params.torque_walk, walk, params.bias_walk if len(rate) else 0.0], 3)
+    bias_walk = params.bias_walk if len(rate) else 0.0
+    noise = np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk], 3)
     n, m = int(new_q.sum()), int(new_w.sum())
     sd_q = testbed.attitude.noise if testbed.attitude else 1.0
     sd_w = testbed.gyro.noise if testbed.gyro else 1.0
-    out = np.zeros((n + m, 1 + 4 + 9 + SIZE + 1))
-    end = np.concatenate([state.q, state.rate, state.com, state.bias])
+    end = np.concatenate([state.q, state.rate, state.com, inertia, state.bias])
+    out = np.zeros((n + m, 1 + len(end) + SIZE + 1))
     covariance = state.covariance.copy()
     run_filter(
         body, stacked(mass_maps(testbed.masses)), line.t, line.known, line.error_mass,
@@ -169,11 +190,30 @@ def track(recording: Recording, testbed: Testbed, params: Params, state: State) 
         sd_q, np.ascontiguousarray(rate.values[new_w]), line.rate_node, sd_w,
         stops, added, noise, end, covariance, out,
     )  # fmt: skip
-    last = State(float(line.t[-1]), end[:4], end[4:7], end[7:10], end[10:13], covariance)
-    return Track(out[:, 0], out[:, 1:5], out[:, 5:8], out[:, 8:11], out[:, 11:14], out[:, 14:26],
-                 out[:, 26], last)  # fmt: skip
+    at = np.split(out, [1, *(1 + WHERE), out.shape[1] - 1], axis=1)
+    t, q, w, com, J, b, sd, surprise = at
+    q_end, w_end, com_end, J_end, b_end = np.split(end, WHERE[:-1])
+    last = State(float(line.t[-1]), q_end, w_end, com_end, unpack_symmetric(J_end), b_end,
+                 covariance)  # fmt: skip
+    return Track(t[:, 0], q, w, com, J, b, sd, surprise[:, 0], last)
+
+
+def track_again(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
+    """Return the track of a second pass, from the mass properties that a first one ended with.
+
+    Only the point of linearisation is new: the covariance to begin with is the same prior's, so the
+    record counts once. (The prior's values are given up for it: this is for priors much wider than
+    what the record tells.)
+    """
+    end = track(recording, testbed, params, state).end
+    again = replace(state, com=end.com, inertia_P=end.inertia_P)
+    return track(recording, testbed, params, again)
 
 
 def filter_columns() -> Columns:
     """Return the sensitivities that make the transition matrix."""
-    return Columns(np.repeat([TURN, RATE, MOMENT], 3), np.tile([0, 1, 2], 3))
+    kinds = [rigid_body.TURN, rigid_body.RATE, rigid_body.MOMENT]
+    return Columns(
+        np.array([*np.repeat(kinds, 3), *[rigid_body.INERTIA] * 6], dtype=np.int64),
+        np.array([*np.tile([0, 1, 2], 3), *range(6)], dtype=np.int64),
+    )

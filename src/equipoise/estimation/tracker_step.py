@@ -11,28 +11,34 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.dynamics.propagation import Columns, step
-from equipoise.dynamics.regressor import WIDTH, Triple
+from equipoise.dynamics.regressor import WIDTH, Triple, momentum_columns
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, body_at, rate_of, times
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.local_motion import turn
 from equipoise.model.arrays import Floats, Ints
 
-SIZE = 12  # dth, dw, dr, db
-N = 9  # of which the propagator moves these
+SIZE = 18  # dth, dw, dr, dJ, db
+N = 15  # of which the propagator moves these
+COM, INERTIA = slice(6, 9), slice(9, 15)  # rows of the error state
+AT = 7  # where com stands in a belief written as one array: q, w, com, J, bias
 
 
 @part
-def with_moment(body: Body, com: Floats) -> Body:
-    """Return the body with another centre of mass (m)."""
-    m = body.mass
-    moment = (m * com[0], m * com[1], m * com[2])
-    return Body(m, body.gravity, body.inertia, moment, body.torqued, body.torque)
+def believed(body: Body, end: Floats) -> Body:
+    """Return the body with the centre of mass (m) and the inertia (kg m^2) of a belief."""
+    m, J = body.mass, end[AT + 3 : AT + 9]
+    moment = (m * end[AT], m * end[AT + 1], m * end[AT + 2])
+    inertia = (J[0], J[1], J[2], J[3], J[4], J[5])
+    return Body(m, body.gravity, inertia, moment, body.torqued, body.torque)
 
 
 @part
-def unit_columns(body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: Floats) -> None:
-    """Write the sensitivities to attitude, rate and moment at the beginning of a step."""
-    now = body_at(body, maps, t, known, i, 0.0)
+def unit_columns(now: Now, w: Triple, regress: Floats, y: Floats) -> None:
+    """Write the sensitivities to attitude, rate, moment and inertia at the beginning of a step.
+
+    At a given rate w another inertia is another momentum: dH = W(w) dJ.
+    """
+    momentum_columns(w, regress)
     for j in range(6 * N):
         y[ROWS + j] = 0.0
     for k in range(3):
@@ -40,18 +46,22 @@ def unit_columns(body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: 
         unit = times(now.inertia, (1.0 * (k == 0), 1.0 * (k == 1), 1.0 * (k == 2)))
         for j in range(3):
             y[ROWS + (3 + j) * N + 3 + k] = unit[j]
+    for j in range(3):
+        for k in range(6):
+            y[ROWS + (3 + j) * N + 9 + k] = regress[j, k]
 
 
 @part
-def transition(
-    body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: Floats, phi: Floats
-) -> None:
-    """Write Phi over step i from the sensitivities at its end."""
-    now = body_at(body, maps, t, known, i, 1.0)
+def transition(now: Now, mass: float, y: Floats, regress: Floats, phi: Floats) -> None:
+    """Write Phi over a step from the sensitivities at its end: dw = J^-1 (dH - W(w) dJ)."""
+    momentum_columns(rate_of(now, y), regress)
     for c in range(N):
-        scale = body.mass if c >= 6 else 1.0
-        a = ROWS + c
-        dw = times(now.inverse, (y[a + 3 * N], y[a + 4 * N], y[a + 5 * N]))
+        scale = mass if 6 <= c < 9 else 1.0
+        a, f0, f1, f2 = ROWS + c, 0.0, 0.0, 0.0
+        if c >= 9:
+            f0, f1, f2 = regress[0, c - 9], regress[1, c - 9], regress[2, c - 9]
+        dH = (y[a + 3 * N] - f0, y[a + 4 * N] - f1, y[a + 5 * N] - f2)
+        dw = times(now.inverse, dH)
         for j in range(3):
             phi[j, c] = scale * y[a + j * N]
             phi[3 + j, c] = scale * dw[j]
@@ -59,7 +69,7 @@ def transition(
 
 @part
 def times_covariance(phi: Floats, P: Floats, A: Floats) -> None:
-    """Write A = Phi P; below its sixth row Phi is the unit matrix."""
+    """Write A = Phi P; below its sixth row Phi is the unit matrix, beyond column N it is 0."""
     for i in range(SIZE):
         for j in range(SIZE):
             total = P[i, j] if i >= 6 else 0.0
@@ -83,13 +93,13 @@ def times_transpose(A: Floats, phi: Floats, P: Floats) -> None:
 
 @part
 def predict_covariance(
-    body: Body, phi: Floats, noise: Floats, dt: float, P: Floats, A: Floats
+    inertia: Six, phi: Floats, noise: Floats, dt: float, P: Floats, A: Floats
 ) -> None:
     """Write Phi P Phi^T + Q dt in place; torque noise reaches the rate through J."""
     times_covariance(phi, P, A)
     times_transpose(A, phi, P)
     for j in range(SIZE):
-        spread = noise[j] / body.inertia[j - 3] if 3 <= j < 6 else noise[j]
+        spread = noise[j] / inertia[j - 3] if 3 <= j < 6 else noise[j]
         P[j, j] += spread * spread * dt
 
 
@@ -119,12 +129,12 @@ def invert3(S: Floats, out: Floats) -> None:
 class Work(NamedTuple):
     """Arrays that a correction works in, made once."""
 
-    x: Floats  # (12,) error state
-    HP: Floats  # (3, 12)
+    x: Floats  # (18,) error state
+    HP: Floats  # (3, 18)
     S: Floats  # (3, 3) covariance of the innovation
     inverse: Floats  # (3, 3) of S
-    K: Floats  # (12, 3)
-    A: Floats  # (12, 12)
+    K: Floats  # (18, 3)
+    A: Floats  # (18, 18)
 
 
 @part
@@ -190,21 +200,20 @@ def correct(P: Floats, first: int, second: int, z: Triple, sd: float, work: Work
 
 
 @part
-def apply(x: Floats, inertia: Six, y: Floats, com: Floats, bias: Floats) -> None:
-    """Correct attitude, momentum, centre of mass and bias by the error state."""
+def apply(x: Floats, w: Triple, y: Floats, end: Floats) -> None:
+    """Write a belief (q, w, com, J, bias) corrected by the error state; y holds q before."""
     angle = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) ** 0.5
     s = 0.5 if angle < 1e-9 else np.sin(0.5 * angle) / angle
     c, a, b, d = np.cos(0.5 * angle), s * x[0], s * x[1], s * x[2]
-    w, i, j, k = y[0], y[1], y[2], y[3]
-    y[0] = w * c - i * a - j * b - k * d
-    y[1] = w * a + i * c + j * d - k * b
-    y[2] = w * b - i * d + j * c + k * a
-    y[3] = w * d + i * b - j * a + k * c
-    dH = times(inertia, (x[3], x[4], x[5]))
+    e, i, j, k = y[0], y[1], y[2], y[3]
+    end[0] = e * c - i * a - j * b - k * d
+    end[1] = e * a + i * c + j * d - k * b
+    end[2] = e * b - i * d + j * c + k * a
+    end[3] = e * d + i * b - j * a + k * c
     for m in range(3):
-        y[4 + m] += dH[m]
-        com[m] += x[6 + m]
-        bias[m] += x[9 + m]
+        end[4 + m] = w[m] + x[3 + m]
+    for m in range(AT, AT + 12):
+        end[m] += x[m - 1]
 
 
 @part
@@ -225,20 +234,14 @@ def innovation(now: Now, y: Floats, bias: Floats, seen: Floats) -> Triple:
 
 
 @part
-def settle(now: Now, t: float, surprise: float, work: Work, y: Floats, end: Floats, P: Floats,
-           out: Floats) -> None:  # fmt: skip
-    """Correct the belief by the error state and write the row: t, q, w, com, bias, sd, surprise."""
-    com, bias = end[7:10], end[10:13]
-    apply(work.x, now.inertia, y, com, bias)
-    w = rate_of(now, y)
-    out[0], out[26] = t, surprise
-    for j in range(4):
-        out[1 + j] = y[j]
-    for j in range(3):
-        end[4 + j] = w[j]
-        out[5 + j], out[8 + j], out[11 + j] = w[j], com[j], bias[j]
+def note(t: float, end: Floats, P: Floats, surprise: float, out: Floats) -> None:
+    """Write the row: t, q, w, com, J, bias, sd, surprise."""
+    n = end.shape[0]
+    out[0], out[1 + n + SIZE] = t, surprise
+    for j in range(n):
+        out[1 + j] = end[j]
     for j in range(SIZE):
-        out[14 + j] = P[j, j] ** 0.5
+        out[1 + n + j] = P[j, j] ** 0.5
 
 
 @kernel
@@ -247,34 +250,39 @@ def run_filter(
     attitude: Floats, q_node: Ints, sd_q: float, rate: Floats, w_node: Ints, sd_w: float,
     stop_node: Ints, stop_added: Floats, noise: Floats, end: Floats, P: Floats, out: Floats,
 ) -> None:  # fmt: skip
-    """Filter every row into one of ``out``; ``end`` (q, w, com, bias) and P come in and go out."""
+    """Filter every row into one of ``out``; ``end`` (q, w, com, J, bias) and P come and go."""
     y = np.zeros(ROWS + 6 * N)
     at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
     regress, fb, phi = np.zeros((3, WIDTH)), np.zeros((6, N)), np.zeros((6, N))
     work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
                 np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
-    com, bias = end[7:10], end[10:13]
+    bias = end[AT + 9 : AT + 12]
+    body = believed(body, end)
     now = body_at(body, maps, t, known, 0, 0.0)
     begin(now, end, y)
     iq, iw, stop = 0, 0, 0
     for i in range(t.shape[0] - 1):
-        body = with_moment(body, com)
-        unit_columns(body, maps, t, known, i, y)
+        now = body_at(body, maps, t, known, i, 0.0)
+        unit_columns(now, rate_of(now, y), regress, y)
         step(body, maps, t, known, owners, columns, i, y, regress, fb, at, dy, total)
-        transition(body, maps, t, known, i, y, phi)
-        predict_covariance(body, phi, noise, t[i + 1] - t[i], P, work.A)
-        stop = add_stops(stop, i + 1, stop_node, stop_added, P)
         now = body_at(body, maps, t, known, i, 1.0)
+        transition(now, body.mass, y, regress, phi)
+        predict_covariance(body.inertia, phi, noise, t[i + 1] - t[i], P, work.A)
+        stop = add_stops(stop, i + 1, stop_node, stop_added, P)
         for source in range(2):
             if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
                 surprise = correct(P, 0, -1, turn(y, attitude[iq]), sd_q, work)
                 iq += 1
             elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
-                surprise = correct(P, 3, 9, innovation(now, y, bias, rate[iw]), sd_w, work)
+                surprise = correct(P, 3, N, innovation(now, y, bias, rate[iw]), sd_w, work)
                 iw += 1
             else:
                 continue
-            settle(now, t[i + 1], surprise, work, y, end, P, out[iq + iw - 1])
+            apply(work.x, rate_of(now, y), y, end)
+            note(t[i + 1], end, P, surprise, out[iq + iw - 1])
+            body = believed(body, end)
+            now = body_at(body, maps, t, known, i, 1.0)
+            begin(now, end, y)
     w = rate_of(now, y)
     for j in range(4):
         end[j] = y[j]

@@ -83,6 +83,11 @@ class Estimate:
         where = [self.index(n) for n in names]
         return self.covariance[np.ix_(where, where)]
 
+    def sees(self, names: tuple[str, ...]) -> bool:
+        """Say whether the data show all of these."""
+        known = {p.name for p in self.parameters if p.observable}
+        return known.issuperset(names)
+
     @property
     def com(self) -> Vector3:
         """Centre of mass with the masses at home, m."""

@@ -132,14 +132,26 @@ def decide(
         return safest(view, options.target, may_brake)
     if not (progress.braking or ripe(bench, progress, options, began)):
         return None
-    aim = (
-        below(knowledge, options.target, testbed)
-        if left == options.max_moves > 1
-        else options.target
-    )
+    learning = worth_learning(knowledge, testbed, left, options)
+    aim = below(knowledge, options.target, testbed) if learning else options.target
     option = option_for(view, aim)
     pressed = bench.time - began > options.max_time - SETTLE
     return option if pressed or good_moment(view, option) else None
+
+
+def worth_learning(
+    knowledge: Knowledge, testbed: Testbed, left: int, options: BalanceOptions
+) -> bool:
+    """Say whether to go below the target: at first, and again while its height is not known.
+
+    The masses stop as far off in a long move as in a short one, so long ones tell the scale best.
+    """
+    up = testbed.up
+    if left == options.max_moves:
+        return left > 1
+    low = float((knowledge.com - options.target) @ up) < -NOTABLE
+    vague = float(np.sqrt(up @ knowledge.covariance @ up)) > KNOWN * float(options.tolerance @ up)
+    return left > 2 and vague and not low
 
 
 def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:

@@ -1,19 +1,21 @@
 """Hold: keep the centre of mass where it is, while the platform warms up and drifts.
 
-The tracker follows the centre of mass with the inertia found by balancing; the masses follow it
-whenever a step of theirs brings it closer.
+The tracker goes on from what balancing found, inertia and its uncertainty included; the masses
+follow whenever a step of theirs brings the centre of mass closer.
 """
 
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
 from equipoise.estimation import tracker
+from equipoise.estimation.tracker_step import COM
 from equipoise.maths.attitude import to_matrix
-from equipoise.model.arrays import Floats, Matrix3, Vector3
+from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
+from equipoise.model.estimate import INERTIA
 from equipoise.model.move import Move
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.step import Step
@@ -21,16 +23,17 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import UM, BalanceOptions, balance
 from equipoise.procedure.foresight import state_now
-from equipoise.procedure.knowledge import Knowledge, learn
+from equipoise.procedure.knowledge import Knowledge
 from equipoise.procedure.planned_move import planned_move
 from equipoise.procedure.tilt_guard import tilted
 
 LOOK = 5.0  # s between decisions
-LEARN = 300.0  # s, chosen: for how long the one fit goes on before the tracker takes over
-ACT = 0.35  # of the tolerance, chosen: an offset from which a move is considered
+FINER = 0.5  # of the tolerance, chosen: how closely to balance first
+FIRST_MOVES, FIRST_TIME = 6, 300.0  # s, chosen: what balancing may take before a hold
+ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considered
 PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
 FAR = 0.6  # of the tilt limit: a swing that corrections should calm
-GAIN = 0.15  # of the tolerance: what a move must better the worst axis by
+GAIN = 0.1  # of the tolerance: what a move must better the worst axis by
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,6 +43,15 @@ class HoldOptions:
     duration: float  # s
     target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
     tolerance: Vector3 = field(default_factory=lambda: np.full(3, 3 * UM))  # m
+
+    @property
+    def balancing(self) -> BalanceOptions:
+        """Return how best to balance before.
+
+        An inertia wrong by 1 % is a height wrong by 1 um at 100 um, for as long as the hold lasts:
+        so there are moves to learn it by, and tolerance is left for what the masses cannot follow.
+        """
+        return BalanceOptions(self.target, FINER * self.tolerance, FIRST_MOVES, FIRST_TIME)
 
 
 def balance_and_hold(
@@ -72,8 +84,10 @@ def first_belief(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
     q, rate = state_now(knowledge, testbed)
     shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, knowledge.displacement)
     t = float(knowledge.fitted.problem.line.t[-1])
-    state = tracker.first_state(t, q, testbed, knowledge.com - shift, knowledge.covariance)
-    return tracker.State(t, q, rate, state.com, state.bias, state.covariance)
+    inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
+    covariance = knowledge.estimate.covariance_of((*knowledge.standing, *INERTIA))
+    belief = tracker.Belief(knowledge.com - shift, inertia_P, covariance)
+    return replace(tracker.first_state(t, q, testbed, belief), rate=rate)
 
 
 def standing(
@@ -81,7 +95,7 @@ def standing(
 ) -> tuple[Vector3, Vector3]:
     """Return the centre of mass with the masses as they stand, and its sd (m)."""
     shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, displacement)
-    return state.com + shift, np.sqrt(np.diag(state.covariance)[6:9])
+    return state.com + shift, np.sqrt(np.diag(state.covariance)[COM])
 
 
 def correction(
@@ -98,9 +112,7 @@ def correction(
     return goal if then.max() < now.max() - GAIN else None
 
 
-def swing_amplitude(
-    state: tracker.State, com: Vector3, inertia_P: Matrix3, testbed: Testbed
-) -> float:
+def swing_amplitude(state: tracker.State, com: Vector3, testbed: Testbed) -> float:
     """Return the tilt (rad) that the present swing reaches: all its energy as height.
 
     1/2 w.J w (w across the vertical) + m g (R r).z = -m g |r| cos(amplitude)
@@ -109,7 +121,7 @@ def swing_amplitude(
     across = state.rate - (state.rate @ R[2]) * R[2]
     weight = testbed.body.mass * testbed.gravity * float(np.linalg.norm(com))
     height = testbed.body.mass * testbed.gravity * float((R @ com)[2])
-    energy = 0.5 * float(across @ inertia_P @ across) + height
+    energy = 0.5 * float(across @ state.inertia_P @ across) + height
     return float(np.arccos(np.clip(-energy / weight, -1.0, 1.0)))
 
 
@@ -121,15 +133,13 @@ def calming(state: tracker.State, shift: Vector3, testbed: Testbed) -> bool:
     return float((to_matrix(state.q) @ shift)[2]) <= float(shift @ testbed.up)
 
 
-def timely(
-    state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed, inertia_P: Matrix3
-) -> bool:
+def timely(state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed) -> bool:
     """Say whether to make a correction now.
 
     Corrections at any moment would pump an undamped platform; once it swings far, only those that
     calm it are made, and soon there is one.
     """
-    far = swing_amplitude(state, com, inertia_P, testbed) > FAR * testbed.tilt_limit
+    far = swing_amplitude(state, com, testbed) > FAR * testbed.tilt_limit
     return not far or calming(state, shift, testbed)
 
 
@@ -138,44 +148,16 @@ def pressing(com: Vector3, options: HoldOptions) -> bool:
     return bool(np.any(np.abs(com - options.target) > PRESSING * options.tolerance))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Following:
-    """What is believed while holding: all that was recorded at first, the tracker after that."""
-
-    knowledge: Knowledge
-    state: tracker.State
-    params: tracker.Params
-
-
-def following(knowledge: Knowledge, testbed: Testbed) -> Following:
-    """Return the tracker's belief and its inertia from a fit through the whole record."""
-    point = knowledge.fitted.point
-    inertia_P = point.body(testbed.body.mass).inertia_P
-    params = tracker.Params(inertia_P=inertia_P, torque=without_drift(point.torque))
-    return Following(knowledge, first_belief(knowledge, testbed), params)
-
-
-def follow(before: Following, fresh: Recording, testbed: Testbed, learning: bool) -> Following:
-    """Return the belief after a fresh record.
-
-    The tracker takes the inertia as known, and an error of 1 % in it is 1 um at 100 um. So for the
-    first minutes every look still goes into the one fit, which makes the inertia better.
-    """
-    if learning:
-        return following(learn(before.knowledge, fresh, testbed), testbed)
-    state = tracker.track(fresh, testbed, before.params, before.state).end
-    return Following(before.knowledge, state, before.params)
-
-
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
     """Yield a move whenever one is made, and a verdict at the end."""
-    testbed, began, end = bench.testbed, bench.time, bench.time + options.duration
-    belief, displacement = following(knowledge, testbed), knowledge.displacement
+    testbed, end = bench.testbed, bench.time + options.duration
+    params = tracker.Params(torque=without_drift(knowledge.fitted.point.torque))
+    state, displacement = first_belief(knowledge, testbed), knowledge.displacement
     worst = np.zeros(3)
     while bench.time < end - 1e-9:
         fresh = bench.read(min(LOOK, end - bench.time))
-        belief = follow(belief, fresh, testbed, bench.time - began < LEARN)
-        state, displacement = belief.state, last_of(fresh, displacement)
+        state = tracker.track(fresh, testbed, params, state).end
+        displacement = last_of(fresh, displacement)
         com, _ = standing(state, testbed, displacement)
         worst = np.maximum(worst, np.abs(com - options.target))
         if tilted(fresh, testbed):
@@ -185,14 +167,12 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
         if goal is None:
             continue
         shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - displacement)
-        inertia_P = belief.params.inertia_P
-        assert inertia_P is not None
-        if pressing(com, options) or timely(state, com, shift, testbed, inertia_P):
-            now = (com, state.covariance[6:9, 6:9])
+        if pressing(com, options) or timely(state, com, shift, testbed):
+            now = (com, state.covariance[COM, COM])
             move = planned_move(testbed, displacement, goal, now, "drift")
             bench.move(move.targets)
             yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
-    last = standing(belief.state, testbed, displacement)
+    last = standing(state, testbed, displacement)
     yield verdict_step(bench, options, last, worst, bench.time < end - 1e-9)
 
 

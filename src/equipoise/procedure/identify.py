@@ -12,7 +12,7 @@ import numpy as np
 
 from equipoise.estimation import equilibrium, momentum, tracker, trajectory
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.estimate import COM, Estimate, Parameter
+from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
@@ -64,23 +64,27 @@ def by_equilibrium(recording: Recording, testbed: Testbed, options: IdentifyOpti
 
 
 def by_tracker(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Estimate:
-    """Kalman filter with the testbed's inertia; the belief after the last row."""
+    """Kalman filter from what the testbed says, passed twice; the belief after the last row."""
     if recording.attitude is None or len(recording.attitude) < 2:
         outcome = Outcome(False, "The tracker needs a camera: the record has no attitude.")
         return Estimate("tracker", outcome, (), np.zeros((0, 0)))
     first = recording.attitude
     state = tracker.first_state(float(first.t[0]), first.values[0], testbed)
-    track = tracker.track(recording, testbed, tracker.Params(), state)
+    track = tracker.track_again(recording, testbed, tracker.Params(), state)
+    values = [*track.com[-1], *track.inertia[-1]]
+    units = ["m"] * len(COM) + ["kg m2"] * len(INERTIA)
     parameters = tuple(
-        Parameter(name, "m", float(track.com[-1, k]), float(track.com_sd[-1, k]))
-        for k, name in enumerate(COM)
+        Parameter(name, unit, float(value), float(sd))
+        for name, unit, value, sd in zip(
+            (*COM, *INERTIA), units, values, track.sd[-1, 6:15], strict=True
+        )
     )
     surprise = float(np.mean(track.surprise[len(track.t) // 4 :])) / 3
     fits = surprise < 1.5
     text = f"Tracked to the last row; innovations are {surprise:.2g} times what they should be"
     ending = "." if fits else ": inertia, noise or model are wrong, do not trust the interval."
     return Estimate(
-        "tracker", Outcome(fits, text + ending), parameters, track.end.covariance[6:9, 6:9]
+        "tracker", Outcome(fits, text + ending), parameters, track.end.covariance[6:15, 6:15]
     )
 
 

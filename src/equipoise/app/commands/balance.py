@@ -13,8 +13,8 @@ def balance(
     seed: int = 1,
     target_um: Triple = (0.0, 0.0, -100.0),
     tolerance_um: Triple = (2.0, 2.0, 3.0),
-    max_moves: int = 3,
-    max_time_s: float = 120.0,
+    max_moves: int | None = None,
+    max_time_s: float | None = None,
     hold_min: float = 0.0,
     json: Flag = False,
     out: Path | None = None,
@@ -34,11 +34,12 @@ def balance(
     tolerance_um
         How near to the target is near enough, along each axis.
     max_moves
-        Moves of the masses before giving up.
+        Moves of the masses before giving up: 3, or 6 before a hold.
     max_time_s
-        Bench time before giving up.
+        Bench time before giving up: 120, or 300 before a hold.
     hold_min
-        Then follow the drift and hold the balance for so many minutes.
+        Then follow the drift and hold the balance for so many minutes. What comes before is then
+        balanced to half the tolerance.
     json
         Print one JSON document instead.
     out
@@ -51,8 +52,9 @@ def balance(
 
     target = vector("--target-um", target_um, 1 / UM)
     near = tolerance("--tolerance-um", tolerance_um, 1 / UM)
-    moves = int(not_negative("--max-moves", max_moves))
-    times = positive("--max-time-s", max_time_s), not_negative("--hold-min", hold_min) * 60
+    moves = None if max_moves is None else int(not_negative("--max-moves", max_moves))
+    longest = None if max_time_s is None else positive("--max-time-s", max_time_s)
+    limits = (moves, longest, not_negative("--hold-min", hold_min) * 60)
     bed, seed = testbed_of(testbed), seed_of(seed)
     if out is not None:
         check_folder(out)
@@ -64,7 +66,7 @@ def balance(
         from equipoise.simulation.bench import SimulatedBench
 
         bench = SimulatedBench(bed, seed)
-    done = run(bench, Goal(target, near), Limits(moves, *times), None if json else show_step)
+    done = run(bench, Goal(target, near), Limits(*limits), None if json else show_step)
     document = document_of(done, seed)
     if json:
         print(dump(document))
