@@ -12,13 +12,23 @@ import numpy as np
 
 from equipoise.dynamics.propagation import Columns, step
 from equipoise.dynamics.regressor import WIDTH, Triple
-from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, body_at, rate_of, times
+from equipoise.dynamics.rigid_body import (
+    BLOCK,
+    LANES,
+    ROWS,
+    Body,
+    Now,
+    Six,
+    body_at,
+    rate_of,
+    times,
+)
 from equipoise.maths.compiled import kernel, part
-from equipoise.maths.local_motion import turn
+from equipoise.maths.turns import turn, turned
 from equipoise.model.arrays import Floats, Ints
 
 SIZE = 12  # dth, dw, dr, db
-N = 9  # of which the propagator moves these
+N = 9  # of which the propagator moves these, in one block
 
 
 @part
@@ -33,13 +43,12 @@ def with_moment(body: Body, com: Floats) -> Body:
 def unit_columns(body: Body, maps: Floats, t: Floats, known: Floats, i: int, y: Floats) -> None:
     """Write the sensitivities to attitude, rate and moment at the beginning of a step."""
     now = body_at(body, maps, t, known, i, 0.0)
-    for j in range(6 * N):
-        y[ROWS + j] = 0.0
+    y[ROWS:] = 0.0
     for k in range(3):
-        y[ROWS + k * N + k] = 1.0
+        y[ROWS + k * LANES + k] = 1.0
         unit = times(now.inertia, (1.0 * (k == 0), 1.0 * (k == 1), 1.0 * (k == 2)))
         for j in range(3):
-            y[ROWS + (3 + j) * N + 3 + k] = unit[j]
+            y[ROWS + (3 + j) * LANES + 3 + k] = unit[j]
 
 
 @part
@@ -51,9 +60,9 @@ def transition(
     for c in range(N):
         scale = body.mass if c >= 6 else 1.0
         a = ROWS + c
-        dw = times(now.inverse, (y[a + 3 * N], y[a + 4 * N], y[a + 5 * N]))
+        dw = times(now.inverse, (y[a + 3 * LANES], y[a + 4 * LANES], y[a + 5 * LANES]))
         for j in range(3):
-            phi[j, c] = scale * y[a + j * N]
+            phi[j, c] = scale * y[a + j * LANES]
             phi[3 + j, c] = scale * dw[j]
 
 
@@ -97,7 +106,9 @@ def predict_covariance(
 def add_stops(stop: int, node: int, stop_node: Ints, stop_added: Floats, P: Floats) -> int:
     """Add what the stops up to a node do to the covariance of r; return the next stop."""
     while stop < stop_node.shape[0] and stop_node[stop] <= node:
-        P[6:9, 6:9] += stop_added[stop]
+        for i in range(3):
+            for j in range(3):
+                P[6 + i, 6 + j] += stop_added[stop, i, j]
         stop += 1
     return stop
 
@@ -192,14 +203,7 @@ def correct(P: Floats, first: int, second: int, z: Triple, sd: float, work: Work
 @part
 def apply(x: Floats, inertia: Six, y: Floats, com: Floats, bias: Floats) -> None:
     """Correct attitude, momentum, centre of mass and bias by the error state."""
-    angle = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) ** 0.5
-    s = 0.5 if angle < 1e-9 else np.sin(0.5 * angle) / angle
-    c, a, b, d = np.cos(0.5 * angle), s * x[0], s * x[1], s * x[2]
-    w, i, j, k = y[0], y[1], y[2], y[3]
-    y[0] = w * c - i * a - j * b - k * d
-    y[1] = w * a + i * c + j * d - k * b
-    y[2] = w * b - i * d + j * c + k * a
-    y[3] = w * d + i * b - j * a + k * c
+    y[0], y[1], y[2], y[3] = turned(y, x[0], x[1], x[2])
     dH = times(inertia, (x[3], x[4], x[5]))
     for m in range(3):
         y[4 + m] += dH[m]
@@ -248,9 +252,9 @@ def run_filter(
     stop_node: Ints, stop_added: Floats, noise: Floats, end: Floats, P: Floats, out: Floats,
 ) -> None:  # fmt: skip
     """Filter every row into one of ``out``; ``end`` (q, w, com, bias) and P come in and go out."""
-    y = np.zeros(ROWS + 6 * N)
+    y = np.zeros(ROWS + BLOCK)
     at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
-    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros((6, N)), np.zeros((6, N))
+    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros(BLOCK), np.zeros((6, N))
     work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
                 np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
     com, bias = end[7:10], end[10:13]

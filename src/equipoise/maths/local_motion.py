@@ -10,6 +10,7 @@ import numpy as np
 
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.compiled import kernel, part
+from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Series1, Series3, Series4
 
 TURN = 0.6  # rad, chosen: most rotation in half a window, so that a cubic still follows it
@@ -23,20 +24,6 @@ def half_window(t: Series1, q: Series4) -> float:
     speed = np.linalg.norm(difference(q[1:], q[:-1]), axis=1) / np.diff(t)
     fastest = float(np.median(speed)) + 1e-9
     return max(min(TURN / fastest, LONGEST), 2.5 * float(np.median(np.diff(t))))
-
-
-@part
-def turn(p: Floats, q: Floats) -> tuple[float, float, float]:
-    """Return log(p^-1 q), rad."""
-    w = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]
-    x = p[0] * q[1] - p[1] * q[0] - p[2] * q[3] + p[3] * q[2]
-    y = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1]
-    z = p[0] * q[3] - p[1] * q[2] + p[2] * q[1] - p[3] * q[0]
-    sine = (x * x + y * y + z * z) ** 0.5
-    if w < 0:
-        w, x, y, z = -w, -x, -y, -z
-    scale = 2.0 if sine < 1e-9 else 2.0 * np.arctan2(sine, w) / sine
-    return scale * x, scale * y, scale * z
 
 
 @part
