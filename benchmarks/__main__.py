@@ -45,9 +45,12 @@ def show_others() -> None:
         n, seconds, memory = others.length_row(rows)
         table.add_row(f"{n:,}", f"{1e3 * seconds:.2f}", f"{1e6 * seconds / n:.3f}", f"{memory:.0f}")
     console.print(table)
-    alone, together = others.throughput()
-    console.print(f"Batch of 200 fits: {alone:.0f} a second in one thread, {together:.0f} on "
-                  f"{os.cpu_count()} cores ({1e3 / together:.2f} ms a fit).")  # fmt: skip
+    for given in (True, False):
+        alone, together = others.throughput(given)
+        start = "the peers' start" if given else "no start"
+        console.print(f"Batch of 200 fits from {start}: {alone:.0f} a second in one thread, "
+                      f"{together:.0f} on {os.cpu_count()} cores "
+                      f"({1e3 / together:.2f} ms a fit).")  # fmt: skip
 
 
 if __name__ == "__main__":

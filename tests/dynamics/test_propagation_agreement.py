@@ -21,6 +21,7 @@ from builders import (
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.actuators.stops import stop_errors
 from equipoise.dynamics.propagation import NO_COLUMNS, Columns, body_of, propagate
+from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import (
     ERROR,
     KNOWN_D,
@@ -182,6 +183,19 @@ def test_sensitivity_is_the_finite_difference(sensed, column):
     sped = more.rate - less.rate
     for found, numeric in ((turn_by, turned / (2 * change)), (rate_by, sped / (2 * change))):
         np.testing.assert_allclose(found, numeric, rtol=0, atol=1e-5 * np.abs(numeric).max())
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_drift_is_felt_where_nothing_else_changes(axis):
+    """The platform is then looked up once a step, the time is not: central differences as above."""
+    line, column = line_of(TIMES), Columns(np.array([TORQUE]), np.array([DRIFT + axis]))
+    motion = travel(line, body(np.zeros(16)), column, w0=RATE + FAST)
+    found = motion.turn_by[:, :, 0]
+    change = 1e-4 / np.abs(found).max()
+    more, less = (moved_by(line, np.zeros(16), TORQUE, DRIFT + axis, s * change) for s in (1, -1))
+    turned = difference(more.q, motion.q) - difference(less.q, motion.q)
+    numeric = turned / (2 * change)
+    np.testing.assert_allclose(found, numeric, rtol=0, atol=1e-5 * np.abs(numeric).max())
 
 
 def test_no_columns_and_all_columns_give_one_motion(sensed):

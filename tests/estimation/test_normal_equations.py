@@ -18,10 +18,12 @@ from builders import (
 )
 
 from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import timeline
+from equipoise.estimation.point_steps import retract
 from equipoise.estimation.trajectory import HUBER, Params, problem_of
-from equipoise.estimation.trajectory_problem import evaluate, with_errors
-from equipoise.estimation.unknowns import FIXED, R, Unknowns, retract
+from equipoise.estimation.trajectory_problem import evaluate
+from equipoise.estimation.unknowns import FIXED, R, Unknowns, unknowns_of
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
@@ -95,6 +97,14 @@ def test_reading_between_steps_agrees_with_steps_to_every_row(posed, record):
     assert np.abs(found.left_w - exact.left_w).max() < 0.1 / np.sqrt(len(exact.left_w))
 
 
+def with_errors(problem, error):
+    """Return the known inputs with the masses where they really stop."""
+    known, k = problem.line.known.copy(), len(problem.maps.momentum)
+    for j, owner in enumerate(problem.stops.owner):
+        known[:, KNOWN_D + owner] += error[j] * known[:, KNOWN_D + k + j]
+    return known
+
+
 def predicted(problem, point):
     """Return the motion with sensitivities by com (not first moment), one column an unknown."""
     rigid = body_of(MASS, GRAVITY, pack_symmetric(point.body(MASS).inertia_P), MASS * point.com,
@@ -158,6 +168,12 @@ def test_outliers_are_there_and_are_counted_linearly(posed):
     assert all(0.01 < b.mean() < 0.99 for b in beyond)
 
 
+def stepped(problem, point, step):
+    out = np.empty_like(point.flat)
+    retract(point.flat, step, MASS, problem.layout.slots, out)
+    return unknowns_of(out)
+
+
 def test_gradient_is_that_of_the_cost(posed):
     """Central differences of 1e-3 sd in each unknown, far from the optimum.
 
@@ -170,9 +186,7 @@ def test_gradient_is_that_of_the_cost(posed):
     for k, sd in enumerate(unit):
         step = np.zeros(problem.layout.size)
         step[k] = 1e-3 * sd
-        more, less = (
-            evaluate(problem, retract(point, s, MASS, problem.layout)).cost for s in (step, -step)
-        )
+        more, less = (evaluate(problem, stepped(problem, point, s)).cost for s in (step, -step))
         numeric[k] = -(more - less) / 2e-3
     largest = np.abs(numeric).max()
     np.testing.assert_allclose(at.descent * unit, numeric, rtol=0, atol=1e-5 * largest)

@@ -7,20 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from equipoise.estimation.unknowns import (
-    JP,
-    Layout,
-    R,
-    Unknowns,
-    boundary,
-    physical,
-    possible_step,
-    retract,
-    stride,
-)
-from equipoise.maths.attitude import difference
-from equipoise.maths.levenberg_marquardt import Quadratic, promise, scaled_solve
-from equipoise.maths.linalg import unpack_symmetric
+from equipoise.estimation import point_steps
+from equipoise.estimation.unknowns import JP, Layout, R, Unknowns, physical, unknowns_of
+from equipoise.maths.attitude import difference, exponential, multiply
+from equipoise.maths.levenberg_marquardt import promise, scaled_solve
+from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.maths.pseudo_inertia import FLOOR, from_inertia
 from equipoise.model.mass_properties import parallel_axis, second_moments, smallest_second_moment
 
@@ -36,11 +27,130 @@ def point(inertia=INERTIA, com=COM) -> Unknowns:
     return Unknowns(ATTITUDE, RATE, six, com, np.zeros(16), np.zeros(1), np.zeros(3))
 
 
-def local(seed: int, pull: np.ndarray) -> Quadratic:
-    """A local model with its free optimum at ``pull`` and correlated unknowns."""
+def local(seed: int, pull: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A and b with the free optimum at ``pull`` and correlated unknowns."""
     mix = np.random.default_rng(seed).normal(size=(40, LAYOUT.size)) / SIZES
     normal = mix.T @ mix
-    return Quadratic(0.0, normal, normal @ pull)
+    return normal, normal @ pull
+
+
+def retract(start, step, layout=LAYOUT) -> Unknowns:
+    out = np.empty_like(start.flat)
+    point_steps.retract(start.flat, step, MASS, layout.slots, out)
+    return unknowns_of(out)
+
+
+def boundary(start, step):
+    """Return the rows and gaps that there are."""
+    rows, gaps = np.full((3, LAYOUT.size), np.nan), np.full(3, np.nan)
+    count = point_steps.boundary(start.flat, MASS, step, rows, gaps)
+    return rows[:count], gaps[:count]
+
+
+def possible_step(start, model, damping):
+    step, work = np.empty(LAYOUT.size), point_steps.step_work_for(LAYOUT.size)
+    point_steps.possible_step(start.flat, MASS, *model, damping, work, step)
+    return step
+
+
+# --- Plain twins ------------------------------------------------------------------------------
+
+
+def plain_retract(start, step):
+    """The same by matrices and quaternions, for a possible body."""
+    torque = start.torque.copy()
+    torque[[1, 11]] += step[15:17]
+    com = start.com + step[R]
+    inertia_P = start.body(MASS).inertia_P + unpack_symmetric(step[JP])
+    six = from_inertia(inertia_P - parallel_axis(MASS, com))
+    q0 = multiply(start.q0, exponential(step[:3]))
+    error, bias = start.error + step[17:18], start.bias + step[18:]
+    return Unknowns(q0, start.w0 + step[3:6], six, com, torque, error, bias)
+
+
+def plain_boundary(start, step):
+    """Rows and gaps from LAPACK's eigenvectors."""
+    inertia, com = start.body(MASS).inertia_P, start.com + step[R]
+    there = second_moments(inertia + unpack_symmetric(step[JP]) - parallel_axis(MASS, com))
+    floor = FLOOR * np.trace(inertia)
+    values, vectors = np.linalg.eigh(there)
+    rows, gaps = [], []
+    for v in vectors[:, values < floor].T:
+        row = np.zeros(LAYOUT.size)
+        row[JP] = [0.5, 0.5, 0.5, 0, 0, 0] - pack_symmetric(np.outer(v, v)) * [1, 1, 1, 2, 2, 2]
+        row[R] = -2 * MASS * (v @ start.com) * v
+        rows.append(row)
+        gaps.append(2 * floor - v @ second_moments(start.body(MASS).inertia_C) @ v)
+    return np.array(rows).reshape(-1, LAYOUT.size), np.array(gaps)
+
+
+def plain_stride(step):
+    return np.linalg.norm([*step[:6], *(step[JP] / np.trace(unpack_symmetric(FLAT)))])
+
+
+def plain_step(start, model, damping):
+    """By constrained normal equations, all at once."""
+    free = scaled_solve(*model, damping)
+    free = step = free / max(1.0, plain_stride(free))
+    for _ in range(8):
+        rows, gaps = plain_boundary(start, step)
+        if not len(rows):
+            break
+        damped = model[0] + damping * np.diag(np.diag(model[0]))
+        zero = np.zeros((len(rows), len(rows)))
+        scale = np.append(SIZES, np.ones(len(rows)))
+        both = np.block([[damped, rows.T], [rows, zero]]) * np.outer(scale, scale)
+        step = (scale * np.linalg.solve(both, scale * np.append(damped @ free, gaps)))[: len(free)]
+    return step / max(1.0, plain_stride(step))
+
+
+@given(steps)
+def test_retract_agrees_with_a_plain_twin(step):
+    """Every part of the point; the six numbers by 1e-10, the body being flat."""
+    found, expected = retract(point(), step), plain_retract(point(), step)
+    np.testing.assert_allclose(found.flat, expected.flat, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("size", [0.5, 1.0, 30.0])
+def test_possible_step_agrees_with_a_plain_twin(seed, size):
+    """Across one boundary or two, with and without damping, in units of the steps' own sizes."""
+    rng = np.random.default_rng(seed)
+    start = point(FLAT, np.array([5e-3, -2e-3, 4e-3]))
+    pull = size * outward() + rng.normal(size=LAYOUT.size) * SIZES
+    for damping in (0.0, 1e-3):
+        model = local(seed, pull)
+        found, expected = possible_step(start, model, damping), plain_step(start, model, damping)
+        np.testing.assert_allclose(found / SIZES, expected / SIZES, rtol=1e-6, atol=1e-6)
+
+
+def test_two_boundaries_at_once():
+    """A step that would take both small moments of a rod away meets two of them."""
+    rod = np.array([0.5, 0.5, 0.004, 0.0, 0.0, 0.0])
+    step = np.zeros(LAYOUT.size)
+    step[JP] = 0.0, 0.0, -0.01, 0.001, 0.0, 0.002
+    rows, gaps = boundary(point(rod), step)
+    by_hand = plain_boundary(point(rod), step)
+    assert len(rows) == 2
+    order = np.argsort(rows[:, JP.start])
+    other = np.argsort(by_hand[0][:, JP.start])
+    np.testing.assert_allclose(rows[order], by_hand[0][other], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(gaps[order], by_hand[1][other], rtol=0, atol=1e-15)
+    model = local(1, step)
+    after = retract(point(rod), possible_step(point(rod), model, 0.0)).body(MASS)
+    assert smallest_second_moment(after.inertia_C) > 0
+
+
+# --- Coordinates ------------------------------------------------------------------------------
+
+
+def test_a_point_is_kept_flat_and_found_again():
+    """The order is that of the record's fields."""
+    numbers = np.arange(36.0)
+    parts = unknowns_of(numbers)
+    assert parts.flat.tolist() == numbers.tolist()
+    assert (parts.q0[0], parts.w0[0], parts.six[0], parts.com[0]) == (0.0, 4.0, 7.0, 13.0)
+    assert (parts.torque[0], parts.error.tolist(), parts.bias[0]) == (16.0, [32.0], 33.0)
 
 
 def test_names_units_and_coordinates_have_one_length():
@@ -55,7 +165,7 @@ def test_names_units_and_coordinates_have_one_length():
 def test_a_step_adds_to_the_coordinates(step):
     """Each coordinate moves by its own part, to rounding; the first attitude turns by it."""
     before = point()
-    after = retract(before, step, MASS, LAYOUT)
+    after = retract(before, step)
     moved = physical(after, MASS, LAYOUT) - physical(before, MASS, LAYOUT)
     np.testing.assert_allclose(moved[3:], step[3:], rtol=0, atol=1e-15)
     np.testing.assert_allclose(difference(after.q0, before.q0), step[:3], atol=1e-14)
@@ -65,16 +175,17 @@ def test_each_torque_goes_to_its_own_place():
     """viscous_y is the second of the sixteen, sag_xz the twelfth."""
     step = np.zeros(LAYOUT.size)
     step[15:17] = 1.0, 2.0
-    found = retract(point(), step, MASS, LAYOUT).torque
+    found = retract(point(), step).torque
     assert np.flatnonzero(found).tolist() == [1, 11]
     assert found[[1, 11]].tolist() == [1.0, 2.0]
 
 
 def test_without_bias_the_bias_stays():
     """A layout without gyro has no place for it."""
-    start, layout = point(), Layout()
+    start, layout = point(), Layout(errors=("error_x_1",))
     start.bias[:] = 1.0
-    after = retract(start, np.zeros(layout.size), MASS, layout)
+    after = retract(start, np.ones(layout.size), layout)
+    assert after.error.tolist() == [1.0]
     assert after.bias.tolist() == [1.0] * 3
 
 
@@ -95,7 +206,7 @@ def second_moment_along(v, start, step):
 def test_boundary_rows_are_the_derivative_of_the_second_moment():
     """d(v.Sigma_C v) by central differences of 1e-4, along the direction in which it gets lost."""
     start, step = point(FLAT, np.array([5e-3, -2e-3, 4e-3])), outward()
-    rows, gaps = boundary(start, MASS, LAYOUT, step)
+    rows, gaps = boundary(start, step)
     assert len(rows) == 1
     com = start.com + step[R]
     there = start.body(MASS).inertia_P + unpack_symmetric(step[JP]) - parallel_axis(MASS, com)
@@ -112,7 +223,7 @@ def test_boundary_rows_are_the_derivative_of_the_second_moment():
 
 def test_a_possible_step_meets_no_boundary():
     """Well inside, nothing is in the way."""
-    rows, gaps = boundary(point(), MASS, LAYOUT, 0.1 * outward())
+    rows, gaps = boundary(point(), 0.1 * outward())
     assert rows.shape == (0, LAYOUT.size)
     assert gaps.shape == (0,)
 
@@ -122,8 +233,8 @@ def test_inside_the_step_is_the_free_one(seed):
     """The optimum of the local model, damped as told."""
     model = local(seed, 0.1 * outward())
     for damping in (1e-6, 0.5):
-        found = possible_step(point(), MASS, LAYOUT, model, damping)
-        free = scaled_solve(model.normal, model.descent, damping)
+        found = possible_step(point(), model, damping)
+        free = scaled_solve(*model, damping)
         np.testing.assert_allclose(found, free, rtol=1e-12)
 
 
@@ -131,18 +242,18 @@ def test_inside_the_step_is_the_free_one(seed):
 def test_at_the_boundary_the_step_is_the_best_possible(seed):
     """It ends on the boundary, and no change along the boundary lowers the local model."""
     start, model = point(FLAT), local(seed, outward())
-    free = scaled_solve(model.normal, model.descent, 0.0)
-    assert len(boundary(start, MASS, LAYOUT, free)[0]) == 1
-    step = possible_step(start, MASS, LAYOUT, model, 0.0)
-    after = retract(start, step, MASS, LAYOUT).body(MASS)
+    free = scaled_solve(*model, 0.0)
+    assert len(boundary(start, free)[0]) == 1
+    step = possible_step(start, model, 0.0)
+    after = retract(start, step).body(MASS)
     least, trace = smallest_second_moment(after.inertia_C), np.trace(after.inertia_P)
     assert 0 < least < 1e-4 * trace  # the boundary is bent: its tangent leaves it a little
-    rows, _ = boundary(start, MASS, LAYOUT, free)
-    left = (model.descent - model.normal @ step) * SIZES
+    rows, _ = boundary(start, free)
+    left = (model[1] - model[0] @ step) * SIZES
     along = rows[0] * SIZES / np.linalg.norm(rows[0] * SIZES)
     across = left - along * (along @ left)
     assert np.linalg.norm(across) < 0.05 * np.linalg.norm(left)
-    assert promise(model, step) > 0
+    assert promise(*model, step) > 0
 
 
 @pytest.mark.parametrize("name", ["attitude_y", "rate_z", "inertia_P_xx"])
@@ -151,12 +262,13 @@ def test_no_step_is_longer_than_can_be_believed(name):
     pull = np.zeros(LAYOUT.size)
     k = LAYOUT.names.index(name)
     pull[k] = 100.0 * (np.trace(unpack_symmetric(INERTIA)) if name.startswith("inertia") else 1.0)
-    step = possible_step(point(), MASS, LAYOUT, Quadratic(0.0, np.eye(LAYOUT.size), pull), 0.0)
-    assert 0 < stride(step, point(), MASS) <= 1 + 1e-12
+    step = possible_step(point(), (np.eye(LAYOUT.size), pull), 0.0)
+    trace = np.trace(unpack_symmetric(INERTIA))
+    assert 0 < np.linalg.norm([*step[:6], *(step[JP] / trace)]) <= 1 + 1e-12
 
 
 @given(steps, st.sampled_from([INERTIA, FLAT]))
 def test_no_step_leaves_the_possible_bodies(step, inertia):
     """Even one that asks for it."""
-    after = retract(point(inertia), 200 * step, MASS, LAYOUT).body(MASS)
+    after = retract(point(inertia), 200 * step).body(MASS)
     assert smallest_second_moment(after.inertia_C) > 0

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from equipoise.maths.linalg import pack_symmetric
 from equipoise.maths.pseudo_inertia import (
     FLOOR,
     exceeds,
@@ -100,4 +101,30 @@ def test_exceeds_is_the_least_eigenvalue_above_the_floor(matrix, floor):
     symmetric = matrix + matrix.T
     least = np.linalg.eigvalsh(symmetric)[0]
     if abs(least - floor) > 1e-9:
-        assert exceeds(symmetric, floor) == (least > floor)
+        assert exceeds(tuple(pack_symmetric(symmetric)), floor) == (least > floor)
+
+
+# --- Plain twins ------------------------------------------------------------------------------
+
+
+def factor_of(six):
+    """L of the six numbers."""
+    a1, a2, a3, b12, b13, b23 = six
+    return np.array([[np.exp(a1), 0, 0], [b12, np.exp(a2), 0], [b13, b23, np.exp(a3)]])
+
+
+@given(sixes)
+def test_inertia_agrees_with_a_plain_twin(six):
+    """L L^T by matrices."""
+    factor = factor_of(six)
+    expected = inertia_from_second_moments(factor @ factor.T)
+    found = to_inertia(six)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14 * np.trace(expected))
+
+
+@given(possible())
+def test_six_numbers_agree_with_a_plain_twin(inertia):
+    """The factor by LAPACK; a condition of 1600 leaves 1e-12."""
+    factor = np.linalg.cholesky(second_moments(inertia))
+    expected = [*np.log(np.diag(factor)), factor[1, 0], factor[2, 0], factor[2, 1]]
+    np.testing.assert_allclose(from_inertia(inertia), expected, rtol=0, atol=1e-9)

@@ -18,11 +18,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 
-from equipoise.maths.linalg import pack_symmetric
+from equipoise.maths.linalg import PAIRS
 from equipoise.model.arrays import Floats, Matrix3, Series3, Vector3, Vector6
 from equipoise.model.testbed import SlidingMass
-
-EYE = np.eye(3)
 
 
 class MassMaps(NamedTuple):
@@ -36,16 +34,17 @@ class MassMaps(NamedTuple):
 
 def mass_maps(masses: Sequence[SlidingMass]) -> MassMaps:
     """Return the coefficients of these masses, in their order."""
-    k = len(masses)
-    moment, first, second, momentum = (np.zeros((k, n)) for n in (3, 6, 6, 3))
-    for i, mass in enumerate(masses):
-        u, rho = mass.axis, mass.home
-        cross = np.outer(rho, u)
-        moment[i] = mass.mass * u
-        first[i] = mass.mass * pack_symmetric(2 * rho @ u * EYE - cross - cross.T)
-        second[i] = mass.mass * pack_symmetric(EYE - np.outer(u, u))
-        momentum[i] = mass.mass * np.cross(rho, u)
-    return MassMaps(moment, first, second, momentum)
+    m = np.array([mass.mass for mass in masses]).reshape(-1, 1)
+    u = np.array([mass.axis for mass in masses]).reshape(-1, 3)
+    rho = np.array([mass.home for mass in masses]).reshape(-1, 3)
+    (i, j), a, b = np.array(PAIRS).T, (1, 2, 0), (2, 0, 1)
+    unit, dot = (i == j).astype(float), np.sum(rho * u, axis=1, keepdims=True)
+    return MassMaps(
+        m * u,
+        m * (2 * dot * unit - rho[:, i] * u[:, j] - u[:, i] * rho[:, j]),
+        m * (unit - u[:, i] * u[:, j]),
+        m * (rho[:, a] * u[:, b] - rho[:, b] * u[:, a]),
+    )
 
 
 def com_shift(maps: MassMaps, total_mass: float, displacement: Floats) -> Vector3:

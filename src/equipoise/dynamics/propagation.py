@@ -14,6 +14,7 @@ from equipoise.dynamics.regressor import WIDTH, Triple
 from equipoise.dynamics.rigid_body import (
     ERROR,
     INERTIA,
+    LANES,
     NO_TORQUE,
     RATE,
     ROWS,
@@ -21,11 +22,15 @@ from equipoise.dynamics.rigid_body import (
     Body,
     Now,
     body_at,
+    body_within,
+    drifts,
     forcing,
     gravity_of,
     linearise,
     motion,
+    place,
     rate_of,
+    room_for,
     sensitivity_rates,
     times,
 )
@@ -65,6 +70,7 @@ def body_of(
 @part
 def look(
     body: Body,
+    now: Now,
     maps: Floats,
     t: Floats,
     known: Floats,
@@ -75,69 +81,50 @@ def look(
     y: Floats,
     regress: Floats,
     fb: Floats,
-) -> tuple[Now, Triple, Triple]:
-    """Return platform, rate and gravity at ``share`` of step i; write the forcing."""
-    now = body_at(body, maps, t, known, i, share)
+) -> tuple[Triple, Triple]:
+    """Return rate and gravity at ``share`` of step i; write the forcing."""
     w, g = rate_of(now, y), gravity_of(y, body.gravity)
-    if fb.shape[1]:
+    if fb.shape[0]:
         forcing(body, now, maps, t, known, i, share, owners, columns.kinds, columns.indices,
                 w, g, regress, fb)  # fmt: skip
-    return now, w, g
-
-
-@part
-def arrive(
-    body: Body,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    owners: Ints,
-    columns: Columns,
-    node: int,
-    y: Floats,
-    regress: Floats,
-    fb: Floats,
-) -> tuple[Now, Triple, Triple]:
-    """Look at a node; at a corner of the inputs, as the step that leaves it sees them."""
-    last = t.shape[0] - 2
-    i, share = (last, 1.0) if node > last else (node, 0.0)
-    return look(body, maps, t, known, owners, columns, i, share, y, regress, fb)
+    return w, g
 
 
 @part
 def start(
     body: Body,
+    now: Now,
     maps: Floats,
     t: Floats,
     known: Floats,
     owners: Ints,
     columns: Columns,
+    i: int,
     q: Floats,
     w: Floats,
     y: Floats,
     regress: Floats,
     fb: Floats,
 ) -> None:
-    """Write q, H = J w + h and their sensitivities at the first node."""
-    n = fb.shape[1]
-    now = body_at(body, maps, t, known, 0, 0.0)
+    """Write q, H = J w + h and their sensitivities at the beginning of step i."""
+    n = columns.kinds.shape[0]
     H = times(now.inertia, (w[0], w[1], w[2]))
     y[:] = 0.0
     for j in range(4):
         y[j] = q[j]
     for j in range(3):
         y[4 + j] = H[j] + now.momentum[j]
-    look(body, maps, t, known, owners, columns, 0, 0.0, y, regress, fb)
+    look(body, now, maps, t, known, owners, columns, i, 0.0, y, regress, fb)
     for c in range(n):
-        kind, k = columns.kinds[c], columns.indices[c]
+        kind, k, first = columns.kinds[c], columns.indices[c], place(c)
         if kind == TURN:
-            y[ROWS + k * n + c] = 1.0
+            y[ROWS + first + k * LANES] = 1.0
         unit = times(now.inertia, (1.0 * (k == 0), 1.0 * (k == 1), 1.0 * (k == 2)))
         for j in range(3):
             if kind == RATE:
-                y[ROWS + (3 + j) * n + c] = unit[j]
+                y[ROWS + first + (3 + j) * LANES] = unit[j]
             elif kind in (INERTIA, ERROR):
-                y[ROWS + (3 + j) * n + c] = fb[j, c]
+                y[ROWS + first + (3 + j) * LANES] = fb[first + j * LANES]
 
 
 @part
@@ -146,7 +133,7 @@ def slope(
 ) -> None:
     """Write y' from what ``look`` has seen."""
     motion(body, now, y, w, g, regress, dy)
-    if fb.shape[1]:
+    if fb.shape[0]:
         by_rate, by_turn = linearise(body, now, y, w, g)
         sensitivity_rates(now.inverse, w, by_rate, by_turn, fb, y, dy)
 
@@ -154,6 +141,7 @@ def slope(
 @part
 def slope_at(
     body: Body,
+    now: Now,
     maps: Floats,
     t: Floats,
     known: Floats,
@@ -166,14 +154,16 @@ def slope_at(
     fb: Floats,
     dy: Floats,
 ) -> None:
-    """Write y' at ``share`` of step i."""
-    now, w, g = look(body, maps, t, known, owners, columns, i, share, y, regress, fb)
+    """Write y' at ``share`` of step i, the platform being as it is ``now``."""
+    w, g = look(body, now, maps, t, known, owners, columns, i, share, y, regress, fb)
     slope(body, now, w, g, y, regress, fb, dy)
 
 
 @part
 def step_from(
     body: Body,
+    here: Now,
+    fixed: bool,
     maps: Floats,
     t: Floats,
     known: Floats,
@@ -188,7 +178,7 @@ def step_from(
     dy: Floats,
     total: Floats,
 ) -> None:
-    """Take y over step i, in place; ``first`` is the slope at its beginning."""
+    """Take y over step i, in place; ``first`` is the slope at its beginning, ``here``."""
     h, m = t[i + 1] - t[i], y.shape[0]
     for j in range(m):
         total[j] = first[j]
@@ -196,7 +186,8 @@ def step_from(
     for k in range(1, 4):
         share, weight = (1.0, 1.0) if k == 3 else (0.5, 2.0)
         ahead = h if k == 2 else 0.5 * h
-        slope_at(body, maps, t, known, owners, columns, i, share, at, regress, fb, dy)
+        now = body_within(body, maps, t, known, i, share, fixed, here)
+        slope_at(body, now, maps, t, known, owners, columns, i, share, at, regress, fb, dy)
         for j in range(m):
             total[j] += weight * dy[j]
             at[j] = y[j] + ahead * dy[j]
@@ -230,8 +221,10 @@ def step(
     total: Floats,
 ) -> None:
     """Take y over step i, in place."""
-    slope_at(body, maps, t, known, owners, columns, i, 0.0, y, regress, fb, total)
-    step_from(body, maps, t, known, owners, columns, i, y, total, regress, fb, at, dy, total)
+    here, fixed = body_at(body, maps, t, known, i, 0.0), steady(known, i) and not drifts(body)
+    slope_at(body, here, maps, t, known, owners, columns, i, 0.0, y, regress, fb, total)
+    step_from(body, here, fixed, maps, t, known, owners, columns, i, y, total, regress, fb, at, dy,
+              total)  # fmt: skip
 
 
 @part
@@ -244,15 +237,22 @@ def steady(known: Floats, i: int) -> bool:
 
 
 @part
+def hermite(h: float, share: float) -> tuple[float, float, float, float]:
+    """Return the weights of both ends of a step of h seconds, each with its slope behind it."""
+    s, r = share, 1.0 - share
+    return (1 + 2 * s) * r * r, h * s * r * r, s * s * (3 - 2 * s), -h * s * s * r
+
+
+@part
 def interpolate(
     y0: Floats, dy0: Floats, y1: Floats, dy1: Floats, h: float, share: float, out: Floats
 ) -> None:
     """Write the state within a step of h seconds: the cubic through both ends and their slopes.
 
-    It errs by (w h)^4 / 384 of a motion's amplitude, w being its frequency.
+    As much of it as ``out`` has room for. It errs by (w h)^4 / 384 of a motion's amplitude, w
+    being its frequency.
     """
-    s, r = share, 1.0 - share
-    a, b, c, d = (1 + 2 * s) * r * r, h * s * r * r, s * s * (3 - 2 * s), -h * s * s * r
+    a, b, c, d = hermite(h, share)
     for j in range(out.shape[0]):
         out[j] = a * y0[j] + b * dy0[j] + c * y1[j] + d * dy1[j]
     to_unit(out)
@@ -261,10 +261,11 @@ def interpolate(
 @part
 def rate_sensitivity(now: Now, y: Floats, fb: Floats, out: Floats) -> None:
     """Write dw = J^-1 (dH - f) of every column."""
-    n = fb.shape[1]
-    for c in range(n):
-        i = ROWS + 3 * n + c
-        dw = times(now.inverse, (y[i] - fb[0, c], y[i + n] - fb[1, c], y[i + 2 * n] - fb[2, c]))
+    for c in range(out.shape[1]):
+        i = place(c)
+        k = ROWS + i + 3 * LANES
+        dw = times(now.inverse, (y[k] - fb[i], y[k + LANES] - fb[i + LANES],
+                                 y[k + 2 * LANES] - fb[i + 2 * LANES]))  # fmt: skip
         for j in range(3):
             out[j, c] = dw[j]
 
@@ -286,20 +287,25 @@ def _run(
     rate_by: Floats,
 ) -> None:
     n = columns.kinds.shape[0]
-    m = ROWS + 6 * n
+    m = ROWS + room_for(n)
     y, at, dy, total = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
-    regress, fb = np.zeros((3, WIDTH)), np.zeros((6, n))
-    start(body, maps, t, known, owners, columns, q0, w0, y, regress, fb)
+    regress, fb = np.zeros((3, WIDTH)), np.zeros(room_for(n))
+    last = t.shape[0] - 2
     for node in range(t.shape[0]):
-        now, rate, _ = arrive(body, maps, t, known, owners, columns, node, y, regress, fb)
+        # at a corner of the inputs, as the step that leaves it sees them
+        i, share = (last, 1.0) if node > last else (node, 0.0)
+        now = body_at(body, maps, t, known, i, share)
+        if node == 0:
+            start(body, now, maps, t, known, owners, columns, i, q0, w0, y, regress, fb)
+        rate, _ = look(body, now, maps, t, known, owners, columns, i, share, y, regress, fb)
         q[node] = y[:4]
         H[node] = y[4:7]
         for j in range(3):
             w[node, j] = rate[j]
             for c in range(n):
-                turn_by[node, j, c] = y[ROWS + j * n + c]
+                turn_by[node, j, c] = y[ROWS + place(c) + j * LANES]
         rate_sensitivity(now, y, fb, rate_by[node])
-        if node < t.shape[0] - 1:
+        if node <= last:
             step(body, maps, t, known, owners, columns, node, y, regress, fb, at, dy, total)
 
 

@@ -11,7 +11,9 @@ A small change of parameter p turns the attitude by dth (body axes) and the mome
 
 f_p and b_p are columns of the regressor, so this is the momentum balance once more.
 
-Small vectors and matrices are tuples here: the compiler keeps them in registers.
+Small vectors and matrices are tuples here: the compiler keeps them in registers. Sensitivities lie
+in blocks of LANES columns, each block row by row (dth, then dH), so that one machine instruction
+serves several columns; columns that only fill the last block stay zero.
 """
 
 from typing import NamedTuple
@@ -37,6 +39,8 @@ Nine = tuple[float, float, float, float, float, float, float, float, float]
 
 TURN, RATE, INERTIA, MOMENT, TORQUE, ERROR = 0, 1, 2, 3, 4, 5  # kinds of sensitivity column
 ROWS = 7  # of the state before the sensitivities: q, H
+LANES = 16  # columns in a block; with fewer the compiler (LLVM 20) does not vectorise
+BLOCK = 6 * LANES
 KNOWN_D = 6  # first mass displacement among the known inputs: wheel momentum, torque, masses
 A, B, HM = 3, 9, 15  # where the mass maps keep A_i, B_i and the momentum of travel
 
@@ -61,6 +65,18 @@ class Now(NamedTuple):
     moment: Triple
     momentum: Triple  # of all that moves inside
     torque: Triple  # known, from outside
+
+
+@part
+def room_for(columns: int) -> int:
+    """Return how many numbers the sensitivities of so many columns take."""
+    return (columns + LANES - 1) // LANES * BLOCK
+
+
+@part
+def place(column: int) -> int:
+    """Return where the first row of a column is; its next rows follow LANES apart."""
+    return column // LANES * BLOCK + column % LANES
 
 
 @part
@@ -100,9 +116,9 @@ def cross(a: Triple, b: Triple) -> Triple:
 
 
 @part
-def between(known: Floats, i: int, share: float, column: int) -> float:
-    """Return a known input at ``share`` (0 to 1) of step i."""
-    return known[i, column] + share * (known[i + 1, column] - known[i, column])
+def between(first: float, last: float, share: float) -> float:
+    """Return a known input at ``share`` (0 to 1) of a step."""
+    return first + share * (last - first)
 
 
 @part
@@ -115,11 +131,12 @@ def body_at(body: Body, maps: Floats, t: Floats, known: Floats, i: int, share: f
     m0 = body.moment[0] + ramp * body.torque[DRIFT]
     m1 = body.moment[1] + ramp * body.torque[DRIFT + 1]
     m2 = body.moment[2] + ramp * body.torque[DRIFT + 2]
-    h0, h1, h2 = (between(known, i, share, 0), between(known, i, share, 1),
-                  between(known, i, share, 2))  # fmt: skip
+    a, b = known[i], known[i + 1]
+    h0, h1, h2 = (between(a[0], b[0], share), between(a[1], b[1], share),
+                  between(a[2], b[2], share))  # fmt: skip
     for k in range(maps.shape[0]):
-        d = between(known, i, share, KNOWN_D + k)
-        rate = (known[i + 1, KNOWN_D + k] - known[i, KNOWN_D + k]) / step
+        first, last = a[KNOWN_D + k], b[KNOWN_D + k]
+        d, rate = between(first, last, share), (last - first) / step
         m0, m1, m2 = m0 + d * maps[k, 0], m1 + d * maps[k, 1], m2 + d * maps[k, 2]
         h0 += rate * maps[k, HM]
         h1 += rate * maps[k, HM + 1]
@@ -131,8 +148,33 @@ def body_at(body: Body, maps: Floats, t: Floats, known: Floats, i: int, share: f
         xz += d * (maps[k, A + 4] + d * maps[k, B + 4])
         yz += d * (maps[k, A + 5] + d * maps[k, B + 5])
     inertia = (xx, yy, zz, xy, xz, yz)
-    torque = (between(known, i, share, 3), between(known, i, share, 4), between(known, i, share, 5))
+    torque = (between(a[3], b[3], share), between(a[4], b[4], share), between(a[5], b[5], share))
     return Now(since, inertia, invert(inertia), (m0, m1, m2), (h0, h1, h2), torque)
+
+
+@part
+def drifts(body: Body) -> bool:
+    """Say whether the centre of mass moves by itself."""
+    c = body.torque
+    return c[DRIFT] != 0.0 or c[DRIFT + 1] != 0.0 or c[DRIFT + 2] != 0.0
+
+
+@part
+def body_within(
+    body: Body,
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    i: int,
+    share: float,
+    fixed: bool,
+    first: Now,
+) -> Now:
+    """Return the platform at ``share`` of step i: where nothing changes, ``first`` at that time."""
+    if not fixed:
+        return body_at(body, maps, t, known, i, share)
+    since = t[i] - t[0] + share * (t[i + 1] - t[i])
+    return Now(since, first.inertia, first.inverse, first.moment, first.momentum, first.torque)
 
 
 @part
@@ -242,9 +284,9 @@ def error_column(
     g: Triple,
 ) -> tuple[Triple, Triple]:
     """Return f and b of one displacement error, felt as the known input ``column`` says."""
-    felt = between(known, i, share, column)
-    rate = (known[i + 1, column] - known[i, column]) / (t[i + 1] - t[i])
-    d, m = between(known, i, share, KNOWN_D + owner), maps[owner]
+    a, b, k = known[i], known[i + 1], KNOWN_D + owner
+    felt, rate = between(a[column], b[column], share), (b[column] - a[column]) / (t[i + 1] - t[i])
+    d, m = between(a[k], b[k], share), maps[owner]
     bend = (m[A] + 2 * d * m[B], m[A + 1] + 2 * d * m[B + 1], m[A + 2] + 2 * d * m[B + 2],
             m[A + 3] + 2 * d * m[B + 3], m[A + 4] + 2 * d * m[B + 4],
             m[A + 5] + 2 * d * m[B + 5])  # fmt: skip
@@ -255,6 +297,14 @@ def error_column(
         felt * v[2] + rate * m[HM + 2],
     )
     return f, (felt * u[0], felt * u[1], felt * u[2])
+
+
+@part
+def regressor_block(kind: int) -> int:
+    """Return the first column of a kind in the regressor."""
+    if kind == INERTIA:
+        return INERTIA_COLUMN
+    return MOMENT_COLUMN if kind == MOMENT else TORQUE_COLUMN
 
 
 @part
@@ -274,45 +324,45 @@ def forcing(
     columns: Floats,
     fb: Floats,
 ) -> None:
-    """Write f_p (rows 0-2) and b_p (rows 3-5) of every column from the regressor."""
+    """Write f_p (rows 0-2) and b_p (rows 3-5) of every column; the other entries stay zero."""
     n = kinds.shape[0]
     torques = False
     for c in range(n):
         torques |= kinds[c] == TORQUE
     regressor(w, g, now.t, body.mass, body.gravity, torques, columns)
     for c in range(n):
-        kind, k = kinds[c], indices[c]
+        kind, k, at = kinds[c], indices[c], place(c)
         if kind == ERROR:
             felt = KNOWN_D + maps.shape[0] + k
             f, b = error_column(maps, t, known, i, share, int(owners[k]), felt, w, g)
             for j in range(3):
-                fb[j, c], fb[3 + j, c] = f[j], b[j]
-            continue
-        for j in range(3):
-            fb[j, c] = columns[j, INERTIA_COLUMN + k] if kind == INERTIA else 0.0
-            fb[3 + j, c] = 0.0
-            if kind == MOMENT:
-                fb[3 + j, c] = columns[j, MOMENT_COLUMN + k]
-            elif kind == TORQUE:
-                fb[3 + j, c] = columns[j, TORQUE_COLUMN + k]
+                fb[at + j * LANES], fb[at + (3 + j) * LANES] = f[j], b[j]
+        elif kind >= INERTIA:
+            first = at if kind == INERTIA else at + 3 * LANES
+            source = k + regressor_block(kind)
+            for j in range(3):
+                fb[first + j * LANES] = columns[j, source]
 
 
 @part
 def sensitivity_rates(
     inverse: Six, w: Triple, by_rate: Nine, by_turn: Nine, fb: Floats, y: Floats, dy: Floats
 ) -> None:
-    """Write dth' and dH' of n columns; y holds six rows of n after q and H."""
-    n = fb.shape[1]
-    for c in range(n):
-        i = ROWS + c
-        turn = (float(y[i]), float(y[i + n]), float(y[i + 2 * n]))
-        dH = (float(y[i + 3 * n]), float(y[i + 4 * n]), float(y[i + 5 * n]))
-        dw = times(inverse, (dH[0] - fb[0, c], dH[1] - fb[1, c], dH[2] - fb[2, c]))
-        p, r = cross(w, turn), cross(w, dH)
-        s, v = dot(by_turn, turn), dot(by_rate, dw)
-        for j in range(3):
-            dy[i + j * n] = dw[j] - p[j]
-            dy[i + (3 + j) * n] = v[j] + s[j] + fb[3 + j, c] - r[j]
+    """Write dth' and dH' of all columns."""
+    for first in range(0, fb.shape[0], BLOCK):
+        x, dx = y[ROWS + first : ROWS + first + BLOCK], dy[ROWS + first : ROWS + first + BLOCK]
+        force = fb[first : first + BLOCK]
+        for c in range(LANES):
+            turn = (x[c], x[c + LANES], x[c + 2 * LANES])
+            dH = (x[c + 3 * LANES], x[c + 4 * LANES], x[c + 5 * LANES])
+            dw = times(inverse, (dH[0] - force[c], dH[1] - force[c + LANES],
+                                 dH[2] - force[c + 2 * LANES]))  # fmt: skip
+            p, r = cross(w, turn), cross(w, dH)
+            s, v = dot(by_turn, turn), dot(by_rate, dw)
+            dx[c], dx[c + LANES], dx[c + 2 * LANES] = dw[0] - p[0], dw[1] - p[1], dw[2] - p[2]
+            dx[c + 3 * LANES] = v[0] + s[0] + force[c + 3 * LANES] - r[0]
+            dx[c + 4 * LANES] = v[1] + s[1] + force[c + 4 * LANES] - r[1]
+            dx[c + 5 * LANES] = v[2] + s[2] + force[c + 5 * LANES] - r[2]
 
 
 NO_TORQUE = (0.0,) * N_TORQUES

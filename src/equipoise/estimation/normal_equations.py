@@ -16,19 +16,32 @@ import numpy as np
 
 from equipoise.dynamics.propagation import (
     Columns,
+    hermite,
     interpolate,
     look,
-    rate_sensitivity,
     slope_at,
     start,
     steady,
     step_from,
 )
 from equipoise.dynamics.regressor import WIDTH, Triple
-from equipoise.dynamics.rigid_body import ROWS, Body
+from equipoise.dynamics.rigid_body import (
+    BLOCK,
+    LANES,
+    ROWS,
+    Body,
+    Six,
+    body_at,
+    body_within,
+    drifts,
+    room_for,
+    times,
+)
 from equipoise.maths.compiled import kernel, part
-from equipoise.maths.local_motion import turn
+from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Ints
+
+SPAN = 3 * LANES  # numbers in a block of three rows of sensitivities
 
 
 class Seen(NamedTuple):
@@ -54,52 +67,120 @@ def huber(e: Triple, limit: float) -> tuple[float, float]:
     return limit / size, limit * (size - 0.5 * limit)
 
 
+class Pass(NamedTuple):
+    """Arrays that a pass works in, and its sums; made once."""
+
+    y: Floats  # state and sensitivities
+    y0: Floats
+    dy0: Floats
+    dy1: Floats
+    at: Floats
+    dy: Floats
+    total: Floats
+    regress: Floats
+    fb: Floats
+    S_q: Floats  # three rows of sensitivities, in blocks of LANES columns
+    S_w: Floats
+    normal: Floats  # (unknowns, lanes), the lower triangle
+    descent: Floats  # (lanes,)
+
+
+@kernel
+def pass_for(columns: int, unknowns: int) -> Pass:
+    """Return the arrays for so many sensitivities and unknowns."""
+    m, lanes = ROWS + room_for(columns), (unknowns + LANES - 1) // LANES * LANES
+    return Pass(
+        np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m),
+        np.zeros((3, WIDTH)), np.zeros(room_for(columns)), np.zeros(3 * lanes),
+        np.zeros(3 * lanes), np.zeros((unknowns, lanes)), np.zeros(lanes),
+    )  # fmt: skip
+
+
 @part
 def add_row(S: Floats, e: Triple, weight: float, normal: Floats, descent: Floats) -> None:
     """Add three rows of sensitivities S, already in units of the noise, and their residual."""
-    for a in range(S.shape[1]):
-        s0, s1, s2 = weight * S[0, a], weight * S[1, a], weight * S[2, a]
-        descent[a] += s0 * e[0] + s1 * e[1] + s2 * e[2]
-        for b in range(a + 1):
-            normal[a, b] += s0 * S[0, b] + s1 * S[1, b] + s2 * S[2, b]
+    lanes = descent.shape[0]
+    # a count that the compiler does not know: a short known loop it writes out, one by one
+    width = min(LANES, lanes)
+    for first in range(0, lanes, LANES):
+        x, sums = S[3 * first : 3 * first + SPAN], descent[first : first + LANES]
+        for c in range(width):
+            sums[c] += weight * (e[0] * x[c] + e[1] * x[c + LANES] + e[2] * x[c + 2 * LANES])
+    for a in range(normal.shape[0]):
+        i, row = a // LANES * SPAN + a % LANES, normal[a]
+        s0, s1, s2 = weight * S[i], weight * S[i + LANES], weight * S[i + 2 * LANES]
+        for first in range(0, a + 1, LANES):
+            x, sums = S[3 * first : 3 * first + SPAN], row[first : first + LANES]
+            for c in range(width):
+                sums[c] += s0 * x[c] + s1 * x[c + LANES] + s2 * x[c + 2 * LANES]
 
 
 @part
-def attitude_rows(y: Floats, q: Floats, sd: float, n: int, S: Floats) -> Triple:
-    """Return e_q and write dth/dp / sd."""
-    e, scale = turn(y, q), 1.0 / sd
+def turn_rows(work: Pass, h: float, share: float, scale: float, S: Floats) -> None:
+    """Write dth/dp within a step of h seconds, times ``scale``."""
+    a, b, c, d = hermite(h, share)
+    a, b, c, d = scale * a, scale * b, scale * c, scale * d
+    for k in range(work.fb.shape[0] // BLOCK):
+        i, S_k = ROWS + k * BLOCK, S[k * SPAN : (k + 1) * SPAN]
+        y0, dy0 = work.y0[i : i + SPAN], work.dy0[i : i + SPAN]
+        y1, dy1 = work.y[i : i + SPAN], work.dy1[i : i + SPAN]
+        for j in range(SPAN):
+            S_k[j] = a * y0[j] + b * dy0[j] + c * y1[j] + d * dy1[j]
+
+
+@part
+def rate_rows(inverse: Six, y: Floats, fb: Floats, scale: float, n: int, S: Floats) -> None:
+    """Write dw/dp = J^-1 (dH - f) of n columns, and dw/db behind them, times ``scale``."""
+    for k in range(fb.shape[0] // BLOCK):
+        S_k, f = S[k * SPAN : (k + 1) * SPAN], fb[k * BLOCK : (k + 1) * BLOCK]
+        dH = y[ROWS + k * BLOCK + SPAN : ROWS + (k + 1) * BLOCK]
+        for c in range(LANES):
+            x = (dH[c] - f[c], dH[c + LANES] - f[c + LANES], dH[c + 2 * LANES] - f[c + 2 * LANES])
+            dw = times(inverse, x)
+            S_k[c], S_k[c + LANES] = scale * dw[0], scale * dw[1]
+            S_k[c + 2 * LANES] = scale * dw[2]
     for j in range(3):
-        for c in range(S.shape[1]):
-            S[j, c] = scale * y[ROWS + j * n + c] if c < n else 0.0
-    return (scale * e[0], scale * e[1], scale * e[2])
+        S[(n + j) // LANES * SPAN + (n + j) % LANES + j * LANES] = scale
 
 
 @part
-def rate_rows(w: Triple, bias: Floats, seen: Floats, sd: float, n: int, S: Floats) -> Triple:
-    """Return e_w and bring dw/dp in S to units of the noise; the last columns are the bias."""
+def weigh(e: Triple, limit: float, S: Floats, work: Pass, left: Floats) -> float:
+    """Add a residual to the normal equations, keep it, and return its half-square cost."""
+    left[0], left[1], left[2] = e
+    weight, cost = huber(e, limit)
+    add_row(S, e, weight, work.normal, work.descent)
+    return cost
+
+
+@part
+def see_attitude(
+    work: Pass, h: float, share: float, seen: Floats, sd: float, limit: float, left: Floats
+) -> float:
+    """Add a row of the camera that looked within a step; return its cost."""
+    q, scale = work.at[:4], 1.0 / sd
+    interpolate(work.y0, work.dy0, work.y, work.dy1, h, share, q)
+    e = turn(q, seen)
+    turn_rows(work, h, share, scale, work.S_q)
+    return weigh((scale * e[0], scale * e[1], scale * e[2]), limit, work.S_q, work, left)
+
+
+@part
+def see_rate(
+    work: Pass, inverse: Six, w: Triple, bias: Floats, seen: Floats, sd: float, n: int,
+    limit: float, left: Floats,
+) -> float:  # fmt: skip
+    """Add a row of the gyro, the state and the forcing being as it saw them; return its cost."""
     scale = 1.0 / sd
-    for j in range(3):
-        for c in range(S.shape[1]):
-            S[j, c] = scale * S[j, c] if c < n else scale * (c - n == j)
-    return (
+    rate_rows(inverse, work.at, work.fb, scale, n, work.S_w)
+    e = (
         scale * (seen[0] - w[0] - bias[0]),
         scale * (seen[1] - w[1] - bias[1]),
         scale * (seen[2] - w[2] - bias[2]),
     )
+    return weigh(e, limit, work.S_w, work, left)
 
 
 @part
-def weigh(
-    e: Triple, limit: float, S: Floats, normal: Floats, descent: Floats, left: Floats
-) -> float:
-    """Add a residual to the normal equations, keep it, and return its half-square cost."""
-    left[0], left[1], left[2] = e
-    weight, cost = huber(e, limit)
-    add_row(S, e, weight, normal, descent)
-    return cost
-
-
-@kernel
 def accumulate(
     body: Body,
     maps: Floats,
@@ -112,42 +193,42 @@ def accumulate(
     bias: Floats,
     seen: Seen,
     limit: float,
-    normal: Floats,
-    descent: Floats,
+    work: Pass,
     left_q: Floats,
     left_w: Floats,
 ) -> float:
-    """Add to the normal equations, write the residuals in units of sd, return half the cost."""
+    """Sum the normal equations, write the residuals in units of sd, return half the cost."""
+    y, y0, dy0, dy1, at, dy, total, regress, fb = work[:9]
     n, last = columns.kinds.shape[0], t.shape[0] - 2
-    m = ROWS + 6 * n
-    y, y0, dy0, dy1 = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
-    at, dy, total = np.empty(m), np.empty(m), np.empty(m)
-    regress, fb, S = np.zeros((3, WIDTH)), np.zeros((6, n)), np.zeros((3, normal.shape[0]))
-    attitude, rate = seen.attitude, seen.rate
     q_node, w_node, q_share, w_share = (seen.attitude_node, seen.rate_node, seen.attitude_share,
                                         seen.rate_share)  # fmt: skip
-    start(body, maps, t, known, owners, columns, q0, w0, y, regress, fb)
-    cost, iq, iw = 0.0, 0, 0
+    work.normal[:], work.descent[:] = 0.0, 0.0
+    cost, iq, iw, moving, was_steady = 0.0, 0, 0, drifts(body), False
     for i in range(last + 1):
-        if i == 0 or not (steady(known, i - 1) and steady(known, i)):
-            slope_at(body, maps, t, known, owners, columns, i, 0.0, y, regress, fb, dy1)
-        for j in range(m):
+        is_steady = steady(known, i)
+        fixed, here = is_steady and not moving, body_at(body, maps, t, known, i, 0.0)
+        if i == 0:
+            start(body, here, maps, t, known, owners, columns, i, q0, w0, y, regress, fb)
+        if not (was_steady and is_steady):
+            slope_at(body, here, maps, t, known, owners, columns, i, 0.0, y, regress, fb, dy1)
+        for j in range(y.shape[0]):
             y0[j], dy0[j] = y[j], dy1[j]
-        step_from(body, maps, t, known, owners, columns, i, y, dy0, regress, fb, at, dy, total)
-        slope_at(body, maps, t, known, owners, columns, i, 1.0, y, regress, fb, dy1)
-        h = t[i + 1] - t[i]
+        step_from(body, here, fixed, maps, t, known, owners, columns, i, y, dy0, regress, fb, at,
+                  dy, total)  # fmt: skip
+        now = body_within(body, maps, t, known, i, 1.0, fixed, here)
+        slope_at(body, now, maps, t, known, owners, columns, i, 1.0, y, regress, fb, dy1)
+        h, was_steady = t[i + 1] - t[i], is_steady
         while iq < q_node.shape[0] and (q_node[iq] == i or i == last):
             share = q_share[iq] if q_node[iq] == i else 1.0
-            interpolate(y0, dy0, y, dy1, h, share, at)
-            e = attitude_rows(at, attitude[iq], seen.attitude_sd, n, S)
-            cost += weigh(e, limit, S, normal, descent, left_q[iq])
+            cost += see_attitude(work, h, share, seen.attitude[iq], seen.attitude_sd, limit,
+                                 left_q[iq])  # fmt: skip
             iq += 1
         while iw < w_node.shape[0] and (w_node[iw] == i or i == last):
             share = w_share[iw] if w_node[iw] == i else 1.0
             interpolate(y0, dy0, y, dy1, h, share, at)
-            now, w, _ = look(body, maps, t, known, owners, columns, i, share, at, regress, fb)
-            rate_sensitivity(now, at, fb, S)
-            e = rate_rows(w, bias, rate[iw], seen.rate_sd, n, S)
-            cost += weigh(e, limit, S, normal, descent, left_w[iw])
+            now = body_within(body, maps, t, known, i, share, fixed, here)
+            w, _ = look(body, now, maps, t, known, owners, columns, i, share, at, regress, fb)
+            cost += see_rate(work, now.inverse, w, bias, seen.rate[iw], seen.rate_sd, n, limit,
+                             left_w[iw])  # fmt: skip
             iw += 1
     return cost

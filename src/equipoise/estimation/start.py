@@ -94,7 +94,8 @@ def solve(
     A = rows.regressor * scale
     normal, right = A.T @ A, A.T @ rows.known
     # with the inertia as guessed, what misfit is left decides how much the priors weigh
-    rest = scaled_solve(normal[6:, 6:], right[6:] - normal[6:, :6] @ (guess / spread)[:6], 1e-10)
+    free = right[6:] - normal[6:, :6] @ (guess / spread)[:6]
+    rest = scaled_solve(np.ascontiguousarray(normal[6:, 6:]), free, 1e-10)
     left = rows.known - A @ np.concatenate([(guess / spread)[:6], rest])
     noise = max(CORRELATED * float(np.sqrt(np.mean(left**2))), 1e-9)
     prior = np.append(np.ones(9), np.zeros(3))

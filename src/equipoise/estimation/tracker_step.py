@@ -12,23 +12,33 @@ import numpy as np
 
 from equipoise.dynamics.propagation import Columns, step
 from equipoise.dynamics.regressor import WIDTH, Triple, momentum_columns
-from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, body_at, rate_of, times
+from equipoise.dynamics.rigid_body import (
+    BLOCK,
+    LANES,
+    ROWS,
+    Body,
+    Now,
+    Six,
+    body_at,
+    rate_of,
+    times,
+)
 from equipoise.maths.compiled import kernel, part
-from equipoise.maths.local_motion import turn
+from equipoise.maths.turns import turn, turned
 from equipoise.model.arrays import Floats, Ints
 
 SIZE = 18  # dth, dw, dr, dJ, db
-N = 15  # of which the propagator moves these
-COM, INERTIA = slice(6, 9), slice(9, 15)  # rows of the error state
+N = 15  # of which the propagator moves these, in one block
+COM = slice(6, 9)  # rows of the error state
 AT = 7  # where com stands in a belief written as one array: q, w, com, J, bias
 
 
 @part
 def believed(body: Body, end: Floats) -> Body:
     """Return the body with the centre of mass (m) and the inertia (kg m^2) of a belief."""
-    m, J = body.mass, end[AT + 3 : AT + 9]
+    m, J = body.mass, AT + 3
     moment = (m * end[AT], m * end[AT + 1], m * end[AT + 2])
-    inertia = (J[0], J[1], J[2], J[3], J[4], J[5])
+    inertia = (end[J], end[J + 1], end[J + 2], end[J + 3], end[J + 4], end[J + 5])
     return Body(m, body.gravity, inertia, moment, body.torqued, body.torque)
 
 
@@ -39,16 +49,15 @@ def unit_columns(now: Now, w: Triple, regress: Floats, y: Floats) -> None:
     At a given rate w another inertia is another momentum: dH = W(w) dJ.
     """
     momentum_columns(w, regress)
-    for j in range(6 * N):
-        y[ROWS + j] = 0.0
+    y[ROWS:] = 0.0
     for k in range(3):
-        y[ROWS + k * N + k] = 1.0
+        y[ROWS + k * LANES + k] = 1.0
         unit = times(now.inertia, (1.0 * (k == 0), 1.0 * (k == 1), 1.0 * (k == 2)))
         for j in range(3):
-            y[ROWS + (3 + j) * N + 3 + k] = unit[j]
+            y[ROWS + (3 + j) * LANES + 3 + k] = unit[j]
     for j in range(3):
         for k in range(6):
-            y[ROWS + (3 + j) * N + 9 + k] = regress[j, k]
+            y[ROWS + (3 + j) * LANES + 9 + k] = regress[j, k]
 
 
 @part
@@ -60,10 +69,10 @@ def transition(now: Now, mass: float, y: Floats, regress: Floats, phi: Floats) -
         a, f0, f1, f2 = ROWS + c, 0.0, 0.0, 0.0
         if c >= 9:
             f0, f1, f2 = regress[0, c - 9], regress[1, c - 9], regress[2, c - 9]
-        dH = (y[a + 3 * N] - f0, y[a + 4 * N] - f1, y[a + 5 * N] - f2)
+        dH = (y[a + 3 * LANES] - f0, y[a + 4 * LANES] - f1, y[a + 5 * LANES] - f2)
         dw = times(now.inverse, dH)
         for j in range(3):
-            phi[j, c] = scale * y[a + j * N]
+            phi[j, c] = scale * y[a + j * LANES]
             phi[3 + j, c] = scale * dw[j]
 
 
@@ -107,7 +116,9 @@ def predict_covariance(
 def add_stops(stop: int, node: int, stop_node: Ints, stop_added: Floats, P: Floats) -> int:
     """Add what the stops up to a node do to the covariance of r; return the next stop."""
     while stop < stop_node.shape[0] and stop_node[stop] <= node:
-        P[6:9, 6:9] += stop_added[stop]
+        for i in range(3):
+            for j in range(3):
+                P[6 + i, 6 + j] += stop_added[stop, i, j]
         stop += 1
     return stop
 
@@ -202,14 +213,7 @@ def correct(P: Floats, first: int, second: int, z: Triple, sd: float, work: Work
 @part
 def apply(x: Floats, w: Triple, y: Floats, end: Floats) -> None:
     """Write a belief (q, w, com, J, bias) corrected by the error state; y holds q before."""
-    angle = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) ** 0.5
-    s = 0.5 if angle < 1e-9 else np.sin(0.5 * angle) / angle
-    c, a, b, d = np.cos(0.5 * angle), s * x[0], s * x[1], s * x[2]
-    e, i, j, k = y[0], y[1], y[2], y[3]
-    end[0] = e * c - i * a - j * b - k * d
-    end[1] = e * a + i * c + j * d - k * b
-    end[2] = e * b - i * d + j * c + k * a
-    end[3] = e * d + i * b - j * a + k * c
+    end[0], end[1], end[2], end[3] = turned(y, x[0], x[1], x[2])
     for m in range(3):
         end[4 + m] = w[m] + x[3 + m]
     for m in range(AT, AT + 12):
@@ -251,9 +255,9 @@ def run_filter(
     stop_node: Ints, stop_added: Floats, noise: Floats, end: Floats, P: Floats, out: Floats,
 ) -> None:  # fmt: skip
     """Filter every row into one of ``out``; ``end`` (q, w, com, J, bias) and P come and go."""
-    y = np.zeros(ROWS + 6 * N)
+    y = np.zeros(ROWS + BLOCK)
     at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
-    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros((6, N)), np.zeros((6, N))
+    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros(BLOCK), np.zeros((6, N))
     work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
                 np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
     bias = end[AT + 9 : AT + 12]

@@ -23,7 +23,6 @@ from equipoise.estimation.conclusion import Fitted, conclude, residual_of
 from equipoise.estimation.start import start
 from equipoise.estimation.trajectory_problem import (
     ANCHOR,
-    Evaluation,
     Problem,
     changes,
     descend,
@@ -110,8 +109,7 @@ def problem_of(
 def settle(problem: Problem, point: Unknowns) -> Fitted:
     """Return the local optimum from a point."""
     found = descend(problem, point)
-    at = found.local if isinstance(found.local, Evaluation) else evaluate(problem, found.point)
-    return Fitted(problem, found.point, at, found.converged, found.evaluations)
+    return Fitted(problem, found.point, found.at, found.converged, found.evaluations)
 
 
 def misfit(problem: Problem, point: Unknowns) -> float:

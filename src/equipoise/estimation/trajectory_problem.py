@@ -8,9 +8,11 @@ from numpy.typing import NDArray
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.actuators.stops import StopErrors, stop_errors
 from equipoise.dynamics import rigid_body
-from equipoise.dynamics.propagation import Columns, body_of, stacked
+from equipoise.dynamics.propagation import Columns, stacked
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
-from equipoise.estimation.normal_equations import Seen, accumulate
+from equipoise.estimation import descent
+from equipoise.estimation.descent import Posed
+from equipoise.estimation.normal_equations import Seen
 from equipoise.estimation.unknowns import (
     FIXED,
     JP,
@@ -18,14 +20,11 @@ from equipoise.estimation.unknowns import (
     Layout,
     R,
     Unknowns,
-    physical,
-    possible_step,
-    retract,
     term_sizes,
+    unknowns_of,
 )
-from equipoise.maths.levenberg_marquardt import Quadratic, Solution, minimise, promise
 from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.arrays import Floats, Series
+from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import seen_at
@@ -33,8 +32,8 @@ from equipoise.sensors.timing import seen_at
 COARSE = 1e-4  # rad: what a camera of 0.2 deg makes of a thousand rows
 FINEST = 0.02  # rad
 LONGEST_STEP = 1.0  # s, chosen: a thirtieth of the shortest swing worth fitting
-HELD = 1e-9  # relative sd reported of a value that the user holds
 ANCHOR = 10.0  # chosen: natural sizes by which what the data leave open may stray from the guess
+MOST = 300  # evaluations, chosen: a fit that settles takes fewer than thirty
 NOTHING = Samples(np.zeros(0), np.zeros((0, 1)))
 
 
@@ -70,11 +69,24 @@ class Problem:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Evaluation(Quadratic):
+class Evaluation:
     """The problem at one point: the local model in physical coordinates, data and priors."""
 
+    cost: float  # half the sum of squares
+    normal: Square  # A
+    descent: Floats  # b
     left_q: Series  # (n, 3) residuals in sd
     left_w: Series
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution:
+    """Where a descent ended."""
+
+    point: Unknowns
+    at: Evaluation
+    converged: bool
+    evaluations: int
 
 
 def columns_of(layout: Layout) -> Columns:
@@ -183,57 +195,28 @@ def pose(
                    prior, limit, scale_open)  # fmt: skip
 
 
-def with_errors(problem: Problem, error: Floats) -> Floats:
-    """Return the known inputs with the masses where they really stop."""
-    if not np.any(error):
-        return problem.line.known
-    known = problem.line.known.copy()
-    first = rigid_body.KNOWN_D + len(problem.maps.momentum)
-    for j, owner in enumerate(problem.stops.owner):
-        known[:, rigid_body.KNOWN_D + owner] += error[j] * known[:, first + j]
-    return known
+def posed(problem: Problem) -> Posed:
+    """Return the problem as the kernel sees it."""
+    line, prior = problem.line, problem.prior
+    return Posed(problem.mass, problem.gravity, stacked(problem.maps), line.t, line.known,
+                 line.error_mass, problem.columns, problem.seen, problem.limit, prior.mean,
+                 prior.weight, prior.held, problem.layout.slots)  # fmt: skip
+
+
+def descend(problem: Problem, point: Unknowns, most: int = MOST) -> Solution:
+    """Return the local optimum from a point."""
+    size, n_q, n_w = problem.layout.size, len(problem.seen.attitude), len(problem.seen.rate)
+    best = descent.Local(
+        point.flat, np.empty((size, size)), np.empty(size), np.empty((n_q, 3)), np.empty((n_w, 3))
+    )
+    ended = descent.descend(posed(problem), best, 3 * (n_q + n_w), most)
+    at = Evaluation(ended.cost, best.normal, best.descent, best.left_q, best.left_w)
+    return Solution(unknowns_of(best.point), at, ended.converged, ended.evaluations)
 
 
 def evaluate(problem: Problem, point: Unknowns) -> Evaluation:
     """Return cost, information and descent in physical coordinates, data and priors together."""
-    layout, size = problem.layout, problem.layout.size
-    seen = problem.seen
-    body = point.body(problem.mass)
-    rigid = body_of(body.mass, problem.gravity, pack_symmetric(body.inertia_P), body.first_moment,
-                    point.torque)  # fmt: skip
-    normal, descent = np.zeros((size, size)), np.zeros(size)
-    left_q, left_w = np.zeros((len(seen.attitude), 3)), np.zeros((len(seen.rate), 3))
-    cost = accumulate(
-        rigid, stacked(problem.maps), problem.line.t, with_errors(problem, point.error),
-        problem.line.error_mass, problem.columns, point.q0, point.w0, point.bias, seen,
-        problem.limit, normal, descent, left_q, left_w,
-    )  # fmt: skip
-    if not (np.isfinite(cost) and np.all(np.isfinite(normal))):
-        return Evaluation(np.inf, np.eye(size), np.zeros(size), left_q, left_w)
-    normal += np.tril(normal, -1).T
-    scale = np.ones(size)
-    scale[R] = problem.mass  # the propagator's columns are by first moment
-    normal *= scale[:, None] * scale
-    descent *= scale
-    off = problem.prior.mean - physical(point, problem.mass, layout)
-    cost += 0.5 * float(np.sum(problem.prior.weight * off**2))
-    normal[np.diag_indices(size)] += problem.prior.weight
-    descent += problem.prior.weight * off
-    held = problem.prior.held
-    normal[held], normal[:, held], descent[held] = 0.0, 0.0, 0.0
-    normal[held, held] = (HELD * np.maximum(np.abs(problem.prior.mean[held]), 1e-9)) ** -2
-    return Evaluation(cost, normal, descent, left_q, left_w)
-
-
-def descend(problem: Problem, point: Unknowns) -> Solution[Unknowns]:
-    """Return the local optimum from a point."""
-
-    def propose(x: Unknowns, local: Quadratic, damping: float) -> tuple[Unknowns, float]:
-        step = possible_step(x, problem.mass, problem.layout, local, damping)
-        return retract(x, step, problem.mass, problem.layout), promise(local, step)
-
-    rows = 3 * (len(problem.seen.attitude) + len(problem.seen.rate))
-    return minimise(lambda x: evaluate(problem, x), propose, point, rows=rows)
+    return descend(problem, point, 1).at
 
 
 def changes(recording: Recording) -> bool:

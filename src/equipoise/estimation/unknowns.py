@@ -1,4 +1,4 @@
-"""The unknowns of a trajectory, and how a step changes them.
+"""The unknowns of a trajectory.
 
 Physical coordinates, in which information and covariance are stated:
 
@@ -6,35 +6,22 @@ Physical coordinates, in which information and covariance are stated:
       | torque coefficients | displacement errors | gyro bias (3) ]
 
 The inertia itself is kept as the six numbers of ``maths.pseudo_inertia``, so every point is a body
-that can exist. Steps are sought in physical coordinates, where the residuals are nearly linear; a
-step that would leave the possible bodies is sought again along their boundary
-
-    v.Sigma_C v = floor,      d(v.Sigma_C v) = 1/2 tr dJ_P - v.dJ_P v - 2 m (v.r) v.dr
-
-(steps in the six numbers themselves crawl when the body is nearly flat: see docs/decisions/0008).
+that can exist. What a step does to a point is in ``point_steps``.
 """
 
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.maths import attitude, pseudo_inertia
-from equipoise.maths.levenberg_marquardt import Quadratic, scaled_solve
-from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
-from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3, Vector6
+from equipoise.estimation import point_steps
+from equipoise.maths import pseudo_inertia
+from equipoise.model.arrays import Floats, Ints, Quaternion, Vector3, Vector6
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.model.mass_properties import (
-    MassProperties,
-    from_centre,
-    parallel_axis,
-    second_moments,
-)
+from equipoise.model.mass_properties import MassProperties, from_centre
 from equipoise.model.torque_terms import TERMS, unit_of
 
 TURN, RATE, JP, R = slice(0, 3), slice(3, 6), slice(6, 12), slice(12, 15)
-DOUBLE = np.array([1, 1, 1, 2, 2, 2])  # off-diagonal entries stand for two
-FIXED = 15  # coordinates before torques, errors and bias
+FIXED = point_steps.BEHIND  # coordinates before torques, errors and bias
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,6 +56,19 @@ class Layout:
         """Return the columns of the torques among the sixteen."""
         return [TERMS.index(term) for term in self.terms]
 
+    @property
+    def slots(self) -> Ints:
+        """Return where a flat point keeps each coordinate; -1 for the turn and J_P, kept as q, six.
+
+        The bias comes last in a point, whether it is sought or not.
+        """
+        w, com, error = point_steps.W, point_steps.COM, point_steps.ERROR
+        bias = error + len(self.errors)
+        slots = [*[-1] * 3, *range(w, w + 3), *[-1] * 6, *range(com, com + 3)]
+        slots += [point_steps.TORQUE + k for k in self.torque_index]
+        slots += [*range(error, bias), *range(bias, bias + 3 * self.bias)]
+        return np.array(slots, dtype=np.int64)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Unknowns:
@@ -82,15 +82,21 @@ class Unknowns:
     error: Floats  # (e,) m
     bias: Vector3  # rad/s
 
+    @property
+    def flat(self) -> Floats:
+        """Return the point as the kernels keep it."""
+        parts = (self.q0, self.w0, self.six, self.com, self.torque, self.error, self.bias)
+        return np.concatenate(parts)
+
     def body(self, mass: float) -> MassProperties:
         """Return the mass properties with the masses at home."""
-        return body_of_point(self, mass)
+        return from_centre(mass, self.com, pseudo_inertia.to_inertia(self.six))
 
 
-@lru_cache(maxsize=8)  # a step of the search asks a point for its body some ten times
-def body_of_point(point: Unknowns, mass: float) -> MassProperties:
-    """Return the mass properties of a point with the masses at home."""
-    return from_centre(mass, point.com, pseudo_inertia.to_inertia(point.six))
+def unknowns_of(flat: Floats) -> Unknowns:
+    """Return a point of the kernels by its parts: the inverse of ``Unknowns.flat``."""
+    cuts = (point_steps.W, point_steps.SIX, point_steps.COM, point_steps.TORQUE, point_steps.ERROR)
+    return Unknowns(*np.split(flat, (*cuts, len(flat) - 3)))
 
 
 def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:
@@ -105,75 +111,4 @@ def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:
 
 def physical(point: Unknowns, mass: float, layout: Layout) -> Floats:
     """Return the physical coordinates; the turn of the first attitude is zero at the point."""
-    inertia = pack_symmetric(point.body(mass).inertia_P)
-    bias = point.bias if layout.bias else np.zeros(0)
-    torque = point.torque[layout.torque_index]
-    return np.concatenate([np.zeros(3), point.w0, inertia, point.com, torque, point.error, bias])
-
-
-def boundary(point: Unknowns, mass: float, layout: Layout, step: Floats) -> tuple[Floats, Floats]:
-    """Return rows C and gaps d with C step = d on the boundary.
-
-    One for each moment that a step takes below the floor; none when the step leads to a possible
-    body.
-    """
-    inertia = point.body(mass).inertia_P
-    com = point.com + step[R]
-    there = inertia + unpack_symmetric(step[JP]) - parallel_axis(mass, com)
-    floor = 2 * pseudo_inertia.FLOOR * float(np.trace(inertia))
-    if pseudo_inertia.exceeds(second_moments(there), 0.5 * floor):
-        return np.zeros((0, layout.size)), np.zeros(0)
-    values, vectors = np.linalg.eigh(second_moments(there))
-    beyond = vectors[:, values < 0.5 * floor].T
-    rows, gaps = np.zeros((len(beyond), layout.size)), np.zeros(len(beyond))
-    now = second_moments(point.body(mass).inertia_C)
-    for k, v in enumerate(beyond):
-        square: Matrix3 = v[:, None] * v
-        rows[k, JP] = 0.5 * np.array([1, 1, 1, 0, 0, 0]) - pack_symmetric(square) * DOUBLE
-        rows[k, R] = -2 * mass * (v @ point.com) * v
-        gaps[k] = floor - v @ now @ v
-    return rows, gaps
-
-
-def possible_step(
-    point: Unknowns, mass: float, layout: Layout, local: Quadratic, damping: float
-) -> Floats:
-    """Return the damped step to the least of the local model among possible bodies."""
-    free = scaled_solve(local.normal, local.descent, damping)
-    free = step = free / max(1.0, stride(free, point, mass))
-    for _ in range(8):
-        rows, gaps = boundary(point, mass, layout, step)
-        if not len(rows):
-            break
-        toward = np.column_stack([scaled_solve(local.normal, row, damping) for row in rows])
-        step = free + toward @ np.linalg.solve(rows @ toward, gaps - rows @ free)
-    return step / max(1.0, stride(step, point, mass))
-
-
-def stride(step: Floats, point: Unknowns, mass: float) -> float:
-    """Return the length of a step in units beyond which no local model is to be believed.
-
-    These are a radian, a radian a second, the body's own inertia.
-    """
-    size = float(np.trace(point.body(mass).inertia_P))
-    parts = np.concatenate([step[TURN], step[RATE], step[JP] / size])
-    return float(np.linalg.norm(parts))
-
-
-def retract(point: Unknowns, step: Floats, mass: float, layout: Layout) -> Unknowns:
-    """Return the point after a step in physical coordinates."""
-    torque = point.torque.copy()
-    n, e = len(layout.terms), len(layout.errors)
-    torque[layout.torque_index] += step[FIXED : FIXED + n]
-    com = point.com + step[R]
-    inertia = point.body(mass).inertia_P + unpack_symmetric(step[JP])
-    return replace(
-        point,
-        q0=attitude.normalise(attitude.multiply(point.q0, attitude.exponential(step[TURN]))),
-        w0=point.w0 + step[RATE],
-        six=pseudo_inertia.from_inertia(inertia - parallel_axis(mass, com)),
-        com=com,
-        torque=torque,
-        error=point.error + step[FIXED + n : FIXED + n + e],
-        bias=point.bias + step[FIXED + n + e :] if layout.bias else point.bias,
-    )
+    return point_steps.coordinates(point.flat, mass, layout.slots)

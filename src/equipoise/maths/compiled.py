@@ -13,22 +13,27 @@ from equipoise.maths.kernel_cache import drop_stale
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 FAST = {"contract", "reassoc", "nsz", "arcp"}
+OPTIONS: dict[str, Any] = {
+    "cache": True,
+    "nogil": True,  # runs without the interpreter's lock
+    "fastmath": FAST,
+    "error_model": "numpy",
+}
+MERGED: dict[str, Any] = {**OPTIONS, "forceinline": True, "_nrt": False}
 
 drop_stale()
 
 
 def kernel(function: Function) -> Function:
     """Compile a function of arrays and numbers; it runs without the interpreter's lock."""
-    compile_ = numba.njit(cache=True, nogil=True, fastmath=FAST, error_model="numpy")
-    return cast(Function, compile_(function))
+    return cast(Function, numba.njit(**OPTIONS)(function))
 
 
 def part(function: Function) -> Function:
     """Compile a function that other kernels call; it is merged into each caller.
 
-    Without this, every call would copy the descriptors of all arrays it is given.
+    Without this, every call would copy the descriptors of all arrays it is given. A part makes no
+    arrays and keeps no count of who uses which: counting, two atomic operations for each view of
+    an array, took half the time of a fit.
     """
-    compile_ = numba.njit(
-        cache=True, nogil=True, fastmath=FAST, error_model="numpy", forceinline=True
-    )
-    return cast(Function, compile_(function))
+    return cast(Function, numba.njit(**MERGED)(function))

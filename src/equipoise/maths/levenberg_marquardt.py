@@ -2,86 +2,98 @@
 
     (A + lam diag A) step = b,     A = J^T W J,  b = J^T W e,     x <- retract(x, step)
 
-The caller supplies cost, A and b at a point; this module only decides where to look next
-(Nielsen's rule for lam; Madsen, Nielsen and Tingleff 2004, section 3.2).
+The caller supplies cost, A and b at a point, and walks; this module only says where to look next
+(Nielsen's rule for lam; Madsen, Nielsen and Tingleff 2004, section 3.2) and when to stop. For
+residuals in units of their sd, a step that promises to lower twice the cost by c is one of sqrt(c)
+standard deviations.
 """
-
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Generic, TypeVar
 
 import numpy as np
 
+from equipoise.maths.compiled import kernel, part
 from equipoise.model.arrays import Floats, Square
 
-Point = TypeVar("Point")
 FREE = 1e-2  # damping beyond which a small promise may only say that steps are kept small
 NEAR = 100.0  # by how much the promise of a bolder step may exceed the tolerance: 0.1 sd
+FIRST, REJECTED, LEAST = 1e-6, 1e-6, 1e-12  # damping: to begin with, after a rejection, ever
+TOLERANCE = 1e-4  # of twice the cost: a hundredth of a standard deviation
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Quadratic:
-    """Half the sum of squares at a point, and its local model."""
+@part
+def factorise(normal: Floats, damping: float, scale: Floats, factors: Floats) -> None:
+    """Write S with S A S of unit diagonal, and L D L^T = S A S + damping E, D on the diagonal.
 
-    cost: float
-    normal: Square  # A
-    descent: Floats  # b
+    Scaled so, units do not matter. A zero in D is kept: ``solve`` takes no step along it.
+    """
+    n = normal.shape[0]
+    for i in range(n):
+        scale[i] = normal[i, i] ** -0.5 if normal[i, i] > 0.0 else 1.0
+    for i in range(n):
+        for j in range(i):
+            total = scale[i] * normal[i, j] * scale[j]
+            for k in range(j):
+                total -= factors[i, k] * factors[j, k] * factors[k, k]
+            factors[i, j] = total / factors[j, j] if factors[j, j] != 0.0 else 0.0
+        total = scale[i] * normal[i, i] * scale[i] + damping
+        for k in range(i):
+            total -= factors[i, k] * factors[i, k] * factors[k, k]
+        factors[i, i] = total
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Solution(Generic[Point]):
-    """Where the iteration ended."""
+@part
+def solve(scale: Floats, factors: Floats, right: Floats, out: Floats) -> None:
+    """Write the solution of (A + damping diag A) out = right."""
+    n = right.shape[0]
+    for i in range(n):
+        total = scale[i] * right[i]
+        for k in range(i):
+            total -= factors[i, k] * out[k]
+        out[i] = total
+    for i in range(n - 1, -1, -1):
+        total = out[i] / factors[i, i] if factors[i, i] != 0.0 else 0.0
+        for k in range(i + 1, n):
+            total -= factors[k, i] * out[k]
+        out[i] = total
+    for i in range(n):
+        out[i] *= scale[i]
 
-    point: Point
-    local: Quadratic
-    converged: bool
-    evaluations: int
 
-
+@kernel
 def scaled_solve(normal: Square, descent: Floats, damping: float) -> Floats:
     """Return the damped step; solved with unit diagonal, so units do not matter."""
-    diagonal = np.diag(normal)
-    scale = 1.0 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
-    unit = normal * scale[:, None] * scale
-    unit[np.diag_indices_from(unit)] += damping
-    return scale * np.linalg.solve(unit, scale * descent)
+    step, scale, factors = np.empty_like(descent), np.empty_like(descent), np.empty_like(normal)
+    factorise(normal, damping, scale, factors)
+    solve(scale, factors, descent, step)
+    return step
 
 
-def promise(local: Quadratic, step: Floats) -> float:
+@part
+def promise(normal: Floats, descent: Floats, step: Floats) -> float:
     """Return by how much a step should lower twice the cost, by the local model."""
-    return float(2 * step @ local.descent - step @ local.normal @ step)
+    total = 0.0
+    for i in range(step.shape[0]):
+        row = 0.0
+        for j in range(step.shape[0]):
+            row += normal[i, j] * step[j]
+        total += step[i] * (2.0 * descent[i] - row)
+    return total
 
 
-def minimise(
-    evaluate: Callable[[Point], Quadratic],
-    propose: Callable[[Point, Quadratic, float], tuple[Point, float]],
-    start: Point,
-    tolerance: float = 1e-4,
-    most: int = 300,
-    damping: float = 1e-6,
-    rows: int = 0,
-) -> Solution[Point]:
-    """Return a local minimum from ``start``.
+@part
+def judge(
+    gained: float, promised: float, damping: float, growth: float
+) -> tuple[bool, float, float]:
+    """Return whether a trial that lowered twice the cost so much is taken, damping and growth."""
+    if not np.isfinite(gained) or gained < 0:
+        return False, max(damping, REJECTED) * growth, 2.0 * growth
+    trust = gained / promised
+    return True, max(damping * max(0.1, 1.0 - (2.0 * trust - 1.0) ** 3), LEAST), 2.0
 
-    ``propose`` gives the next point for a damping, and its promise. Converged means that the step
-    promises to lower twice the cost by less than ``tolerance``; for residuals in units of their sd
-    that is a step of sqrt(tolerance) standard deviations. ``rows``, when given, lets the tolerance
-    grow with a misfit beyond one sd a row, where digits run out and the sd mean less.
+
+@part
+def tolerated(cost: float, rows: int) -> float:
+    """Return the promise below which a search has arrived: TOLERANCE.
+
+    It grows with a misfit beyond one sd a row, where digits run out and the sd mean less.
     """
-    point, local = start, evaluate(start)
-    evaluations, growth = 1, 2.0
-    while evaluations < most and np.isfinite(local.cost):
-        trial, promised = propose(point, local, damping)
-        misfit = max(1.0, 2 * local.cost / rows) if rows else 1.0
-        if promised < tolerance * misfit:
-            bold = promised if damping < FREE else propose(point, local, FREE)[1]
-            return Solution(point, local, abs(bold) < NEAR * tolerance * misfit, evaluations)
-        there = evaluate(trial)
-        evaluations += 1
-        gained = 2.0 * (local.cost - there.cost)
-        if not np.isfinite(gained) or gained < 0:
-            damping, growth = max(damping, 1e-6) * growth, 2.0 * growth
-            continue
-        trust, point, local, growth = gained / promised, trial, there, 2.0
-        damping = max(damping * max(0.1, 1.0 - (2.0 * trust - 1.0) ** 3), 1e-12)
-    return Solution(point, local, False, evaluations)
+    return TOLERANCE * max(1.0, 2.0 * cost / rows)

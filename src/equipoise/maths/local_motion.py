@@ -10,6 +10,8 @@ import numpy as np
 
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.compiled import kernel, part
+from equipoise.maths.levenberg_marquardt import factorise, solve
+from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Series1, Series3, Series4
 
 TURN = 0.6  # rad, chosen: most rotation in half a window, so that a cubic still follows it
@@ -26,49 +28,37 @@ def half_window(t: Series1, q: Series4) -> float:
 
 
 @part
-def turn(p: Floats, q: Floats) -> tuple[float, float, float]:
-    """Return log(p^-1 q), rad."""
-    w = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]
-    x = p[0] * q[1] - p[1] * q[0] - p[2] * q[3] + p[3] * q[2]
-    y = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1]
-    z = p[0] * q[3] - p[1] * q[2] + p[2] * q[1] - p[3] * q[0]
-    sine = (x * x + y * y + z * z) ** 0.5
-    if w < 0:
-        w, x, y, z = -w, -x, -y, -z
-    scale = 2.0 if sine < 1e-9 else 2.0 * np.arctan2(sine, w) / sine
-    return scale * x, scale * y, scale * z
-
-
-@part
 def _add(powers: Floats, phi: tuple[float, float, float], normal: Floats, right: Floats) -> None:
     """Add one neighbour to the normal equations."""
-    n = right.shape[0]
+    n = right.shape[1]
     for a in range(n):
         for b in range(n):
             normal[a, b] += powers[a] * powers[b]
         for c in range(3):
-            right[a, c] += powers[a] * phi[c]
+            right[c, a] += powers[a] * phi[c]
 
 
 @kernel
 def _fit(t: Floats, q: Floats, reach: int, stride: int, scale: float, out: Floats) -> None:
     """Write constant term and slope, shape (n, 2, 3)."""
-    n, order = t.shape[0], min(DEGREE, t.shape[0] - 1)
-    powers = np.zeros(DEGREE + 1)
+    n, terms = t.shape[0], min(DEGREE + 1, t.shape[0])
+    powers, unit, factors = np.zeros(terms), np.zeros(terms), np.zeros((terms, terms))
+    normal, right, found = np.zeros((terms, terms)), np.zeros((3, terms)), np.zeros(terms)
     for k in range(n):
-        normal, right = np.zeros((order + 1, order + 1)), np.zeros((order + 1, 3))
+        normal[:], right[:] = 0.0, 0.0
         first = min(max(k - reach, 0), max(n - 1 - 2 * reach, 0))
         for j in range(first, min(first + 2 * reach + 1, n), stride):
             phi = turn(q[k], q[j])
             powers[0] = 1.0
-            for a in range(order):
-                powers[a + 1] = powers[a] * (t[j] - t[k]) / scale
+            for a in range(1, terms):
+                powers[a] = powers[a - 1] * (t[j] - t[k]) / scale
             _add(powers, phi, normal, right)
-        for a in range(order + 1):
+        for a in range(terms):
             normal[a, a] += 1e-9
-        found = np.linalg.solve(normal, right)
+        factorise(normal, 0.0, unit, factors)
         for c in range(3):
-            out[k, 0, c], out[k, 1, c] = found[0, c], found[1, c] / scale
+            solve(unit, factors, right[c], found)
+            out[k, 0, c], out[k, 1, c] = found[0], found[1] / scale
 
 
 def local_motion(t: Series1, q: Series4, half: float) -> tuple[Series4, Series3]:
