@@ -28,8 +28,8 @@ from equipoise.procedure.planned_move import planned_move
 from equipoise.procedure.tilt_guard import tilted
 
 LOOK = 5.0  # s between decisions
-FINER = 0.5  # of the tolerance, chosen: how closely to balance first
-FIRST_MOVES, FIRST_TIME = 6, 300.0  # s, chosen: what balancing may take before a hold
+FINER = 1 / 3  # of the tolerance, chosen: how closely to balance first
+FIRST_MOVES, FIRST_TIME = 10, 600.0  # s, chosen: what balancing may take before a hold
 ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considered
 PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
 FAR = 0.6  # of the tilt limit: a swing that corrections should calm

@@ -34,12 +34,12 @@ def balance(
     tolerance_um
         How near to the target is near enough, along each axis.
     max_moves
-        Moves of the masses before giving up: 3, or 6 before a hold.
+        Moves of the masses before giving up: 3, or 10 before a hold.
     max_time_s
-        Bench time before giving up: 120, or 300 before a hold.
+        Bench time before giving up: 120, or 600 before a hold.
     hold_min
-        Then follow the drift and hold the balance for so many minutes. What comes before is then
-        balanced to half the tolerance.
+        Then follow the drift and hold the balance for so many minutes. The balance before it is to
+        a third of the tolerance, since its errors stay.
     json
         Print one JSON document instead.
     out
