@@ -137,11 +137,8 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     by_learning = spread(learnt, seeds)
     claim = (
         f"With J known the tracker ends at the bound of the whole record, over {len(seeds)} seeds, "
-        "and its covariance is honest; so is it where J has to be learnt; with the move kept from it, it finds the new centre of mass "
-        f"(walk {1e6 * ALERT:g} um/sqrt(s))."
+        "and its covariance is honest, also where J has to be learnt; with the move kept from it, "
+        f"it finds the new centre of mass (walk {1e6 * ALERT:g} um/sqrt(s))."
     )
-    return Result(
-        "tracker_honesty",
-        claim,
-        (*fed_rows(fed), *learnt_rows(by_learning), *ignored_rows(ignored)),
-    )
+    rows = (*fed_rows(fed), *learnt_rows(by_learning), *ignored_rows(ignored))
+    return Result("tracker_honesty", claim, rows)
