@@ -91,3 +91,13 @@ def test_the_number_of_moves_is_kept(moves):
     _, steps = run(SPUTNIX, BalanceOptions(max_moves=moves, max_time=60.0))
     assert len(moves_of(steps)) <= moves
     assert steps[-1].verdict is not None
+
+
+def test_with_moves_to_spare_it_goes_below_again_to_learn_the_height():
+    """For half a micrometre: more than one move below, and the height better known for it."""
+    fine = BalanceOptions(tolerance=np.full(3, 0.5e-6), max_moves=8, max_time=240.0)
+    _, steps = run(SPUTNIX, fine)
+    below = [move for move in moves_of(steps) if move.reason.startswith("below")]
+    assert len(below) > 1
+    _, usual = plain()
+    assert steps[-1].verdict.sd[2] < 0.7 * usual[-1].verdict.sd[2]

@@ -43,13 +43,16 @@ def test_outside_fails_and_names_the_axis(known):
     target = known.com + np.array([0.0, 20.0, 0.0]) * known.sd
     judged = verdict(known, None, 0.0, target, wide(known))
     assert not judged.passed
+    assert judged.sure
     assert judged.sentence.endswith("y outside the tolerance.")
 
 
-def test_too_little_known_fails(known):
+def test_too_little_known_cannot_tell(known):
     """A tolerance of one sd holds with probability 0.68 at best."""
     judged = verdict(known, None, 0.0, known.com, known.sd)
     assert not judged.passed
+    assert not judged.sure
+    assert judged.sentence.startswith("Cannot tell")
     assert "not known well enough" in judged.sentence
 
 

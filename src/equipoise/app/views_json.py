@@ -126,6 +126,7 @@ def verdict_json(verdict: Verdict) -> View:
     """Return a verdict."""
     return {
         "passed": verdict.passed,
+        "sure": verdict.sure,
         "sentence": verdict.sentence,
         "com_um": numbers(verdict.com, UM),
         "sd_um": numbers(verdict.sd, UM),

@@ -7,9 +7,10 @@ from equipoise.model.arrays import Vector3
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Verdict:
-    """Pass or fail, with the numbers behind it."""
+    """Pass, fail or cannot tell (neither passed nor sure), with the numbers behind it."""
 
     passed: bool
     sentence: str
     com: Vector3 | None = None  # m, as the masses stand
     sd: Vector3 | None = None  # m
+    sure: bool = True  # False: the data do not tell

@@ -48,6 +48,7 @@ SPENT = 0.97  # the same with no move left, or no time for one
 TRIM = 0.3  # of the tolerance: an offset that the last move, when its time comes, is spent on
 LATEST = 0.97  # of the time, less the look after: when the last move is made at the latest
 LAST = 0.25  # of the tolerance: the same for the last move
+HELPS = 0.9  # of the tilt that is ahead, chosen: what a move against tilting must bring it to
 SETTLE = 20.0  # s to keep for the look after the last move
 
 
@@ -129,7 +130,9 @@ def decide(
     view = Outlook(knowledge, testbed, state_now(knowledge, testbed))
     may_brake = left > 2  # a brake costs another move to come back, and the last is for the trim
     if left > 1 and not progress.braking and urgent(view, options.target, may_brake):
-        return safest(view, options.target, may_brake)
+        option = safest(view, options.target, may_brake)
+        if option.peak < HELPS * view.peak(knowledge.displacement):
+            return option
     if not (progress.braking or ripe(bench, progress, options, began)):
         return None
     learning = worth_learning(knowledge, testbed, left, options)

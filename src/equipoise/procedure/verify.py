@@ -53,7 +53,8 @@ def verdict(
     where = ", ".join(f"{1e6 * c:.2f} +/- {1e6 * s:.2f}" for c, s in zip(com, sd, strict=True))
     found = f"the centre of mass is at ({where}) um"
     if not knowledge.estimate.outcome.usable:
-        return Verdict(False, f"Cannot tell: {knowledge.estimate.outcome.sentence}", com, sd)
+        return Verdict(False, f"Cannot tell: {knowledge.estimate.outcome.sentence}", com, sd,
+                       sure=False)  # fmt: skip
     if fresh_misfit(knowledge, since) > CONTRADICTION:
         text = "Failed: the record since the last move does not fit what was found before it."
         return Verdict(False, text, com, sd)
@@ -67,9 +68,10 @@ def verdict(
     if np.all(sure >= SURE):
         return Verdict(True, f"Passed: {found}, within tolerance on every axis.", com, sd)
     axes = ", ".join("xyz"[k] for k in np.flatnonzero(sure < SURE))
-    missed = np.abs(com - target) > tolerance
-    why = "outside the tolerance" if missed.any() else "not known well enough to be sure"
-    return Verdict(False, f"Failed: {found}; {axes} {why}.", com, sd)
+    if np.any(np.abs(com - target) > tolerance):
+        return Verdict(False, f"Failed: {found}; {axes} outside the tolerance.", com, sd)
+    text = f"Cannot tell: {found}; {axes} not known well enough to be sure."
+    return Verdict(False, text, com, sd, sure=False)
 
 
 def fresh_enough(knowledge: Knowledge, since: float) -> bool:
