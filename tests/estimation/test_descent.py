@@ -10,7 +10,8 @@ from builders import move_at, noisy, platform, recording
 from equipoise.estimation.descent import HELD
 from equipoise.estimation.trajectory import Params, fit, problem_of
 from equipoise.estimation.trajectory_problem import descend, evaluate
-from equipoise.maths.levenberg_marquardt import promise, scaled_solve
+from equipoise.maths.levenberg_marquardt import promise
+from equipoise.maths.scaled_solve import scaled_solve
 
 
 def record(seed):

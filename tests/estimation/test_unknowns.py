@@ -10,9 +10,10 @@ from hypothesis.extra.numpy import arrays
 from equipoise.estimation import point_steps
 from equipoise.estimation.unknowns import JP, Layout, R, Unknowns, physical, unknowns_of
 from equipoise.maths.attitude import difference, exponential, multiply
-from equipoise.maths.levenberg_marquardt import promise, scaled_solve
+from equipoise.maths.levenberg_marquardt import promise
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.maths.pseudo_inertia import FLOOR, from_inertia
+from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.mass_properties import parallel_axis, second_moments, smallest_second_moment
 
 LAYOUT = Layout(("viscous_y", "sag_xz"), ("error_x_1",), bias=True)

@@ -19,8 +19,8 @@ from equipoise.estimation.observability import OPEN
 from equipoise.estimation.ratios import ratios_of
 from equipoise.estimation.sampled_motion import SampledMotion, common_rows, sampled_motion
 from equipoise.estimation.unknowns import Layout
-from equipoise.maths.levenberg_marquardt import scaled_solve
 from equipoise.maths.linalg import inverse_spd, lag_one, unpack_symmetric
+from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter, Residual
 from equipoise.model.mass_properties import MassProperties, is_possible

@@ -21,8 +21,8 @@ from equipoise.dynamics.regressor import Triple
 from equipoise.dynamics.rigid_body import Body, Six, times
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.eigen import eigen
-from equipoise.maths.levenberg_marquardt import factorise, solve
 from equipoise.maths.pseudo_inertia import FLOOR, exceeds, inertia_of, second_moments_of, six_of
+from equipoise.maths.scaled_solve import factorise, solve
 from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints
 

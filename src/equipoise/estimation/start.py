@@ -13,8 +13,8 @@ from equipoise.estimation.sampled_motion import SampledMotion, sampled_motion
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.attitude import exponential, multiply, to_matrix
-from equipoise.maths.levenberg_marquardt import scaled_solve
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis

@@ -10,7 +10,7 @@ import numpy as np
 
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.compiled import kernel, part
-from equipoise.maths.levenberg_marquardt import factorise, solve
+from equipoise.maths.scaled_solve import factorise, solve
 from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Series1, Series3, Series4
 
