@@ -8,11 +8,10 @@ import pytest
 from builders import COM, MASS, move_at, noisy, platform, recording
 
 from equipoise.estimation import trajectory
-from equipoise.estimation.conclusion import END
 from equipoise.estimation.tracker import Params, first_state, track, track_again
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES
-from equipoise.model.estimate import INERTIA
+from equipoise.model.estimate import END, INERTIA
 from equipoise.model.recording import window
 
 SHIFT = np.array([-10e-3, -10e-3, -50e-3]) * 0.0156 / MASS  # m, what the move does

@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
-from builders import COM, move_at, noisy, platform, recording
+from builders import COM, MASS, move_at, noisy, platform, recording
 
+from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.errors import InputError
+from equipoise.model.estimate import END, INERTIA
 from equipoise.procedure.identify import COARSE_TO_FINE, METHODS, IdentifyOptions, identify
 
 
@@ -40,3 +42,16 @@ def test_a_method_can_be_asked_for(seen, method):
     assert [step.kind for step in steps] == ["look", "estimate"]
     assert steps[1].estimate.method == method
     assert steps[1].sentence.startswith(f"{method}: ")
+
+
+def test_the_tracker_says_where_the_centre_of_mass_is_at_the_end(seen):
+    """After a move, the masses as they stand, and the inertia: within 4 sd, and no sd idle."""
+    found = list(identify(seen, TESTBED, IdentifyOptions(method="tracker")))[-1].estimate
+    names = (*END, *INERTIA)
+    true = [
+        *(COM + np.array([-10e-3, -10e-3, -50e-3]) * 0.0156 / MASS),
+        *pack_symmetric(TESTBED.body.inertia_P),
+    ]
+    sd = np.sqrt(np.diag(found.covariance_of(names)))
+    assert np.all(np.abs(found.values(names) - true) < 4 * sd)
+    assert np.all(sd < np.repeat([1e-6, 5e-3], [3, 6]))

@@ -11,7 +11,7 @@ from equipoise.app.recorded_bench import RecordedBench
 from equipoise.app.terminal import watched
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
-from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.estimate import COM, END, INERTIA, Estimate
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
@@ -21,7 +21,6 @@ from equipoise.procedure.balance import BalanceOptions, balance
 from equipoise.procedure.hold import HoldOptions, balance_and_hold
 from equipoise.simulation.bench import SimulatedBench
 
-END = ("com_end_x", "com_end_y", "com_end_z")
 HALTED = "every mass was halted where it is"
 
 

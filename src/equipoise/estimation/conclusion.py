@@ -15,7 +15,7 @@ from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unkn
 from equipoise.maths.attitude import logarithm
 from equipoise.maths.linalg import lag_one
 from equipoise.model.arrays import Floats
-from equipoise.model.estimate import Estimate, Parameter, Residual
+from equipoise.model.estimate import END, Estimate, Parameter, Residual
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording
 
@@ -23,7 +23,6 @@ SURE = 4.0  # sd of a statistic before it counts as more than chance
 WHITE = 0.2  # chosen: a lag-one correlation below this widens an interval by less than a quarter
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
 CORE = slice(JP.start, R.stop)  # inertia and centre of mass
-END = ("com_end_x", "com_end_y", "com_end_z")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,6 +9,7 @@ from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.outcome import Outcome
 
 COM = ("com_x", "com_y", "com_z")
+END = ("com_end_x", "com_end_y", "com_end_z")  # with the masses as they stand at the end
 INERTIA = tuple(f"inertia_P_{ij}" for ij in ("xx", "yy", "zz", "xy", "xz", "yz"))
 NORMAL_95 = 1.959963984540054  # two-sided 95 % point of the normal distribution
 

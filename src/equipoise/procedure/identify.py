@@ -10,11 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation import equilibrium, momentum, tracker, trajectory
+from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
+from equipoise.model.estimate import COM, END, INERTIA, Estimate, Parameter
 from equipoise.model.outcome import Outcome
-from equipoise.model.recording import Recording
+from equipoise.model.recording import Recording, arranged
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 
@@ -63,21 +65,33 @@ def by_equilibrium(recording: Recording, testbed: Testbed, options: IdentifyOpti
     return equilibrium.estimate(recording, testbed)
 
 
+def shift_at_end(recording: Recording, testbed: Testbed) -> Vector3:
+    """Return what the masses, as they stand at the end, do to the centre of mass (m)."""
+    if recording.masses is None:
+        return np.zeros(3)
+    last = recording.masses.values[-1]
+    return com_shift(mass_maps(testbed.masses), testbed.body.mass, last)
+
+
 def by_tracker(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Estimate:
-    """Kalman filter from what the testbed says, passed twice; the belief after the last row."""
+    """Kalman filter from what the testbed says, passed twice; the belief after the last row.
+
+    After a move the centre of mass is that of the masses as they stand: where they really stopped
+    is part of it.
+    """
     if recording.attitude is None or len(recording.attitude) < 2:
         outcome = Outcome(False, "The tracker needs a camera: the record has no attitude.")
         return Estimate("tracker", outcome, (), np.zeros((0, 0)))
-    first = recording.attitude
+    recording, first = arranged(recording, testbed.mass_names), recording.attitude
     state = tracker.first_state(float(first.t[0]), first.values[0], testbed)
     track = tracker.track_again(recording, testbed, tracker.Params(), state)
-    values = [*track.com[-1], *track.inertia[-1]]
+    shift = shift_at_end(recording, testbed)
+    values = [*(track.com[-1] + shift), *track.inertia[-1]]
+    names = (*(END if shift.any() else COM), *INERTIA)
     units = ["m"] * len(COM) + ["kg m2"] * len(INERTIA)
     parameters = tuple(
         Parameter(name, unit, float(value), float(sd))
-        for name, unit, value, sd in zip(
-            (*COM, *INERTIA), units, values, track.sd[-1, 6:15], strict=True
-        )
+        for name, unit, value, sd in zip(names, units, values, track.sd[-1, 6:15], strict=True)
     )
     surprise = float(np.mean(track.surprise[len(track.t) // 4 :])) / 3
     fits = surprise < 1.5
