@@ -45,7 +45,10 @@ def test_a_method_can_be_asked_for(seen, method):
 
 
 def test_the_tracker_says_where_the_centre_of_mass_is_at_the_end(seen):
-    """After a move, the masses as they stand, and the inertia: within 4 sd, and no sd idle."""
+    """After a move, the masses as they stand, and the inertia: within 4 sd.
+
+    Known to 2 um and 2 % of J_zz, beforehand 100 um and 10 %.
+    """
     found = list(identify(seen, TESTBED, IdentifyOptions(method="tracker")))[-1].estimate
     names = (*END, *INERTIA)
     true = [
@@ -54,4 +57,4 @@ def test_the_tracker_says_where_the_centre_of_mass_is_at_the_end(seen):
     ]
     sd = np.sqrt(np.diag(found.covariance_of(names)))
     assert np.all(np.abs(found.values(names) - true) < 4 * sd)
-    assert np.all(sd < np.repeat([1e-6, 5e-3], [3, 6]))
+    assert np.all(sd < np.repeat([2e-6, 0.02 * 0.878], [3, 6]))
