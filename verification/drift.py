@@ -3,14 +3,16 @@
 The bench is watched from outside: its true centre of mass is noted every second.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.app.recorded_bench import RecordedBench
 from equipoise.io.presets import read_preset
 from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
@@ -29,44 +31,25 @@ TERMS = expand(("drift",))
 Array = NDArray[np.float64]
 
 
-class Watched:
+class Watched(RecordedBench):
     """A bench that is read in pieces of a second, with the truth noted after each."""
 
     def __init__(self, bench: SimulatedBench) -> None:
         """Watch a bench."""
-        self._bench = bench
+        super().__init__(bench)
+        self._truth = bench.truth
         self.t: list[float] = []
         self.com: list[Array] = []
-
-    @property
-    def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
-        return self._bench.testbed
-
-    @property
-    def time(self) -> float:
-        """Bench time, s."""
-        return self._bench.time
 
     def read(self, duration: float) -> Recording:
         """Wait and return what was recorded, as the bench would."""
         parts = max(1, int(duration / EVERY))
-        found: Recording | None = None
+        found: list[Recording] = []
         for _ in range(parts):
-            fresh = self._bench.read(duration / parts)
-            found = fresh if found is None else join(found, fresh)
-            self.t.append(self._bench.time)
-            self.com.append(self._bench.truth().com)
-        assert found is not None
-        return found
-
-    def move(self, targets: Mapping[str, float]) -> None:
-        """Set masses on their way."""
-        self._bench.move(targets)
-
-    def stop(self) -> None:
-        """Halt every mass."""
-        self._bench.stop()
+            found.append(super().read(duration / parts))
+            self.t.append(self.time)
+            self.com.append(self._truth().com)
+        return reduce(join, found)
 
 
 class Run(NamedTuple):

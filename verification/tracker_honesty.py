@@ -74,7 +74,7 @@ def learnt(seed: int) -> Learnt:
     first = tracker.first_state(0.0, attitude.values[0], testbed, known)
     track = tracker.track(recording, testbed, tracker.Params("fed", STILL, STILL), first)
     error = np.concatenate([track.com[-1] - builders.COM, track.inertia[-1] - true])
-    covariance = track.end.covariance[6:15, 6:15]
+    covariance = track.end.belief.covariance
     nees = float(error @ np.linalg.solve(covariance, error))
     return Learnt(error / np.sqrt(np.diag(covariance)), nees)
 

@@ -22,19 +22,10 @@ from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.actuators.stops import stop_errors
 from equipoise.dynamics.propagation import NO_COLUMNS, Columns, body_of, propagate
 from equipoise.dynamics.regressor import DRIFT
-from equipoise.dynamics.rigid_body import (
-    ERROR,
-    KNOWN_D,
-    MOMENT,
-    TORQUE,
-    TURN,
-)
-from equipoise.dynamics.rigid_body import (
-    INERTIA as INERTIA_KIND,
-)
-from equipoise.dynamics.rigid_body import (
-    RATE as RATE_KIND,
-)
+from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.dynamics.sensitivities import ERROR, MOMENT, TORQUE, TURN
+from equipoise.dynamics.sensitivities import INERTIA as INERTIA_KIND
+from equipoise.dynamics.sensitivities import RATE as RATE_KIND
 from equipoise.dynamics.timeline import timeline
 from equipoise.maths.attitude import difference, exponential, multiply, normalise, to_matrix
 from equipoise.maths.linalg import unpack_symmetric

@@ -6,7 +6,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from equipoise.maths.linalg import inverse_spd, lag_one, pack_symmetric, skew, unpack_symmetric
+from equipoise.maths.linalg import (
+    element_sizes,
+    inverse_spd,
+    lag_one,
+    pack_symmetric,
+    skew,
+    unpack_symmetric,
+)
 
 vectors = arrays(np.float64, 3, elements=st.floats(-10.0, 10.0))
 sixes = arrays(np.float64, 6, elements=st.floats(-10.0, 10.0))
@@ -70,3 +77,9 @@ def test_lag_one_of_too_few_rows_is_nothing(rows):
 def test_lag_one_of_a_constant_is_nothing():
     """No power, no correlation, and no division by zero."""
     assert lag_one(np.ones((5, 3))) == 0.0
+
+
+def test_element_sizes_by_hand():
+    """sqrt(4 x 9) = 6, sqrt(4 x 16) = 8, sqrt(9 x 16) = 12; products do not count."""
+    found = element_sizes(np.array([[4.0, 1, 2], [1, 9, 3], [2, 3, 16]]))
+    np.testing.assert_allclose(found, [4, 9, 16, 6, 8, 12])

@@ -12,27 +12,29 @@ import numpy as np
 from equipoise.actuators.sliding_masses import MassMaps
 from equipoise.dynamics.regressor import WIDTH, Triple
 from equipoise.dynamics.rigid_body import (
-    ERROR,
-    INERTIA,
-    LANES,
     NO_TORQUE,
-    RATE,
     ROWS,
-    TURN,
     Body,
     Now,
     body_at,
     body_within,
     drifts,
-    forcing,
     gravity_of,
-    linearise,
     motion,
-    place,
     rate_of,
+    times,
+)
+from equipoise.dynamics.sensitivities import (
+    ERROR,
+    INERTIA,
+    LANES,
+    RATE,
+    TURN,
+    forcing,
+    linearise,
+    place,
     room_for,
     sensitivity_rates,
-    times,
 )
 from equipoise.dynamics.timeline import Timeline
 from equipoise.maths.compiled import kernel, part

@@ -1,19 +1,8 @@
-"""Right-hand sides, compiled: the motion, and its sensitivities to any set of parameters.
+"""The motion of the platform, compiled: its state now, and the right-hand side.
 
     H' = -w x H + mu x g_B + tau,    q' = 1/2 q (0, w),    w = J^-1 (H - h)
 
-A small change of parameter p turns the attitude by dth (body axes) and the momentum by dH:
-
-    dw   = J^-1 (dH - f_p)                    f_p = dh/dp + (dJ/dp) w
-    dth' = dw - w x dth
-    dH'  = ([H x] + D) dw - w x dH + G dth + b_p
-    D = d tau/dw,   G = d(mu x g_B + tau)/dth,   b_p = explicit d(torque)/dp
-
-f_p and b_p are columns of the regressor, so this is the momentum balance once more.
-
-Small vectors and matrices are tuples here: the compiler keeps them in registers. Sensitivities lie
-in blocks of LANES columns, each block row by row (dth, then dH), so that one machine instruction
-serves several columns; columns that only fill the last block stay zero.
+Small vectors and matrices are tuples here: the compiler keeps them in registers.
 """
 
 from typing import NamedTuple
@@ -21,26 +10,16 @@ from typing import NamedTuple
 from equipoise.dynamics.regressor import (
     DRIFT,
     N_TORQUES,
-    QUADRATIC,
-    SAG,
-    SWIRL,
     Triple,
-    regressor,
     torque_columns,
 )
-from equipoise.dynamics.regressor import INERTIA as INERTIA_COLUMN
-from equipoise.dynamics.regressor import MOMENT as MOMENT_COLUMN
 from equipoise.dynamics.regressor import TORQUE as TORQUE_COLUMN
 from equipoise.maths.compiled import part
-from equipoise.model.arrays import Floats, Ints
+from equipoise.model.arrays import Floats
 
 Six = tuple[float, float, float, float, float, float]
-Nine = tuple[float, float, float, float, float, float, float, float, float]
 
-TURN, RATE, INERTIA, MOMENT, TORQUE, ERROR = 0, 1, 2, 3, 4, 5  # kinds of sensitivity column
 ROWS = 7  # of the state before the sensitivities: q, H
-LANES = 16  # columns in a block; with fewer the compiler (LLVM 20) does not vectorise
-BLOCK = 6 * LANES
 KNOWN_D = 6  # first mass displacement among the known inputs: wheel momentum, torque, masses
 A, B, HM = 3, 9, 15  # where the mass maps keep A_i, B_i and the momentum of travel
 
@@ -68,18 +47,6 @@ class Now(NamedTuple):
 
 
 @part
-def room_for(columns: int) -> int:
-    """Return how many numbers the sensitivities of so many columns take."""
-    return (columns + LANES - 1) // LANES * BLOCK
-
-
-@part
-def place(column: int) -> int:
-    """Return where the first row of a column is; its next rows follow LANES apart."""
-    return column // LANES * BLOCK + column % LANES
-
-
-@part
 def invert(s: Six) -> Six:
     """Return the inverse of a symmetric matrix, both as xx yy zz xy xz yz."""
     xx, yy, zz, xy, xz, yz = s
@@ -96,16 +63,6 @@ def times(s: Six, x: Triple) -> Triple:
         s[0] * x[0] + s[3] * x[1] + s[4] * x[2],
         s[3] * x[0] + s[1] * x[1] + s[5] * x[2],
         s[4] * x[0] + s[5] * x[1] + s[2] * x[2],
-    )
-
-
-@part
-def dot(m: Nine, x: Triple) -> Triple:
-    """Return M x for a matrix given by rows."""
-    return (
-        m[0] * x[0] + m[1] * x[1] + m[2] * x[2],
-        m[3] * x[0] + m[4] * x[1] + m[5] * x[2],
-        m[6] * x[0] + m[7] * x[1] + m[8] * x[2],
     )
 
 
@@ -211,158 +168,6 @@ def motion(
         for j in range(3):
             for k in range(DRIFT):
                 dy[4 + j] += body.torque[k] * columns[j, TORQUE_COLUMN + k]
-
-
-@part
-def cross_twice(a: Triple, b: Triple) -> Nine:
-    """Return [a x][b x] = b a^T - (a.b) E."""
-    s = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-    return (b[0] * a[0] - s, b[0] * a[1], b[0] * a[2],
-            b[1] * a[0], b[1] * a[1] - s, b[1] * a[2],
-            b[2] * a[0], b[2] * a[1], b[2] * a[2] - s)  # fmt: skip
-
-
-@part
-def add(a: Nine, b: Nine, weight: float) -> Nine:
-    """Return a + weight b."""
-    return (a[0] + weight * b[0], a[1] + weight * b[1], a[2] + weight * b[2],
-            a[3] + weight * b[3], a[4] + weight * b[4], a[5] + weight * b[5],
-            a[6] + weight * b[6], a[7] + weight * b[7], a[8] + weight * b[8])  # fmt: skip
-
-
-@part
-def cross_matrix(a: Triple) -> Nine:
-    """Return [a x]."""
-    return (0.0, -a[2], a[1], a[2], 0.0, -a[0], -a[1], a[0], 0.0)
-
-
-@part
-def sag_by_turn(torque: tuple[float, ...], g: Triple) -> Nine:
-    """Return d/dth of (C g) x g, where dg = g x dth: [C g x][g x] - [g x] C [g x]."""
-    xx, yy, xy = torque[SAG], torque[SAG + 1], torque[SAG + 2]
-    xz, yz = torque[SAG + 3], torque[SAG + 4]
-    sag = (xx, yy, -xx - yy, xy, xz, yz)
-    # the columns of C [g x] are C (g x e_j)
-    c0 = cross(times(sag, (0.0, g[2], -g[1])), g)
-    c1 = cross(times(sag, (-g[2], 0.0, g[0])), g)
-    c2 = cross(times(sag, (g[1], -g[0], 0.0)), g)
-    bent = (c0[0], c1[0], c2[0], c0[1], c1[1], c2[1], c0[2], c1[2], c2[2])
-    return add(bent, cross_twice(times(sag, g), g), 1.0)
-
-
-@part
-def linearise(body: Body, now: Now, y: Floats, w: Triple, g: Triple) -> tuple[Nine, Nine]:
-    """Return [H x] + D and G."""
-    by_rate = cross_matrix((y[4], y[5], y[6]))
-    by_turn = cross_twice(now.moment, g)
-    if not body.torqued:
-        return by_rate, by_turn
-    torque = body.torque
-    speed = (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) ** 0.5 + 1e-300
-    k = torque[QUADRATIC] / speed
-    along = k * speed * speed
-    drag = (torque[0] + along + k * w[0] * w[0], k * w[0] * w[1], k * w[0] * w[2],
-            k * w[1] * w[0], torque[1] + along + k * w[1] * w[1], k * w[1] * w[2],
-            k * w[2] * w[0], k * w[2] * w[1], torque[2] + along + k * w[2] * w[2])  # fmt: skip
-    by_rate = add(by_rate, drag, -1.0)
-    # swirl: the vertical -g_B/g turns by -g_B/g x dth
-    by_turn = add(by_turn, cross_matrix(g), -torque[SWIRL] / body.gravity)
-    by_turn = add(by_turn, sag_by_turn(torque, g), body.mass / body.gravity)
-    return by_rate, by_turn
-
-
-@part
-def error_column(
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    i: int,
-    share: float,
-    owner: int,
-    column: int,
-    w: Triple,
-    g: Triple,
-) -> tuple[Triple, Triple]:
-    """Return f and b of one displacement error, felt as the known input ``column`` says."""
-    a, b, k = known[i], known[i + 1], KNOWN_D + owner
-    felt, rate = between(a[column], b[column], share), (b[column] - a[column]) / (t[i + 1] - t[i])
-    d, m = between(a[k], b[k], share), maps[owner]
-    bend = (m[A] + 2 * d * m[B], m[A + 1] + 2 * d * m[B + 1], m[A + 2] + 2 * d * m[B + 2],
-            m[A + 3] + 2 * d * m[B + 3], m[A + 4] + 2 * d * m[B + 4],
-            m[A + 5] + 2 * d * m[B + 5])  # fmt: skip
-    v, u = times(bend, w), cross((m[0], m[1], m[2]), g)
-    f = (
-        felt * v[0] + rate * m[HM],
-        felt * v[1] + rate * m[HM + 1],
-        felt * v[2] + rate * m[HM + 2],
-    )
-    return f, (felt * u[0], felt * u[1], felt * u[2])
-
-
-@part
-def regressor_block(kind: int) -> int:
-    """Return the first column of a kind in the regressor."""
-    if kind == INERTIA:
-        return INERTIA_COLUMN
-    return MOMENT_COLUMN if kind == MOMENT else TORQUE_COLUMN
-
-
-@part
-def forcing(
-    body: Body,
-    now: Now,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    i: int,
-    share: float,
-    owners: Ints,
-    kinds: Ints,
-    indices: Ints,
-    w: Triple,
-    g: Triple,
-    columns: Floats,
-    fb: Floats,
-) -> None:
-    """Write f_p (rows 0-2) and b_p (rows 3-5) of every column; the other entries stay zero."""
-    n = kinds.shape[0]
-    torques = False
-    for c in range(n):
-        torques |= kinds[c] == TORQUE
-    regressor(w, g, now.t, body.mass, body.gravity, torques, columns)
-    for c in range(n):
-        kind, k, at = kinds[c], indices[c], place(c)
-        if kind == ERROR:
-            felt = KNOWN_D + maps.shape[0] + k
-            f, b = error_column(maps, t, known, i, share, int(owners[k]), felt, w, g)
-            for j in range(3):
-                fb[at + j * LANES], fb[at + (3 + j) * LANES] = f[j], b[j]
-        elif kind >= INERTIA:
-            first = at if kind == INERTIA else at + 3 * LANES
-            source = k + regressor_block(kind)
-            for j in range(3):
-                fb[first + j * LANES] = columns[j, source]
-
-
-@part
-def sensitivity_rates(
-    inverse: Six, w: Triple, by_rate: Nine, by_turn: Nine, fb: Floats, y: Floats, dy: Floats
-) -> None:
-    """Write dth' and dH' of all columns."""
-    for first in range(0, fb.shape[0], BLOCK):
-        x, dx = y[ROWS + first : ROWS + first + BLOCK], dy[ROWS + first : ROWS + first + BLOCK]
-        force = fb[first : first + BLOCK]
-        for c in range(LANES):
-            turn = (x[c], x[c + LANES], x[c + 2 * LANES])
-            dH = (x[c + 3 * LANES], x[c + 4 * LANES], x[c + 5 * LANES])
-            dw = times(inverse, (dH[0] - force[c], dH[1] - force[c + LANES],
-                                 dH[2] - force[c + 2 * LANES]))  # fmt: skip
-            p, r = cross(w, turn), cross(w, dH)
-            s, v = dot(by_turn, turn), dot(by_rate, dw)
-            dx[c], dx[c + LANES], dx[c + 2 * LANES] = dw[0] - p[0], dw[1] - p[1], dw[2] - p[2]
-            dx[c + 3 * LANES] = v[0] + s[0] + force[c + 3 * LANES] - r[0]
-            dx[c + 4 * LANES] = v[1] + s[1] + force[c + 4 * LANES] - r[1]
-            dx[c + 5 * LANES] = v[2] + s[2] + force[c + 5 * LANES] - r[2]
 
 
 NO_TORQUE = (0.0,) * N_TORQUES

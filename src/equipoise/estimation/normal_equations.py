@@ -25,18 +25,8 @@ from equipoise.dynamics.propagation import (
     step_from,
 )
 from equipoise.dynamics.regressor import WIDTH, Triple
-from equipoise.dynamics.rigid_body import (
-    BLOCK,
-    LANES,
-    ROWS,
-    Body,
-    Six,
-    body_at,
-    body_within,
-    drifts,
-    room_for,
-    times,
-)
+from equipoise.dynamics.rigid_body import ROWS, Body, Six, body_at, body_within, drifts, times
+from equipoise.dynamics.sensitivities import BLOCK, LANES, room_for
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Ints

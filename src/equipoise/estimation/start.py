@@ -13,7 +13,7 @@ from equipoise.estimation.sampled_motion import SampledMotion, sampled_motion
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.attitude import exponential, multiply, to_matrix
-from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.estimate import COM, INERTIA
@@ -85,8 +85,7 @@ def solve(
     """Return inertia, centre of mass, and the first momentum in laboratory axes."""
     rows = balance(recording, testbed, Layout(), *motion, "laboratory")
     body = testbed.body
-    moments = np.diag(body.inertia_P)
-    sizes = np.sqrt(pack_symmetric(np.outer(moments, moments)))
+    sizes = element_sizes(body.inertia_P)
     trust = WITHOUT if recording.rate is None else WITH_GYRO
     spread = np.concatenate([trust * sizes, body.mass * np.maximum(3 * testbed.com_sd, COM_TRUST)])
     guess = np.concatenate([pack_symmetric(body.inertia_P), body.first_moment])

@@ -27,11 +27,11 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.actuators.stops import travels
-from equipoise.dynamics import rigid_body
+from equipoise.dynamics import sensitivities
 from equipoise.dynamics.propagation import Columns, body_of, stacked
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
-from equipoise.estimation.tracker_step import COM, SIZE, run_filter
-from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.estimation.tracker_step import BODY, COM, SIZE, run_filter
+from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (
     Floats,
     Ints,
@@ -89,6 +89,11 @@ class State:
     bias: Vector3  # rad/s
     covariance: Square  # (18, 18) of dth, dw, dr, dJ, db
 
+    @property
+    def belief(self) -> Belief:
+        """Return what is believed of the body."""
+        return Belief(self.com, self.inertia_P, self.covariance[BODY, BODY])
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
@@ -117,9 +122,8 @@ class Track:
 
 def belief_of(testbed: Testbed, estimate: Estimate | None = None) -> Belief:
     """Return what the testbed says, with the inertia of an estimate if that saw it."""
-    moments = np.diag(testbed.body.inertia_P)
-    size = np.sqrt(pack_symmetric(np.outer(moments, moments)))
-    variance = np.concatenate([testbed.com_sd, testbed.inertia_sd * size]) ** 2
+    inertia_sd = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
+    variance = np.concatenate([testbed.com_sd, inertia_sd]) ** 2
     covariance, inertia_P = np.diag(variance), testbed.body.inertia_P
     if estimate is not None and estimate.sees(INERTIA):
         covariance[3:, 3:], inertia_P = estimate.covariance_of(INERTIA), estimate.inertia_P
@@ -134,7 +138,7 @@ def first_state(t: float, q: Quaternion, testbed: Testbed, belief: Belief | None
     bias = testbed.gyro.bias_sd if testbed.gyro else 0.0
     spread = [noise**2] * 3 + [0.1**2] * 3 + [0.0] * 9 + [bias**2] * 3
     covariance[np.diag_indices(SIZE)] = spread
-    covariance[6:15, 6:15] = belief.covariance
+    covariance[BODY, BODY] = belief.covariance
     return State(t, q, np.zeros(3), belief.com, belief.inertia_P, np.zeros(3), covariance)
 
 
@@ -212,8 +216,8 @@ def track_again(recording: Recording, testbed: Testbed, params: Params, state: S
 
 def filter_columns() -> Columns:
     """Return the sensitivities that make the transition matrix."""
-    kinds = [rigid_body.TURN, rigid_body.RATE, rigid_body.MOMENT]
+    kinds = [sensitivities.TURN, sensitivities.RATE, sensitivities.MOMENT]
     return Columns(
-        np.array([*np.repeat(kinds, 3), *[rigid_body.INERTIA] * 6], dtype=np.int64),
+        np.array([*np.repeat(kinds, 3), *[sensitivities.INERTIA] * 6], dtype=np.int64),
         np.array([*np.tile([0, 1, 2], 3), *range(6)], dtype=np.int64),
     )

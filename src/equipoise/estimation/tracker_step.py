@@ -12,24 +12,15 @@ import numpy as np
 
 from equipoise.dynamics.propagation import Columns, step
 from equipoise.dynamics.regressor import WIDTH, Triple, momentum_columns
-from equipoise.dynamics.rigid_body import (
-    BLOCK,
-    LANES,
-    ROWS,
-    Body,
-    Now,
-    Six,
-    body_at,
-    rate_of,
-    times,
-)
+from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, body_at, rate_of, times
+from equipoise.dynamics.sensitivities import BLOCK, LANES
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.turns import turn, turned
 from equipoise.model.arrays import Floats, Ints
 
 SIZE = 18  # dth, dw, dr, dJ, db
 N = 15  # of which the propagator moves these, in one block
-COM = slice(6, 9)  # rows of the error state
+COM, BODY = slice(6, 9), slice(6, 15)  # rows of the error state: r; r and J
 AT = 7  # where com stands in a belief written as one array: q, w, com, J, bias
 
 

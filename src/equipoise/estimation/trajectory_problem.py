@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.actuators.stops import StopErrors, stop_errors
-from equipoise.dynamics import rigid_body
+from equipoise.dynamics import sensitivities
 from equipoise.dynamics.propagation import Columns, stacked
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.estimation import descent
@@ -23,7 +23,7 @@ from equipoise.estimation.unknowns import (
     term_sizes,
     unknowns_of,
 )
-from equipoise.maths.linalg import pack_symmetric
+from equipoise.maths.linalg import element_sizes, pack_symmetric
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
@@ -91,10 +91,10 @@ class Solution:
 
 def columns_of(layout: Layout) -> Columns:
     """Return the propagator's columns for a layout (the bias has none)."""
-    fixed = [(rigid_body.TURN, 3), (rigid_body.RATE, 3), (rigid_body.INERTIA, 6)]
-    pairs = [(kind, k) for kind, n in [*fixed, (rigid_body.MOMENT, 3)] for k in range(n)]
-    pairs += [(rigid_body.TORQUE, k) for k in layout.torque_index]
-    pairs += [(rigid_body.ERROR, k) for k in range(len(layout.errors))]
+    fixed = [(sensitivities.TURN, 3), (sensitivities.RATE, 3), (sensitivities.INERTIA, 6)]
+    pairs = [(kind, k) for kind, n in [*fixed, (sensitivities.MOMENT, 3)] for k in range(n)]
+    pairs += [(sensitivities.TORQUE, k) for k in layout.torque_index]
+    pairs += [(sensitivities.ERROR, k) for k in range(len(layout.errors))]
     table = np.array(pairs, dtype=np.int64)
     return Columns(table[:, 0].copy(), table[:, 1].copy())
 
@@ -111,10 +111,9 @@ def prior_of(
     names = layout.names
     mean, sd = np.zeros(layout.size), np.full(layout.size, np.inf)
     mean[JP], mean[R] = pack_symmetric(testbed.body.inertia_P), testbed.body.com
-    moments = np.diag(testbed.body.inertia_P)
-    size = np.sqrt(pack_symmetric(np.outer(moments, moments)))
     if inertia_and_com:
-        sd[JP], sd[R] = testbed.inertia_sd * size, testbed.com_sd
+        sd[JP] = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
+        sd[R] = testbed.com_sd
     for k, name in enumerate(layout.errors):
         sd[names.index(name)] = stops.sd[k]
     if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:

@@ -23,6 +23,12 @@ def unpack_symmetric(six: Vector6) -> Matrix3:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
+def element_sizes(matrix: Matrix3) -> Vector6:
+    """Return sqrt(M_ii M_jj), a size for each element xx yy zz xy xz yz of a positive M."""
+    diagonal = np.diag(matrix)
+    return np.sqrt(pack_symmetric(np.outer(diagonal, diagonal)))
+
+
 def symmetrise(matrix: Square) -> Square:
     """Return the symmetric part."""
     return 0.5 * (matrix + matrix.T)

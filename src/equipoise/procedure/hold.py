@@ -4,7 +4,7 @@ The tracker goes on from what balancing found, inertia and its uncertainty inclu
 follow whenever a step of theirs brings the centre of mass closer.
 """
 
-from collections.abc import Generator, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -62,18 +62,7 @@ def balance_and_hold(
     Not of holding when balancing ended in a stop for tilt or with an estimate that cannot be used;
     a verdict missed by a little holding can mend.
     """
-    last: list[Step] = []
-
-    def watched() -> Generator[Step, None, Knowledge]:
-        steps = balance(bench, balancing)
-        while True:
-            try:
-                last[:] = [next(steps)]
-            except StopIteration as ended:
-                return ended.value
-            yield last[0]
-
-    knowledge = yield from watched()
+    knowledge = yield from balance(bench, balancing)
     tilted_out = tilted(knowledge.recording, bench.testbed)
     if knowledge.estimate.outcome.usable and not tilted_out:
         yield from hold(bench, knowledge, holding)

@@ -12,6 +12,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation import equilibrium, momentum, tracker, trajectory
+from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import COM, END, INERTIA, Estimate, Parameter
@@ -86,20 +87,20 @@ def by_tracker(recording: Recording, testbed: Testbed, options: IdentifyOptions)
     state = tracker.first_state(float(first.t[0]), first.values[0], testbed)
     track = tracker.track_again(recording, testbed, tracker.Params(), state)
     shift = shift_at_end(recording, testbed)
-    values = [*(track.com[-1] + shift), *track.inertia[-1]]
+    belief = track.end.belief
+    values = [*(belief.com + shift), *pack_symmetric(belief.inertia_P)]
+    sds = np.sqrt(np.diag(belief.covariance))
     names = (*(END if shift.any() else COM), *INERTIA)
     units = ["m"] * len(COM) + ["kg m2"] * len(INERTIA)
     parameters = tuple(
         Parameter(name, unit, float(value), float(sd))
-        for name, unit, value, sd in zip(names, units, values, track.sd[-1, 6:15], strict=True)
+        for name, unit, value, sd in zip(names, units, values, sds, strict=True)
     )
     surprise = float(np.mean(track.surprise[len(track.t) // 4 :])) / 3
     fits = surprise < 1.5
     text = f"Tracked to the last row; innovations are {surprise:.2g} times what they should be"
     ending = "." if fits else ": inertia, noise or model are wrong, do not trust the interval."
-    return Estimate(
-        "tracker", Outcome(fits, text + ending), parameters, track.end.covariance[6:15, 6:15]
-    )
+    return Estimate("tracker", Outcome(fits, text + ending), parameters, belief.covariance)
 
 
 METHODS: dict[str, Method] = {
