@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.assessment.residual_torque import level_torque, swing_period
+from equipoise.assessment.residual_torque import level_torque, swing_period, with_doubtful_inertia
 
 UP = np.array([0.0, 0.0, 1.0])
 WEIGHT = 10.0  # N
@@ -41,3 +41,10 @@ def test_an_uncertainty_of_one_step_is_the_slope():
     ahead = swing_period(WEIGHT, com + UP * small[2], small, INERTIA, UP)
     here = swing_period(WEIGHT, com, small, INERTIA, UP)
     assert ahead.value - here.value == pytest.approx(here.sd, rel=0.01)
+
+
+def test_a_doubtful_inertia_makes_the_period_doubtful():
+    """Both 4 % and 3 % of r and J: half of 5 % of the period."""
+    sd = np.array([0.0, 0.0, 0.04 * 90e-6])
+    period = swing_period(WEIGHT, np.array([0, 0, -90e-6]), sd, INERTIA, UP)
+    assert with_doubtful_inertia(period, 0.03).sd == pytest.approx(0.025 * period.value)

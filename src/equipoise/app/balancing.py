@@ -9,7 +9,7 @@ from equipoise.app.change import Believed, Change
 from equipoise.app.figures.balanced_com import Look
 from equipoise.app.recorded_bench import RecordedBench
 from equipoise.app.terminal import watched
-from equipoise.model.arrays import Vector3
+from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import COM, END, INERTIA, Estimate
 from equipoise.model.mass_properties import MassProperties
@@ -124,16 +124,24 @@ def looks(done: Balancing) -> list[Look]:
     return found
 
 
+def inertia_known(done: Balancing) -> tuple[Matrix3, float]:
+    """Return the inertia as last estimated, else the testbed's, and its relative sd."""
+    estimate, testbed = done.estimate, done.testbed
+    if estimate is None or not estimate.sees(INERTIA):
+        return testbed.body.inertia_P, testbed.inertia_sd
+    moments = INERTIA[:3]
+    sd = np.sqrt(np.diag(estimate.covariance_of(moments)))
+    return estimate.inertia_P, float(np.max(sd / estimate.values(moments)))
+
+
 def change_of(done: Balancing) -> Change | None:
     """Return before and after: the first estimate, and the verdict or else the last estimate."""
     seen = looks(done)
     if not seen:
         return None
-    estimate = done.estimate
-    known = estimate is not None and estimate.sees(INERTIA)
     return Change(
         done.testbed,
-        estimate.inertia_P if estimate and known else done.testbed.body.inertia_P,
+        *inertia_known(done),
         done.goal.target,
         done.before or Believed(*seen[0][1:]),
         Believed(*seen[-1][1:]),

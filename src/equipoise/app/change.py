@@ -10,7 +10,12 @@ import numpy as np
 
 from equipoise.app.numbers import decimals_for, fixed, is_known, with_sd
 from equipoise.app.units import MICRO, UM, Unit
-from equipoise.assessment.residual_torque import Uncertain, level_torque, swing_period
+from equipoise.assessment.residual_torque import (
+    Uncertain,
+    level_torque,
+    swing_period,
+    with_doubtful_inertia,
+)
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
@@ -30,6 +35,7 @@ class Change:
 
     testbed: Testbed
     inertia_P: Matrix3  # kg m^2, as last estimated, else the testbed's
+    inertia_sd: float  # -, relative
     target: Vector3  # m
     before: Believed
     after: Believed
@@ -72,7 +78,8 @@ def _torque(change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
 
 
 def _period(change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
-    return swing_period(_weight(change), at.com, at.sd, inertia, change.testbed.up)
+    period = swing_period(_weight(change), at.com, at.sd, inertia, change.testbed.up)
+    return with_doubtful_inertia(period, change.inertia_sd)
 
 
 def _weight(change: Change) -> float:

@@ -41,3 +41,12 @@ def swing_period(
     moment = float(np.linalg.eigvalsh(level @ inertia_P @ level)[-1])
     period = 2 * np.pi * np.sqrt(moment / (weight * height))
     return Uncertain(period, period / 2 * float(np.linalg.norm(sd * up)) / height)
+
+
+def with_doubtful_inertia(period: Uncertain, inertia_sd: float) -> Uncertain:
+    """Return a period of swing whose inertia has a relative sd.
+
+    T goes with sqrt(J / r), so half of it adds to the sd. J and r count as independent, which is
+    too wide where one fit told both.
+    """
+    return Uncertain(period.value, float(np.hypot(period.sd, period.value / 2 * inertia_sd)))
