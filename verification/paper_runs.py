@@ -61,7 +61,7 @@ def true_point(q0: Floats, inertia: Vector6 = PUBLISHED) -> Unknowns:
     about_C = unpack_symmetric(inertia) - parallel_axis(builders.MASS, builders.COM)
     six = pseudo_inertia.from_inertia(about_C)
     rate, com = builders.RATE, builders.COM
-    return Unknowns(q0, rate, six, com, np.zeros(16), np.zeros(0), np.zeros(3))
+    return Unknowns(q0, rate, six, com, np.zeros(16), np.zeros(24), np.zeros(0), np.zeros(3))
 
 
 def information(problem: Problem, q0: Floats, inertia: Vector6 = PUBLISHED) -> Floats:

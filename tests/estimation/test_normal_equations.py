@@ -53,7 +53,7 @@ def somewhere(errors: int) -> Unknowns:
     torque = np.array([2, 3, 1, 20, 0.1, -0.2, 0.03, 0.2, 0, 0, 0, 0, 0, 0, 0, 0]) * 1e-4
     torque[8:] = np.array([3, -2, 4, 1, -5, 0.1, -0.2, 0.05]) * 1e-7
     error = np.array([2e-4, -3e-4, 1e-4])[:errors]
-    return Unknowns(q0, RATE * 1.01, six, com, torque, error, BIAS)
+    return Unknowns(q0, RATE * 1.01, six, com, torque, np.zeros(24), error, BIAS)
 
 
 @pytest.fixture(scope="module")

@@ -25,7 +25,7 @@ steps = arrays(np.float64, LAYOUT.size, elements=st.floats(-1.0, 1.0)).map(lambd
 
 def point(inertia=INERTIA, com=COM) -> Unknowns:
     six = from_inertia(unpack_symmetric(inertia) - parallel_axis(MASS, com))
-    return Unknowns(ATTITUDE, RATE, six, com, np.zeros(16), np.zeros(1), np.zeros(3))
+    return Unknowns(ATTITUDE, RATE, six, com, np.zeros(16), np.zeros(24), np.zeros(1), np.zeros(3))
 
 
 def local(seed: int, pull: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -66,7 +66,7 @@ def plain_retract(start, step):
     six = from_inertia(inertia_P - parallel_axis(MASS, com))
     q0 = multiply(start.q0, exponential(step[:3]))
     error, bias = start.error + step[17:18], start.bias + step[18:]
-    return Unknowns(q0, start.w0 + step[3:6], six, com, torque, error, bias)
+    return Unknowns(q0, start.w0 + step[3:6], six, com, torque, np.zeros(24), error, bias)
 
 
 def plain_boundary(start, step):
@@ -147,7 +147,7 @@ def test_two_boundaries_at_once():
 
 def test_a_point_is_kept_flat_and_found_again():
     """The order is that of the record's fields."""
-    numbers = np.arange(36.0)
+    numbers = np.arange(60.0)
     parts = unknowns_of(numbers)
     assert parts.flat.tolist() == numbers.tolist()
     assert (parts.q0[0], parts.w0[0], parts.six[0], parts.com[0]) == (0.0, 4.0, 7.0, 13.0)

@@ -239,22 +239,32 @@ def steady(known: Floats, i: int) -> bool:
 
 
 @part
-def hermite(h: float, share: float) -> tuple[float, float, float, float]:
-    """Return the weights of both ends of a step of h seconds, each with its slope behind it."""
-    s, r = share, 1.0 - share
-    return (1 + 2 * s) * r * r, h * s * r * r, s * s * (3 - 2 * s), -h * s * s * r
+def hermite(h: float, share: float, spread: float) -> tuple[float, float, float, float]:
+    """Return the weights of both ends of a step of h seconds, each with its slope behind it.
+
+    They give the mean of the cubic over moments around ``share`` whose variance is ``spread``
+    (s^2): f + 1/2 spread f'', exact for a cubic and moments that lie evenly on both sides.
+    """
+    s, r, v = share, 1.0 - share, 0.5 * spread / (h * h)
+    return (
+        (1 + 2 * s) * r * r + v * (12 * s - 6),
+        h * (s * r * r + v * (6 * s - 4)),
+        s * s * (3 - 2 * s) + v * (6 - 12 * s),
+        h * (v * (6 * s - 2) - s * s * r),
+    )
 
 
 @part
 def interpolate(
-    y0: Floats, dy0: Floats, y1: Floats, dy1: Floats, h: float, share: float, out: Floats
-) -> None:
+    y0: Floats, dy0: Floats, y1: Floats, dy1: Floats, h: float, share: float, spread: float,
+    out: Floats,
+) -> None:  # fmt: skip
     """Write the state within a step of h seconds: the cubic through both ends and their slopes.
 
     As much of it as ``out`` has room for. It errs by (w h)^4 / 384 of a motion's amplitude, w
-    being its frequency.
+    being its frequency. A ``spread`` makes it a mean, as ``hermite`` says.
     """
-    a, b, c, d = hermite(h, share)
+    a, b, c, d = hermite(h, share, spread)
     for j in range(out.shape[0]):
         out[j] = a * y0[j] + b * dy0[j] + c * y1[j] + d * dy1[j]
     to_unit(out)

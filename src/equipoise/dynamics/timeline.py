@@ -72,13 +72,15 @@ def timeline(
     errors: Samples | None = None,
     error_mass: Ints | None = None,
     at_nodes: bool = True,
+    cut: Series1 | None = None,
 ) -> Timeline:
-    """Return the grid for sensors that looked at these times (s)."""
+    """Return the grid for sensors that looked at these times (s), with nodes at every ``cut``."""
     seen = np.concatenate([attitude_t, rate_t])
     start, end = float(seen.min()), float(seen.max())
     knots = [corners(c, start, end) for c in (masses, momentum, torque, errors)]
     firm = seen if at_nodes else np.array([start, end])
-    t = fill(np.unique(np.concatenate([firm, *knots])), longest)
+    inner = np.zeros(0) if cut is None else cut
+    t = fill(np.unique(np.concatenate([firm, inner, *knots])), longest)
     owners = np.zeros(0, dtype=np.int64) if error_mass is None else error_mass
     inputs = ((momentum, 3), (torque, 3), (masses, n_masses), (errors, len(owners)))
     return Timeline(

@@ -34,6 +34,7 @@ class Fitted:
     at: Evaluation
     converged: bool
     evaluations: int
+    jumps: Floats  # (K - 1, a) in the order of the problem's
 
 
 def residual_of(fitted: Fitted) -> Residual:

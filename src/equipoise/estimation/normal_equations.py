@@ -1,11 +1,15 @@
 """Normal equations of the trajectory residuals, in one compiled pass along the record.
 
-    e_q = log( q_pred^-1 (x) q_meas ) / sd,      de_q/dp = -dth/dp / sd
-    e_w = ( w_meas - w_pred - b ) / sd,          de_w/dp = -dw/dp / sd,  de_w/db = -1 / sd
+    e_q = log( q_said^-1 (x) q_meas ) / sd,      de_q/dp = -dth/dp / sd
+    e_w = ( w_meas - w_said ) / sd,              de_w/dp = -(E + M) dw/dp / sd,  de_w/db = -1 / sd
+
+q_said and w_said are what ``sensors.camera`` and ``sensors.gyro`` make of the attitude and rate.
 
 The attitude residual is the rotation vector from prediction to measurement, in body axes: it keeps
 the sign that Ivanov 2021 Eq. 3.1 loses by squaring quaternion differences. With equal noise about
 all axes its gradient is exact although the Jacobian leaves out terms in e_q itself.
+
+A record is summed stretch by stretch: each begins at a state of its own.
 
 Robust: a residual vector longer than ``limit`` counts linearly (Huber), not with its square.
 """
@@ -24,12 +28,24 @@ from equipoise.dynamics.propagation import (
     steady,
     step_from,
 )
-from equipoise.dynamics.regressor import WIDTH, Triple
-from equipoise.dynamics.rigid_body import ROWS, Body, Six, body_at, body_within, drifts, times
-from equipoise.dynamics.sensitivities import BLOCK, LANES, room_for
+from equipoise.dynamics.regressor import WIDTH
+from equipoise.dynamics.rigid_body import (
+    ROWS,
+    Body,
+    Now,
+    Six,
+    body_at,
+    body_within,
+    drifts,
+    rate_of,
+    times,
+)
+from equipoise.dynamics.sensitivities import BLOCK, LANES, Nine, dot, room_for
 from equipoise.maths.compiled import kernel, part
-from equipoise.maths.turns import turn
+from equipoise.maths.turns import Triple, to_body, turn, turned
 from equipoise.model.arrays import Floats, Ints
+from equipoise.sensors.camera import DELAY, column, less_cross, said, seeing
+from equipoise.sensors.gyro import entry, gyro_matrix
 
 SPAN = 3 * LANES  # numbers in a block of three rows of sensitivities
 
@@ -41,10 +57,14 @@ class Seen(NamedTuple):
     attitude_node: Ints
     attitude_share: Floats  # of the step behind the node
     attitude_sd: float  # rad
+    attitude_spread: float  # s^2, variance of the moments of which a row is the mean
     rate: Floats  # (n_w, 3) rad/s
     rate_node: Ints
     rate_share: Floats
     rate_sd: float  # rad/s
+    rate_spread: float  # s^2
+    forward: Triple  # body axis whose heading counts
+    terms: Ints  # coefficients of the sensors that are sought
 
 
 @part
@@ -106,9 +126,9 @@ def add_row(S: Floats, e: Triple, weight: float, normal: Floats, descent: Floats
 
 
 @part
-def turn_rows(work: Pass, h: float, share: float, scale: float, S: Floats) -> None:
+def turn_rows(work: Pass, h: float, share: float, spread: float, scale: float, S: Floats) -> None:
     """Write dth/dp within a step of h seconds, times ``scale``."""
-    a, b, c, d = hermite(h, share)
+    a, b, c, d = hermite(h, share, spread)
     a, b, c, d = scale * a, scale * b, scale * c, scale * d
     for k in range(work.fb.shape[0] // BLOCK):
         i, S_k = ROWS + k * BLOCK, S[k * SPAN : (k + 1) * SPAN]
@@ -119,18 +139,58 @@ def turn_rows(work: Pass, h: float, share: float, scale: float, S: Floats) -> No
 
 
 @part
-def rate_rows(inverse: Six, y: Floats, fb: Floats, scale: float, n: int, S: Floats) -> None:
-    """Write dw/dp = J^-1 (dH - f) of n columns, and dw/db behind them, times ``scale``."""
+def spot(c: int) -> int:
+    """Return where the first of three rows of a column is."""
+    return c // LANES * SPAN + c % LANES
+
+
+@part
+def camera_rows(
+    seen: Seen, sensor: Floats, w: Triple, n: int, scale: float, q: Floats, S: Floats
+) -> None:
+    """Turn q into what the camera says, and the rows behind n columns into those of q_said."""
+    for j in range(seen.terms.shape[0]):
+        if seen.terms[j] == DELAY:
+            i = spot(n + j)
+            S[i], S[i + LANES], S[i + 2 * LANES] = -scale * w[0], -scale * w[1], -scale * w[2]
+    now = seeing(q, seen.forward, sensor)
+    along, by_turn = less_cross(now.by_heading, now.turn, 0.5), to_body(q, now.heading_by_turn)
+    for c in range(n + seen.terms.shape[0]):
+        i = spot(c)
+        x = (S[i], S[i + LANES], S[i + 2 * LANES])
+        size = x[0] * by_turn[0] + x[1] * by_turn[1] + x[2] * by_turn[2]
+        x = less_cross(x, now.turn, 1.0)
+        S[i] = x[0] + size * along[0]
+        S[i + LANES] = x[1] + size * along[1]
+        S[i + 2 * LANES] = x[2] + size * along[2]
+    for j in range(seen.terms.shape[0]):
+        if seen.terms[j] < DELAY:
+            i, x = spot(n + j), column(seen.terms[j], q, sensor, now)
+            S[i], S[i + LANES], S[i + 2 * LANES] = scale * x[0], scale * x[1], scale * x[2]
+    q[0], q[1], q[2], q[3] = said(q, sensor, now.turn)
+
+
+@part
+def rate_rows(
+    inverse: Six, y: Floats, fb: Floats, w: Triple, by: Nine, seen: Seen, scale: float, n: int,
+    S: Floats,
+) -> None:  # fmt: skip
+    """Write (E + M) dw/dp of n columns, dw = J^-1 (dH - f), and w and b behind them, scaled."""
     for k in range(fb.shape[0] // BLOCK):
         S_k, f = S[k * SPAN : (k + 1) * SPAN], fb[k * BLOCK : (k + 1) * BLOCK]
         dH = y[ROWS + k * BLOCK + SPAN : ROWS + (k + 1) * BLOCK]
         for c in range(LANES):
             x = (dH[c] - f[c], dH[c + LANES] - f[c + LANES], dH[c + 2 * LANES] - f[c + 2 * LANES])
-            dw = times(inverse, x)
+            dw = dot(by, times(inverse, x))
             S_k[c], S_k[c + LANES] = scale * dw[0], scale * dw[1]
             S_k[c + 2 * LANES] = scale * dw[2]
+    for j in range(seen.terms.shape[0]):
+        row, other = entry(seen.terms[j])
+        if row >= 0:
+            size = w[0] if other == 0 else (w[1] if other == 1 else w[2])
+            S[spot(n + j) + row * LANES] = scale * size
     for j in range(3):
-        S[(n + j) // LANES * SPAN + (n + j) % LANES + j * LANES] = scale
+        S[spot(n + seen.terms.shape[0] + j) + j * LANES] = scale
 
 
 @part
@@ -144,28 +204,34 @@ def weigh(e: Triple, limit: float, S: Floats, work: Pass, left: Floats) -> float
 
 @part
 def see_attitude(
-    work: Pass, h: float, share: float, seen: Floats, sd: float, limit: float, left: Floats
-) -> float:
+    work: Pass, seen: Seen, sensor: Floats, now: Now, h: float, share: float, n: int, row: int,
+    limit: float, left: Floats,
+) -> float:  # fmt: skip
     """Add a row of the camera that looked within a step; return its cost."""
-    q, scale = work.at[:4], 1.0 / sd
-    interpolate(work.y0, work.dy0, work.y, work.dy1, h, share, q)
-    e = turn(q, seen)
-    turn_rows(work, h, share, scale, work.S_q)
+    sensing = seen.terms.shape[0] > 0
+    scale, spread = 1.0 / seen.attitude_sd, seen.attitude_spread
+    at = share - sensor[DELAY] / h
+    q = work.at[:ROWS]
+    interpolate(work.y0, work.dy0, work.y, work.dy1, h, at, spread, q)
+    turn_rows(work, h, at, spread, scale, work.S_q)
+    if sensing:
+        camera_rows(seen, sensor, rate_of(now, q), n, scale, q, work.S_q)
+    e = turn(q, seen.attitude[row])
     return weigh((scale * e[0], scale * e[1], scale * e[2]), limit, work.S_q, work, left)
 
 
 @part
 def see_rate(
-    work: Pass, inverse: Six, w: Triple, bias: Floats, seen: Floats, sd: float, n: int,
+    work: Pass, now: Now, by: Nine, w: Triple, bias: Floats, seen: Seen, row: int, n: int,
     limit: float, left: Floats,
 ) -> float:  # fmt: skip
     """Add a row of the gyro, the state and the forcing being as it saw them; return its cost."""
-    scale = 1.0 / sd
-    rate_rows(inverse, work.at, work.fb, scale, n, work.S_w)
+    scale, x, r = 1.0 / seen.rate_sd, dot(by, w), seen.rate[row]
+    rate_rows(now.inverse, work.at, work.fb, w, by, seen, scale, n, work.S_w)
     e = (
-        scale * (seen[0] - w[0] - bias[0]),
-        scale * (seen[1] - w[1] - bias[1]),
-        scale * (seen[2] - w[2] - bias[2]),
+        scale * (r[0] - x[0] - bias[0]),
+        scale * (r[1] - x[1] - bias[1]),
+        scale * (r[2] - x[2] - bias[2]),
     )
     return weigh(e, limit, work.S_w, work, left)
 
@@ -180,24 +246,32 @@ def accumulate(
     columns: Columns,
     q0: Floats,
     w0: Floats,
+    sensor: Floats,
     bias: Floats,
     seen: Seen,
     limit: float,
+    stretch: tuple[int, int],
+    rows: tuple[int, int],
     work: Pass,
     left_q: Floats,
     left_w: Floats,
-) -> float:
-    """Sum the normal equations, write the residuals in units of sd, return half the cost."""
+) -> tuple[float, int, int]:
+    """Sum the normal equations of the steps from one node to another (``stretch``).
+
+    ``rows`` are the first camera and gyro row from there on. Write the residuals in units of sd;
+    return half the cost and the first rows of what follows. ``work.y`` is left at the end.
+    """
     y, y0, dy0, dy1, at, dy, total, regress, fb = work[:9]
     n, last = columns.kinds.shape[0], t.shape[0] - 2
     q_node, w_node, q_share, w_share = (seen.attitude_node, seen.rate_node, seen.attitude_share,
                                         seen.rate_share)  # fmt: skip
     work.normal[:], work.descent[:] = 0.0, 0.0
-    cost, iq, iw, moving, was_steady = 0.0, 0, 0, drifts(body), False
-    for i in range(last + 1):
+    cost, moving, was_steady, by = 0.0, drifts(body), False, gyro_matrix(sensor)
+    iq, iw = rows
+    for i in range(stretch[0], stretch[1]):
         is_steady = steady(known, i)
         fixed, here = is_steady and not moving, body_at(body, maps, t, known, i, 0.0)
-        if i == 0:
+        if i == stretch[0]:
             start(body, here, maps, t, known, owners, columns, i, q0, w0, y, regress, fb)
         if not (was_steady and is_steady):
             slope_at(body, here, maps, t, known, owners, columns, i, 0.0, y, regress, fb, dy1)
@@ -210,15 +284,13 @@ def accumulate(
         h, was_steady = t[i + 1] - t[i], is_steady
         while iq < q_node.shape[0] and (q_node[iq] == i or i == last):
             share = q_share[iq] if q_node[iq] == i else 1.0
-            cost += see_attitude(work, h, share, seen.attitude[iq], seen.attitude_sd, limit,
-                                 left_q[iq])  # fmt: skip
+            cost += see_attitude(work, seen, sensor, now, h, share, n, iq, limit, left_q[iq])
             iq += 1
         while iw < w_node.shape[0] and (w_node[iw] == i or i == last):
             share = w_share[iw] if w_node[iw] == i else 1.0
-            interpolate(y0, dy0, y, dy1, h, share, at)
+            interpolate(y0, dy0, y, dy1, h, share, seen.rate_spread, at)
             now = body_within(body, maps, t, known, i, share, fixed, here)
             w, _ = look(body, now, maps, t, known, owners, columns, i, share, at, regress, fb)
-            cost += see_rate(work, now.inverse, w, bias, seen.rate[iw], seen.rate_sd, n, limit,
-                             left_w[iw])  # fmt: skip
+            cost += see_rate(work, now, by, w, bias, seen, iw, n, limit, left_w[iw])
             iw += 1
-    return cost
+    return cost, iq, iw

@@ -2,7 +2,8 @@
 
 A point is one flat array
 
-    [ q0 (4) | w0 (3) | six (6) | com (3) | torque (16) | displacement errors | gyro bias (3) ]
+    [ q0 (4) | w0 (3) | six (6) | com (3) | torque (16) | sensors (24) | displacement errors
+      | gyro bias (3) ]
 
 with the inertia as the six numbers of ``maths.pseudo_inertia``, so that it is a body that can
 exist. A step is in physical coordinates (``unknowns``), where the residuals are nearly linear; one
@@ -26,7 +27,7 @@ from equipoise.maths.scaled_solve import factorise, solve
 from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints
 
-W, SIX, COM, TORQUE, ERROR = 4, 7, 13, 16, 32  # where a point keeps what is behind q0
+W, SIX, COM, TORQUE, SENSOR, ERROR = 4, 7, 13, 16, 32, 56  # where a point keeps what is behind q0
 J, R, BEHIND = 6, 12, 15  # first coordinate of J_P, of com, of what is behind it
 ATTEMPTS = 8  # chosen: at steps along a boundary that is bent
 
@@ -100,11 +101,11 @@ def inertia_P(point: Floats, mass: float) -> Six:
 def body_at_point(point: Floats, mass: float, gravity: float) -> Body:
     """Return the platform of a point as the propagator sees it."""
     x, y, z = com_of(point)
-    c = point[TORQUE:ERROR]
+    c = point[TORQUE:SENSOR]
     torque = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10], c[11], c[12],
               c[13], c[14], c[15])  # fmt: skip
     torqued = False
-    for k in range(ERROR - TORQUE):
+    for k in range(SENSOR - TORQUE):
         torqued |= c[k] != 0.0
     moment = (mass * x, mass * y, mass * z)
     return Body(mass, gravity, inertia_P(point, mass), moment, torqued, torque)

@@ -20,6 +20,7 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.camera import N_SENSOR
 
 WITH_GYRO = 0.3  # relative sd given to the testbed's inertia, chosen: a first CAD model
 WITHOUT = 1e-3  # chosen: firm
@@ -45,7 +46,7 @@ def start(
     turn = exponential(w0 * (first - motion.t[0]))
     return Unknowns(
         multiply(motion.q[0], turn), w0, pseudo_inertia.from_inertia(inertia_C), com,
-        np.zeros(N_TORQUES), np.zeros(len(layout.errors)), np.zeros(3),
+        np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(len(layout.errors)), np.zeros(3),
     )  # fmt: skip
 
 

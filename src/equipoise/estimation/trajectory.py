@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.estimation.conclusion import Fitted, conclude, residual_of
+from equipoise.estimation.jumps import UNCUT, Jump
 from equipoise.estimation.start import start
 from equipoise.estimation.trajectory_problem import (
     ANCHOR,
@@ -53,6 +54,8 @@ class Params:
     """What the fit is told."""
 
     terms: tuple[str, ...] = ()  # torques to estimate, by name
+    sensor: tuple[str, ...] = ()  # of what is wrong with the sensors, by name
+    jumps: tuple[Jump, ...] = UNCUT
     use_prior: bool = False  # the testbed's inertia and centre of mass, with their sd
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     robust: bool = False  # Huber's loss
@@ -62,7 +65,7 @@ class Params:
 def layout_of(recording: Recording, testbed: Testbed, params: Params) -> Layout:
     """Return the unknowns of a record; InputError if a held name is not among them."""
     errors = stops_of(recording, testbed).names
-    layout = Layout(params.terms, errors, recording.rate is not None)
+    layout = Layout(params.terms, errors, recording.rate is not None, params.sensor)
     for name in params.hold:
         if name not in layout.names[6:15]:
             wanted = nearest(name, list(layout.names[6:15]))
@@ -103,13 +106,13 @@ def problem_of(
     prior = prior_of(testbed, stops, layout, params.use_prior, hold, torque_anchor)
     limit = HUBER if params.robust else 0.0
     fastest = fastest_rate(recording)
-    return pose(recording, testbed, layout, stops, prior, fastest, limit, scale_open)
+    return pose(recording, testbed, layout, stops, prior, fastest, limit, scale_open, params.jumps)
 
 
 def settle(problem: Problem, point: Unknowns) -> Fitted:
     """Return the local optimum from a point."""
     found = descend(problem, point)
-    return Fitted(problem, found.point, found.at, found.converged, found.evaluations)
+    return Fitted(problem, found.point, found.at, found.converged, found.evaluations, found.jumps)
 
 
 def misfit(problem: Problem, point: Unknowns) -> float:

@@ -13,6 +13,7 @@ from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.estimation import descent
 from equipoise.estimation.descent import Posed
 from equipoise.estimation.normal_equations import Seen
+from equipoise.estimation.jumps import UNCUT, Jump, cuts_of, inside
 from equipoise.estimation.unknowns import (
     FIXED,
     JP,
@@ -20,14 +21,15 @@ from equipoise.estimation.unknowns import (
     Layout,
     R,
     Unknowns,
+    sensor_sizes,
     term_sizes,
     unknowns_of,
 )
 from equipoise.maths.linalg import element_sizes, pack_symmetric
-from equipoise.model.arrays import Floats, Series, Square
+from equipoise.model.arrays import Floats, Series, Square, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import seen_at, spread_of
 
 COARSE = 1e-4  # rad: what a camera of 0.2 deg makes of a thousand rows
 FINEST = 0.02  # rad
@@ -66,6 +68,7 @@ class Problem:
     prior: Prior
     limit: float  # Huber's, in sd; 0: none
     scale_open: bool  # nothing known changes: one moment of inertia is held for the search
+    jumps: tuple[Jump, ...] = UNCUT
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,6 +90,7 @@ class Solution:
     at: Evaluation
     converged: bool
     evaluations: int
+    jumps: Floats  # (K - 1, a)
 
 
 def columns_of(layout: Layout) -> Columns:
@@ -134,6 +138,8 @@ def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
     weight[JP], weight[R] = inertia**-2, (ANCHOR * testbed.com_sd) ** -2
     size = term_sizes(layout.terms, inertia, testbed.body.mass * testbed.gravity)
     weight[FIXED : FIXED + len(size)] = (torque_anchor * size) ** -2
+    sensor = FIXED + len(size) + len(layout.errors)
+    weight[sensor : sensor + len(layout.sensor)] = sensor_sizes(layout.sensor) ** -2
     return weight
 
 
@@ -154,6 +160,17 @@ def longest_step(testbed: Testbed, fastest: float, rows: int) -> float:
     return min(LONGEST_STEP, turn / max(fastest, np.sqrt(stiffness)))
 
 
+def forward_of(up: Vector3) -> tuple[float, float, float]:
+    """Return the body axis whose heading counts: the one of x, y, z farthest from vertical.
+
+    Of two alike the first; made level by taking out what points along ``up``.
+    """
+    axis = np.eye(3)[int(np.argmin(np.abs(up)))]
+    level = axis - float(axis @ up) * up
+    x, y, z = level / np.linalg.norm(level)
+    return float(x), float(y), float(z)
+
+
 def pose(
     recording: Recording,
     testbed: Testbed,
@@ -163,9 +180,11 @@ def pose(
     fastest: float,
     limit: float,
     scale_open: bool,
+    jumps: tuple[Jump, ...] = UNCUT,
 ) -> Problem:
     """Return the problem of a recording; ``fastest`` (rad/s) sets the integration step."""
     attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
+    jumps = inside(jumps, *recording.span)
     line = timeline(
         seen_at(attitude.t, testbed.attitude),
         seen_at(rate.t, testbed.gyro),
@@ -177,21 +196,26 @@ def pose(
         stops.felt,
         stops.owner,
         at_nodes=False,
+        cut=np.array([jump.t for jump in jumps]),
     )
     seen = Seen(
         np.ascontiguousarray(attitude.values if len(attitude) else np.zeros((0, 4))),
         line.attitude_node,
         line.attitude_share,
         testbed.attitude.noise if testbed.attitude else 1.0,
+        spread_of(testbed.attitude),
         np.ascontiguousarray(rate.values if len(rate) else np.zeros((0, 3))),
         line.rate_node,
         line.rate_share,
         testbed.gyro.noise if testbed.gyro else 1.0,
+        spread_of(testbed.gyro),
+        forward_of(testbed.up),
+        np.array(layout.sensor_index, dtype=np.int64),
     )
     maps = mass_maps(testbed.masses)
     columns = columns_of(layout)
     return Problem(testbed.body.mass, testbed.gravity, maps, stops, line, seen, layout, columns,
-                   prior, limit, scale_open)  # fmt: skip
+                   prior, limit, scale_open, jumps)  # fmt: skip
 
 
 def posed(problem: Problem) -> Posed:
@@ -199,23 +223,28 @@ def posed(problem: Problem) -> Posed:
     line, prior = problem.line, problem.prior
     return Posed(problem.mass, problem.gravity, stacked(problem.maps), line.t, line.known,
                  line.error_mass, problem.columns, problem.seen, problem.limit, prior.mean,
-                 prior.weight, prior.held, problem.layout.slots)  # fmt: skip
+                 prior.weight, prior.held, problem.layout.slots,
+                 cuts_of(problem.jumps, line.t, problem.layout))  # fmt: skip
 
 
-def descend(problem: Problem, point: Unknowns, most: int = MOST) -> Solution:
-    """Return the local optimum from a point."""
-    size, n_q, n_w = problem.layout.size, len(problem.seen.attitude), len(problem.seen.rate)
-    best = descent.Local(
-        point.flat, np.empty((size, size)), np.empty(size), np.empty((n_q, 3)), np.empty((n_w, 3))
-    )
-    ended = descent.descend(posed(problem), best, 3 * (n_q + n_w), most)
-    at = Evaluation(ended.cost, best.normal, best.descent, best.left_q, best.left_w)
-    return Solution(unknowns_of(best.point), at, ended.converged, ended.evaluations)
+def descend(
+    problem: Problem, point: Unknowns, most: int = MOST, jumps: Floats | None = None
+) -> Solution:
+    """Return the local optimum from a point; jumps count as zero unless told."""
+    size, as_posed = problem.layout.size, posed(problem)
+    best = descent.local_for(as_posed, point.flat)
+    if jumps is not None:
+        best.pieces.jumps[:] = jumps
+    normal, toward = np.eye(size), np.zeros(size)
+    ended = descent.descend(as_posed, best, most, normal, toward)
+    at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w)
+    return Solution(unknowns_of(best.point), at, ended.converged, ended.evaluations,
+                    best.pieces.jumps)  # fmt: skip
 
 
-def evaluate(problem: Problem, point: Unknowns) -> Evaluation:
+def evaluate(problem: Problem, point: Unknowns, jumps: Floats | None = None) -> Evaluation:
     """Return cost, information and descent in physical coordinates, data and priors together."""
-    return descend(problem, point, 1).at
+    return descend(problem, point, 1, jumps).at
 
 
 def changes(recording: Recording) -> bool:

@@ -3,7 +3,7 @@
 Physical coordinates, in which information and covariance are stated:
 
     [ turn of the first attitude (3) | first rate (3) | J_P xx yy zz xy xz yz | com (3)
-      | torque coefficients | displacement errors | gyro bias (3) ]
+      | torque coefficients | displacement errors | sensor coefficients | gyro bias (3) ]
 
 The inertia itself is kept as the six numbers of ``maths.pseudo_inertia``, so every point is a body
 that can exist. What a step does to a point is in ``point_steps``.
@@ -15,10 +15,10 @@ import numpy as np
 
 from equipoise.estimation import point_steps
 from equipoise.maths import pseudo_inertia
+from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats, Ints, Quaternion, Vector3, Vector6
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, from_centre
-from equipoise.model.torque_terms import TERMS, unit_of
 
 TURN, RATE, JP, R = slice(0, 3), slice(3, 6), slice(6, 12), slice(12, 15)
 FIXED = point_steps.BEHIND  # coordinates before torques, errors and bias
@@ -28,33 +28,45 @@ FIXED = point_steps.BEHIND  # coordinates before torques, errors and bias
 class Layout:
     """Which of the optional unknowns there are."""
 
-    terms: tuple[str, ...] = ()
+    terms: tuple[str, ...] = ()  # torques
     errors: tuple[str, ...] = ()
     bias: bool = False
+    sensor: tuple[str, ...] = ()  # of what is wrong with the sensors
 
     @property
     def size(self) -> int:
         """Return the number of unknowns."""
-        return FIXED + len(self.terms) + len(self.errors) + 3 * self.bias
+        return FIXED + len(self.terms) + len(self.errors) + len(self.sensor) + 3 * self.bias
 
     @property
     def names(self) -> tuple[str, ...]:
         """Return the names in physical coordinates."""
         first = ("attitude_x", "attitude_y", "attitude_z", "rate_x", "rate_y", "rate_z")
         bias = ("gyro_bias_x", "gyro_bias_y", "gyro_bias_z") if self.bias else ()
-        return (*first, *INERTIA, *COM, *self.terms, *self.errors, *bias)
+        return (*first, *INERTIA, *COM, *self.terms, *self.errors, *self.sensor, *bias)
 
     @property
     def units(self) -> tuple[str, ...]:
         """Return their units."""
         first = ("rad",) * 3 + ("rad/s",) * 3 + ("kg m2",) * 6 + ("m",) * 3
-        terms = tuple(unit_of(term) for term in self.terms)
-        return first + terms + ("m",) * len(self.errors) + ("rad/s",) * (3 * self.bias)
+        terms = tuple(torque_terms.unit_of(term) for term in self.terms)
+        errors, bias = ("m",) * len(self.errors), ("rad/s",) * (3 * self.bias)
+        return first + terms + errors + self.sensor_units + bias
+
+    @property
+    def sensor_units(self) -> tuple[str, ...]:
+        """Return the units of the sensors' coefficients."""
+        return tuple(sensor_terms.unit_of(term) for term in self.sensor)
 
     @property
     def torque_index(self) -> list[int]:
         """Return the columns of the torques among the sixteen."""
-        return [TERMS.index(term) for term in self.terms]
+        return [torque_terms.TERMS.index(term) for term in self.terms]
+
+    @property
+    def sensor_index(self) -> list[int]:
+        """Return where the sensors' coefficients stand among all of them."""
+        return [sensor_terms.TERMS.index(term) for term in self.sensor]
 
     @property
     def slots(self) -> Ints:
@@ -66,7 +78,8 @@ class Layout:
         bias = error + len(self.errors)
         slots = [*[-1] * 3, *range(w, w + 3), *[-1] * 6, *range(com, com + 3)]
         slots += [point_steps.TORQUE + k for k in self.torque_index]
-        slots += [*range(error, bias), *range(bias, bias + 3 * self.bias)]
+        slots += [*range(error, bias), *(point_steps.SENSOR + k for k in self.sensor_index)]
+        slots += range(bias, bias + 3 * self.bias)
         return np.array(slots, dtype=np.int64)
 
 
@@ -79,14 +92,15 @@ class Unknowns:
     six: Vector6  # of J_C, masses at home
     com: Vector3  # m, masses at home
     torque: Floats  # (16,)
+    sensor: Floats  # (24,)
     error: Floats  # (e,) m
     bias: Vector3  # rad/s
 
     @property
     def flat(self) -> Floats:
         """Return the point as the kernels keep it."""
-        parts = (self.q0, self.w0, self.six, self.com, self.torque, self.error, self.bias)
-        return np.concatenate(parts)
+        return np.concatenate([self.q0, self.w0, self.six, self.com, self.torque, self.sensor,
+                               self.error, self.bias])  # fmt: skip
 
     def body(self, mass: float) -> MassProperties:
         """Return the mass properties with the masses at home."""
@@ -95,7 +109,8 @@ class Unknowns:
 
 def unknowns_of(flat: Floats) -> Unknowns:
     """Return a point of the kernels by its parts: the inverse of ``Unknowns.flat``."""
-    cuts = (point_steps.W, point_steps.SIX, point_steps.COM, point_steps.TORQUE, point_steps.ERROR)
+    cuts = (point_steps.W, point_steps.SIX, point_steps.COM, point_steps.TORQUE,
+            point_steps.SENSOR, point_steps.ERROR)  # fmt: skip
     return Unknowns(*np.split(flat, (*cuts, len(flat) - 3)))
 
 
@@ -107,6 +122,11 @@ def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:
     """
     by_group = {"viscous": 0.1 * inertia, "quadratic": inertia, "sag": 1e-5, "drift": 1e-6}
     return np.array([by_group.get(term.split("_")[0], 1e-5 * weight) for term in terms])
+
+
+def sensor_sizes(terms: tuple[str, ...]) -> Floats:
+    """Return a size natural to each sensor coefficient: 0.1 rad, 0.1 s, a tenth."""
+    return np.full(len(terms), 0.1)
 
 
 def physical(point: Unknowns, mass: float, layout: Layout) -> Floats:

@@ -8,6 +8,8 @@ import numpy as np
 from equipoise.maths.compiled import part
 from equipoise.model.arrays import Floats
 
+Triple = tuple[float, float, float]
+
 NO_TURN = 1e-9  # rad; below it sin(x) / x is 1 to rounding
 
 
@@ -38,3 +40,22 @@ def turned(q: Floats, x: float, y: float, z: float) -> tuple[float, float, float
         w * b - i * d + j * c + k * a,
         w * d + i * b - j * a + k * c,
     )
+
+
+@part
+def to_laboratory(q: Floats, v: Triple) -> Triple:
+    """Return R v."""
+    w, x, y, z = q[0], q[1], q[2], q[3]
+    a, b, c = v
+    # t = 2 q_v x v,  R v = v + q_w t + q_v x t
+    t, u, s = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
+    return (a + w * t + y * s - z * u, b + w * u + z * t - x * s, c + w * s + x * u - y * t)
+
+
+@part
+def to_body(q: Floats, v: Triple) -> Triple:
+    """Return R^T v."""
+    w, x, y, z = q[0], q[1], q[2], q[3]
+    a, b, c = v
+    t, u, s = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
+    return (a - w * t + y * s - z * u, b - w * u + z * t - x * s, c - w * s + x * u - y * t)

@@ -1,0 +1,53 @@
+"""Where a trajectory may jump: contacts, parts that shift, slow changes, gaps nobody watched.
+
+A jump is an unknown of its own with a normal prior of mean zero; see ``stretches`` for how it is
+solved. Names are those of the layout's coordinates, sizes are one sd in SI.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.estimation.stretches import Cuts
+from equipoise.estimation.unknowns import Layout
+from equipoise.model.arrays import Floats, Series1
+
+TURN = ("attitude_x", "attitude_y", "attitude_z")
+RATE = ("rate_x", "rate_y", "rate_z")
+
+
+@dataclass(frozen=True, slots=True)
+class Jump:
+    """At this time these coordinates may change at once."""
+
+    t: float  # s
+    names: tuple[str, ...]
+    sd: tuple[float, ...]
+
+
+UNCUT: tuple[Jump, ...] = ()
+
+
+def inside(jumps: Iterable[Jump], start: float, end: float) -> tuple[Jump, ...]:
+    """Return the jumps within a record, in order of time, those of one time as one."""
+    together: dict[float, Jump] = {}
+    for jump in sorted(jumps, key=lambda j: j.t):
+        if start < jump.t < end:
+            before = together.get(jump.t, Jump(jump.t, (), ()))
+            together[jump.t] = Jump(jump.t, before.names + jump.names, before.sd + jump.sd)
+    return tuple(together.values())
+
+
+def cuts_of(jumps: tuple[Jump, ...], t: Series1, layout: Layout) -> Cuts:
+    """Return the cuts of a grid with nodes ``t`` that has a node at each jump."""
+    where = {name: k for k, name in enumerate(layout.names)}
+    most = max((len(jump.names) for jump in jumps), default=1)
+    free = np.full((len(jumps), most), -1, dtype=np.int64)
+    weight: Floats = np.zeros((len(jumps), most))
+    for k, jump in enumerate(jumps):
+        free[k, : len(jump.names)] = [where[name] for name in jump.names]
+        weight[k, : len(jump.names)] = np.array(jump.sd) ** -2.0
+    inner = np.searchsorted(t, [jump.t - 1e-9 for jump in jumps])
+    nodes = np.concatenate([[0], inner, [len(t) - 1]]).astype(np.int64)
+    return Cuts(nodes, free, weight)

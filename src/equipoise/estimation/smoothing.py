@@ -1,0 +1,108 @@
+"""What each stretch of a cut record says, at the optimum: the fixed-interval smoother, compiled.
+
+Backwards (``stretches``) every stretch k gets P_k and p_k, the information and the score that the
+rows from its beginning on carry about its unknowns. Forwards the covariance given all rows follows,
+
+    C_(k+1) = (F - E G) C_k (F - E G)^T + E M^-1 E^T,        cov u_k = M^-1 + G C_k G^T
+
+with G and M of the jump between them.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.estimation.descent import Local, Posed, local_for, look_along, stop_where_told
+from equipoise.estimation.normal_equations import pass_for
+from equipoise.estimation.stretches import (
+    STATE,
+    Chain,
+    Cuts,
+    Pieces,
+    absorb_jump,
+    carry,
+    carry_back,
+    chain_for,
+    count_free,
+)
+from equipoise.maths.compiled import kernel
+from equipoise.model.arrays import Floats
+
+
+class Smoothed(NamedTuple):
+    """What is known of every stretch."""
+
+    information: Floats  # (K, n, n) of the rows from here on, about the unknowns here
+    score: Floats  # (K, n)
+    covariance: Floats  # (K, n, n) given all rows
+    jump_covariance: Floats  # (K - 1, a, a)
+
+
+@kernel
+def look_back(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> Floats:
+    """Write information and score of every stretch; return M^-1 of every jump."""
+    n, last, a = pieces.descent.shape[1], cuts.free.shape[0], cuts.free.shape[1]
+    inverse = np.zeros((last, a, a))
+    for k in range(last, -1, -1):
+        if k < last:
+            absorb_jump(cuts, pieces, k, 0.0, chain)
+            m = count_free(cuts.free[k])
+            if m:
+                inverse[k, :m, :m] = np.linalg.inv(chain.crossed[:m, :m].copy())
+            carry_back(pieces.onward[k], chain)
+            carry(pieces.onward[k], chain.gain[k], m)
+        else:
+            chain.normal[:], chain.descent[:] = 0.0, 0.0
+        for i in range(n):
+            chain.descent[i] += pieces.descent[k, i]
+            for j in range(n):
+                chain.normal[i, j] += pieces.normal[k, i, j]
+        out.information[k] = chain.normal
+        out.score[k] = chain.descent
+    return inverse
+
+
+@kernel
+def look_ahead(
+    cuts: Cuts, pieces: Pieces, chain: Chain, inverse: Floats, first: Floats, out: Smoothed
+) -> None:
+    """Write the covariances, ``first`` being that of the first stretch."""
+    n = first.shape[0]
+    out.covariance[0] = first
+    for k in range(cuts.free.shape[0]):
+        m = count_free(cuts.free[k])
+        F = np.eye(n)
+        F[:STATE] = pieces.onward[k]
+        for i in range(m):
+            F[cuts.free[k, i]] -= chain.gain[k, i]
+        G = np.ascontiguousarray(chain.gain[k, :m])
+        before = np.ascontiguousarray(out.covariance[k])
+        out.covariance[k + 1] = F @ before @ F.T
+        out.jump_covariance[k, :m, :m] = inverse[k, :m, :m] + G @ before @ G.T
+        for i in range(m):
+            for j in range(m):
+                out.covariance[k + 1, cuts.free[k, i], cuts.free[k, j]] += inverse[k, i, j]
+
+
+@kernel
+def pieces_at(posed: Posed, at: Local) -> None:
+    """Write the local models of all stretches at a point and its jumps."""
+    n, size = posed.slots.shape[0], at.point.shape[0]
+    known = posed.known.copy()
+    stop_where_told(posed, at.point, known)
+    work = pass_for(posed.columns.kinds.shape[0], n)
+    look_along(posed, known, at, work, np.empty(n), np.empty(size), np.empty(size))
+
+
+def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothed:
+    """Return what is known of every stretch at an optimum; ``first`` is the covariance there."""
+    at = local_for(posed, point)
+    at.pieces.jumps[:] = jumps
+    pieces_at(posed, at)
+    n, (k, a) = len(posed.slots), posed.cuts.free.shape
+    out = Smoothed(np.zeros((k + 1, n, n)), np.zeros((k + 1, n)), np.zeros((k + 1, n, n)),
+                   np.zeros((k, a, a)))  # fmt: skip
+    chain = chain_for(posed.cuts, n)
+    inverse = look_back(posed.cuts, at.pieces, chain, out)
+    look_ahead(posed.cuts, at.pieces, chain, inverse, first, out)
+    return out

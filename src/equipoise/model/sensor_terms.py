@@ -1,0 +1,23 @@
+"""Names and units of what may be wrong with how sensors see the platform.
+
+Each is one coefficient that a fit may seek beside the torques (``sensors.camera`` and
+``sensors.gyro`` have the equations). Groups are what a person asks for by name.
+"""
+
+GROUPS: dict[str, tuple[str, ...]] = {
+    "plumb": ("plumb_x", "plumb_y"),
+    "heading2": tuple(f"heading2_{wave}_{axis}" for wave in ("cos", "sin") for axis in "xyz"),
+    "heading3": tuple(f"heading3_{wave}_{axis}" for wave in ("cos", "sin") for axis in "xyz"),
+    "camera_delay": ("camera_delay",),
+    "gyro_scale": ("gyro_xx", "gyro_yy", "gyro_zz"),
+    "gyro_cross": ("gyro_xy", "gyro_xz", "gyro_yx", "gyro_yz", "gyro_zx", "gyro_zy"),
+}
+TERMS: tuple[str, ...] = tuple(term for group in GROUPS.values() for term in group)
+UNITS: dict[str, str] = {
+    "plumb": "rad", "heading2": "rad", "heading3": "rad", "camera": "s", "gyro": "1",
+}  # fmt: skip
+
+
+def unit_of(term: str) -> str:
+    """Return the SI unit of a term's coefficient."""
+    return UNITS[term.split("_")[0]]

@@ -1,0 +1,33 @@
+"""What a gyro triad says of a rate, compiled.
+
+    w_said = (E + M) w + b         M: scale errors on the diagonal, misalignment beside it
+"""
+
+from equipoise.maths.compiled import part
+from equipoise.maths.turns import Triple
+from equipoise.model.arrays import Floats
+from equipoise.sensors.camera import GYRO
+
+Nine = tuple[float, float, float, float, float, float, float, float, float]
+
+
+@part
+def gyro_matrix(sensor: Floats) -> Nine:
+    """Return E + M by rows, from coefficients xx yy zz xy xz yx yz zx zy."""
+    k = GYRO
+    return (1.0 + sensor[k], sensor[k + 3], sensor[k + 4],
+            sensor[k + 5], 1.0 + sensor[k + 1], sensor[k + 6],
+            sensor[k + 7], sensor[k + 8], 1.0 + sensor[k + 2])  # fmt: skip
+
+
+@part
+def entry(term: int) -> tuple[int, int]:
+    """Return row and column in M of a coefficient; row -1 where it is not the gyro's."""
+    k = term - GYRO
+    if k < 0:
+        return -1, 0
+    if k < 3:
+        return k, k
+    row = (k - 3) // 2
+    other = (k - 3) % 2
+    return row, other if other < row else other + 1
