@@ -149,7 +149,7 @@ def jump(posed: Posed, k: int, jumps: Floats, step: Floats, here: Floats, out: F
     retract(here, step, posed.mass, posed.slots, out)
 
 
-@part
+@kernel  # not a part: smoothing calls it too
 def look_along(
     posed: Posed, known: Floats, at: Local, work: Pass, step: Floats, here: Floats, behind: Floats
 ) -> float:
@@ -167,6 +167,8 @@ def look_along(
             jump(posed, k - 1, pieces.jumps, step, here, behind)
             for j in range(here.shape[0]):
                 here[j] = behind[j]
+        for j in range(here.shape[0]):
+            pieces.points[k, j] = here[j]
         body = body_at_point(here, posed.mass, posed.gravity)
         stretch = (cuts.nodes[k], cuts.nodes[k + 1])
         of_data, iq, iw = accumulate(
@@ -255,8 +257,8 @@ def propose(
 def local_for(posed: Posed, point: Floats) -> Local:
     """Return a point with room for the local models there."""
     n_q, n_w = posed.seen.attitude.shape[0], posed.seen.rate.shape[0]
-    return Local(point.copy(), pieces_for(posed.cuts, posed.slots.shape[0]), np.zeros((n_q, 3)),
-                 np.zeros((n_w, 3)))  # fmt: skip
+    pieces = pieces_for(posed.cuts, posed.slots.shape[0], point.shape[0])
+    return Local(point.copy(), pieces, np.zeros((n_q, 3)), np.zeros((n_w, 3)))
 
 
 @kernel

@@ -29,6 +29,26 @@ class Jump:
 UNCUT: tuple[Jump, ...] = ()
 
 
+def walk(times: Series1, names: tuple[str, ...], sd: Floats) -> tuple[Jump, ...]:
+    """Return the jumps of process noise: at each time, each coordinate by its sd."""
+    return tuple(Jump(float(t), names, tuple(float(x) for x in sd)) for t in times)
+
+
+def carried(
+    old: tuple[Jump, ...], values: Floats, new: tuple[Jump, ...], wide: int
+) -> Floats:
+    """Return the values of new jumps, ``wide`` columns: those of old ones at the same time."""
+    known = {
+        (jump.t, name): value
+        for jump, row in zip(old, values, strict=True)
+        for name, value in zip(jump.names, row, strict=False)
+    }
+    out = np.zeros((len(new), wide))
+    for k, jump in enumerate(new):
+        out[k, : len(jump.names)] = [known.get((jump.t, name), 0.0) for name in jump.names]
+    return out
+
+
 def inside(jumps: Iterable[Jump], start: float, end: float) -> tuple[Jump, ...]:
     """Return the jumps within a record, in order of time, those of one time as one."""
     together: dict[float, Jump] = {}

@@ -36,6 +36,7 @@ class Smoothed(NamedTuple):
     score: Floats  # (K, n)
     covariance: Floats  # (K, n, n) given all rows
     jump_covariance: Floats  # (K - 1, a, a)
+    points: Floats  # (K, ...) where each stretch begins, as the kernels keep it
 
 
 @kernel
@@ -91,7 +92,8 @@ def pieces_at(posed: Posed, at: Local) -> None:
     known = posed.known.copy()
     stop_where_told(posed, at.point, known)
     work = pass_for(posed.columns.kinds.shape[0], n)
-    look_along(posed, known, at, work, np.empty(n), np.empty(size), np.empty(size))
+    step, here, behind = np.empty(n), np.empty(size), np.empty(size)
+    look_along(posed, known, at, work, step, here, behind)
 
 
 def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothed:
@@ -101,7 +103,7 @@ def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothe
     pieces_at(posed, at)
     n, (k, a) = len(posed.slots), posed.cuts.free.shape
     out = Smoothed(np.zeros((k + 1, n, n)), np.zeros((k + 1, n)), np.zeros((k + 1, n, n)),
-                   np.zeros((k, a, a)))  # fmt: skip
+                   np.zeros((k, a, a)), at.pieces.points)  # fmt: skip
     chain = chain_for(posed.cuts, n)
     inverse = look_back(posed.cuts, at.pieces, chain, out)
     look_ahead(posed.cuts, at.pieces, chain, inverse, first, out)

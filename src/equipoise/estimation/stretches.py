@@ -43,6 +43,7 @@ class Pieces(NamedTuple):
     descent: Floats  # (K, n) b
     onward: Floats  # (K - 1, 6, n) Phi
     jumps: Floats  # (K - 1, a) where the models were made
+    points: Floats  # (K, ...) the point at which each stretch begins
 
 
 class Chain(NamedTuple):
@@ -71,11 +72,11 @@ def chain_for(cuts: Cuts, n: int) -> Chain:
 
 
 @kernel
-def pieces_for(cuts: Cuts, n: int) -> Pieces:
-    """Return room for the local models."""
+def pieces_for(cuts: Cuts, n: int, size: int) -> Pieces:
+    """Return room for the local models by n unknowns of a point of that size."""
     k, a = cuts.free.shape
     return Pieces(np.zeros((k + 1, n, n)), np.zeros((k + 1, n)), np.zeros((k, STATE, n)),
-                  np.zeros((k, a)))  # fmt: skip
+                  np.zeros((k, a)), np.zeros((k + 1, size)))  # fmt: skip
 
 
 @part

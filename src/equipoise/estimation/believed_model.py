@@ -1,0 +1,130 @@
+"""A model of a record under survey: its noise, process noise and events, and the fit in it.
+
+Process noise is a torque that wanders, as white noise of density ``walk`` about each body
+axis; over a stretch of length dt it jumps the rate by walk_i sqrt(dt) / J_ii.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.estimation.conclusion import Fitted
+from equipoise.estimation.jumps import RATE, Jump, carried, inside, walk
+from equipoise.estimation.smoothing import Smoothed, smooth
+from equipoise.estimation.stretches import count_free
+from equipoise.estimation.trajectory import Params, problem_of
+from equipoise.estimation.trajectory_problem import descend, posed
+from equipoise.model.arrays import Floats, Series1, Square, Vector3
+from equipoise.model.estimate import COM
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+WIDE = {"impulse": 1.0, "com_step": 1e-3, "gap": 1.0}  # rad/s, m: sd of an event, chosen: any
+NAMES = {"impulse": RATE, "com_step": COM}
+MOST_COST = 12  # evaluations, chosen: from a neighbouring model it takes three or four
+
+
+@dataclass(frozen=True, slots=True)
+class Happening:
+    """An event that is believed in."""
+
+    t: float  # s
+    kind: str  # of NAMES
+
+    @property
+    def jump(self) -> Jump:
+        """Return what may jump then."""
+        names = NAMES[self.kind]
+        return Jump(self.t, names, (WIDE[self.kind],) * len(names))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Believed:
+    """A model of a record, and the fit in it."""
+
+    recording: Recording
+    testbed: Testbed  # with the noise as believed
+    params: Params  # without jumps
+    cuts: Series1  # s, where a look may find something
+    walk: Vector3  # N m sqrt(s)
+    events: tuple[Happening, ...]
+    fitted: Fitted
+
+    @property
+    def wanders(self) -> bool:
+        """Say whether there is process noise."""
+        return bool(np.any(self.walk > 0))
+
+    @property
+    def spacing(self) -> float:
+        """Return the time between cuts, s."""
+        return float(self.cuts[1] - self.cuts[0])
+
+
+def jumps_of(belief: Believed, cuts: Series1) -> tuple[Jump, ...]:
+    """Return the jumps of a model: process noise, events, and cuts where nothing may jump."""
+    at_event = [event.t for event in belief.events]
+    plain = cuts[[all(abs(t - s) > 1e-9 for s in at_event) for t in cuts]]
+    if belief.wanders:
+        moments = np.diag(belief.testbed.body.inertia_P)
+        sd = belief.walk * np.sqrt(belief.spacing) / moments
+        noise = walk(plain, RATE, sd)
+    else:
+        noise = tuple(Jump(float(t), (), ()) for t in plain)
+    return inside((*noise, *(event.jump for event in belief.events)), *belief.recording.span)
+
+
+def fitted_in(belief: Believed, cuts: Series1, most: int = 300) -> Fitted:
+    """Return the optimum of a model with these cuts, from where the belief stands."""
+    jumps = jumps_of(belief, cuts)
+    params = replace(belief.params, jumps=jumps)
+    problem = problem_of(belief.recording, belief.testbed, params)
+    before = belief.fitted
+    first = carried(before.problem.jumps, before.jumps, problem.jumps, width(problem.jumps))
+    found = descend(problem, before.point, most, first)
+    return Fitted(problem, found.point, found.at, found.converged, found.evaluations, found.jumps)
+
+
+def width(jumps: tuple[Jump, ...]) -> int:
+    """Return how many coordinates jump at most."""
+    return max((len(jump.names) for jump in jumps), default=1) or 1
+
+
+def refitted(belief: Believed) -> Believed:
+    """Return the belief at its optimum, with a cut only where something may jump."""
+    return replace(belief, fitted=fitted_in(belief, active(belief)))
+
+
+def active(belief: Believed) -> Series1:
+    """Return the cuts at which something may jump."""
+    return belief.cuts if belief.wanders else np.zeros(0)
+
+
+def covariance_of(normal: Square) -> Square:
+    """Return the inverse of an information matrix in any units."""
+    unit = 1 / np.sqrt(np.diag(normal))
+    return np.linalg.inv(normal * np.outer(unit, unit)) * np.outer(unit, unit)
+
+
+def smoothed(belief: Believed) -> tuple[Fitted, Smoothed]:
+    """Return the fit with every cut in it, and what is known of every stretch."""
+    fit = fitted_in(belief, belief.cuts, 1)
+    first = covariance_of(fit.at.normal)
+    return fit, smooth(posed(fit.problem), fit.point.flat, fit.jumps, first)
+
+
+def freedom(fit: Fitted, after: Smoothed) -> float:
+    """Return how many unknowns the jumps amount to: sum of 1 - posterior / prior variance."""
+    cuts = posed(fit.problem).cuts
+    total = 0.0
+    for free, weight, covariance in zip(
+        cuts.free, cuts.weight, after.jump_covariance, strict=True
+    ):
+        a = count_free(free)
+        total += a - float(np.sum(weight[:a] * np.diag(covariance)[:a]))
+    return total
+
+
+def misfits(fit: Fitted) -> tuple[Floats, Floats]:
+    """Return squared residual vectors of camera and gyro in sd."""
+    return np.sum(fit.at.left_q**2, axis=1), np.sum(fit.at.left_w**2, axis=1)

@@ -1,0 +1,21 @@
+"""Something that happened to the platform while it was watched: a touch, a part that shifted."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from equipoise.model.arrays import Matrix3, Vector3
+
+Kind = Literal["impulse", "com_step", "gap"]
+UNITS: dict[Kind, str] = {"impulse": "N m s", "com_step": "m", "gap": "rad/s"}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Event:
+    """One event; ``size`` is a jump of angular momentum about P, of com, or of rate over a gap."""
+
+    kind: Kind
+    t: float  # s
+    size: Vector3  # in UNITS; laboratory axes for an impulse, body axes otherwise
+    covariance: Matrix3
+    surprise: float  # chi-square of three degrees of freedom that it explains
+    azimuth: float | None = None  # rad, body place that was pushed up, from x towards y seen on top
