@@ -59,6 +59,7 @@ class SimulatedBench:
         inertia = pack_symmetric(truth.body.inertia_P)
         moment = truth.body.first_moment
         self._body = body_of(truth.body.mass, testbed.gravity, inertia, moment, truth.torque)
+        self._happens = times([*truth.contacts, *truth.com_steps])
         self._maps, self._rails = stacked(mass_maps(masses)), mass_maps(masses)
         self._travel, self._track = actuator.at_home(masses), actuator.track_home(masses)
         self._noise = start_noise(truth.noise_torque, truth.noise_correlation, self._noise_rng)
@@ -136,9 +137,8 @@ class SimulatedBench:
         start, now = self._node, self._time
         self._noise = extended(self._noise, now, self._noise_rng)
         seen = [looks_between(s, start, now) for s in (self._testbed.attitude, self._testbed.gyro)]
-        happens = times([*self.platform.contacts, *self.platform.com_steps])
         turns = tick(self._track.t + self.platform.mass_lag)
-        others = [turns, happens, multiples(ALWAYS, start, now)]
+        others = [turns, self._happens, multiples(ALWAYS, start, now)]
         if self._noise.sd > 0:
             others.append(self._noise.t)
         t = np.unique(np.concatenate([[start], *seen, *others]))

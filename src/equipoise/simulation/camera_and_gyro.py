@@ -47,7 +47,10 @@ def looks_between(sensor: Sensor | None, after: float, until: float) -> Series1:
 
 def outside(t: Series1, gaps: Sequence[Gap]) -> Bools:
     """Say which rows stamped ``t`` are not missing."""
-    return np.all([(t < gap.start) | (t > gap.end) for gap in gaps] or [t >= 0], axis=0)
+    kept = np.ones(len(t), dtype=np.bool_)
+    for gap in gaps:
+        kept &= (t < gap.start) | (t > gap.end)
+    return kept
 
 
 def camera_rows(q: Floats, sensor: AttitudeSensor, rng: np.random.Generator) -> Series4:

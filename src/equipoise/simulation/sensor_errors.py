@@ -69,4 +69,4 @@ def whole_angles(q: Series4, quantum: float) -> Series4:
 
 def whole(values: Floats, quantum: float) -> Floats:
     """Return values as multiples of a quantum (0: any)."""
-    return values if quantum == 0 else quantum * np.round(values / quantum)
+    return values if quantum == 0 else quantum * np.round(values / quantum) + 0.0  # no -0.0
