@@ -43,6 +43,25 @@ CASES = {
     "two numbers": ("[0, 0, -90]", "[0, -90]", "platform.com_um", ["[0, -90]", "list of 3"]),
     "four numbers": ("[0, 0, -90]", "[0, 0, 0, 0]", "platform.com_um", ["list of 3"]),
     "text in a list": ("[0, 0, -90]", '[0, 0, "-90 um"]', "platform.com_um[3]", ["'-90 um'"]),
+    "gap that ends early": (
+        "tilt_deg = 3",
+        "[[truth.gap]]\nstart_s = 3\nend_s = 2",
+        "truth.gap[1].end_s",
+        ["2 s", "starts at 3 s", "a later time"],
+    ),
+    "contact before all": (
+        "tilt_deg = 3",
+        "[[truth.contact]]\ntime_s = 0\nimpulse_N_m_s = [0, 0, 1]",
+        "truth.contact[1].time_s",
+        ["above 0", "in s"],
+    ),
+    "three plumbs": ("tilt_deg = 3", "plumb_deg = [1, 2, 3]", "truth.plumb_deg", ["list of 2"]),
+    "too many bad rows": (
+        "tilt_deg = 3",
+        "bad_rows_percent = 101",
+        "truth.bad_rows_percent",
+        ["at most 100"],
+    ),
     "lopsided inertia": (
         INERTIA,
         "[[0.3, 0.1, 0], [0, 0.5, 0], [0, 0, 0.7]]",

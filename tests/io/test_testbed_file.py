@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import asdict, is_dataclass
 
 import numpy as np
 import pytest
@@ -121,6 +122,94 @@ def test_truth_is_read_in_si() -> None:
     expected = np.diag([0.5, 0.5, 0.6]) + 10 * moved
     assert truth.inertia_P is not None
     np.testing.assert_allclose(truth.inertia_P, expected, rtol=1e-12, atol=1e-18)
+
+
+DEFECTS = """
+mass_lag_s = 0.025
+gyro_scale_percent = [1, -2, 0]
+gyro_misalignment_deg = [0, 180, 0]
+plumb_deg = [90, -180]
+heading2_cos_deg = [180, 0, 0]
+heading2_sin_deg = [0, 0, 90]
+bad_rows_percent = 2
+bad_row_deg = 18
+[[truth.contact]]
+time_s = 20
+impulse_N_m_s = [1e-3, 0, -2e-3]
+[[truth.contact]]
+time_s = 10
+impulse_N_m_s = [0, 0, 1e-3]
+[[truth.com_step]]
+time_s = 30
+com_um = [1, 2, -3]
+[[truth.gap]]
+start_s = 40
+end_s = 41
+"""
+
+
+def test_defects_are_read_in_si_and_in_order_of_time() -> None:
+    """Every unit once."""
+    truth = parse_testbed(MINIMAL + "[truth]" + DEFECTS, "t").truth
+    assert truth is not None
+    assert truth.mass_lag == 0.025
+    np.testing.assert_allclose(truth.gyro.scale, [0.01, -0.02, 0])
+    np.testing.assert_allclose(truth.gyro.turn, [0, math.pi, 0])
+    np.testing.assert_allclose(truth.camera.plumb, [math.pi / 2, -math.pi, 0])
+    np.testing.assert_allclose(truth.camera.heading_cos, [math.pi, 0, 0])
+    np.testing.assert_allclose(truth.camera.heading_sin, [0, 0, math.pi / 2])
+    assert truth.camera.bad_share == pytest.approx(0.02)
+    assert truth.camera.bad_turn == pytest.approx(math.pi / 10)
+    assert [each.time for each in truth.contacts] == [10, 20]
+    np.testing.assert_array_equal(truth.contacts[1].impulse, [1e-3, 0, -2e-3])
+    np.testing.assert_allclose(truth.com_steps[0].shift, [1e-6, 2e-6, -3e-6])
+    assert (truth.gaps[0].start, truth.gaps[0].end) == (40, 41)
+
+
+def test_defects_written_and_read_again_are_the_same() -> None:
+    """The whole table, by its numbers."""
+    first = parse_testbed(MINIMAL + "[truth]" + DEFECTS, "t")
+    again = parse_testbed(text_of(first), "t")
+    assert first.truth is not None
+    assert again.truth is not None
+    for name in ("mass_lag", "contacts", "com_steps", "gaps", "camera", "gyro"):
+        np.testing.assert_equal(asdict_of(getattr(again.truth, name)),
+                                asdict_of(getattr(first.truth, name)))  # fmt: skip
+
+
+def asdict_of(value):
+    """Return plain numbers and lists, rounded to 12 digits."""
+    if isinstance(value, tuple):
+        return [asdict_of(each) for each in value]
+    if is_dataclass(value):
+        return {key: asdict_of(each) for key, each in asdict(value).items()}
+    return [float(f"{x:.12g}") for x in np.atleast_1d(value)]
+
+
+def test_nothing_is_wrong_unless_told() -> None:
+    """A truth without defects has none."""
+    truth = parse_testbed(MINIMAL + "[truth]\n", "t").truth
+    assert truth is not None
+    assert truth.contacts == truth.com_steps == truth.gaps == ()
+    assert truth.mass_lag == truth.camera.bad_share == 0
+    assert not np.any([truth.camera.plumb, truth.camera.heading_cos, truth.camera.heading_sin])
+    assert not np.any([truth.gyro.scale, truth.gyro.turn])
+
+
+def test_last_digits_of_sensors_are_read_and_written() -> None:
+    """A quantum is known to whoever reads the sensor's data sheet."""
+    text = MINIMAL + (
+        "[sensor.attitude]\nrate_hz = 5\nnoise_deg = 0.1\nquantum_deg = 0.5\n"
+        "[sensor.gyro]\nrate_hz = 50\nnoise_deg_s = 0.1\nquantum_deg_s = 0.0625\n"
+    )
+    for testbed in (
+        parse_testbed(text, "t"),
+        parse_testbed(text_of(parse_testbed(text, "t")), "t"),
+    ):
+        assert testbed.attitude is not None
+        assert testbed.gyro is not None
+        assert testbed.attitude.quantum == pytest.approx(math.radians(0.5))
+        assert testbed.gyro.quantum == pytest.approx(math.radians(1 / 16))
 
 
 def test_disturbance_groups_expand_to_terms() -> None:

@@ -20,6 +20,7 @@ from equipoise.maths.attitude import (
     multiply,
     normalise,
     tilt,
+    to_euler321,
     to_matrix,
 )
 from equipoise.maths.linalg import skew
@@ -165,3 +166,17 @@ def test_tilt_of_another_axis_by_hand():
     assert tilt(ONE, np.array([0.0, 1.0, 0.0])) == pytest.approx(np.pi / 2)
     up = exponential(np.array([np.pi / 2, 0.0, 0.0]))
     assert tilt(up, np.array([0.0, 1.0, 0.0])) == pytest.approx(0.0, abs=1e-7)
+
+
+@given(vectors)
+def test_roll_pitch_and_yaw_lead_back(vector):
+    q = exponential(vector)
+    roll, pitch, yaw = to_euler321(q)
+    assert abs(pitch) <= np.pi / 2
+    assert_near(abs(from_euler321(roll, pitch, yaw) @ q), 1.0)
+
+
+def test_each_of_roll_pitch_and_yaw_is_its_own():
+    assert_near(np.array(to_euler321(from_euler321(0.3, -0.4, 2.5))), [0.3, -0.4, 2.5])
+    series = from_euler321(np.array([0.1, 0.2]), np.array([0.0, -1.0]), np.array([3.0, -3.0]))
+    assert_near(np.array(to_euler321(series)), [[0.1, 0.2], [0.0, -1.0], [3.0, -3.0]])

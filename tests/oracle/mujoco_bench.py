@@ -12,10 +12,13 @@ Three things that are easily got wrong, and are not here:
 
 The servos give way: a mass sags by at most g / SERVO^2 = 0.11 mm and lags the ramp by 7 ms. The
 run and its log hold where the masses *are*, not where they were told to be.
+
+A disturbing torque is a motor at the bearing whose axis belongs to the laboratory; viscous drag is
+the ball joint's damping, one coefficient per body axis.
 """
 
 # ruff: noqa: PT028 - testbed_for is no test, whatever its name suggests
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import mujoco
@@ -42,6 +45,7 @@ class Slide:
     mass: float  # kg
     home: Array  # m, from P
     axis: Array  # unit vector
+    servo: float = SERVO  # rad/s; the mass lags a ramp by 2 / servo, and sags by g / servo^2
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +59,7 @@ class Platform:
     gravity: float  # m/s^2
     q: Array  # initial attitude, scalar first, body to laboratory
     rate: Array  # rad/s, initial, body axes
+    viscous: Array = field(default_factory=lambda: np.zeros(3))  # N m s, torque -c_i w_i
 
     @property
     def tilt(self) -> float:
@@ -71,6 +76,11 @@ class Platform:
         """Return the rails' directions, (k, 3)."""
         return np.array([s.axis for s in self.slides]).reshape(-1, 3)
 
+    @cached_property
+    def servos(self) -> Array:
+        """Return the servos' frequencies, rad/s, (k,)."""
+        return np.array([s.servo for s in self.slides])
+
     def com_at(self, displacement: Array) -> Array:
         """Return the total centre of mass, m, with the masses displaced (m, (..., k))."""
         return self.com + (displacement * self.slide_mass) @ self.slide_axes / self.mass
@@ -78,11 +88,12 @@ class Platform:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ramp:
-    """A commanded move of all masses, together, along one smooth ramp."""
+    """A commanded move of all masses, together, along one ramp."""
 
     start: float  # s
     targets: Array  # m, displacement from home, (k,)
     speed: float = 0.010  # m/s, greatest speed of the mass that travels furthest
+    even: bool = False  # at constant speed, not smoothly
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -152,7 +163,7 @@ def _slide_text(slide: Slide, locked: bool) -> str:
 
 
 def _servo_text(slide: Slide) -> str:
-    kp, kv = slide.mass * SERVO**2, 2 * slide.mass * SERVO  # critically damped
+    kp, kv = slide.mass * slide.servo**2, 2 * slide.mass * slide.servo  # critically damped
     return f'<position joint="{slide.name}" kp="{kp:.17g}" kv="{kv:.17g}"/>'
 
 
@@ -162,6 +173,7 @@ def model_text(platform: Platform, dt: float, locked: bool = False) -> str:
     inertia = J[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     slides = "\n".join(_slide_text(s, locked) for s in platform.slides)
     servos = "" if locked else "\n".join(_servo_text(s) for s in platform.slides)
+    motors = "\n".join(f'<motor jointinparent="bearing" gear="{_text(e)} 0 0 0"/>' for e in EYE)
     return f"""<mujoco model="platform">
 <compiler angle="radian" inertiafromgeom="false"/>
 <option timestep="{dt:.17g}" gravity="0 0 {-platform.gravity:.17g}" integrator="RK4">
@@ -171,11 +183,16 @@ def model_text(platform: Platform, dt: float, locked: bool = False) -> str:
 <inertial pos="{_text(com)}" mass="{mass:.17g}" fullinertia="{_text(inertia)}"/>
 {slides}
 </body></worldbody>
-<actuator>{servos}</actuator>
+<actuator>{servos}{motors}</actuator>
 </mujoco>"""
 
 
 # --- running it -----------------------------------------------------------------------------------
+
+
+def smooth(share: Array) -> Array:
+    """Return the ramp from 0 to 1 that begins and ends without speed and acceleration."""
+    return 10 * share**3 - 15 * share**4 + 6 * share**5
 
 
 def command(platform: Platform, schedule: tuple[Ramp, ...], t: Array) -> Array:
@@ -188,9 +205,10 @@ def command(platform: Platform, schedule: tuple[Ramp, ...], t: Array) -> Array:
             raise ValueError(
                 f"a ramp starts at {ramp.start} s, the one before ends at {free_from} s"
             )
-        duration = PEAK * np.max(np.abs(ramp.targets - before)) / ramp.speed
+        way = np.max(np.abs(ramp.targets - before))
+        duration = (1.0 if ramp.even else PEAK) * way / ramp.speed
         s = np.clip((t - ramp.start) / duration, 0.0, 1.0)[:, None]
-        out += (10 * s**3 - 15 * s**4 + 6 * s**5) * (ramp.targets - before)
+        out += (s if ramp.even else smooth(s)) * (ramp.targets - before)
         before, free_from = ramp.targets, ramp.start + duration
     return out
 
@@ -198,13 +216,37 @@ def command(platform: Platform, schedule: tuple[Ramp, ...], t: Array) -> Array:
 def _start(platform: Platform, model: mujoco.MjModel, locked: bool) -> Array:
     """Return MuJoCo's initial state; the masses begin at rest where their servos hold them."""
     gravity_B = matrix(platform.q).T @ np.array([0.0, 0.0, -platform.gravity])
-    sag = np.array([] if locked else platform.slide_axes @ gravity_B / SERVO**2)
+    sag = np.array([] if locked else platform.slide_axes @ gravity_B / platform.servos**2)
     data = mujoco.MjData(model)
     data.qpos[:] = np.concatenate([platform.q, sag])
     data.qvel[:] = np.concatenate([platform.rate, np.zeros_like(sag)])
     state = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS))
     mujoco.mj_getState(model, data, state, mujoco.mjtState.mjSTATE_FULLPHYSICS)
     return state
+
+
+def middles(duration: float, dt: float) -> Array:
+    """Return the middle of each step, s. A command and a torque are held over a step.
+
+    Taking a ramp's value at the step's beginning would make every move dt / 2 late.
+    """
+    return (np.arange(round(duration / dt)) + 0.5) * dt
+
+
+def driven(platform: Platform, wanted: Array, torque: Array, dt: float = 1e-3) -> OracleRun:
+    """Run the platform under commands, one row for each step.
+
+    ``wanted`` are displacements, m, (n, k), or (n, 0) to weld the masses at home; ``torque`` acts
+    on the platform, N m, (n, 3), in laboratory axes.
+    """
+    locked = not wanted.shape[1]
+    model = mujoco.MjModel.from_xml_string(model_text(platform, dt, locked))
+    model.dof_damping[:3] = platform.viscous
+    start = _start(platform, model, locked)
+    control = np.hstack([wanted, torque])[None]
+    states, _ = rollout.rollout(model, mujoco.MjData(model), start[None], control)
+    rows = np.vstack([start, states[0]])
+    return _run(platform, np.arange(len(rows)) * dt, rows[:, 1:], wanted.shape[1])
 
 
 def simulate(
@@ -214,23 +256,12 @@ def simulate(
     dt: float = 1e-3,
     locked: bool = False,
 ) -> OracleRun:
-    """Run the platform for ``duration`` seconds; ``locked`` welds the masses at home.
-
-    A servo's command is held over a step, so it is given the ramp's value in mid-step: taking the
-    value at the step's beginning would make every move dt / 2 late.
-    """
+    """Run the platform for ``duration`` seconds; ``locked`` welds the masses at home."""
     if locked and schedule:
         raise ValueError("locked masses cannot be moved")
-    model = mujoco.MjModel.from_xml_string(model_text(platform, dt, locked))
-    n = round(duration / dt)
-    start = _start(platform, model, locked)
-    ctrl = None if locked else command(platform, schedule, (np.arange(n) + 0.5) * dt)[None]
-    if ctrl is None:
-        states, _ = rollout.rollout(model, mujoco.MjData(model), start[None], nstep=n)
-    else:
-        states, _ = rollout.rollout(model, mujoco.MjData(model), start[None], ctrl)
-    rows = np.vstack([start, states[0]])
-    return _run(platform, np.arange(n + 1) * dt, rows[:, 1:], 0 if locked else len(platform.slides))
+    t = middles(duration, dt)
+    wanted = np.zeros((len(t), 0)) if locked else command(platform, schedule, t)
+    return driven(platform, wanted, np.zeros((len(t), 3)), dt)
 
 
 def _run(platform: Platform, t: Array, rows: Array, free: int) -> OracleRun:
@@ -335,7 +366,7 @@ def _stable_targets(rng: np.random.Generator, platform: Platform) -> Array:
 # --- what the laboratory gets to see --------------------------------------------------------------
 
 
-def _every(run: OracleRun, rate: float) -> slice:
+def every(run: OracleRun, rate: float) -> slice:
     """Return the rows of a sensor at ``rate`` (Hz); its period must be whole steps."""
     dt = run.t[1] - run.t[0]
     stride = round(1 / (rate * dt))
@@ -358,12 +389,12 @@ def sensor_log(  # noqa: PLR0913, PLR0917 - each is a number of a sensor
 
     The attitude's noise is a small rotation in body axes. Displacements are exact.
     """
-    camera, encoder = _every(run, attitude_rate), _every(run, mass_rate)
+    camera, encoder = every(run, attitude_rate), every(run, mass_rate)
     noise = rng.normal(0.0, attitude_noise_rad, run.q[camera].shape[:1] + (3,))
     attitude = Samples(run.t[camera].copy(), product(run.q[camera], rotation(noise)))
     rate = None
     if gyro_rate is not None:
-        rows = _every(run, gyro_rate)
+        rows = every(run, gyro_rate)
         bias = np.zeros(3) if gyro_bias is None else gyro_bias
         seen = run.rate[rows] + bias + rng.normal(0.0, gyro_noise, run.rate[rows].shape)
         rate = Samples(run.t[rows].copy(), seen)

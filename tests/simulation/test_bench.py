@@ -6,6 +6,7 @@ import pytest
 from equipoise.io.presets import read_preset
 from equipoise.maths.attitude import from_euler321
 from equipoise.model.bench import Bench
+from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
 from equipoise.model.errors import InputError, MoveRefused
 from equipoise.model.recording import CHANNELS, join
 from equipoise.model.testbed import AttitudeSensor, Fault, Gyro
@@ -17,11 +18,16 @@ EVERYTHING = {"viscous_z": 1e-4, "drift_x": 1e-7, "swirl": 1e-5}
 
 
 def sputnix(delay=0.0, averaging=0.0):
-    """The preset with all that a bench can have: gyro, noise torque, drift, drag, play, faults."""
+    """The preset with all that a bench can have: gyro, noise torque, drift, play, every defect."""
     preset = read_preset("sputnix")
     truth = replace(
         preset.truth, torque=EVERYTHING, noise_torque=1e-5, noise_correlation=7.0,
         gyro_bias=np.full(3, 1e-3), faults=(Fault("z2", 0.5),),
+        mass_lag=0.07, gaps=(Gap(12.0, 12.5),),
+        contacts=(Contact(11.1, np.full(3, 1e-3)), Contact(12.0, np.full(3, -1e-3))),
+        com_steps=(ComStep(11.1, np.full(3, 1e-6)), ComStep(17.77, np.full(3, 2e-6))),
+        camera=CameraErrors(np.full(3, 1e-3), np.full(3, 1e-3), np.full(3, 1e-3), 0.1, 0.2),
+        gyro=GyroErrors(np.full(3, 0.01), np.full(3, 0.01)),
     )  # fmt: skip
     return replace(
         preset,
@@ -79,6 +85,7 @@ def test_how_it_is_read_changes_nothing(delay, averaging, step):
     other, parts = driven(testbed, 2, np.arange(0.0, 30.0, step))
     assert_same_sensors(whole, parts)
     np.testing.assert_array_equal(one.displacements, other.displacements)
+    np.testing.assert_array_equal(one.bad_rows, other.bad_rows)
     assert one.tilt_now() == pytest.approx(other.tilt_now(), abs=1e-12)
     # the same lines, though cuts add rows
     for a, b in ((whole, parts), (parts, whole)):

@@ -110,7 +110,8 @@ def _attitude(sensor: schema.Attitude | None) -> AttitudeSensor | None:
     if sensor is None:
         return None
     noise = sensor.noise_deg * DEG
-    return AttitudeSensor(sensor.rate_hz, noise, sensor.delay_s, sensor.averaging_s)
+    quantum = sensor.quantum_deg * DEG
+    return AttitudeSensor(sensor.rate_hz, noise, sensor.delay_s, sensor.averaging_s, quantum)
 
 
 def _gyro(sensor: schema.Gyro | None, where: str) -> Gyro | None:
@@ -122,8 +123,9 @@ def _gyro(sensor: schema.Gyro | None, where: str) -> Gyro | None:
         raise InputError(where, found, "one of 'noise_deg_s' and 'noise_density_deg_s_rthz'")
     per_sample = noise if density is None else density * math.sqrt(sensor.rate_hz)
     assert per_sample is not None  # one of the two is given, as checked above
-    bias = sensor.bias_sd_deg_s * DEG
-    return Gyro(sensor.rate_hz, per_sample * DEG, bias, sensor.delay_s, sensor.averaging_s)
+    bias, quantum = sensor.bias_sd_deg_s * DEG, sensor.quantum_deg_s * DEG
+    delay, averaging = sensor.delay_s, sensor.averaging_s
+    return Gyro(sensor.rate_hz, per_sample * DEG, bias, delay, averaging, quantum)
 
 
 def _assumed(table: schema.TestbedFile, source: str) -> dict[str, str]:

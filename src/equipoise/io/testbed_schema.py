@@ -64,6 +64,7 @@ class Attitude(Table):
     noise_deg: Positive = Field(description="one sd per axis and sample")
     delay_s: NotNegative = 0.0
     averaging_s: NotNegative = 0.0
+    quantum_deg: NotNegative = Field(0.0, description="last digit of roll, pitch, yaw (3-2-1)")
 
 
 class Gyro(Table):
@@ -75,6 +76,7 @@ class Gyro(Table):
     bias_sd_deg_s: NotNegative = Field(1.0, description="chosen: usual for a low-cost gyro")
     delay_s: NotNegative = 0.0
     averaging_s: NotNegative = 0.0
+    quantum_deg_s: NotNegative = Field(0.0, description="last digit of a rate")
 
 
 class Sensors(Table):
@@ -99,6 +101,27 @@ class Fault(Table):
     from_move: Annotated[int, Field(ge=1)] = 1
 
 
+class Contact(Table):
+    """The platform touches something for a moment."""
+
+    time_s: Positive
+    impulse_N_m_s: Triple = Field(description="about the centre of rotation, laboratory axes")
+
+
+class ComStep(Table):
+    """A part slips, once."""
+
+    time_s: Positive
+    com_um: Triple = Field(description="by how much the total centre of mass moves, body axes")
+
+
+class Gap(Table):
+    """Rows of camera and gyro that are missing, both ends included."""
+
+    start_s: NotNegative
+    end_s: Positive
+
+
 class Truth(Table):
     """What the simulated bench is made of; read by the simulator alone."""
 
@@ -120,7 +143,30 @@ class Truth(Table):
     noise_torque_N_m: NotNegative = 0.0
     noise_correlation_s: Positive = 30.0
     gyro_bias_deg_s: Triple = [0.0, 0.0, 0.0]
+    gyro_scale_percent: Triple = Field([0.0, 0.0, 0.0], description="each axis reads so much more")
+    gyro_misalignment_deg: Triple = Field(
+        [0.0, 0.0, 0.0], description="rotation vector from body axes to the gyro's"
+    )
+    plumb_deg: Pair = Field(
+        [0.0, 0.0], description="attitudes are seen turned by so much about laboratory x and y"
+    )
+    heading2_cos_deg: Triple = Field(
+        [0.0, 0.0, 0.0], description="turn of the seen attitude, times cos(2 heading); laboratory"
+    )
+    heading2_sin_deg: Triple = Field(
+        [0.0, 0.0, 0.0], description="turn of the seen attitude, times sin(2 heading); laboratory"
+    )
+    bad_rows_percent: Annotated[float, Field(ge=0, le=100)] = Field(
+        0.0, description="share of the camera's rows that are outliers"
+    )
+    bad_row_deg: Annotated[float, Field(ge=0, le=180)] = Field(
+        10.0, description="turn of an outlier about any axis, chosen: far outside any noise"
+    )
+    mass_lag_s: NotNegative = Field(0.0, description="masses are so far behind their report")
     fault: list[Fault] = []
+    contact: list[Contact] = []
+    com_step: list[ComStep] = []
+    gap: list[Gap] = []
 
 
 class TestbedFile(Table):

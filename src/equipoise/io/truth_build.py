@@ -5,6 +5,13 @@ import math
 import numpy as np
 
 from equipoise.io import testbed_schema as schema
+from equipoise.io.defects_build import (
+    camera_errors_of,
+    com_steps_of,
+    contacts_of,
+    gaps_of,
+    gyro_errors_of,
+)
 from equipoise.io.inertia_check import check_inertia
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.errors import InputError, nearest
@@ -48,6 +55,12 @@ def truth_of(table: schema.TestbedFile, guess: MassProperties, where: str) -> Tr
         noise_correlation=truth.noise_correlation_s,
         gyro_bias=np.array(truth.gyro_bias_deg_s, float) * DEG,
         faults=_faults(table, truth, where),
+        mass_lag=truth.mass_lag_s,
+        contacts=contacts_of(truth),
+        com_steps=com_steps_of(truth),
+        gaps=gaps_of(truth, where),
+        camera=camera_errors_of(truth),
+        gyro=gyro_errors_of(truth),
     )
 
 

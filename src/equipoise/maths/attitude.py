@@ -77,6 +77,18 @@ def from_euler321(roll: Floats, pitch: Floats, yaw: Floats) -> Floats:
     return multiply(turn(zero, zero, yaw), pitched)
 
 
+def to_euler321(q: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return roll, pitch and yaw (rad), the way back from ``from_euler321``; pitch within 90 deg.
+
+    At a pitch of 90 deg roll and yaw are not told apart: any two of the right difference come out.
+    """
+    w, x, y, z = np.moveaxis(q, -1, 0)
+    roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    pitch = np.arcsin(np.clip(2 * (w * y - x * z), -1.0, 1.0))
+    yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return roll, pitch, yaw
+
+
 def level(up: Vector3) -> Quaternion:
     """Return an attitude with the body axis ``up`` along the laboratory's vertical."""
     axis = np.cross(up, [0.0, 0.0, 1.0])

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
 from equipoise.model.mass_properties import MassProperties
 
 
@@ -33,6 +34,7 @@ class AttitudeSensor:
     noise: float  # rad, one sd per axis and sample
     delay: float = 0.0  # s
     averaging: float = 0.0  # s
+    quantum: float = 0.0  # rad, roll, pitch and yaw come in multiples of it; 0: as they are
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,6 +46,7 @@ class Gyro:
     bias_sd: float  # rad/s, how far its zero may be off
     delay: float = 0.0  # s
     averaging: float = 0.0  # s
+    quantum: float = 0.0  # rad/s, rates come in multiples of it; 0: as they are
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +76,12 @@ class Truth:
     noise_correlation: float  # s
     gyro_bias: Vector3  # rad/s
     faults: tuple[Fault, ...] = ()
+    mass_lag: float = 0.0  # s, by which masses are behind what is reported of them
+    contacts: tuple[Contact, ...] = ()
+    com_steps: tuple[ComStep, ...] = ()
+    gaps: tuple[Gap, ...] = ()
+    camera: CameraErrors = field(default_factory=CameraErrors)
+    gyro: GyroErrors = field(default_factory=GyroErrors)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -24,7 +24,7 @@ from equipoise.model.arrays import Floats, Series1
 from equipoise.model.errors import InputError
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
-from equipoise.model.testbed import Testbed
+from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from equipoise.simulation import actuator
 from equipoise.simulation.camera_and_gyro import (
     Sensor,
@@ -33,11 +33,14 @@ from equipoise.simulation.camera_and_gyro import (
     lead,
     looks,
     looks_between,
+    outside,
 )
-from equipoise.simulation.clock import multiples, samples, tick_one
+from equipoise.simulation.clock import multiples, samples, tick, tick_one
 from equipoise.simulation.draw_truth import draw_truth
-from equipoise.simulation.motion import Path, first_state, run
+from equipoise.simulation.events import com_moved, run_through, times
+from equipoise.simulation.motion import Path, first_state
 from equipoise.simulation.noise_torque import extended, forgotten, start_noise, torque_at
+from equipoise.simulation.sensor_errors import misfelt, misread, whole, whole_angles, with_bad_rows
 
 ALWAYS = 1.0  # s, chosen: a node at least so often, whatever the sensors do
 A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on when now is a node
@@ -47,14 +50,16 @@ class SimulatedBench:
     """A bench made of equations; see ``model.bench.Bench``. ``platform`` is what it really is."""
 
     def __init__(self, testbed: Testbed, seed: int) -> None:
-        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(5)]
-        rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams
+        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(6)]
+        rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
+        self._bad_rng, self._bad = streams[5], np.zeros(0)
         self._testbed, self._seed = testbed, seed
         self.platform = draw_truth(testbed, rng)
         truth, masses = self.platform, testbed.masses
         inertia = pack_symmetric(truth.body.inertia_P)
         moment = truth.body.first_moment
         self._body = body_of(truth.body.mass, testbed.gravity, inertia, moment, truth.torque)
+        self._happens = times([*truth.contacts, *truth.com_steps])
         self._maps, self._rails = stacked(mass_maps(masses)), mass_maps(masses)
         self._travel, self._track = actuator.at_home(masses), actuator.track_home(masses)
         self._noise = start_noise(truth.noise_torque, truth.noise_correlation, self._noise_rng)
@@ -104,14 +109,20 @@ class SimulatedBench:
         """Return the mass properties as the masses really stand now, elastic sag apart."""
         body, real = self.platform.body, self.displacements
         drift = self.platform.torque[DRIFT : DRIFT + 3] * self._time
-        com = body.com + drift + com_shift(self._rails, body.mass, real)
+        slipped = com_moved(self.platform.com_steps, self._time)
+        com = body.com + drift + slipped + com_shift(self._rails, body.mass, real)
         inertia = body.inertia_P + unpack_symmetric(inertia_shift(self._rails, real))
         return MassProperties(body.mass, com, inertia)
 
     @property
     def displacements(self) -> Floats:
         """Where the masses really are now, m from home."""
-        return actuator.displacement(self._travel, self._time)[actuator.REAL]
+        return self._real(np.array([self._time]))[0]
+
+    @property
+    def bad_rows(self) -> Series1:
+        """Stamps of the camera's rows so far that are outliers, s."""
+        return self._bad
 
     def tilt_now(self) -> float:
         """Return the angle between the axis that should point up and the vertical, rad."""
@@ -126,7 +137,8 @@ class SimulatedBench:
         start, now = self._node, self._time
         self._noise = extended(self._noise, now, self._noise_rng)
         seen = [looks_between(s, start, now) for s in (self._testbed.attitude, self._testbed.gyro)]
-        others = [self._track.t, multiples(ALWAYS, start, now)]
+        turns = tick(self._track.t + self.platform.mass_lag)
+        others = [turns, self._happens, multiples(ALWAYS, start, now)]
         if self._noise.sd > 0:
             others.append(self._noise.t)
         t = np.unique(np.concatenate([[start], *seen, *others]))
@@ -134,11 +146,17 @@ class SimulatedBench:
 
     def _follow(self, t: Series1) -> Path:
         """Return the motion along nodes, from where the state is kept."""
-        track = self._track
+        truth = self.platform
         known = np.zeros((len(t), 6 + len(self._testbed.masses)))
         known[:, 3:6] = torque_at(self._noise, t)
-        known[:, 6:] = actuator.lines(t, track.t, track.real)
-        return run(self._body, self._maps, self._state, t, known)
+        known[:, 6:] = self._real(t)
+        return run_through(
+            self._body, self._maps, self._state, t, known, truth.contacts, truth.com_steps
+        )
+
+    def _real(self, t: Series1) -> Floats:
+        """Return where the masses really are, m from home, (n, k)."""
+        return actuator.lines(t - self.platform.mass_lag, self._track.t, self._track.real)
 
     def _recording(self, t: Series1, path: Path, after: float, since: float) -> Recording:
         """Return the rows stamped after a time (s), masses since a time (s)."""
@@ -150,17 +168,30 @@ class SimulatedBench:
 
         attitude = rate = masses = None
         if testbed.attitude is not None:
-            stamps, q = seen(testbed.attitude, path.y[:, :4])
-            attitude = Samples(stamps, camera_rows(q, testbed.attitude, self._camera_rng))
+            attitude = self._attitude(*seen(testbed.attitude, path.y[:, :4]), testbed.attitude)
         if testbed.gyro is not None:
-            stamps, w = seen(testbed.gyro, path.rate)
-            bias = self.platform.gyro_bias
-            rate = Samples(stamps, gyro_rows(w, testbed.gyro, bias, self._gyro_rng))
+            rate = self._rate(*seen(testbed.gyro, path.rate), testbed.gyro)
         if names:
             start = max(since - self._lead, 0.0)
             masses = actuator.reported_rows(self._track, start, self._time)
         source = f"simulated {testbed.name}, seed {self._seed}"
         return Recording(attitude, rate, names, masses, source=source)
+
+    def _attitude(self, t: Series1, q: Floats, sensor: AttitudeSensor) -> Samples:
+        """Return the camera's rows stamped ``t`` from attitudes at its looks."""
+        errors = self.platform.camera
+        noisy = camera_rows(misread(q, errors, self._testbed.up), sensor, self._camera_rng)
+        rows, bad = with_bad_rows(noisy, errors, self._bad_rng)
+        kept = outside(t, self.platform.gaps)
+        self._bad = np.append(self._bad, t[bad & kept])
+        return Samples(t[kept], whole_angles(rows, sensor.quantum)[kept])
+
+    def _rate(self, t: Series1, w: Floats, sensor: Gyro) -> Samples:
+        """Return the gyro's rows stamped ``t`` from rates at its looks."""
+        truth = self.platform
+        rows = gyro_rows(misfelt(w, truth.gyro), sensor, truth.gyro_bias, self._gyro_rng)
+        kept = outside(t, truth.gaps)
+        return Samples(t[kept], whole(rows, sensor.quantum)[kept])
 
     def _advance(self, t: Series1, path: Path) -> None:
         """Keep the state now, and at the last node that no later row can look behind."""

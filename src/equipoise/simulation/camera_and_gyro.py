@@ -5,12 +5,17 @@ t - delay], by Gauss-Legendre quadrature with five looks; without averaging ther
 
     attitude   q (x) exp(noise)      mean attitude: mean rotation vector from the middle look
     rate       w + bias + noise
+
+What else is wrong with them is in ``sensor_errors``.
 """
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from equipoise.maths.attitude import difference, exponential, multiply
-from equipoise.model.arrays import Floats, Series1, Series3, Series4, Vector3
+from equipoise.model.arrays import Bools, Floats, Series1, Series3, Series4, Vector3
+from equipoise.model.defects import Gap
 from equipoise.model.testbed import AttitudeSensor, Gyro
 from equipoise.simulation.clock import samples, tick
 
@@ -38,6 +43,14 @@ def looks_between(sensor: Sensor | None, after: float, until: float) -> Series1:
         return np.zeros(0)
     t = looks(sensor, samples(sensor.rate, after, until + lead(sensor) + 1 / sensor.rate)).ravel()
     return t[(t > after) & (t <= until)]
+
+
+def outside(t: Series1, gaps: Sequence[Gap]) -> Bools:
+    """Say which rows stamped ``t`` are not missing."""
+    kept = np.ones(len(t), dtype=np.bool_)
+    for gap in gaps:
+        kept &= (t < gap.start) | (t > gap.end)
+    return kept
 
 
 def camera_rows(q: Floats, sensor: AttitudeSensor, rng: np.random.Generator) -> Series4:

@@ -10,13 +10,14 @@ What is given does not change what is drawn for the rest. The errors are laid on
 the centre of mass, as a drawn centre of mass would otherwise be paid for by the inertia.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import pi
 
 import numpy as np
 
 from equipoise.maths.attitude import exponential, from_euler321, level, multiply
 from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
+from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
 from equipoise.model.mass_properties import MassProperties, from_centre, smallest_second_moment
 from equipoise.model.testbed import Fault, Testbed, Truth
 from equipoise.model.torque_terms import TERMS
@@ -39,6 +40,12 @@ class SimulatedPlatform:
     noise_torque: float = 0.0  # N m, one sd per axis
     noise_correlation: float = 30.0  # s
     faults: tuple[Fault, ...] = ()
+    mass_lag: float = 0.0  # s
+    contacts: tuple[Contact, ...] = ()
+    com_steps: tuple[ComStep, ...] = ()
+    gaps: tuple[Gap, ...] = ()
+    camera: CameraErrors = field(default_factory=CameraErrors)
+    gyro: GyroErrors = field(default_factory=GyroErrors)
 
 
 def own_truth(testbed: Testbed) -> Truth:
@@ -95,4 +102,10 @@ def draw_truth(testbed: Testbed, rng: np.random.Generator) -> SimulatedPlatform:
         noise_torque=truth.noise_torque,
         noise_correlation=truth.noise_correlation,
         faults=truth.faults,
+        mass_lag=truth.mass_lag,
+        contacts=truth.contacts,
+        com_steps=truth.com_steps,
+        gaps=truth.gaps,
+        camera=truth.camera,
+        gyro=truth.gyro,
     )

@@ -1,0 +1,58 @@
+"""What can be wrong with a simulated bench beyond noise: its surroundings, camera, gyro and log."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from equipoise.model.arrays import Vector3
+
+
+def nothing() -> Vector3:
+    """Return zeros."""
+    return np.zeros(3)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contact:
+    """The platform touches something for a moment."""
+
+    time: float  # s
+    impulse: Vector3  # N m s, about P, laboratory axes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ComStep:
+    """A part slips: the centre of mass goes elsewhere, once."""
+
+    time: float  # s
+    shift: Vector3  # m, of the total centre of mass
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """Rows of the sensors that are missing, both ends included."""
+
+    start: float  # s
+    end: float  # s
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CameraErrors:
+    """Rotation vectors in laboratory axes, and outliers; psi is the heading.
+
+    measured = exp(plumb) (x) exp(heading_cos cos 2 psi + heading_sin sin 2 psi) (x) true
+    """
+
+    plumb: Vector3 = field(default_factory=nothing)  # rad, about the laboratory's x and y
+    heading_cos: Vector3 = field(default_factory=nothing)  # rad
+    heading_sin: Vector3 = field(default_factory=nothing)  # rad
+    bad_share: float = 0.0  # of the rows
+    bad_turn: float = 0.0  # rad, by which a bad row is turned about any axis
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GyroErrors:
+    """w_measured = (1 + scale) R(turn)^T w, before bias and noise."""
+
+    scale: Vector3 = field(default_factory=nothing)  # -, of each gyro axis
+    turn: Vector3 = field(default_factory=nothing)  # rad, of the gyro's axes from the body's

@@ -1,0 +1,71 @@
+"""What happens at a moment: the platform touches something, or a part of it slips.
+
+    contact   H_N += impulse         attitude and centre of mass go on as they were
+    slip      mu  += m shift         attitude and H go on as they were, and so does J: the part is
+                                     taken to slip by so little that m d^2 does not count
+
+An event is felt after its moment: the state and the rate at its node are those just before.
+"""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from equipoise.dynamics.rigid_body import Body
+from equipoise.maths.attitude import to_matrix
+from equipoise.model.arrays import Floats, Series1, Vector3
+from equipoise.model.defects import ComStep, Contact
+from equipoise.simulation.clock import tick, tick_one
+from equipoise.simulation.motion import Path, run
+
+Event = Contact | ComStep
+
+
+def times(events: Sequence[Event]) -> Series1:
+    """Return when events happen, s on the bench's clock."""
+    return tick(np.array([event.time for event in events], dtype=np.float64))
+
+
+def struck(y: Floats, contacts: Sequence[Contact], t: float) -> Floats:
+    """Return the state (7,) just after a moment (s) from that just before."""
+    now = [contact.impulse for contact in contacts if tick_one(contact.time) == t]
+    if not now:
+        return y
+    return np.append(y[:4], y[4:] + to_matrix(y[:4]).T @ np.sum(now, axis=0))
+
+
+def com_moved(steps: Sequence[ComStep], t: float) -> Vector3:
+    """Return how far the centre of mass has slipped just after a moment (s), m."""
+    return np.sum([step.shift for step in steps if tick_one(step.time) <= t] or [np.zeros(3)], 0)
+
+
+def slipped(body: Body, steps: Sequence[ComStep], t: float) -> Body:
+    """Return the body as it is just after a moment (s)."""
+    x, y, z = np.array(body.moment) + body.mass * com_moved(steps, t)
+    return body._replace(moment=(float(x), float(y), float(z)))
+
+
+def run_through(
+    body: Body,
+    maps: Floats,
+    y: Floats,
+    t: Series1,
+    known: Floats,
+    contacts: Sequence[Contact],
+    steps: Sequence[ComStep],
+) -> Path:
+    """Return the motion as ``motion.run`` does; events that happen on the way must be nodes."""
+    if not contacts and not steps:
+        return run(body, maps, y, t, known)
+    happens = np.isin(t[1:-1], times([*contacts, *steps]))
+    edges = [0, *(np.flatnonzero(happens) + 1), len(t) - 1]
+    path = Path(np.zeros((len(t), len(y))), np.zeros((len(t), 3)))
+    path.y[0] = y
+    for a, b in pairwise(edges):
+        start = struck(path.y[a], contacts, t[a])
+        part = run(slipped(body, steps, t[a]), maps, start, t[a : b + 1], known[a : b + 1])
+        path.y[a + 1 : b + 1], path.rate[a + 1 : b + 1] = part.y[1:], part.rate[1:]
+        if a == 0:
+            path.rate[0] = part.rate[0]
+    return path
