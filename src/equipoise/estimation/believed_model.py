@@ -128,3 +128,19 @@ def freedom(fit: Fitted, after: Smoothed) -> float:
 def misfits(fit: Fitted) -> tuple[Floats, Floats]:
     """Return squared residual vectors of camera and gyro in sd."""
     return np.sum(fit.at.left_q**2, axis=1), np.sum(fit.at.left_w**2, axis=1)
+
+
+def evidence(fit: Fitted, after: Smoothed) -> float:
+    """Return -2 ln of how probable the record is in a model, but for a constant.
+
+    All unknowns are integrated out about the optimum (Laplace's approximation):
+    2 cost + sum ln sd^2 over rows and jumps + ln det of the information on all unknowns.
+    """
+    seen, cuts = fit.problem.seen, posed(fit.problem).cuts
+    rows = 6 * (len(seen.attitude) * np.log(seen.attitude_sd) + len(seen.rate) * np.log(seen.rate_sd))
+    total = 2.0 * fit.at.cost + float(rows) + float(np.linalg.slogdet(fit.at.normal)[1])
+    for free, weight, firm in zip(cuts.free, cuts.weight, after.firm, strict=True):
+        a = count_free(free)
+        if a:
+            total -= float(np.sum(np.log(weight[:a])) + np.linalg.slogdet(firm[:a, :a])[1])
+    return total

@@ -37,19 +37,19 @@ class Smoothed(NamedTuple):
     covariance: Floats  # (K, n, n) given all rows
     jump_covariance: Floats  # (K - 1, a, a)
     points: Floats  # (K, ...) where each stretch begins, as the kernels keep it
+    firm: Floats  # (K - 1, a, a) M^-1: covariance of a jump when all before it is known
 
 
 @kernel
-def look_back(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> Floats:
-    """Write information and score of every stretch; return M^-1 of every jump."""
-    n, last, a = pieces.descent.shape[1], cuts.free.shape[0], cuts.free.shape[1]
-    inverse = np.zeros((last, a, a))
+def look_back(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> None:
+    """Write information and score of every stretch, and M^-1 of every jump."""
+    n, last = pieces.descent.shape[1], cuts.free.shape[0]
     for k in range(last, -1, -1):
         if k < last:
             absorb_jump(cuts, pieces, k, 0.0, chain)
             m = count_free(cuts.free[k])
             if m:
-                inverse[k, :m, :m] = np.linalg.inv(chain.crossed[:m, :m].copy())
+                out.firm[k, :m, :m] = np.linalg.inv(chain.crossed[:m, :m].copy())
             carry_back(pieces.onward[k], chain)
             carry(pieces.onward[k], chain.gain[k], m)
         else:
@@ -60,15 +60,14 @@ def look_back(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> Floats
                 chain.normal[i, j] += pieces.normal[k, i, j]
         out.information[k] = chain.normal
         out.score[k] = chain.descent
-    return inverse
 
 
 @kernel
 def look_ahead(
-    cuts: Cuts, pieces: Pieces, chain: Chain, inverse: Floats, first: Floats, out: Smoothed
+    cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: Smoothed
 ) -> None:
     """Write the covariances, ``first`` being that of the first stretch."""
-    n = first.shape[0]
+    n, inverse = first.shape[0], out.firm
     out.covariance[0] = first
     for k in range(cuts.free.shape[0]):
         m = count_free(cuts.free[k])
@@ -103,8 +102,8 @@ def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothe
     pieces_at(posed, at)
     n, (k, a) = len(posed.slots), posed.cuts.free.shape
     out = Smoothed(np.zeros((k + 1, n, n)), np.zeros((k + 1, n)), np.zeros((k + 1, n, n)),
-                   np.zeros((k, a, a)), at.pieces.points)  # fmt: skip
+                   np.zeros((k, a, a)), at.pieces.points, np.zeros((k, a, a)))  # fmt: skip
     chain = chain_for(posed.cuts, n)
-    inverse = look_back(posed.cuts, at.pieces, chain, out)
-    look_ahead(posed.cuts, at.pieces, chain, inverse, first, out)
+    look_back(posed.cuts, at.pieces, chain, out)
+    look_ahead(posed.cuts, at.pieces, chain, first, out)
     return out

@@ -24,18 +24,21 @@ import numpy as np
 from scipy.stats import chi2
 
 from equipoise.estimation.believed_model import (
+    WIDE,
     Believed,
     Happening,
+    active,
+    evidence,
     fitted_in,
     freedom,
     misfits,
     refitted,
-    active,
     smoothed,
 )
 from equipoise.estimation.conclusion import Fitted
 from equipoise.estimation.disturbances import disturbances
 from equipoise.estimation.model_choice import best_group, predicts_better, with_group
+from equipoise.estimation.jumps import RATE as RATE_NAMES
 from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.trajectory import Params, fastest_rate
 from equipoise.estimation.unknowns import RATE, R
@@ -54,6 +57,8 @@ BOLDEST = 5.0  # factor by which a noise is changed at once
 MOST_EVENTS = 40
 KINDS = {"impulse": RATE, "com_step": R}
 NEAR = 1.6  # spacings, chosen: events nearer than this may be one
+STEPS, ROUNDS = 8, 3
+PRICE = 9.0  # chosen: -2 ln probability that process noise about three axes must gain
 FEW = 4  # evaluations to compare neighbouring models by
 Refused = set[tuple[str, ...]]
 
@@ -209,17 +214,43 @@ def pruned(belief: Believed) -> Believed:
     return belief
 
 
-def without_walk(belief: Believed) -> Believed:
-    """Return the belief without process noise, if it then is no more surprised than it should be.
+def likelier(belief: Believed) -> Believed:
+    """Return the belief with noise and process noise one step nearer to the likeliest.
 
-    What remains is looked through once more: without process noise, small events show.
+    What a variance explains over what it is free to: sum u^2 / sd^2 over sum (1 - C / sd^2) for
+    jumps u of smoothed covariance C, and sum e^2 over the rows less all that was sought (the
+    fixed point of restricted maximum likelihood; MacKay 1992, Helmert 1924).
+    """
+    fit, after = smoothed(belief)
+    noise = [jump.names == RATE_NAMES and jump.sd[0] < 0.5 * WIDE["impulse"] for jump in fit.problem.jumps]
+    sd = np.array([jump.sd[:3] for jump, one in zip(fit.problem.jumps, noise, strict=True) if one])
+    u, spread = fit.jumps[noise, :3], np.einsum("kaa->ka", after.jump_covariance[noise, :3, :3])
+    told = np.maximum(np.sum(1 - spread / sd**2, axis=0), 1e-9)
+    walk = belief.walk * np.sqrt(np.sum(u**2 / sd**2, axis=0) / told)
+    camera, gyro = misfits(fit)
+    share = 1 - (freedom(fit, after) + fit.problem.layout.size) / (3 * (len(camera) + len(gyro)))
+    factors = [float(np.sqrt(np.mean(e) / 3 / max(share, 0.1))) if len(e) else 1.0 for e in (camera, gyro)]
+    return refitted(replace(belief, walk=walk, testbed=noisier(belief.testbed, *factors)))
+
+
+def weighed(belief: Believed) -> Believed:
+    """Return the belief with the likeliest noise and process noise, or without the latter.
+
+    The search begins at less process noise than the calibration left: of two that explain the
+    record, the one that leaves more to the sensors is as a rule the likelier.
     """
     if not belief.wanders:
         return belief
-    bare = refitted(replace(belief, walk=np.zeros(3)))
-    fit, after = smoothed(bare)
-    far = quiet(bare, np.array([jump.t for jump in fit.problem.jumps]))
-    return bare if excesses(after, far).max() < WRONG else belief
+    trial = refitted(replace(belief, walk=0.3 * belief.walk))
+    for _ in range(STEPS):
+        trial = likelier(trial)
+    bare = refitted(replace(trial, walk=np.zeros(3)))
+    for _ in range(3):
+        fit, after = smoothed(bare)
+        bare = refitted(replace(bare, testbed=noisier(bare.testbed, *noise_factors(bare, fit, after))))
+    worth = [evidence(*smoothed(model)) for model in (belief, trial, bare)]
+    worth[2] -= PRICE
+    return (belief, trial, bare)[int(np.argmin(worth))]
 
 
 def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Believed:
@@ -281,6 +312,9 @@ def survey(
 ) -> Believed:
     """Return the model that the record supports, and the fit in it."""
     belief = Believed(recording, testbed, params, cut_times(recording), np.zeros(3), (), fitted)
-    belief = settled(searched(belief))
-    bare = without_walk(belief)
-    return belief if bare.wanders == belief.wanders else settled(searched(bare))
+    for _ in range(ROUNDS):
+        before = len(belief.events)
+        belief = weighed(settled(searched(belief)))
+        if not belief.wanders or len(belief.events) == before:
+            break
+    return belief
