@@ -16,7 +16,7 @@ from equipoise.app.figures.balanced_com import Story
 from equipoise.app.figures.style import MOST, STYLE, thinned
 from equipoise.app.outputs import rendered
 from equipoise.app.pictures import of_balancing, of_fit, of_move, of_tracking
-from equipoise.estimation import trajectory
+from equipoise.estimation import reference, trajectory
 from equipoise.io.presets import read_preset
 from equipoise.model.recording import window
 from equipoise.simulation.bench import SimulatedBench
@@ -29,7 +29,7 @@ PNG = b"\x89PNG"
 def pictures():
     bench = SimulatedBench(BED, seed=1)
     recording, truth = looked(bench)
-    estimate = trajectory.estimate(recording, BED, trajectory.Params())
+    estimate = reference.estimate(recording, BED, trajectory.Params())
     looks = [(30.0, truth[1][0], np.full(3, 1e-6)), (90.0, truth[1][-1], np.full(3, np.inf))]
     story = Story(looks, np.array([0, 0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]), truth)
     found = [

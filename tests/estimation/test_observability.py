@@ -14,7 +14,9 @@ from equipoise.model.mass_properties import parallel_axis
 LAYOUT = Layout(("swirl",), ("error_x_1",), bias=True)
 N = LAYOUT.size
 J_C = unpack_symmetric(INERTIA) - parallel_axis(MASS, COM)
-POINT = Unknowns(ATTITUDE, RATE, from_inertia(J_C), COM, np.zeros(16), np.zeros(24), np.zeros(1), np.zeros(3))
+POINT = Unknowns(
+    ATTITUDE, RATE, from_inertia(J_C), COM, np.zeros(16), np.zeros(24), np.zeros(1), np.zeros(3)
+)
 SIZE = natural_sizes(POINT, MASS, LAYOUT)
 VALUES = physical(POINT, MASS, LAYOUT)
 SHARP = 1e6  # information that gives an sd of 1e-3 natural sizes
@@ -128,5 +130,7 @@ def test_natural_sizes_by_hand():
     assert by_name["inertia_P_xy"] == pytest.approx(INERTIA[:3].mean())
     assert by_name["com_x"] == pytest.approx(np.linalg.norm(COM))
     assert by_name["error_x_1"] == 1e-3
-    centred = Unknowns(ATTITUDE, RATE, POINT.six, np.zeros(3), np.zeros(16), np.zeros(24), np.zeros(1), RATE)
+    centred = Unknowns(
+        ATTITUDE, RATE, POINT.six, np.zeros(3), np.zeros(16), np.zeros(24), np.zeros(1), RATE
+    )
     assert natural_sizes(centred, MASS, LAYOUT)[R].tolist() == [1e-5] * 3

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from builders import COM, MASS, move_at, noisy, platform, recording
 
-from equipoise.estimation import trajectory
+from equipoise.estimation import reference, trajectory
 from equipoise.estimation.tracker import Params, first_state, track, track_again
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES
@@ -40,7 +40,7 @@ def start(gyro: float):
 def test_with_the_inertia_known_it_ends_where_the_fit_ends(gyro):
     """Centre of mass within one combined sd of the whole-record fit, on every axis."""
     known = replace(bed(gyro), inertia_sd=1e-6)
-    fit = trajectory.estimate(seen(gyro), known, trajectory.Params(use_prior=True))
+    fit = reference.estimate(seen(gyro), known, trajectory.Params(use_prior=True))
     found = tracked(gyro, Params())
     sd = np.sqrt(np.diag(fit.covariance_of(COM_NAMES)))
     assert np.all(np.abs(found.com[-1] - fit.com) < np.hypot(sd, found.com_sd[-1]))
@@ -60,7 +60,7 @@ def test_with_the_inertia_to_be_learnt_it_ends_where_the_fit_ends(gyro):
 
     Where the masses stopped is part of the tracker's centre of mass, so the fit's last one counts.
     """
-    fit = trajectory.estimate(seen(gyro), wrong(gyro), trajectory.Params(use_prior=True))
+    fit = reference.estimate(seen(gyro), wrong(gyro), trajectory.Params(use_prior=True))
     first = first_state(0.0, seen(gyro).attitude.values[0], wrong(gyro))
     found = track(seen(gyro), wrong(gyro), Params(com_walk=1e-10, torque_walk=1e-10), first)
     sd = np.sqrt(np.diag(fit.covariance_of((*END, *INERTIA))))

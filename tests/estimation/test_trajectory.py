@@ -20,7 +20,8 @@ from builders import (
 )
 
 from equipoise.estimation import unknowns
-from equipoise.estimation.trajectory import Params, estimate, fit
+from equipoise.estimation.reference import estimate
+from equipoise.estimation.trajectory import Params, fit
 from equipoise.estimation.unknowns import Unknowns, physical
 from equipoise.maths.attitude import difference, exponential, logarithm, multiply
 from equipoise.maths.linalg import inverse_spd

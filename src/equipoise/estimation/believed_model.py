@@ -8,20 +8,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.estimation.conclusion import Fitted
+from equipoise.estimation.fitted import MOST, Fitted, settle, smooth_at
 from equipoise.estimation.jumps import RATE, Jump, carried, inside, walk
-from equipoise.estimation.smoothing import Smoothed, smooth
+from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.stretches import count_free
 from equipoise.estimation.trajectory import Params, problem_of
-from equipoise.estimation.trajectory_problem import descend, posed
-from equipoise.model.arrays import Floats, Series1, Square, Vector3
+from equipoise.estimation.trajectory_problem import posed
+from equipoise.model.arrays import Floats, Series1, Vector3
 from equipoise.model.estimate import COM
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
 WIDE = {"impulse": 1.0, "com_step": 1e-3, "gap": 1.0}  # rad/s, m: sd of an event, chosen: any
 NAMES = {"impulse": RATE, "com_step": COM}
-MOST_COST = 12  # evaluations, chosen: from a neighbouring model it takes three or four
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +34,7 @@ class Happening:
     def jump(self) -> Jump:
         """Return what may jump then."""
         names = NAMES[self.kind]
-        return Jump(self.t, names, (WIDE[self.kind],) * len(names))
+        return Jump(self.t, names, (WIDE[self.kind],) * len(names), is_event=True)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,6 +48,7 @@ class Believed:
     walk: Vector3  # N m sqrt(s)
     events: tuple[Happening, ...]
     fitted: Fitted
+    stated: Testbed  # with the noise as it was told
 
     @property
     def wanders(self) -> bool:
@@ -58,7 +58,7 @@ class Believed:
     @property
     def spacing(self) -> float:
         """Return the time between cuts, s."""
-        return float(self.cuts[1] - self.cuts[0])
+        return float(self.cuts[1] - self.cuts[0]) if len(self.cuts) > 1 else 1.0
 
 
 def jumps_of(belief: Believed, cuts: Series1) -> tuple[Jump, ...]:
@@ -74,15 +74,14 @@ def jumps_of(belief: Believed, cuts: Series1) -> tuple[Jump, ...]:
     return inside((*noise, *(event.jump for event in belief.events)), *belief.recording.span)
 
 
-def fitted_in(belief: Believed, cuts: Series1, most: int = 300) -> Fitted:
+def fitted_in(belief: Believed, cuts: Series1, most: int = MOST) -> Fitted:
     """Return the optimum of a model with these cuts, from where the belief stands."""
     jumps = jumps_of(belief, cuts)
     params = replace(belief.params, jumps=jumps)
     problem = problem_of(belief.recording, belief.testbed, params)
     before = belief.fitted
     first = carried(before.problem.jumps, before.jumps, problem.jumps, width(problem.jumps))
-    found = descend(problem, before.point, most, first)
-    return Fitted(problem, found.point, found.at, found.converged, found.evaluations, found.jumps)
+    return settle(problem, before.point, first, most)
 
 
 def width(jumps: tuple[Jump, ...]) -> int:
@@ -100,29 +99,10 @@ def active(belief: Believed) -> Series1:
     return belief.cuts if belief.wanders else np.zeros(0)
 
 
-def covariance_of(normal: Square) -> Square:
-    """Return the inverse of an information matrix in any units."""
-    unit = 1 / np.sqrt(np.diag(normal))
-    return np.linalg.inv(normal * np.outer(unit, unit)) * np.outer(unit, unit)
-
-
 def smoothed(belief: Believed) -> tuple[Fitted, Smoothed]:
     """Return the fit with every cut in it, and what is known of every stretch."""
     fit = fitted_in(belief, belief.cuts, 1)
-    first = covariance_of(fit.at.normal)
-    return fit, smooth(posed(fit.problem), fit.point.flat, fit.jumps, first)
-
-
-def freedom(fit: Fitted, after: Smoothed) -> float:
-    """Return how many unknowns the jumps amount to: sum of 1 - posterior / prior variance."""
-    cuts = posed(fit.problem).cuts
-    total = 0.0
-    for free, weight, covariance in zip(
-        cuts.free, cuts.weight, after.jump_covariance, strict=True
-    ):
-        a = count_free(free)
-        total += a - float(np.sum(weight[:a] * np.diag(covariance)[:a]))
-    return total
+    return fit, smooth_at(fit)
 
 
 def misfits(fit: Fitted) -> tuple[Floats, Floats]:
@@ -137,7 +117,9 @@ def evidence(fit: Fitted, after: Smoothed) -> float:
     2 cost + sum ln sd^2 over rows and jumps + ln det of the information on all unknowns.
     """
     seen, cuts = fit.problem.seen, posed(fit.problem).cuts
-    rows = 6 * (len(seen.attitude) * np.log(seen.attitude_sd) + len(seen.rate) * np.log(seen.rate_sd))
+    rows = 6 * (
+        len(seen.attitude) * np.log(seen.attitude_sd) + len(seen.rate) * np.log(seen.rate_sd)
+    )
     total = 2.0 * fit.at.cost + float(rows) + float(np.linalg.slogdet(fit.at.normal)[1])
     for free, weight, firm in zip(cuts.free, cuts.weight, after.firm, strict=True):
         a = count_free(free)

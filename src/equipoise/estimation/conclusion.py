@@ -1,21 +1,21 @@
 """From an optimum to an estimate: covariance, intervals, what was not seen, and a sentence."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from equipoise import __version__
 from equipoise.actuators.sliding_masses import com_shift
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.estimation.fitted import Fitted, freedom, smooth_at
 from equipoise.estimation.observability import OPEN, Visibility, examine, natural_sizes, scale_of
 from equipoise.estimation.ratios import ratios_of
-from equipoise.estimation.trajectory_problem import Evaluation, Problem
-from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unknowns, physical
+from equipoise.estimation.smoothing import Smoothed
+from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, physical, unknowns_of
 from equipoise.maths.attitude import logarithm
 from equipoise.maths.linalg import lag_one
+from equipoise.maths.whiteness import portmanteau
 from equipoise.model.arrays import Floats
-from equipoise.model.estimate import END, Estimate, Parameter, Residual
+from equipoise.model.estimate import COM, END, Estimate, Parameter, Residual
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording
 
@@ -25,20 +25,8 @@ EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the mode
 CORE = slice(JP.start, R.stop)  # inertia and centre of mass
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Fitted:
-    """Where a fit ended."""
-
-    problem: Problem
-    point: Unknowns
-    at: Evaluation
-    converged: bool
-    evaluations: int
-    jumps: Floats  # (K - 1, a) in the order of the problem's
-
-
-def residual_of(fitted: Fitted) -> Residual:
-    """Return the statistics of what the model leaves."""
+def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
+    """Return the statistics of what the model leaves; its jumps amount to ``jumped`` unknowns."""
     at, seen = fitted.at, fitted.problem.seen
     left = at.left_q if len(at.left_q) else at.left_w
     square = float(np.sum(at.left_q**2) + np.sum(at.left_w**2))
@@ -51,8 +39,9 @@ def residual_of(fitted: Fitted) -> Residual:
         rms(at.left_q, seen.attitude_sd),
         rms(at.left_w, seen.rate_sd),
         square,
-        max(rows - fitted.problem.layout.size, 1),
+        max(round(rows - fitted.problem.layout.size - jumped), 1),
         lag_one(left),
+        portmanteau(left),
     )
 
 
@@ -72,8 +61,9 @@ def selection(layout: Layout) -> list[int]:
     return [*first, *range(RATE.start, RATE.stop), *range(TURN.start, TURN.stop)]
 
 
-def end_rows(fitted: Fitted) -> tuple[Floats, Floats] | None:
-    """Return com at the end, masses as they stand and drift included, and its derivative.
+def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | None:
+    """Return com at the end, masses as they stand, drift and steps included, and its derivative
+    by the unknowns of the last stretch.
 
     None where that is the com with the masses at home.
     """
@@ -83,8 +73,10 @@ def end_rows(fitted: Fitted) -> tuple[Floats, Floats] | None:
     d, felt = last[KNOWN_D : KNOWN_D + k], last[KNOWN_D + k :]
     drifts = [(j, FIXED + layout.terms.index(f"drift_{axis}")) for j, axis in enumerate("xyz")
               if f"drift_{axis}" in layout.terms]  # fmt: skip
-    if not (np.any(d) or drifts):
+    stepped = any(COM[0] in jump.names for jump in problem.jumps)
+    if not (np.any(d) or drifts or stepped):
         return None
+    com = fitted.point.com if after is None else unknowns_of(after.points[-1]).com
     rows, actual = np.zeros((3, layout.size)), d.copy()
     rows[:, R] = np.eye(3)
     for j, owner in enumerate(problem.stops.owner):
@@ -94,7 +86,7 @@ def end_rows(fitted: Fitted) -> tuple[Floats, Floats] | None:
     for j, column in drifts:
         rows[j, column] = seconds
     moved = seconds * fitted.point.torque[DRIFT : DRIFT + 3]
-    return fitted.point.com + moved + com_shift(problem.maps, problem.mass, actual), rows
+    return com + moved + com_shift(problem.maps, problem.mass, actual), rows
 
 
 def sentence_of(fitted: Fitted, residual: Residual, view: Visibility, factor: float) -> Outcome:
@@ -128,7 +120,7 @@ def sentence_of(fitted: Fitted, residual: Residual, view: Visibility, factor: fl
 
 
 def parameters_of(
-    fitted: Fitted, view: Visibility, factor: float
+    fitted: Fitted, view: Visibility, factor: float, after: Smoothed | None
 ) -> tuple[tuple[Parameter, ...], Floats]:
     """Return the named values with their covariance, in the order in which they are reported."""
     problem, layout = fitted.problem, fitted.problem.layout
@@ -137,11 +129,15 @@ def parameters_of(
     order = selection(layout)
     rows, labels = np.eye(layout.size)[order], [(layout.names[k], layout.units[k]) for k in order]
     reported = values[order]
-    end = end_rows(fitted)
+    end = end_rows(fitted, after)
+    fresh = np.zeros((len(rows) + 3, len(rows) + 3))
     if end is not None:
-        rows, reported = np.vstack([rows, end[1]]), np.append(reported, end[0])
+        last = end[1] if after is None else end[1] @ after.onward
+        rows, reported = np.vstack([rows, last]), np.append(reported, end[0])
         labels += [(name, "m") for name in END]
-    covariance = factor**2 * rows @ view.covariance @ rows.T
+        if after is not None:
+            fresh[-3:, -3:] = end[1] @ jumped_by_then(after) @ end[1].T
+    covariance = factor**2 * (rows @ view.covariance @ rows.T + fresh[: len(rows), : len(rows)])
     hidden = np.any(np.abs(rows[:, view.hidden]) > 0, axis=1)
     sd = np.where(hidden, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
     found = [
@@ -149,6 +145,11 @@ def parameters_of(
         for i, (name, unit) in enumerate(labels)
     ]
     return tuple(found), covariance
+
+
+def jumped_by_then(after: Smoothed) -> Floats:
+    """Return the covariance of the last stretch's unknowns that comes of the jumps alone."""
+    return after.covariance[-1] - after.onward @ after.covariance[0] @ after.onward.T
 
 
 def without_scale(view: Visibility, layout: Layout) -> Visibility:
@@ -171,9 +172,10 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
     view = examine(information, scale_of(values, size), size, layout.names)
     if problem.scale_open:
         view = without_scale(view, layout)
-    residual = residual_of(fitted)
+    after = smooth_at(fitted) if fitted.problem.jumps else None
+    residual = residual_of(fitted, freedom(fitted, after) if after else 0.0)
     factor = widening(residual)
-    parameters, covariance = parameters_of(fitted, view, factor)
+    parameters, covariance = parameters_of(fitted, view, factor, after)
     return Estimate(
         method,
         sentence_of(fitted, residual, view, factor),

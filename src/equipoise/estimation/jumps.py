@@ -24,6 +24,7 @@ class Jump:
     t: float  # s
     names: tuple[str, ...]
     sd: tuple[float, ...]
+    is_event: bool = False  # something that happened, not process noise
 
 
 UNCUT: tuple[Jump, ...] = ()
@@ -34,9 +35,7 @@ def walk(times: Series1, names: tuple[str, ...], sd: Floats) -> tuple[Jump, ...]
     return tuple(Jump(float(t), names, tuple(float(x) for x in sd)) for t in times)
 
 
-def carried(
-    old: tuple[Jump, ...], values: Floats, new: tuple[Jump, ...], wide: int
-) -> Floats:
+def carried(old: tuple[Jump, ...], values: Floats, new: tuple[Jump, ...], wide: int) -> Floats:
     """Return the values of new jumps, ``wide`` columns: those of old ones at the same time."""
     known = {
         (jump.t, name): value
@@ -55,7 +54,8 @@ def inside(jumps: Iterable[Jump], start: float, end: float) -> tuple[Jump, ...]:
     for jump in sorted(jumps, key=lambda j: j.t):
         if start < jump.t < end:
             before = together.get(jump.t, Jump(jump.t, (), ()))
-            together[jump.t] = Jump(jump.t, before.names + jump.names, before.sd + jump.sd)
+            names, sd = before.names + jump.names, before.sd + jump.sd
+            together[jump.t] = Jump(jump.t, names, sd, before.is_event or jump.is_event)
     return tuple(together.values())
 
 

@@ -23,7 +23,7 @@ from equipoise.estimation.believed_model import (
     width,
 )
 from equipoise.estimation.jumps import carried
-from equipoise.estimation.trajectory import problem_of
+from equipoise.estimation.trajectory import at_rest, problem_of
 from equipoise.estimation.trajectory_problem import Problem, changes, descend, evaluate
 from equipoise.estimation.unknowns import RATE, TURN, Unknowns, unknowns_of
 from equipoise.maths.attitude import exponential, multiply
@@ -93,9 +93,7 @@ def price(belief: Believed, group: tuple[str, ...]) -> float:
     return len(group) * float(np.log(rows))
 
 
-def best_group(
-    belief: Believed, refused: set[tuple[str, ...]]
-) -> tuple[tuple[str, ...], float]:
+def best_group(belief: Believed, refused: set[tuple[str, ...]]) -> tuple[tuple[str, ...], float]:
     """Return the group that gains most above its price, and that surplus."""
     open_to = [group for group in candidates(belief) if group not in refused]
     surplus = [gain(belief, group) - price(belief, group) for group in open_to]
@@ -116,11 +114,6 @@ def halves(belief: Believed) -> tuple[tuple[Recording, Unknowns], ...]:
     return (first, belief.fitted.point), (second, there)
 
 
-def at_rest(problem: Problem, point: Unknowns) -> Unknowns:
-    """Return a point with the displacement errors that this part of the record has, all zero."""
-    return replace(point, error=np.zeros(len(problem.layout.errors)))
-
-
 def unexplained(
     belief: Believed, learnt: tuple[Recording, Unknowns], asked: tuple[Recording, Unknowns]
 ) -> float:
@@ -129,7 +122,11 @@ def unexplained(
     known = descend(problem, at_rest(problem, learnt[1]), EVALUATIONS, jumps).point
     problem, jumps = posed_in(belief, asked[0])
     held = np.ones(problem.layout.size, dtype=bool)
-    held[TURN], held[RATE], held[problem.layout.size - 3 * problem.layout.bias :] = False, False, False
+    held[TURN], held[RATE], held[problem.layout.size - 3 * problem.layout.bias :] = (
+        False,
+        False,
+        False,
+    )
     problem = replace(problem, prior=replace(problem.prior, held=held))
     guess = replace(known, q0=asked[1].q0, w0=asked[1].w0)
     return 2.0 * descend(problem, at_rest(problem, guess), EVALUATIONS, jumps).at.cost

@@ -42,7 +42,7 @@ from equipoise.dynamics.rigid_body import (
 )
 from equipoise.dynamics.sensitivities import BLOCK, LANES, Nine, dot, room_for
 from equipoise.maths.compiled import kernel, part
-from equipoise.maths.turns import Triple, to_body, turn, turned
+from equipoise.maths.turns import Triple, to_body, turn
 from equipoise.model.arrays import Floats, Ints
 from equipoise.sensors.camera import DELAY, column, less_cross, said, seeing
 from equipoise.sensors.gyro import entry, gyro_matrix

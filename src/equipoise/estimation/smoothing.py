@@ -37,6 +37,7 @@ class Smoothed(NamedTuple):
     covariance: Floats  # (K, n, n) given all rows
     jump_covariance: Floats  # (K - 1, a, a)
     points: Floats  # (K, ...) where each stretch begins, as the kernels keep it
+    onward: Floats  # (n, n) of the unknowns at the beginning, those at the last stretch
     firm: Floats  # (K - 1, a, a) M^-1: covariance of a jump when all before it is known
 
 
@@ -63,9 +64,7 @@ def look_back(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> None:
 
 
 @kernel
-def look_ahead(
-    cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: Smoothed
-) -> None:
+def look_ahead(cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: Smoothed) -> None:
     """Write the covariances, ``first`` being that of the first stretch."""
     n, inverse = first.shape[0], out.firm
     out.covariance[0] = first
@@ -77,6 +76,7 @@ def look_ahead(
             F[cuts.free[k, i]] -= chain.gain[k, i]
         G = np.ascontiguousarray(chain.gain[k, :m])
         before = np.ascontiguousarray(out.covariance[k])
+        out.onward[:] = F @ out.onward
         out.covariance[k + 1] = F @ before @ F.T
         out.jump_covariance[k, :m, :m] = inverse[k, :m, :m] + G @ before @ G.T
         for i in range(m):
@@ -102,7 +102,7 @@ def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothe
     pieces_at(posed, at)
     n, (k, a) = len(posed.slots), posed.cuts.free.shape
     out = Smoothed(np.zeros((k + 1, n, n)), np.zeros((k + 1, n)), np.zeros((k + 1, n, n)),
-                   np.zeros((k, a, a)), at.pieces.points, np.zeros((k, a, a)))  # fmt: skip
+                   np.zeros((k, a, a)), at.pieces.points, np.eye(n), np.zeros((k, a, a)))  # fmt: skip
     chain = chain_for(posed.cuts, n)
     look_back(posed.cuts, at.pieces, chain, out)
     look_ahead(posed.cuts, at.pieces, chain, first, out)

@@ -19,28 +19,26 @@ the centre of mass only when the rows behind it swing.
 """
 
 from dataclasses import replace
+from itertools import count
 
 import numpy as np
 from scipy.stats import chi2
 
 from equipoise.estimation.believed_model import (
-    WIDE,
     Believed,
     Happening,
     active,
     evidence,
     fitted_in,
-    freedom,
     misfits,
     refitted,
     smoothed,
 )
-from equipoise.estimation.conclusion import Fitted
 from equipoise.estimation.disturbances import disturbances
+from equipoise.estimation.fitted import Fitted, freedom
 from equipoise.estimation.model_choice import best_group, predicts_better, with_group
-from equipoise.estimation.jumps import RATE as RATE_NAMES
 from equipoise.estimation.smoothing import Smoothed
-from equipoise.estimation.trajectory import Params, fastest_rate
+from equipoise.estimation.trajectory import Params
 from equipoise.estimation.unknowns import RATE, R
 from equipoise.model.arrays import Floats, Series1, Vector3
 from equipoise.model.recording import Recording
@@ -53,10 +51,12 @@ ROWS = 2  # camera rows between cuts
 WRONG = 1.4  # chosen: beyond this root of the median surprise over its due, process noise comes in
 CALM, CHANCE = 0.1, 3.0  # chosen: noise known to 10 % is known; 3 / sqrt(rows), five sd of a median
 CALIBRATIONS = 12
+BEST = 0.02  # chosen: no sensor is fifty times better than stated
 BOLDEST = 5.0  # factor by which a noise is changed at once
 MOST_EVENTS = 40
 KINDS = {"impulse": RATE, "com_step": R}
 NEAR = 1.6  # spacings, chosen: events nearer than this may be one
+FEWEST = 8  # cuts, chosen: below this a median says nothing
 STEPS, ROUNDS = 8, 3
 PRICE = 9.0  # chosen: -2 ln probability that process noise about three axes must gain
 FEW = 4  # evaluations to compare neighbouring models by
@@ -120,13 +120,16 @@ def is_known(factor: float, rows: int) -> bool:
     return abs(np.log(factor)) < max(CALM, CHANCE / np.sqrt(max(rows, 1)))
 
 
-def noisier(testbed: Testbed, camera: float, gyro: float) -> Testbed:
-    """Return the testbed with its noise changed by these factors."""
+def noisier(belief: Believed, camera: float, gyro: float) -> Testbed:
+    """Return the testbed with its noise changed by these factors, within reason."""
+    testbed, stated = belief.testbed, belief.stated
     attitude, rate = testbed.attitude, testbed.gyro
+    least_q = BEST * stated.attitude.noise if stated.attitude else 0.0
+    least_w = BEST * stated.gyro.noise if stated.gyro else 0.0
     return replace(
         testbed,
-        attitude=attitude and replace(attitude, noise=attitude.noise * camera),
-        gyro=rate and replace(rate, noise=rate.noise * gyro),
+        attitude=attitude and replace(attitude, noise=max(attitude.noise * camera, least_q)),
+        gyro=rate and replace(rate, noise=max(rate.noise * gyro, least_w)),
     )
 
 
@@ -139,12 +142,11 @@ def excesses(after: Smoothed, far: Floats) -> Vector3:
 
 def calibrated(belief: Believed) -> tuple[Believed, dict[str, Floats], Fitted]:
     """Return the belief with process noise and sensor noise as the record has them."""
-    for calibration in range(CALIBRATIONS + 1):
+    for calibration in count():
         belief = refitted(belief)
         fit, after = smoothed(belief)
         far = quiet(belief, np.array([jump.t for jump in fit.problem.jumps]))
-        surprise = surprises(far, after)
-        excess = excesses(after, far)
+        surprise, excess = surprises(far, after), excesses(after, far)
         if not belief.wanders and excess.max() > WRONG:
             belief = replace(belief, walk=np.full(3, first_walk(belief)))
             continue
@@ -152,12 +154,12 @@ def calibrated(belief: Believed) -> tuple[Believed, dict[str, Floats], Fitted]:
         steady = not belief.wanders or bool(np.all(np.abs(np.log(excess)) < CALM))
         camera, gyro = (len(rows) for rows in (fit.at.left_q, fit.at.left_w))
         known = is_known(factors[0], camera) and is_known(factors[1], gyro)
-        if (steady and known) or calibration == CALIBRATIONS:
-            break
+        if (steady and known) or calibration >= CALIBRATIONS:
+            return belief, surprise, fit
         bold = np.clip(excess, 1 / BOLDEST, BOLDEST)
-        testbed = noisier(belief.testbed, *np.clip(factors, 1 / BOLDEST, BOLDEST))
+        testbed = noisier(belief, *np.clip(factors, 1 / BOLDEST, BOLDEST))
         belief = replace(belief, walk=belief.walk * bold, testbed=testbed)
-    return belief, surprise, fit
+    raise AssertionError  # counting does not end
 
 
 def most_surprising(
@@ -222,15 +224,17 @@ def likelier(belief: Believed) -> Believed:
     fixed point of restricted maximum likelihood; MacKay 1992, Helmert 1924).
     """
     fit, after = smoothed(belief)
-    noise = [jump.names == RATE_NAMES and jump.sd[0] < 0.5 * WIDE["impulse"] for jump in fit.problem.jumps]
-    sd = np.array([jump.sd[:3] for jump, one in zip(fit.problem.jumps, noise, strict=True) if one])
+    noise = [bool(jump.names) and not jump.is_event for jump in fit.problem.jumps]
+    sd = np.array([jump.sd for jump, one in zip(fit.problem.jumps, noise, strict=True) if one])
     u, spread = fit.jumps[noise, :3], np.einsum("kaa->ka", after.jump_covariance[noise, :3, :3])
     told = np.maximum(np.sum(1 - spread / sd**2, axis=0), 1e-9)
     walk = belief.walk * np.sqrt(np.sum(u**2 / sd**2, axis=0) / told)
     camera, gyro = misfits(fit)
     share = 1 - (freedom(fit, after) + fit.problem.layout.size) / (3 * (len(camera) + len(gyro)))
-    factors = [float(np.sqrt(np.mean(e) / 3 / max(share, 0.1))) if len(e) else 1.0 for e in (camera, gyro)]
-    return refitted(replace(belief, walk=walk, testbed=noisier(belief.testbed, *factors)))
+    factors = [
+        float(np.sqrt(np.mean(e) / 3 / max(share, 0.1))) if len(e) else 1.0 for e in (camera, gyro)
+    ]
+    return refitted(replace(belief, walk=walk, testbed=noisier(belief, *factors)))
 
 
 def weighed(belief: Believed) -> Believed:
@@ -247,7 +251,7 @@ def weighed(belief: Believed) -> Believed:
     bare = refitted(replace(trial, walk=np.zeros(3)))
     for _ in range(3):
         fit, after = smoothed(bare)
-        bare = refitted(replace(bare, testbed=noisier(bare.testbed, *noise_factors(bare, fit, after))))
+        bare = refitted(replace(bare, testbed=noisier(bare, *noise_factors(bare, fit, after))))
     worth = [evidence(*smoothed(model)) for model in (belief, trial, bare)]
     worth[2] -= PRICE
     return (belief, trial, bare)[int(np.argmin(worth))]
@@ -307,12 +311,13 @@ def settled(belief: Believed) -> Believed:
     return pruned(timed(merged(belief))) if belief.events else belief
 
 
-def survey(
-    recording: Recording, testbed: Testbed, params: Params, fitted: Fitted
-) -> Believed:
+def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Believed:
     """Return the model that the record supports, and the fit in it."""
-    belief = Believed(recording, testbed, params, cut_times(recording), np.zeros(3), (), fitted)
-    for _ in range(ROUNDS):
+    cuts = cut_times(recording)
+    if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
+        cuts = np.zeros(0)
+    belief = Believed(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
+    for _ in range(ROUNDS if len(cuts) else 0):
         before = len(belief.events)
         belief = weighed(settled(searched(belief)))
         if not belief.wanders or len(belief.events) == before:

@@ -19,14 +19,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.estimation.conclusion import Fitted, conclude, residual_of
+from equipoise.estimation.fitted import Fitted, settle
 from equipoise.estimation.jumps import UNCUT, Jump
 from equipoise.estimation.start import start
 from equipoise.estimation.trajectory_problem import (
     ANCHOR,
     Problem,
     changes,
-    descend,
     evaluate,
     pose,
     prior_of,
@@ -35,15 +34,13 @@ from equipoise.estimation.trajectory_problem import (
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.estimate import INERTIA, Estimate, Residual
-from equipoise.model.outcome import Outcome
+from equipoise.model.estimate import INERTIA
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
 METHOD = "trajectory"
 CAPTURE = 0.5  # rad rms, chosen: beyond this the first guess is not followed to the end
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
-FEWEST = 4  # rows
 SHORTEST = 0.02  # of the record, the least part to begin with
 GUIDED = 0.1  # natural sizes of torques, on the way
 COARSE = 0.01  # rad, rad/s, chosen: half a degree
@@ -109,12 +106,6 @@ def problem_of(
     return pose(recording, testbed, layout, stops, prior, fastest, limit, scale_open, params.jumps)
 
 
-def settle(problem: Problem, point: Unknowns) -> Fitted:
-    """Return the local optimum from a point."""
-    found = descend(problem, point)
-    return Fitted(problem, found.point, found.at, found.converged, found.evaluations, found.jumps)
-
-
 def misfit(problem: Problem, point: Unknowns) -> float:
     """Return the rms residual vector in rad (with a camera) or rad/s."""
     at = evaluate(problem, point)
@@ -138,7 +129,7 @@ def approach(recording: Recording, testbed: Testbed, params: Params, point: Unkn
 
     def posed(share: float) -> tuple[Problem, Unknowns]:
         problem = problem_of(part(share), coarse, guided, GUIDED)
-        return problem, replace(point, error=np.zeros(len(problem.layout.errors)))
+        return problem, at_rest(problem, point)
 
     share = 1.0
     while share > SHORTEST and misfit(*posed(share)) > CAPTURE:
@@ -159,9 +150,9 @@ def coarsened(testbed: Testbed) -> Testbed:
     )
 
 
-def part_point(part: Recording, testbed: Testbed, params: Params, point: Unknowns) -> Unknowns:
-    """Return the point without the displacement errors that a part of the record cannot have."""
-    return replace(point, error=np.zeros(len(layout_of(part, testbed, params).errors)))
+def at_rest(problem: Problem, point: Unknowns) -> Unknowns:
+    """Return a point with the displacement errors that a part of a record has, all zero."""
+    return replace(point, error=np.zeros(len(problem.layout.errors)))
 
 
 def fit(
@@ -180,34 +171,3 @@ def fit(
     else:
         point = guess
     return settle(problem, point)
-
-
-def held_out(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Residual:
-    """Return the residual with what a fit of the first part predicts for the rest."""
-    residual = residual_of(fitted)
-    first, last = recording.span
-    cut = last - params.hold_out * (last - first)
-    part = window(recording, first, cut)
-    guess = part_point(part, testbed, params, fitted.point)
-    early = settle(problem_of(part, testbed, params), guess).point
-    ahead = replace(early, error=fitted.point.error)
-    at, seen = evaluate(fitted.problem, ahead), fitted.problem.seen
-    camera = len(at.left_q) > 0
-    rows = recording.attitude if camera else recording.rate
-    assert rows is not None
-    left = (at.left_q * seen.attitude_sd) if camera else (at.left_w * seen.rate_sd)
-    fresh = left[rows.t > cut]
-    rms = float(np.sqrt(np.mean(fresh**2))) if len(fresh) else None
-    return replace(residual, held_out_rms=rms, held_out_span=(cut, last))
-
-
-def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
-    """Return the estimate of a record, with its residual on a part that was held out."""
-    recording = arranged(recording, testbed.mass_names)
-    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
-    if rows < FEWEST:
-        outcome = Outcome(False, f"Only {rows} rows: nothing can be estimated.")
-        return Estimate(METHOD, outcome, (), np.zeros((0, 0)))
-    fitted = fit(recording, testbed, params)
-    concluded = conclude(fitted, METHOD, recording)
-    return replace(concluded, residual=held_out(recording, testbed, params, fitted))

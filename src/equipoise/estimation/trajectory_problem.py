@@ -12,8 +12,8 @@ from equipoise.dynamics.propagation import Columns, stacked
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.estimation import descent
 from equipoise.estimation.descent import Posed
-from equipoise.estimation.normal_equations import Seen
 from equipoise.estimation.jumps import UNCUT, Jump, cuts_of, inside
+from equipoise.estimation.normal_equations import Seen
 from equipoise.estimation.unknowns import (
     FIXED,
     JP,

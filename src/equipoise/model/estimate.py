@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
+from equipoise.model.event import Event
 from equipoise.model.outcome import Outcome
 
 COM = ("com_x", "com_y", "com_z")
@@ -44,6 +45,8 @@ class Residual:
     chi_square: float  # in units of the stated noise
     degrees_of_freedom: int
     lag_one: float  # correlation of neighbouring residuals; white: near 0
+    whiteness: float = 1.0  # probability of correlations as large as these, were it white noise
+    steady_rms: float | None = None  # rad or rad/s per axis, without process noise
     held_out_rms: float | None = None  # rad per axis (rad/s without attitude), predicted
     held_out_span: tuple[float, float] | None = None  # s
 
@@ -66,6 +69,8 @@ class Estimate:
     ratios: tuple[Parameter, ...] = ()  # what is known when the scale is open
     possible: bool = True  # some body can have these mass properties
     provenance: Mapping[str, str] = field(default_factory=dict[str, str])
+    events: tuple[Event, ...] = ()
+    unexplained: tuple[str, ...] = ()  # sentences: what the model leaves open, and what it might do
 
     def index(self, name: str) -> int:
         """Return where a parameter stands; KeyError if it is not among them."""

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.estimation import equilibrium, momentum, tracker, trajectory
+from equipoise.estimation import equilibrium, momentum, reference, tracker, trajectory
 from equipoise.maths.linalg import pack_symmetric
+from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import COM, END, INERTIA, Estimate, Parameter
@@ -41,24 +42,31 @@ def terms_of(testbed: Testbed, options: IdentifyOptions) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*testbed.disturbances, *options.terms)))
 
 
+def split(terms: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the torques and the sensors' terms among these, each in the package's order."""
+    torques = tuple(term for term in torque_terms.TERMS if term in terms)
+    return torques, tuple(term for term in sensor_terms.TERMS if term in terms)
+
+
 def by_trajectory(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Estimate:
     """Maximum likelihood."""
+    torques, sensors = split(terms_of(testbed, options))
     params = trajectory.Params(
-        terms_of(testbed, options), options.use_prior, options.hold, options.robust
+        torques, sensors, use_prior=options.use_prior, hold=options.hold, robust=options.robust
     )
-    return trajectory.estimate(recording, testbed, params)
+    return reference.estimate(recording, testbed, params)
 
 
 def by_momentum_body(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Estimate:
     """Momentum integral in body axes."""
-    return momentum.estimate(recording, testbed, "body", terms_of(testbed, options))
+    return momentum.estimate(recording, testbed, "body", split(terms_of(testbed, options))[0])
 
 
 def by_momentum_laboratory(
     recording: Recording, testbed: Testbed, options: IdentifyOptions
 ) -> Estimate:
     """Momentum integral in laboratory axes."""
-    return momentum.estimate(recording, testbed, "laboratory", terms_of(testbed, options))
+    return momentum.estimate(recording, testbed, "laboratory", split(terms_of(testbed, options))[0])
 
 
 def by_equilibrium(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Estimate:

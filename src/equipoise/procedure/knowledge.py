@@ -6,7 +6,8 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation import trajectory
-from equipoise.estimation.conclusion import Fitted, conclude
+from equipoise.estimation.conclusion import conclude
+from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.estimate import COM, END, Estimate

@@ -1,10 +1,9 @@
 """What a gyro triad says of a rate, compiled.
 
-    w_said = (E + M) w + b         M: scale errors on the diagonal, misalignment beside it
+w_said = (E + M) w + b         M: scale errors on the diagonal, misalignment beside it
 """
 
 from equipoise.maths.compiled import part
-from equipoise.maths.turns import Triple
 from equipoise.model.arrays import Floats
 from equipoise.sensors.camera import GYRO
 

@@ -1,0 +1,110 @@
+"""What a survey found, in sentences: how noisy, how driven, what is still open."""
+
+import numpy as np
+
+from equipoise.estimation.believed_model import Believed
+from equipoise.estimation.conclusion import CORE
+from equipoise.estimation.model_choice import candidates, posed_in, with_group
+from equipoise.estimation.trajectory import Params
+from equipoise.estimation.trajectory_problem import evaluate
+from equipoise.maths.linalg import inverse_spd
+from equipoise.model.arrays import Floats, Square
+
+NOISY = 1.3  # chosen: a noise off by more is told
+OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, untold
+DRIVEN = 0.5  # chosen: wandering torque over that of gravity, beyond which gravity tells nothing
+
+
+def noise_sentences(belief: Believed) -> list[str]:
+    """Say where sensors are noisier or quieter than stated."""
+    pairs = (
+        ("attitude", "deg", belief.testbed.attitude, belief.stated.attitude),
+        ("gyro", "deg/s", belief.testbed.gyro, belief.stated.gyro),
+    )
+    text: list[str] = []
+    for name, unit, found, stated in pairs:
+        if found is None or stated is None:
+            continue
+        factor = found.noise / stated.noise
+        if not 1 / NOISY < factor < NOISY:
+            size, said = np.degrees(found.noise), np.degrees(stated.noise)
+            text.append(f"The {name} noise is {size:.2g} {unit} a row, not {said:.2g} as stated.")
+    return text
+
+
+def added(belief: Believed, asked: Params) -> tuple[str, ...]:
+    """Return the terms that the record asked for by itself."""
+    have = {*asked.sensor, *asked.terms}
+    return tuple(t for t in (*belief.params.sensor, *belief.params.terms) if t not in have)
+
+
+def term_sentences(belief: Believed, asked: Params) -> list[str]:
+    """Say which terms were added."""
+    groups = dict.fromkeys(term.split("_")[0] for term in added(belief, asked))
+    if not groups:
+        return []
+    return [f"Terms that predict better on held-out rows were added: {', '.join(groups)}."]
+
+
+def gravity_torque(belief: Believed) -> float:
+    """Return a typical torque of gravity in the record, N m: rms over the camera's rows."""
+    seen, point = belief.fitted.problem.seen, belief.fitted.point
+    weight = belief.testbed.body.mass * belief.testbed.gravity
+    if not len(seen.attitude):
+        return weight * float(np.linalg.norm(point.com))
+    w, x, y, z = seen.attitude.T
+    down = -np.column_stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])
+    torque = np.cross(point.com, down) * weight
+    return float(np.sqrt(np.mean(np.sum((torque - torque.mean(axis=0)) ** 2, axis=1))))
+
+
+def slowest(belief: Believed) -> float:
+    """Return the time (s) within which gravity must tell: that of the swing, over 2 pi."""
+    body = belief.fitted.point.body(belief.testbed.body.mass)
+    stiffness = body.mass * belief.testbed.gravity * float(np.linalg.norm(body.com))
+    start, end = belief.recording.span
+    swing = float(np.sqrt(np.trace(body.inertia_P) / 3 / max(stiffness, 1e-12)))
+    return float(np.clip(swing, belief.spacing, end - start))
+
+
+def driven(belief: Believed) -> float:
+    """Return the wandering torque over a swing as a share of gravity's."""
+    size = float(np.linalg.norm(belief.walk)) / np.sqrt(slowest(belief))
+    return size / max(gravity_torque(belief), 1e-12)
+
+
+def walk_sentences(belief: Believed) -> list[str]:
+    """Say how large the torque is that nothing explains."""
+    if not belief.wanders:
+        return []
+    seconds = slowest(belief)
+    sizes = ", ".join(f"{1e6 * w / np.sqrt(seconds):.2g}" for w in belief.walk)
+    return [
+        f"A torque that no term explains wanders by {sizes} uN m about x, y, z within "
+        f"{seconds:.2g} s; intervals count it."
+    ]
+
+
+def core_sd(normal: Square) -> Floats:
+    """Return the sd of inertia and com from the information on all unknowns."""
+    return np.sqrt(np.diag(inverse_spd(normal)))[CORE]
+
+
+def open_sentences(belief: Believed) -> tuple[str, ...]:
+    """Say which absent terms the record could not tell from com or inertia.
+
+    With such a term free, an sd would be more than OPEN times what it is.
+    """
+    names, units = (x[CORE] for x in (belief.fitted.problem.layout.names,
+                                      belief.fitted.problem.layout.units))  # fmt: skip
+    firm, text = core_sd(belief.fitted.at.normal), list[str]()
+    for group in candidates(belief):
+        problem, jumps = posed_in(with_group(belief, group), belief.recording)
+        free = core_sd(evaluate(problem, belief.fitted.point, jumps).normal)
+        k = int(np.argmax(free / firm))
+        if free[k] > OPEN * firm[k]:
+            text.append(
+                f"{names[k]} is this firm only without a '{group[0].split('_')[0]}' term, which "
+                f"the record does not ask for: with one its sd would be {free[k]:.2g} {units[k]}."
+            )
+    return tuple(text)
