@@ -14,7 +14,7 @@ from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.stretches import count_free
 from equipoise.estimation.trajectory import Params, problem_of
 from equipoise.estimation.trajectory_problem import posed
-from equipoise.model.arrays import Floats, Series1, Vector3
+from equipoise.model.arrays import Floats, Series1, Square, Vector3
 from equipoise.model.estimate import COM
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -114,15 +114,21 @@ def evidence(fit: Fitted, after: Smoothed) -> float:
     """Return -2 ln of how probable the record is in a model, but for a constant.
 
     All unknowns are integrated out about the optimum (Laplace's approximation):
-    2 cost + sum ln sd^2 over rows and jumps + ln det of the information on all unknowns.
+    2 cost + sum ln sd^2 over rows, jumps and priors + ln det of the information on all unknowns.
     """
-    seen, cuts = fit.problem.seen, posed(fit.problem).cuts
-    rows = 6 * (
-        len(seen.attitude) * np.log(seen.attitude_sd) + len(seen.rate) * np.log(seen.rate_sd)
-    )
-    total = 2.0 * fit.at.cost + float(rows) + float(np.linalg.slogdet(fit.at.normal)[1])
+    seen, cuts, prior = fit.problem.seen, posed(fit.problem).cuts, fit.problem.prior
+    loose = (prior.weight > 0) & ~prior.held
+    total = 2.0 * fit.at.cost + log_det(fit.at.normal) - float(np.sum(np.log(prior.weight[loose])))
+    for rows, sd in ((seen.attitude, seen.attitude_sd), (seen.rate, seen.rate_sd)):
+        total += 6.0 * len(rows) * float(np.log(sd))
     for free, weight, firm in zip(cuts.free, cuts.weight, after.firm, strict=True):
         a = count_free(free)
-        if a:
-            total -= float(np.sum(np.log(weight[:a])) + np.linalg.slogdet(firm[:a, :a])[1])
+        total -= float(np.sum(np.log(weight[:a]))) + (log_det(firm[:a, :a]) if a else 0.0)
     return total
+
+
+def log_det(matrix: Square) -> float:
+    """Return ln det of a positive definite matrix in any units."""
+    unit = 1 / np.sqrt(np.diag(matrix))
+    scaled = matrix * np.outer(unit, unit)
+    return float(np.linalg.slogdet(scaled)[1] - 2 * np.sum(np.log(unit)))

@@ -283,8 +283,8 @@ def descend(posed: Posed, best: Local, most: int, normal: Floats, descent: Float
         stop_where_told(posed, trial.point, known)
         there = look_along(posed, known, trial, work, step, here, behind)
         coordinates_of(trial.point, posed.mass, posed.slots, x)
-        there += prior_cost(posed, x)
-        there = there if np.isfinite(there) else np.inf
+        if there < np.inf:
+            there += prior_cost(posed, x)
         taken = True
         if evaluations > 1:
             taken, damping, growth = judge(2.0 * (cost - there), promised, damping, growth)

@@ -36,8 +36,8 @@ def disturbances(smoothed: Smoothed, coordinates: slice) -> Disturbances:
     P, C, B = smoothed.information[1:], smoothed.covariance[1:], coordinates
     p, PB = smoothed.score[1:, B], smoothed.information[1:, :, B]
     behind = P[:, B, B]
-    D = behind - np.einsum("kia,kij,kjb->kab", PB, C, PB, optimize=True)
-    told = np.linalg.eigvalsh(D)[:, 0] > TOLD * np.einsum("kaa->k", behind)
-    D = np.where(told[:, None, None], D, np.eye(D.shape[1]))
+    all_rows = behind - np.einsum("kia,kij,kjb->kab", PB, C, PB, optimize=True)
+    told = np.linalg.eigvalsh(all_rows)[:, 0] > TOLD * np.einsum("kaa->k", behind)
+    D = np.where(told[:, None, None], all_rows, np.eye(all_rows.shape[1]))
     jump = np.where(told[:, None], np.linalg.solve(D, p[..., None])[..., 0], 0.0)
     return Disturbances(np.einsum("ka,ka->k", jump, p), jump, D, p)

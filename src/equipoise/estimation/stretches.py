@@ -113,11 +113,10 @@ def absorb_jump(cuts: Cuts, pieces: Pieces, k: int, damping: float, chain: Chain
         promised += chain.right[i] * firm[i]
         for j in range(n):
             chain.rows[i, j] = P[free[i], j]
-    for j in range(n):
-        for i in range(a):
-            p[j] -= chain.rows[i, j] * firm[i]
-            for m in range(n):
-                P[j, m] -= chain.rows[i, j] * gain[i, m]
+    for i in range(a):
+        add_scaled(-firm[i], chain.rows[i], p, n)
+        for j in range(n):
+            add_scaled(-chain.rows[i, j], gain[i], P[j], n)
     return promised
 
 
@@ -128,11 +127,17 @@ def carry(onward: Floats, rows: Floats, count: int) -> None:
     for r in range(count):
         row = rows[r]
         s = (row[0], row[1], row[2], row[3], row[4], row[5])
-        for c in range(n):
-            total = row[c] if c >= STATE else 0.0
-            for i in range(STATE):
-                total += s[i] * onward[i, c]
-            row[c] = total
+        for c in range(STATE):
+            row[c] = 0.0
+        for i in range(STATE):
+            add_scaled(s[i], onward[i], row, n)
+
+
+@part
+def add_scaled(size: float, source: Floats, out: Floats, n: int) -> None:
+    """Write out + size source; a loop of its own, so that the compiler vectorises it."""
+    for c in range(n):
+        out[c] += size * source[c]
 
 
 @part
@@ -147,11 +152,10 @@ def carry_back(onward: Floats, chain: Chain) -> None:
     s = (p[0], p[1], p[2], p[3], p[4], p[5])
     for i in range(STATE):
         p[i] = 0.0
-    for r in range(n):
-        for i in range(STATE):
-            p[r] += onward[i, r] * s[i]
-            for c in range(n):
-                P[r, c] += onward[i, r] * chain.rows[i, c]
+    for i in range(STATE):
+        add_scaled(s[i], onward[i], p, n)
+        for r in range(n):
+            add_scaled(onward[i, r], chain.rows[i], P[r], n)
 
 
 @part
