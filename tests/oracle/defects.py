@@ -7,7 +7,7 @@
     averaging   each row is the normalised mean of frames
     plumb       the camera's laboratory leans:        measured = exp((a_x, a_y, 0)) (x) true
     heading     an error that turns with the heading:
-                measured = exp(sum_k c_k cos(k psi) + s_k sin(k psi)) (x) true
+                measured = true (x) exp(sum_k c_k cos(k psi) + s_k sin(k psi))
     gyro        w_measured = (E + M) w + b
     quantum     the gyro's rates are whole multiples of one
     delay       the camera's row t shows what was at t - delay, on the clock of gyro and masses

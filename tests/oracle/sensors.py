@@ -37,7 +37,7 @@ def heading(q: Array) -> Array:
 
 
 def heading_error(psi: Array, harmonics: tuple[Harmonic, ...]) -> Array:
-    """Return the camera's rotation vectors in laboratory axes, rad, (..., 3)."""
+    """Return the camera's rotation vectors in body axes, rad, (..., 3)."""
     parts = [
         np.cos(h.order * psi)[..., None] * h.cosine + np.sin(h.order * psi)[..., None] * h.sine
         for h in harmonics
@@ -46,8 +46,8 @@ def heading_error(psi: Array, harmonics: tuple[Harmonic, ...]) -> Array:
 
 
 def in_camera_axes(q: Array, defects: Defects) -> Array:
-    """Return plumb (x) heading error (x) true, (..., 4)."""
-    turned = oracle.product(oracle.rotation(heading_error(heading(q), defects.heading)), q)
+    """Return plumb (x) true (x) heading error, (..., 4)."""
+    turned = oracle.product(q, oracle.rotation(heading_error(heading(q), defects.heading)))
     return oracle.product(oracle.rotation(np.array([*defects.plumb, 0.0])), turned)
 
 

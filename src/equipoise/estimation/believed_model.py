@@ -80,13 +80,8 @@ def fitted_in(belief: Believed, cuts: Series1, most: int = MOST) -> Fitted:
     params = replace(belief.params, jumps=jumps)
     problem = problem_of(belief.recording, belief.testbed, params)
     before = belief.fitted
-    first = carried(before.problem.jumps, before.jumps, problem.jumps, width(problem.jumps))
+    first = carried(before.problem.jumps, before.jumps, problem.jumps)
     return settle(problem, before.point, first, most)
-
-
-def width(jumps: tuple[Jump, ...]) -> int:
-    """Return how many coordinates jump at most."""
-    return max((len(jump.names) for jump in jumps), default=1) or 1
 
 
 def refitted(belief: Believed) -> Believed:

@@ -35,14 +35,19 @@ def walk(times: Series1, names: tuple[str, ...], sd: Floats) -> tuple[Jump, ...]
     return tuple(Jump(float(t), names, tuple(float(x) for x in sd)) for t in times)
 
 
-def carried(old: tuple[Jump, ...], values: Floats, new: tuple[Jump, ...], wide: int) -> Floats:
-    """Return the values of new jumps, ``wide`` columns: those of old ones at the same time."""
+def width(jumps: tuple[Jump, ...]) -> int:
+    """Return how many coordinates jump at once, at most; at least 1."""
+    return max((len(jump.names) for jump in jumps), default=1) or 1
+
+
+def carried(old: tuple[Jump, ...], values: Floats, new: tuple[Jump, ...]) -> Floats:
+    """Return the values of new jumps: those of old ones at the same time, else zero."""
     known = {
         (jump.t, name): value
         for jump, row in zip(old, values, strict=True)
         for name, value in zip(jump.names, row, strict=False)
     }
-    out = np.zeros((len(new), wide))
+    out = np.zeros((len(new), width(new)))
     for k, jump in enumerate(new):
         out[k, : len(jump.names)] = [known.get((jump.t, name), 0.0) for name in jump.names]
     return out
@@ -62,7 +67,7 @@ def inside(jumps: Iterable[Jump], start: float, end: float) -> tuple[Jump, ...]:
 def cuts_of(jumps: tuple[Jump, ...], t: Series1, layout: Layout) -> Cuts:
     """Return the cuts of a grid with nodes ``t`` that has a node at each jump."""
     where = {name: k for k, name in enumerate(layout.names)}
-    most = max((len(jump.names) for jump in jumps), default=1)
+    most = width(jumps)
     free = np.full((len(jumps), most), -1, dtype=np.int64)
     weight: Floats = np.zeros((len(jumps), most))
     for k, jump in enumerate(jumps):

@@ -1,10 +1,11 @@
 """Which terms beside gravity and a rigid body a record supports: sensors' errors and torques.
 
-A group of terms is looked at when, by its score at the present optimum,
+A group of terms is looked at when the record is likelier with it, all unknowns integrated out about
+the present optimum and the group's coefficients having a plausible size each (W = size^-2):
 
-    gain = b_B^T (A_BB - A_BA A_AA^-1 A_AB)^-1 b_B  >  m ln(rows)          [Schwarz 1978, BIC]
+    2 ln ratio = b^T (S + W)^-1 b - ln det(E + W^-1 S),     S = A_BB - A_BA A_AA^-1 A_AB
 
-and kept when it also predicts: fitted with blocks of the record left out, the model with the group
+(the Bayes factor in Laplace's approximation; Kass and Raftery 1995 call 6 strong), and kept when it also predicts: fitted with blocks of the record left out, the model with the group
 is nearer to the rows of these blocks than the one without. A term that merely bends to fit loses
 where it has not seen.
 
@@ -19,32 +20,34 @@ from equipoise.estimation.believed_model import (
     Believed,
     active,
     jumps_of,
-    width,
 )
 from equipoise.estimation.fitted import settle
 from equipoise.estimation.jumps import carried
 from equipoise.estimation.trajectory import problem_of
 from equipoise.estimation.trajectory_problem import Problem, changes, evaluate
+from equipoise.estimation.unknowns import sensor_sizes, term_sizes
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Bools, Floats
 from equipoise.model.recording import Recording, Samples
 
-CAMERA, GYRO = ("plumb", "heading2", "heading3"), ("gyro_scale", "gyro_cross")
+HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
+CAMERA = (sensor_terms.GROUPS["plumb"], HEADING)
+GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
+DELAY = sensor_terms.GROUPS["camera_delay"]
 EVALUATIONS = 8  # chosen: from the optimum of all rows it takes three or four
+SURE = 6.0  # 2 ln ratio
 BLOCKS = 8  # chosen: enough that each is short against the record
 
 
 def candidates(belief: Believed) -> list[tuple[str, ...]]:
     """Return the groups of terms that this record could show and that are not sought yet."""
     recording, params = belief.recording, belief.params
-    groups: list[str] = []
-    if recording.attitude is not None and len(recording.attitude):
-        groups += CAMERA
-        if recording.rate is not None or changes(recording):
-            groups.append("camera_delay")
-    if recording.rate is not None and recording.attitude is not None:
-        groups += GYRO
-    found = [sensor_terms.GROUPS[name] for name in groups]
+    camera, gyro = (c is not None and len(c) > 0 for c in (recording.attitude, recording.rate))
+    found: list[tuple[str, ...]] = [*CAMERA] if camera else []
+    if camera and (gyro or changes(recording)):
+        found.append(DELAY)
+    if camera and gyro:
+        found += GYRO
     found += list(torque_terms.GROUPS.values())
     sought = {*params.sensor, *params.terms}
     return [group for group in found if not sought.issuperset(group)]
@@ -68,36 +71,39 @@ def posed_in(belief: Believed, recording: Recording) -> tuple[Problem, Floats]:
     params = replace(belief.params, jumps=jumps_of(whole, active(belief)))
     problem = problem_of(recording, belief.testbed, params)
     before = belief.fitted
-    wide = width(problem.jumps)
-    return problem, carried(before.problem.jumps, before.jumps, problem.jumps, wide)
+    return problem, carried(before.problem.jumps, before.jumps, problem.jumps)
 
 
-def gain(belief: Believed, group: tuple[str, ...]) -> float:
-    """Return by how much a group would lower twice the cost, by the local model."""
+def plausible(belief: Believed, group: tuple[str, ...]) -> Floats:
+    """Return how large the coefficients of a group may well be, one sd."""
+    if set(group) <= set(sensor_terms.TERMS):
+        return sensor_sizes(group)
+    body = belief.testbed.body
+    moment = float(np.trace(body.inertia_P)) / 3
+    return term_sizes(group, moment, body.mass * belief.testbed.gravity)
+
+
+def surplus(belief: Believed, group: tuple[str, ...]) -> float:
+    """Return 2 ln of how much likelier the record is with a group than without."""
     problem, jumps = posed_in(with_group(belief, group), belief.recording)
     at = evaluate(problem, belief.fitted.point, jumps)
     B = np.array([name in group for name in problem.layout.names])
-    unit = 1 / np.sqrt(np.diag(at.normal))
-    A, b = at.normal * np.outer(unit, unit), at.descent * unit
+    unit = np.where(B, 1.0, 1 / np.sqrt(np.diag(at.normal)))
+    unit[B] = plausible(belief, group)
+    normal = at.normal - np.diag(np.where(B, problem.prior.weight, 0.0))
+    A, b = normal * np.outer(unit, unit), at.descent * unit
     rest = np.linalg.solve(A[np.ix_(~B, ~B)], A[np.ix_(~B, B)])
-    told = A[np.ix_(B, B)] - A[np.ix_(B, ~B)] @ rest
+    seen = np.eye(len(group)) + A[np.ix_(B, B)] - A[np.ix_(B, ~B)] @ rest
     b_B = b[B] - rest.T @ b[~B]
-    return float(b_B @ np.linalg.lstsq(told, b_B, rcond=1e-9)[0])
-
-
-def price(belief: Believed, group: tuple[str, ...]) -> float:
-    """Return the gain below which a group is not worth its coefficients: m ln(rows)."""
-    recording = belief.recording
-    rows = sum(3 * len(c) for c in (recording.attitude, recording.rate) if c is not None)
-    return len(group) * float(np.log(rows))
+    return float(b_B @ np.linalg.solve(seen, b_B) - np.linalg.slogdet(seen)[1])
 
 
 def best_group(belief: Believed, refused: set[tuple[str, ...]]) -> tuple[tuple[str, ...], float]:
-    """Return the group that gains most above its price, and that surplus."""
+    """Return the group that promises most, and by how much beyond ``SURE``."""
     open_to = [group for group in candidates(belief) if group not in refused]
-    surplus = [gain(belief, group) - price(belief, group) for group in open_to]
-    most = int(np.argmax(surplus)) if surplus else 0
-    return (open_to[most], surplus[most]) if surplus else ((), -np.inf)
+    found = [surplus(belief, group) - SURE for group in open_to]
+    most = int(np.argmax(found)) if found else 0
+    return (open_to[most], found[most]) if found else ((), -np.inf)
 
 
 def without(channel: Samples | None, held: Bools, edges: Floats) -> Samples | None:

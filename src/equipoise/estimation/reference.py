@@ -42,8 +42,7 @@ def predicted_left(recording: Recording, fitted: Fitted, left: Fitted, cut: floa
     Process noise behind the cut is not predicted; events there are those of the whole fit.
     """
     problem, early = fitted.problem, left.problem
-    wide = fitted.jumps.shape[1]
-    jumps = carried(early.jumps, left.jumps, problem.jumps, wide)
+    jumps = carried(early.jumps, left.jumps, problem.jumps)
     for k, jump in enumerate(problem.jumps):
         if jump.t >= cut and jump.is_event:
             jumps[k] = fitted.jumps[k]
@@ -73,7 +72,7 @@ def held_out(believed: Believed, share: float, residual: Residual) -> Residual:
     part = window(recording, first, cut)
     params = replace(belief.params, jumps=fitted.problem.jumps)
     problem = problem_of(part, belief.testbed, params)
-    jumps = carried(fitted.problem.jumps, fitted.jumps, problem.jumps, fitted.jumps.shape[1])
+    jumps = carried(fitted.problem.jumps, fitted.jumps, problem.jumps)
     early = settle(problem, at_rest(problem, fitted.point), jumps)
     fresh = predicted_left(recording, fitted, early, cut)
     rms = float(np.sqrt(np.mean(fresh**2))) if len(fresh) else None

@@ -59,14 +59,20 @@ def cut_times(recording: Recording) -> Series1:
     return np.arange(start + spacing, end - 0.5 * spacing, spacing)
 
 
-def most_surprising(
-    belief: Believed, surprise: dict[str, Floats], fit: Fitted
-) -> tuple[Happening, float]:
-    """Return the event that explains most, and its surprise above the threshold."""
-    kind = max(surprise, key=lambda name: float(np.max(surprise[name], initial=0.0)))
-    k = int(np.argmax(surprise[kind]))
-    event = Happening(fit.problem.jumps[k].t, kind)
-    return event, float(surprise[kind][k]) - threshold(belief.spacing)
+def most_surprising(belief: Believed, surprise: dict[str, Floats], fit: Fitted) -> list[Happening]:
+    """Return the event of each kind that explains most, if it is beyond the threshold."""
+    found: list[Happening] = []
+    for kind, value in surprise.items():
+        k = int(np.argmax(value))
+        if value[k] > threshold(belief.spacing):
+            found.append(Happening(fit.problem.jumps[k].t, kind))
+    return found
+
+
+def touched(belief: Believed, events: list[Happening]) -> Believed | None:
+    """Return the belief with the one event of these that explains most, or None if there is none."""
+    models = [refitted(replace(belief, events=(*belief.events, event))) for event in events]
+    return min(models, key=lambda model: model.fitted.at.cost, default=None)
 
 
 def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Believed:
@@ -91,21 +97,18 @@ def searched(belief: Believed, most: int) -> Believed:
     refused: Refused = set()
     while len(belief.events) < most:
         belief, surprise, fit = calibrated(belief)
-        group, gained = best_group(belief, refused)
-        event, surprising = most_surprising(belief, surprise, fit)
-        if max(gained, surprising) <= 0:
+        group, promise = best_group(belief, refused)
+        shaken = touched(belief, most_surprising(belief, surprise, fit))
+        if promise <= 0 and shaken is None:
             break
-        richer = extended(belief, group, refused) if gained > 0 else belief
-        if surprising > 0:
-            touched = refitted(replace(belief, events=(*belief.events, event)))
-            richer = touched if richer is belief else likeliest([richer, touched])
-        belief = richer
+        richer = extended(belief, group, refused) if promise > 0 else belief
+        models = [m for m in (richer, shaken) if m is not None and m is not belief]
+        belief = likeliest(models) if models else belief
     return belief
 
 
 def is_calm(belief: Believed) -> bool:
-    """Say whether what is left is white noise, and cuts are no more surprised than they should be.
-    """
+    """Say whether what is left is white noise, and cuts are no more surprised than they should be."""
     fit, after = smoothed(belief)
     far = quiet(belief, np.array([jump.t for jump in fit.problem.jumps]))
     white = min(portmanteau(left) for left in (fit.at.left_q, fit.at.left_w)) > WHITE

@@ -120,6 +120,8 @@ def prior_of(
         sd[R] = testbed.com_sd
     for k, name in enumerate(layout.errors):
         sd[names.index(name)] = stops.sd[k]
+    first = FIXED + len(layout.terms) + len(layout.errors)
+    sd[first : first + len(layout.sensor)] = sensor_sizes(layout.sensor)
     if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
         sd[-3:] = testbed.gyro.bias_sd
     anchor = anchors(testbed, layout, torque_anchor)
@@ -138,8 +140,6 @@ def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
     weight[JP], weight[R] = inertia**-2, (ANCHOR * testbed.com_sd) ** -2
     size = term_sizes(layout.terms, inertia, testbed.body.mass * testbed.gravity)
     weight[FIXED : FIXED + len(size)] = (torque_anchor * size) ** -2
-    sensor = FIXED + len(size) + len(layout.errors)
-    weight[sensor : sensor + len(layout.sensor)] = sensor_sizes(layout.sensor) ** -2
     return weight
 
 

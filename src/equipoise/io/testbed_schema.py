@@ -151,10 +151,10 @@ class Truth(Table):
         [0.0, 0.0], description="attitudes are seen turned by so much about laboratory x and y"
     )
     heading2_cos_deg: Triple = Field(
-        [0.0, 0.0, 0.0], description="turn of the seen attitude, times cos(2 heading); laboratory"
+        [0.0, 0.0, 0.0], description="turn of the seen attitude, times cos(2 heading); body"
     )
     heading2_sin_deg: Triple = Field(
-        [0.0, 0.0, 0.0], description="turn of the seen attitude, times sin(2 heading); laboratory"
+        [0.0, 0.0, 0.0], description="turn of the seen attitude, times sin(2 heading); body"
     )
     bad_rows_percent: Annotated[float, Field(ge=0, le=100)] = Field(
         0.0, description="share of the camera's rows that are outliers"

@@ -38,9 +38,9 @@ class Gap:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CameraErrors:
-    """Rotation vectors in laboratory axes, and outliers; psi is the heading.
+    """Rotation vectors and outliers; psi is the heading. Plumb in laboratory, the rest in body axes.
 
-    measured = exp(plumb) (x) exp(heading_cos cos 2 psi + heading_sin sin 2 psi) (x) true
+    measured = exp(plumb) (x) true (x) exp(heading_cos cos 2 psi + heading_sin sin 2 psi)
     """
 
     plumb: Vector3 = field(default_factory=nothing)  # rad, about the laboratory's x and y

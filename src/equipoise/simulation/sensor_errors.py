@@ -1,7 +1,7 @@
 """What camera and gyro get wrong beside noise and bias.
 
-    camera   measured = exp(plumb) (x) exp(c cos 2 psi + s sin 2 psi) (x) true      laboratory axes
-             a bad row is turned by a fixed angle about any body axis
+    camera   measured = exp(plumb) (x) true (x) exp(c cos 2 psi + s sin 2 psi)
+             plumb in laboratory axes, c and s in body axes; a bad row is turned by a fixed angle about any body axis
     gyro     w_measured = (1 + scale) R(turn)^T w
     quantum  roll, pitch and yaw (3-2-1), or rates, to the nearest whole multiple
 
@@ -37,9 +37,8 @@ def misread(q: Floats, errors: CameraErrors, up: Vector3) -> Floats:
     if not np.any([plumb, c, s]):
         return q
     twice = 2 * heading(q, up)[..., None]
-    return multiply(
-        exponential(plumb), multiply(exponential(np.cos(twice) * c + np.sin(twice) * s), q)
-    )
+    turning = exponential(np.cos(twice) * c + np.sin(twice) * s)
+    return multiply(exponential(plumb), multiply(q, turning))
 
 
 def with_bad_rows(
