@@ -8,6 +8,7 @@ from equipoise.assessment.finding import Finding
 from equipoise.assessment.gyro_agreement import agreement_findings
 from equipoise.assessment.mass_moves import move_findings
 from equipoise.assessment.motion_range import motion_findings
+from equipoise.assessment.odd_rows import odd_row_findings
 from equipoise.assessment.rate_quality import rate_findings
 from equipoise.assessment.row_averaging import averaging_findings
 from equipoise.model.recording import Recording
@@ -24,6 +25,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *motion_findings(recording.attitude, up),
         *noise_findings(recording.attitude),
         *averaging_findings(recording, None if testbed is None else testbed.attitude),
+        *odd_row_findings(recording),
         *rate_findings(recording.rate),
         *agreement_findings(recording.attitude, recording.rate),
         # Gaps are named in the notes too; here they are findings of their own, with their span.
