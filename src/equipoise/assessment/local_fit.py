@@ -49,6 +49,12 @@ class LocalFit:
         """Return the row that each window is about."""
         return self.rows[np.arange(len(self.rows)), self.place]
 
+    @property
+    def left_own(self) -> Floats:
+        """Return what is left (n, 3) of each own row, as if it were noise of that row alone."""
+        every = np.arange(len(self.rows))
+        return self.left[every, self.place] / np.sqrt(self.free[every, self.place])[:, None]
+
 
 def windows(t: Series1, keep: Ints, span: Span) -> tuple[Ints, Ints]:
     """Return the windows (n, w) over the rows to keep, and where in each its own row stands."""

@@ -50,14 +50,16 @@ def odd_row_findings(recording: Recording) -> list[Finding]:
 
 def _told(name: str, unit: str, channel: Samples, odd: OddRows) -> list[Finding]:
     return [
-        *_outlying(name, unit, channel, odd.outlying),
+        *_outlying(name, unit, channel, odd.outlying, odd.outlying.mask & ~odd.frozen),
         *_frozen(name, channel, odd.frozen),
     ]
 
 
-def _outlying(name: str, unit: str, channel: Samples, odd: OutlyingRows) -> list[Finding]:
+def _outlying(
+    name: str, unit: str, channel: Samples, odd: OutlyingRows, mask: NDArray[np.bool_]
+) -> list[Finding]:
     far = np.degrees(np.linalg.norm(odd.away, axis=1))
-    rows = np.flatnonzero(odd.mask)
+    rows = np.flatnonzero(mask)
     named = np.sort(rows[np.argsort(-far[rows], kind="stable")][:NAMED])
     found = [
         Finding(
@@ -65,6 +67,7 @@ def _outlying(name: str, unit: str, channel: Samples, odd: OutlyingRows) -> list
             f"{name}: row {k + 1} at {channel.t[k]:.6g} s is {far[k]:.2g} {unit} off the motion of "
             f"its neighbours (they scatter by {math.degrees(odd.scale):.2g} {unit} per axis).",
             (float(channel.t[k]), float(channel.t[k])),
+            "off",
         )
         for k in named.tolist()
     ]
@@ -82,6 +85,7 @@ def _frozen(name: str, channel: Samples, mask: NDArray[np.bool_]) -> list[Findin
             f"{name}: {_rows(first, last)} the one before, from {channel.t[first - 1]:.6g} to "
             f"{channel.t[last]:.6g} s.",
             (float(channel.t[first - 1]), float(channel.t[last])),
+            "frozen",
         )
         for first, last in longest
     ]

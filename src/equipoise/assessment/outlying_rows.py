@@ -63,6 +63,7 @@ class OutlyingRows:
     mask: NDArray[np.bool_]  # (n,) the rows to leave out
     away: Series3  # (n, 3) rad or rad/s in body axes, how far they are off; 0 elsewhere
     scale: float  # rad or rad/s, what a local polynomial leaves of most rows, per axis
+    rough: Series3  # (n, 3) rad or rad/s, what it leaves of each row, as noise of that row alone
 
 
 def outlying_attitudes(attitude: Samples) -> OutlyingRows:
@@ -86,21 +87,23 @@ def _median(speed: Series1) -> float:
 def _outlying(t: Series1, vectors: Vectors, speed: float, attitude: bool) -> OutlyingRows:
     n = len(t)
     keep, off, scale = np.arange(n), np.zeros((n, 3)), 0.0
+    rough = np.full((n, 3), np.nan)
     some = keep[max(0, (n - SAMPLE) // 2) :][:SAMPLE]
     span = min(SPANS, key=lambda span: _reach(local_fit(t, some, vectors, span), span))
     for _ in range(PASSES):
         fit = local_fit(t, keep, vectors, span)
         if not len(fit.rows):
             break
+        rough[fit.own] = fit.left_own
         sd = _scale(fit)
         scale = scale or float(np.sqrt(np.mean(np.median(sd, axis=0) ** 2)))
         odd = _odd_rows(t, fit, sd, speed, attitude)
         for row, vector in odd.items():
-            off[row] = vector
+            off[row] = rough[row] = vector
         if not odd:
             break
         keep = np.setdiff1d(keep, np.array(list(odd), np.int64))
-    return OutlyingRows(np.any(off != 0, axis=1).reshape(n), off, scale)
+    return OutlyingRows(np.any(off != 0, axis=1).reshape(n), off, scale, rough)
 
 
 def _reach(fit: LocalFit, span: Span) -> float:
@@ -149,11 +152,8 @@ def _odd_rows(
     t: Series1, fit: LocalFit, sd: Floats, speed: float, attitude: bool
 ) -> dict[int, Vector3]:
     """Return outlying rows with how far they are off, at most one window of each stretch."""
-    n = len(fit.rows)
-    every = np.arange(n)
-    own = fit.left[every, fit.place] ** 2 / fit.free[every, fit.place][:, None] / sd**2
-    unlikely = own.sum(axis=1)
-    limit = float(chi2.isf(ALARMS / n, 3))
+    unlikely = np.sum((fit.left_own / sd) ** 2, axis=1)
+    limit = float(chi2.isf(ALARMS / len(fit.rows), 3))
     suspects = np.flatnonzero(unlikely > limit)
     found: dict[int, Vector3] = {}
     taken = np.zeros(len(t), bool)

@@ -174,6 +174,7 @@ def _odd_rows(told: RowAveraging, recording: Recording, t: Series1) -> list[Find
             f"row {k + 1} at {t[k]:.6g} s is not a mean as the others are: its quaternion has the "
             f"length {norm[float(t[k])]:.6f}, theirs {1 - told.shortness:.6f}.",
             (float(t[k]), float(t[k])),
+            "no mean",
         )
         for k in told.odd[:NAMED]
     ]
