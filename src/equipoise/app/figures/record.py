@@ -11,14 +11,12 @@ from equipoise.assessment.finding import Finding
 from equipoise.model.arrays import Vector3
 from equipoise.model.recording import Recording
 
-SIGNS = "! an estimate will suffer from it   ~ set right in reading   1, 2, ... marked above"
-    "! an estimate will suffer from it    ~ set right in reading    numbers: where in the record"
-)
+SIGNS = "! an estimate will suffer from it   ~ set right in reading   1, 2 ... marked above"
 PAGE = (8.27, 11.69)  # inches, A4
-LEFT, RIGHT = 0.125, 0.895  # of the page
-LABELS = -0.075  # of a panel's width: labels of the vertical axes stand under each other
+LEFT, RIGHT = 0.135, 0.895  # of the page
+LABELS = -0.092  # of a panel's width: labels of the vertical axes stand under each other
 HEAD = 0.9  # inches above the panels: title, numbers of the marks
-FOOT = 0.35  # inches below the list
+FOOT = 0.4  # inches below the list: what its signs mean
 BETWEEN = 0.55  # inches between panels and list: the time axis
 PANEL = 0.85  # inches: panels are never lower than this; then the list is cut
 
@@ -47,7 +45,7 @@ def draw(recording: Recording, found: Sequence[Finding] = (), up: Vector3 | None
     shade(list(grid), marked, span)
     number(grid[0], marked, span)
     figure.text(0.03, 1 - 0.25 / PAGE[1], _title(recording), fontsize=10, weight="bold", va="top")
-    figure.text(RIGHT, 1 - 0.27 / PAGE[1], SIGNS, fontsize=7.5, color=GREY, ha="right", va="top")
+    figure.text(0.03, 0.14 / PAGE[1], SIGNS, fontsize=7.5, color=GREY)
     write_list(figure, lines, most, 0.03, bottom - (BETWEEN - 0.02) / PAGE[1])
     return figure
 

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 
 from equipoise.app.figures.style import AXES, BLUE, SIX, XYZ, course, dots
 from equipoise.app.units import MM, PER_DEG
+from equipoise.assessment.channel_content import GAP
 from equipoise.assessment.motion_range import AXES as BODY_AXES
 from equipoise.assessment.motion_range import heading_rate, most_upright
 from equipoise.assessment.outlying_rows import outlying_attitudes, outlying_rates
@@ -130,6 +131,8 @@ def _spacing(attitude: Samples | None, rate: Samples | None) -> Panel:
             if channel is not None:
                 steps.append(np.diff(channel.t) * MILLI)
                 dots(axes, channel.t[:-1], steps[-1], colour, name)
+                gap = steps[-1] > GAP * np.median(steps[-1])
+                axes.plot(channel.t[:-1][gap], steps[-1][gap], "o", color=colour)
         axes.set_ylabel("row spacing,\nms")
         _spacing_scale(axes, np.concatenate(steps))
         _legend(axes)
