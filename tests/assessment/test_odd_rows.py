@@ -9,7 +9,7 @@ from equipoise.assessment.frozen_rows import frozen_attitudes, frozen_rates
 from equipoise.assessment.odd_rows import odd_attitudes, odd_rates, odd_row_findings
 from equipoise.assessment.outlying_rows import outlying_attitudes, outlying_rates
 from equipoise.io.recording_file import read_recording
-from equipoise.maths.attitude import exponential, multiply
+from equipoise.maths.attitude import exponential, multiply, normalise
 from equipoise.model.recording import Recording, Samples
 
 REAL = Path(__file__).parents[3] / "shared" / "data" / "optitrack_tumbling.csv"
@@ -66,6 +66,20 @@ def test_false_alarms_of_a_gyro() -> None:
     assert sum(outlying_rates(felt(np.random.default_rng(s))).mask.any() for s in range(40)) < 9
 
 
+def test_a_flip_by_one_step_of_coarse_values_is_no_outlier() -> None:
+    """Slow motion, noise far below the step: values stand still and flip; a spike still shows."""
+    step = np.radians(1 / 16)
+    for seed in range(10):
+        slow = felt(np.random.default_rng(seed))
+        rate = np.round(0.05 * slow.values / step) * step
+        assert not outlying_rates(Samples(slow.t, rate)).mask.any()
+        rate[300] += 20 * step
+        assert np.flatnonzero(outlying_rates(Samples(slow.t, rate)).mask).tolist() == [300]
+        camera = seen(np.random.default_rng(seed), 0.0, dt=0.02, noise=1e-5)
+        coarse = normalise(np.round(camera.values, 3))
+        assert not outlying_attitudes(Samples(camera.t, coarse)).mask.any()
+
+
 @pytest.mark.parametrize("size", [1.0, 3.0, 20.0])
 def test_rows_that_are_off_are_found_and_no_others(size) -> None:
     """Anywhere inside a record at 105 deg/s and 10 Hz, noise 0.03 deg."""
@@ -78,6 +92,17 @@ def test_rows_that_are_off_are_found_and_no_others(size) -> None:
         odd = outlying_attitudes(Samples(record.t, q))
         assert np.flatnonzero(odd.mask).tolist() == rows
         np.testing.assert_allclose(odd.away[rows], wrong, atol=0.02 * np.radians(size) + 8 * NOISE)
+
+
+def test_a_row_that_is_turned_over_does_not_spoil_the_motion_that_is_seen_from_it() -> None:
+    """150 deg off at 280 deg/s: taken from that row, all others swing round with the spin."""
+    for seed in range(8):
+        rng = np.random.default_rng(seed)
+        record = seen(rng, SPIN[3])
+        q = record.values.copy()
+        q[200] = turned(q[200], off(rng, np.radians(150)))
+        odd = outlying_attitudes(Samples(record.t, q))
+        assert np.flatnonzero(odd.mask).tolist() == [200]
 
 
 @pytest.mark.parametrize("size", [3.0, 20.0])

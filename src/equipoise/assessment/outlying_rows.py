@@ -29,6 +29,7 @@ from equipoise.assessment.local_fit import (
     local_fit,
     rate_vectors,
 )
+from equipoise.assessment.quantisation import step_of
 from equipoise.assessment.window_misfit import (
     ASIDE,
     Window,
@@ -52,6 +53,8 @@ PUSH = 0.5  # of the platform's rate: inside the record no touch makes a greater
 HAND = math.radians(10)  # rad/s: ... but a hand may push a platform that hardly turns (chosen)
 PASSES = 20  # chosen: each finds one odd row in every stretch
 UNSURE = 2.0  # times the scale by which a jump between two rows may come out too large (chosen)
+HALF = 0.5  # of the step of coarse values: the least scale, so that a flip by one step is nothing
+REPEATS = 0.1  # share of rows as the one before, from which an attitude is coarse (chosen)
 EXACT = 1e-9  # rad, rad/s: below this rows are computed, not measured
 ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
 
@@ -70,21 +73,28 @@ def outlying_attitudes(attitude: Samples) -> OutlyingRows:
     """Return the outlying rows of an attitude sensor."""
     duration, turn = steps(attitude)
     speed = np.linalg.norm(turn, axis=1) / duration
+    size = np.linalg.norm(turn, axis=1)
+    coarse = bool(size.any()) and float(np.mean(size == 0)) > REPEATS
+    least = HALF * float(size[size > 0].min()) if coarse else 0.0
     vectors = attitude_vectors(attitude.t, attitude.values)
-    return _outlying(attitude.t, vectors, _median(speed), attitude=True)
+    return _outlying(attitude.t, vectors, np.full(3, least), _median(speed), attitude=True)
 
 
 def outlying_rates(rate: Samples) -> OutlyingRows:
     """Return the outlying rows of a gyro."""
     speed = np.linalg.norm(rate.values, axis=1)
-    return _outlying(rate.t, rate_vectors(rate.values), _median(speed), attitude=False)
+    least = HALF * np.array([step_of(axis) or 0.0 for axis in rate.values.T])
+    return _outlying(rate.t, rate_vectors(rate.values), least, _median(speed), attitude=False)
 
 
 def _median(speed: Series1) -> float:
     return float(np.median(speed)) if len(speed) else 0.0
 
 
-def _outlying(t: Series1, vectors: Vectors, speed: float, attitude: bool) -> OutlyingRows:
+def _outlying(
+    t: Series1, vectors: Vectors, least: Vector3, speed: float, attitude: bool
+) -> OutlyingRows:
+    """Return the outlying rows; the scale is ``least`` or more."""
     n = len(t)
     keep, off, scale = np.arange(n), np.zeros((n, 3)), 0.0
     rough = np.full((n, 3), np.nan)
@@ -95,7 +105,7 @@ def _outlying(t: Series1, vectors: Vectors, speed: float, attitude: bool) -> Out
         if not len(fit.rows):
             break
         rough[fit.own] = fit.left_own
-        sd = _scale(fit)
+        sd = np.maximum(_scale(fit), least)
         scale = scale or float(np.sqrt(np.mean(np.median(sd, axis=0) ** 2)))
         odd = _odd_rows(t, fit, sd, speed, attitude)
         for row, vector in odd.items():
