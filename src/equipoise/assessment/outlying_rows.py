@@ -74,7 +74,7 @@ def outlying_attitudes(attitude: Samples) -> OutlyingRows:
     duration, turn = steps(attitude)
     speed = np.linalg.norm(turn, axis=1) / duration
     size = np.linalg.norm(turn, axis=1)
-    coarse = bool(size.any()) and float(np.mean(size == 0)) > REPEATS
+    coarse = bool(size.any()) and np.count_nonzero(size == 0) > REPEATS * len(size)
     least = HALF * float(size[size > 0].min()) if coarse else 0.0
     vectors = attitude_vectors(attitude.t, attitude.values)
     return _outlying(attitude.t, vectors, np.full(3, least), _median(speed), attitude=True)
