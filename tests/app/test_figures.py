@@ -16,9 +16,11 @@ from equipoise.app.figures.balanced_com import Story
 from equipoise.app.figures.style import MOST, STYLE, thinned
 from equipoise.app.outputs import rendered
 from equipoise.app.pictures import of_balancing, of_fit, of_move, of_tracking
+from equipoise.assessment.finding import Finding
 from equipoise.estimation import reference, trajectory
 from equipoise.io.presets import read_preset
-from equipoise.model.recording import window
+from equipoise.maths.attitude import exponential
+from equipoise.model.recording import Recording, Samples, window
 from equipoise.simulation.bench import SimulatedBench
 
 BED = read_preset("sputnix")
@@ -91,9 +93,48 @@ def test_the_model_leaves_noise_in_figure_7(pictures):
         assert np.mean(np.abs(dots) < 0.4) > 0.9
 
 
-def test_a_recording_is_drawn_channel_by_channel():
-    bench = SimulatedBench(BED, seed=1)
-    assert len(record.draw(bench.read(20.0)).axes) == 2
+def labels(page) -> str:
+    return " ".join(axes.get_ylabel() for axes in page.axes)
+
+
+def words(page) -> list[str]:
+    """All that is written on a page, outside its axes and as marks above them."""
+    page.draw_without_rendering()
+    return [text.get_text() for text in (*page.texts, *page.axes[0].texts)]
+
+
+def test_a_recording_has_a_panel_for_each_thing_that_it_holds():
+    """Tilt, heading rate, masses, roughness, spacing: no gyro, no panel for one."""
+    whole = SimulatedBench(BED, seed=1).read(20.0)
+    assert len(record.draw(whole).axes) == 5
+    t = np.arange(100) * 0.05
+    gyro = Recording(rate=Samples(t, 0.1 * np.sin(np.outer(t, [1, 2, 3]))))
+    assert "gyro" in labels(record.draw(gyro))
+    assert "tilt" not in labels(record.draw(gyro))
+    short = Recording(rate=Samples(t[:3], np.ones((3, 3))))
+    assert rendered(record.draw(short)).startswith(PNG)
+
+
+def test_findings_are_marked_where_they_are_and_listed():
+    """The gap is shaded from 20 to 48 s in every panel; each has its number, its word, its line."""
+    t = np.r_[0:20:0.1, 48:60:0.1]
+    q = exponential(np.outer(t, [0, 0, 0.3]))
+    gap = Finding("problem", "a gap of 28 s.", (20.0, 48.0), "gap")
+    touch = Finding("problem", "a touch.", (10.0, 10.0), "touch")
+    rest = Finding("content", "a record.", (0.0, 60.0))
+    page = record.draw(Recording(attitude=Samples(t, q)), (rest, gap, touch))
+    for axes in page.axes:
+        shades = [p.get_extents().transformed(axes.transData.inverted()) for p in axes.patches]
+        assert [(round(s.x0), round(s.x1)) for s in shades] == [(10, 10), (20, 48)]
+    assert {"1 touch", "2 gap", "a gap of 28 s.", "a touch.", "a record."} <= set(words(page))
+
+
+def test_a_long_list_leaves_room_for_the_panels_and_says_what_it_leaves_out():
+    t = np.arange(100) * 0.1
+    many = [Finding("problem", f"problem {k}.", (0.05 * k, 0.05 * k)) for k in range(150)]
+    page = record.draw(Recording(attitude=Samples(t, exponential(np.outer(t, [0, 0, 1])))), many)
+    assert any("more lines" in text for text in words(page))
+    assert min(axes.get_position().height for axes in page.axes) * page.get_figheight() > 0.6
 
 
 @pytest.mark.parametrize("n", [1, MOST, 10 * MOST, 10**6])

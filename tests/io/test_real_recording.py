@@ -32,11 +32,14 @@ def test_its_body_y_axis_stays_near_the_vertical() -> None:
     np.testing.assert_allclose(np.linalg.norm(attitude.values, axis=1), 1, atol=1e-12)
 
 
-def test_its_last_row_is_noticed_as_unlike_the_others() -> None:
-    """All rows but the last are means of frames."""
-    notes = " ".join(read_recording(REAL).notes)
-    assert "the last row (line 602)" in notes
-    assert "means of several frames" in notes
+def test_the_lengths_of_its_quaternions_are_kept() -> None:
+    """All rows but the last are means of frames, as published: 0.99977 against 1.000000."""
+    recording = read_recording(REAL)
+    assert "means of several frames" in " ".join(recording.notes)
+    lengths = recording.attitude_norm
+    assert lengths is not None
+    assert lengths.values[-2, 0] == pytest.approx(0.99977, abs=1e-5)
+    assert lengths.values[-1, 0] == pytest.approx(1.0, abs=1e-6)
 
 
 def test_its_noise_is_told_within_what_others_found() -> None:

@@ -42,6 +42,26 @@ def test_short_quaternions_are_normalised_and_the_worst_line_is_named(tmp_path) 
     assert any("1 of 20" in n and "0.990000 at line 8" in n for n in recording.notes)
 
 
+def test_lengths_are_kept_at_the_rows_of_the_attitude(tmp_path) -> None:
+    """One row 1 % short; a row with a second time stamp goes from both channels."""
+    q, t = Q.copy(), T.copy()
+    q[6] *= 0.99
+    t[3] = t[2]
+    recording = read(tmp_path, table(t=t, q=q))
+    np.testing.assert_array_equal(recording.attitude_norm.t, recording.attitude.t)
+    assert recording.attitude_norm.values.shape == (19, 1)
+    assert recording.attitude_norm.values[5, 0] == pytest.approx(0.99, abs=1e-15)
+
+
+@pytest.mark.parametrize("decimals", [4, 7])
+def test_lengths_that_are_rounding_are_not_kept(tmp_path, decimals) -> None:
+    """Four rounded components change a length by 10^-d at most; single precision by 1e-7."""
+    assert read(tmp_path, table(q=np.round(Q, decimals))).attitude_norm is None
+    assert read(tmp_path, table(q=Q.astype(np.float32).astype(float))).attitude_norm is None
+    short = np.round(Q * (1 - 3 * 10.0**-decimals), decimals)
+    assert read(tmp_path, table(q=short)).attitude_norm is not None
+
+
 def test_duplicates_are_left_out_and_counted(tmp_path) -> None:
     """The first of each time stamp stays."""
     t = T.copy()

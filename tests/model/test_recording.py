@@ -1,6 +1,8 @@
+from dataclasses import replace
+
 import numpy as np
 
-from equipoise.model.recording import Recording, Samples, join, window
+from equipoise.model.recording import Recording, Samples, arranged, join, window
 
 LEVEL = [1.0, 0.0, 0.0, 0.0]
 
@@ -110,3 +112,19 @@ def test_join_lets_rows_seen_twice_go():
     a = Recording(rate=ramp(np.array([0.0, 1.0, 2.0]), 3))
     b = Recording(rate=ramp(np.array([1.0, 2.0, 3.0]), 3))
     assert join(a, b).rate.t.tolist() == [0.0, 1.0, 2.0, 3.0]
+
+
+def with_lengths(recording: Recording) -> Recording:
+    """Lengths that say which row they came from."""
+    return replace(recording, attitude_norm=ramp(recording.attitude.t, 1))
+
+
+def test_lengths_stay_with_the_rows_of_the_attitude():
+    """Windowed, joined and arranged as they are, from both sides or from the second alone."""
+    whole = with_lengths(ten_seconds())
+    early, late = window(whole, 0.0, 4.0), window(whole, 3.0, 10.0)
+    for rows in (early, late, join(early, late), arranged(whole, ("z1", "x1"))):
+        np.testing.assert_array_equal(rows.attitude_norm.t, rows.attitude.t)
+        np.testing.assert_array_equal(rows.attitude_norm.values[:, 0], rows.attitude.t)
+    second_alone = join(replace(early, attitude_norm=None), late)
+    assert second_alone.attitude_norm.t.tolist() == [5.0, 6.0, 7.0, 8.0, 9.0, 10.0]

@@ -54,6 +54,7 @@ def _gaps(name: str, t: Series1) -> list[Finding]:
             "problem",
             f"{name}: a gap of {steps[i]:.3g} s at {t[i]:.6g} s.",
             (float(t[i]), float(t[i + 1])),
+            "gap",
         )
         for i in longest
     ]

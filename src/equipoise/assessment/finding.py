@@ -17,3 +17,4 @@ class Finding:
     kind: Kind
     sentence: str
     span: tuple[float, float] | None = None  # s; None: the record as a whole
+    label: str = ""  # a word for its mark in a figure, if it has one

@@ -43,13 +43,13 @@ def agreement_findings(attitude: Samples | None, rate: Samples | None) -> list[F
 
 def rate_pairs(attitude: Samples, rate: Samples) -> tuple[Series3, Series3]:
     """Return mean rates (rad/s) between pairs of attitudes, as the attitude and as the gyro saw."""
-    lag = _lag(attitude)
+    lag = lag_of(attitude)
     duration, turn = steps(attitude, lag)
     start, end = attitude.t[:-lag], attitude.t[lag:]
     covered = (start >= rate.t[0]) & (end <= rate.t[-1])
     covered &= duration < GAP * np.median(duration)
-    covered &= ~_across_gap(rate.t, start, end)
-    felt = (_integral(rate, end) - _integral(rate, start)) / duration[:, None]
+    covered &= ~across_gap(rate.t, start, end)
+    felt = (integral(rate, end) - integral(rate, start)) / duration[:, None]
     return (turn / duration[:, None])[covered], felt[covered]
 
 
@@ -60,7 +60,7 @@ def correlation(felt: Series3, seen: Series3) -> Matrix3:
     return (a.T @ b) / np.where(scale > 0, scale, np.inf)
 
 
-def _lag(attitude: Samples) -> int:
+def lag_of(attitude: Samples) -> int:
     """Return how many rows apart attitudes are compared."""
     duration, turn = steps(attitude)
     interval = float(np.median(duration))
@@ -69,7 +69,7 @@ def _lag(attitude: Samples) -> int:
     return max(1, int(most))
 
 
-def _integral(rate: Samples, at: Floats) -> Series3:
+def integral(rate: Samples, at: Floats) -> Series3:
     """Return the integral of the gyro (rad) from its first row to given times, by trapezoids.
 
     Its mean is taken off and added again, so that the sums stay small.
@@ -82,7 +82,7 @@ def _integral(rate: Samples, at: Floats) -> Series3:
     return turned + np.multiply.outer(at - rate.t[0], mean)
 
 
-def _across_gap(t: Floats, start: Floats, end: Floats) -> NDArray[np.bool_]:
+def across_gap(t: Floats, start: Floats, end: Floats) -> NDArray[np.bool_]:
     """Say for each span whether it touches an interval in which the gyro was silent."""
     silent = np.append(False, np.diff(t) > GAP * np.median(np.diff(t)))
     before = np.cumsum(silent)

@@ -41,6 +41,7 @@ def _moves(name: str, t: Series1, x: Series1) -> list[Finding]:
             f"mass {name} moves from {x[a] * 1e3:.4g} to {x[b] * 1e3:.4g} mm "
             f"between {t[a]:.6g} and {t[b]:.6g} s.",
             (float(t[a]), float(t[b])),
+            name,
         )
         for a, b in zip(starts.tolist(), ends.tolist(), strict=True)
     ]

@@ -7,7 +7,7 @@ import numpy as np
 from equipoise.assessment.attitude_steps import even_steps
 from equipoise.assessment.finding import Finding
 from equipoise.maths.attitude import tilt, to_matrix
-from equipoise.model.arrays import Vector3
+from equipoise.model.arrays import Series1, Vector3
 from equipoise.model.recording import Samples
 
 UPRIGHT = math.radians(60)  # chosen: no table on a hemisphere swings about a tilt beyond this
@@ -23,13 +23,13 @@ def motion_findings(attitude: Samples | None, up: Vector3 | None) -> list[Findin
     """Return tilt range and spin; without a testbed the most upright body axis is taken as up."""
     if attitude is None or len(attitude) < 3:
         return []
-    guess = _most_upright(attitude)
+    guess = most_upright(attitude)
     axis = AXES[guess] if up is None else up
     angles = tilt(attitude.values, axis)
     return [_tilt(angles, guess, up is not None), *_frame(angles, guess), _spin(attitude)]
 
 
-def _most_upright(attitude: Samples) -> str:
+def most_upright(attitude: Samples) -> str:
     """Return the body axis that stays nearest the vertical."""
     return min(AXES, key=lambda name: float(np.median(tilt(attitude.values, AXES[name]))))
 
@@ -51,14 +51,18 @@ def _frame(angles: np.ndarray, guess: str) -> list[Finding]:
     return [Finding("problem", text)]
 
 
-def _spin(attitude: Samples) -> Finding:
-    """Return the rate about the vertical at both ends of the record."""
-    duration = np.diff(attitude.t)
+def heading_rate(attitude: Samples) -> tuple[Series1, Series1]:
+    """Return times (s) and the rate about the laboratory's vertical (rad/s) between even rows."""
     middle, rate = even_steps(attitude)
     at = np.searchsorted(attitude.t, middle) - 1
-    vertical = np.einsum("ni,ni->n", to_matrix(attitude.values[at])[:, 2, :], rate)
+    return middle, np.einsum("ni,ni->n", to_matrix(attitude.values[at])[:, 2, :], rate)
+
+
+def _spin(attitude: Samples) -> Finding:
+    """Return the rate about the vertical at both ends of the record."""
+    _, vertical = heading_rate(attitude)
     n = max(1, int(SHARE * len(vertical)))
     first, last = (math.degrees(float(np.median(part))) for part in (vertical[:n], vertical[-n:]))
-    limit = 180 / float(np.median(duration))
+    limit = 180 / float(np.median(np.diff(attitude.t)))
     text = f"spin about the vertical: {first:.4g} deg/s at first, {last:.4g} deg/s at last"
     return Finding("motion", f"{text} (up to {limit:.4g} deg/s can be told at this rate).")

@@ -4,11 +4,14 @@ import numpy as np
 
 from equipoise.assessment.attitude_noise import noise_findings
 from equipoise.assessment.channel_content import content_findings
+from equipoise.assessment.clock_offset import offset_findings
 from equipoise.assessment.finding import Finding
 from equipoise.assessment.gyro_agreement import agreement_findings
 from equipoise.assessment.mass_moves import move_findings
 from equipoise.assessment.motion_range import motion_findings
+from equipoise.assessment.odd_rows import odd_row_findings
 from equipoise.assessment.rate_quality import rate_findings
+from equipoise.assessment.row_averaging import averaging_findings
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -16,14 +19,18 @@ from equipoise.model.testbed import Testbed
 def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Finding, ...]:
     """Return all findings; a testbed adds what only it can tell, such as which axis is up."""
     masses = tuple(mass.name for mass in testbed.masses) if testbed else None
+    sensors = (None, None) if testbed is None else (testbed.attitude, testbed.gyro)
     up = None if testbed is None else testbed.up
     return (
         *content_findings(recording),
         *move_findings(recording, masses),
         *motion_findings(recording.attitude, up),
         *noise_findings(recording.attitude),
+        *averaging_findings(recording, sensors[0]),
+        *odd_row_findings(recording),
         *rate_findings(recording.rate),
         *agreement_findings(recording.attitude, recording.rate),
+        *offset_findings(recording.attitude, recording.rate, *sensors),
         # Gaps are named in the notes too; here they are findings of their own, with their span.
         *(Finding("mended", note) for note in recording.notes if " gap" not in note),
     )

@@ -15,7 +15,27 @@ FAR = 0.05  # from unit: no rounding does this, so it is not a unit quaternion (
 SHORTEST_MEAN = 0.5  # chosen: frames spread over more than half a turn have no mean
 ROUNDING = 1e-12  # below this nothing is touched, so that our own files come back verbatim
 WORTH_SAYING = 1e-5  # five printed digits
-ODD = 6.0  # robust sd by which a last row's norm is called unlike the others (chosen)
+SINGLE = 2e-7  # what single precision does to the length of a quaternion, twice over
+DIGITS = 12  # decimals up to which a column is taken as rounded (chosen: a double has 15)
+
+
+def lengths(channel: Channel) -> Channel | None:
+    """Return the lengths (n, 1) of quaternions as found, if they tell more than rounding.
+
+    A component rounded to d decimals is off by 10^-d / 2 at most, a length by 10^-d.
+    """
+    norm = np.linalg.norm(channel.values, axis=1)
+    if np.abs(norm - 1).max() <= max(10.0 ** -_decimals(channel.values), SINGLE):
+        return None
+    return Channel(channel.name, channel.t, norm[:, None], channel.rows)
+
+
+def _decimals(values: Floats) -> int:
+    """Return how many decimals the values were printed with."""
+    for decimals in range(DIGITS):
+        if np.abs(values - np.round(values, decimals)).max() < ROUNDING:
+            return decimals
+    return DIGITS
 
 
 def quaternions(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Channel, Notes]:
@@ -74,7 +94,7 @@ def _unit(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Series4, 
         raise InputError(place, found, f"length 1 within {FAR:.0%}")
     if np.abs(norm - 1).max() < ROUNDING:
         return channel.values, ()
-    return normalise(channel.values), (*_norm_note(norm, channel, table), *_last_row(norm, table))
+    return normalise(channel.values), _norm_note(norm, channel, table)
 
 
 def _norm_note(norm: Series1, channel: Channel, table: Table) -> Notes:
@@ -92,16 +112,3 @@ def _norm_note(norm: Series1, channel: Channel, table: Table) -> Notes:
 
 def _mostly_short(norm: Series1) -> bool:
     return float(np.quantile(norm, 0.9)) < 1 - WORTH_SAYING
-
-
-def _last_row(norm: Series1, table: Table) -> Notes:
-    """Say so when the last row's norm is unlike the others': it is no mean, or a broken one."""
-    others, last = norm[:-1], float(norm[-1])
-    centre = float(np.median(others))
-    spread = 1.4826 * float(np.median(np.abs(others - centre)))  # the sd, for normal scatter
-    if not _mostly_short(others) or abs(last - centre) <= ODD * spread:
-        return ()
-    return (
-        f"attitude: the last row ({table.place(len(table) - 1)}) has a quaternion of length "
-        f"{last:.6f}, unlike the others ({centre:.6f}): it may be a single frame, not a mean.",
-    )

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from equipoise.io.attitude_reading import euler_angles, quaternions
+from equipoise.io.attitude_reading import euler_angles, lengths, quaternions
 from equipoise.io.channels import Channel, in_body_axes, read_channel, read_time
 from equipoise.io.column_map import ColumnMap, Columns
 from equipoise.io.dead_columns import without_dead
@@ -46,7 +46,7 @@ class Rows:
 def recording_of(table: Table, columns: ColumnMap) -> Recording:
     """Return what a table holds; InputError if it is too little or makes no sense."""
     source, order = _rows(table, columns)
-    attitude, of_attitude = _attitude(source)
+    attitude, norm, of_attitude = _attitude(source)
     rate, of_rate = source.vector("rate", columns.rate)
     _check_enough(table, attitude, rate)
     masses, of_masses = source.channel("masses", _mass_columns(columns))
@@ -61,6 +61,7 @@ def recording_of(table: Table, columns: ColumnMap) -> Recording:
         masses=_samples(masses),
         momentum=_samples(momentum),
         torque=_samples(torque),
+        attitude_norm=_samples(norm),
         source=table.source,
         notes=(*notes, *of_momentum, *of_torque, *gaps),
     )
@@ -77,15 +78,15 @@ def _rows(table: Table, columns: ColumnMap) -> tuple[Rows, Notes]:
     return Rows(table, columns, time - start, rows), (*notes, told)
 
 
-def _attitude(source: Rows) -> tuple[Channel | None, Notes]:
-    """Return the attitude, whether it came as quaternions or as angles."""
+def _attitude(source: Rows) -> tuple[Channel | None, Channel | None, Notes]:
+    """Return the attitude, whether it came as quaternions or as angles, and the lengths found."""
     columns = source.columns
     angles = None if columns.euler is None else columns.euler.columns
     raw, notes = source.channel("attitude", angles or columns.quaternion)
     if raw is None:
-        return None, notes
+        return None, None, notes
     mended, told = euler_angles(raw, columns) if angles else quaternions(raw, source.table, columns)
-    return mended, (*notes, *told)
+    return mended, None if angles else lengths(raw), (*notes, *told)
 
 
 def _mass_columns(columns: ColumnMap) -> Columns | None:

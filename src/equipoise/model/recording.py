@@ -34,6 +34,9 @@ class Recording:
     masses: Samples | None = None  # (n, k) m, displacement from home as reported
     momentum: Samples | None = None  # (n, 3) N m s, stored in wheels, body axes
     torque: Samples | None = None  # (n, 3) N m, known, body axes
+    # (n, 1) lengths of the attitude's quaternions as they were found, at the attitude's times; None
+    # when they told no more than rounding. A mean of frames is shorter than one. Not written.
+    attitude_norm: Samples | None = None
     source: str = ""  # the file, or the bench
     sha256: str = ""  # of the file's bytes; empty when it never was a file
     notes: tuple[str, ...] = ()  # what reading it had to set right
@@ -67,6 +70,7 @@ def window(recording: Recording, start: float, end: float) -> Recording:
     return replace(
         recording,
         attitude=sensor(recording.attitude),
+        attitude_norm=sensor(recording.attitude_norm),
         rate=sensor(recording.rate),
         masses=known(recording.masses),
         momentum=known(recording.momentum),
@@ -84,7 +88,17 @@ def join(first: Recording, second: Recording) -> Recording:
         return Samples(np.append(a.t, b.t[new]), np.vstack([a.values, b.values[new]]))
 
     parts = {name: both(getattr(first, name), getattr(second, name)) for name in CHANNELS}
-    return replace(first, mass_names=first.mass_names or second.mass_names, **parts)
+    lengths = both(first.attitude_norm, _lengths_after(first.attitude, second.attitude_norm))
+    names = first.mass_names or second.mass_names
+    return replace(first, mass_names=names, attitude_norm=lengths, **parts)
+
+
+def _lengths_after(attitude: Samples | None, lengths: Samples | None) -> Samples | None:
+    """Return the lengths of rows that a join keeps, though the first may have none of its own."""
+    if attitude is None or lengths is None or not len(attitude):
+        return lengths
+    new = lengths.t > attitude.t[-1]
+    return Samples(lengths.t[new], lengths.values[new])
 
 
 def arranged(recording: Recording, names: tuple[str, ...]) -> Recording:

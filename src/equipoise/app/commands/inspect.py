@@ -33,7 +33,7 @@ def inspect(
     json
         Print one JSON document instead.
     figure
-        Picture of the record to write, such as record.png.
+        Page with the record and its findings to write, such as record.png.
     """
     from equipoise.app.tables import finding_line
     from equipoise.app.views_json import dump, findings_json
@@ -47,7 +47,7 @@ def inspect(
         from equipoise.app.figures.record import draw
         from equipoise.app.outputs import write_figure
 
-        write_figure(draw(recording), figure)
+        write_figure(draw(recording, found, None if bed is None else bed.up), figure)
     if json:
         print(dump(findings_json(recording, found)))
         return 0
