@@ -30,7 +30,7 @@ from equipoise.actuators.stops import travels
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.propagation import Columns, body_of, stacked
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
-from equipoise.estimation.tracker_step import BODY, COM, SIZE, run_filter
+from equipoise.estimation.tracker_step import BODY, COM, SIZE, Rows, run_filter
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (
     Floats,
@@ -51,6 +51,7 @@ from equipoise.sensors.timing import seen_at
 
 Moves = Literal["fed", "ignored"]
 LONGEST_STEP = 1.0  # s
+WINDOW, LOOK, GROWTH, PASSES, DOUBT = 60.0, 4.0, 1.3, 4, 0.015
 UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump without being told
 WHERE = np.cumsum([4, 3, 3, 6, 3])  # where the parts of a belief written as one array end
 NOTHING = Samples(np.zeros(0), np.zeros((0, 4)))
@@ -78,6 +79,18 @@ class Belief:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Kept:
+    """Rows."""
+
+    rows: Rows
+    belief: Floats
+    covariance: Square
+    point: Floats
+    replayed: float
+    doubtful: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class State:
     """What the tracker believes, at one time."""
 
@@ -88,6 +101,7 @@ class State:
     inertia_P: Matrix3  # kg m^2, masses at home
     bias: Vector3  # rad/s
     covariance: Square  # (18, 18) of dth, dw, dr, dJ, db
+    kept: "Kept | None" = None
 
     @property
     def belief(self) -> Belief:
@@ -165,41 +179,129 @@ def stop_covariances(
     return np.array(nodes, dtype=np.int64)[order], stacked_up[order]
 
 
-def track(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
-    """Return the beliefs after every row later than the state; call again to go on from its end."""
+def rows_of(recording: Recording, testbed: Testbed, params: Params, state: State) -> Rows:
+    """Return what was seen later than the state."""
     attitude, rate = recording.attitude or NOTHING, recording.rate or NO_RATE
     tq, tw = seen_at(attitude.t, testbed.attitude), seen_at(rate.t, testbed.gyro)
     new_q, new_w = tq > state.t, tw > state.t
     masses = recording.masses if params.moves == "fed" else None
-    walk = params.com_walk if params.moves == "fed" else max(params.com_walk, UNTOLD)
     fastest = float(np.linalg.norm(state.rate)) + 0.2
     line = timeline(
         np.append(state.t, tq[new_q]), tw[new_w], masses, len(testbed.masses),
         min(LONGEST_STEP, TURN_PER_STEP / fastest), recording.momentum, recording.torque,
     )  # fmt: skip
-    inertia, mass = pack_symmetric(state.inertia_P), testbed.body.mass
-    body = body_of(mass, testbed.gravity, inertia, mass * state.com, params.torque)
     stops, added = stop_covariances(recording if masses else Recording(), testbed, line, state.t)
-    bias_walk = params.bias_walk if len(rate) else 0.0
-    noise = np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk], 3)
-    n, m = int(new_q.sum()), int(new_w.sum())
+    return Rows(
+        line.t, line.known, line.error_mass,
+        np.ascontiguousarray(attitude.values[new_q]), line.attitude_node[1:],
+        np.ascontiguousarray(rate.values[new_w]), line.rate_node, stops, added,
+    )  # fmt: skip
+
+
+def appended(a: Rows, b: Rows) -> Rows:
+    """Return rows that go on where others end."""
+    n = len(a.t) - 1
+    return Rows(
+        np.append(a.t, b.t[1:]), np.vstack([a.known[:-1], b.known]), a.owners,
+        np.vstack([a.q, b.q]), np.append(a.q_node, b.q_node + n),
+        np.vstack([a.w, b.w]), np.append(a.w_node, b.w_node + n),
+        np.append(a.stop_node, b.stop_node + n), np.vstack([a.stop_added, b.stop_added]),
+    )  # fmt: skip
+
+
+def after(rows: Rows, node: int) -> Rows:
+    """Return the rows from a node on."""
+    q, w, s = rows.q_node > node, rows.w_node > node, rows.stop_node > node
+    return Rows(
+        rows.t[node:], rows.known[node:], rows.owners, rows.q[q], rows.q_node[q] - node,
+        rows.w[w], rows.w_node[w] - node, rows.stop_node[s] - node, rows.stop_added[s],
+    )  # fmt: skip
+
+
+def doubtful(point: Floats, P: Floats) -> bool:
+    """Say whether the inertia is too doubtful to linearise about one belief."""
+    moments = point[3:6]
+    size = np.sqrt(moments[[0, 1, 2, 0, 0, 1]] * moments[[0, 1, 2, 1, 2, 2]])
+    return bool(np.any(np.sqrt(np.diag(P)[9:15]) > DOUBT * size))
+
+
+def nearer(point: Floats, belief: Floats) -> Floats:
+    """Return the belief, or a point on the way to it where the inertia stays possible."""
+    share = 1.0
+    root = np.linalg.cholesky(unpack_symmetric(point[3:]))
+    inverse = np.linalg.inv(root)
+    while True:
+        new = point + share * (belief - point)
+        least = np.linalg.eigvalsh(inverse @ unpack_symmetric(new[3:]) @ inverse.T)[0]
+        if least > 0.5:
+            return new
+        share /= 2
+
+
+def track(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
+    """Return the beliefs after every row later than the state; call again to go on from its end."""
+    fresh = rows_of(recording, testbed, params, state)
+    belief = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P), state.bias])
+    P = state.covariance.copy()
+    kept = state.kept or Kept(fresh, belief.copy(), P.copy(), belief[7:16].copy(), 0.0, doubtful(belief[7:16], P))
+    rows = appended(kept.rows, fresh) if state.kept else fresh
+    here = len(rows.t) - len(fresh.t)
+    walk = params.com_walk if params.moves == "fed" else max(params.com_walk, UNTOLD)
+    bias_walk = params.bias_walk if len(rows.w) else 0.0
+    walks = np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk], 3)
     sd_q = testbed.attitude.noise if testbed.attitude else 1.0
     sd_w = testbed.gyro.noise if testbed.gyro else 1.0
-    end = np.concatenate([state.q, state.rate, state.com, inertia, state.bias])
-    out = np.zeros((n + m, 1 + len(end) + SIZE + 1))
-    covariance = state.covariance.copy()
-    run_filter(
-        body, stacked(mass_maps(testbed.masses)), line.t, line.known, line.error_mass,
-        filter_columns(), np.ascontiguousarray(attitude.values[new_q]), line.attitude_node[1:],
-        sd_q, np.ascontiguousarray(rate.values[new_w]), line.rate_node, sd_w,
-        stops, added, noise, end, covariance, out,
-    )  # fmt: skip
+    body = body_of(testbed.body.mass, testbed.gravity, belief[10:16], belief[7:10], params.torque)
+    maps = stacked(mass_maps(testbed.masses))
+    n = len(fresh.q) + len(fresh.w)
+    out = np.zeros((n, 1 + len(belief) + SIZE + 1))
+    anchor, anchor_P, point, replayed, open_ = kept.belief, kept.covariance, kept.point.copy(), kept.replayed, kept.doubtful
+    done = 0
+    def run(rows, a, b, look, quiet, belief, P):
+        return run_filter(body, maps, rows, filter_columns(), sd_q, sd_w, walks, a, b, look, not open_, quiet, point, belief, P, out[done:])
+    def count(rows, a, b):
+        return int(np.sum((rows.q_node > a) & (rows.q_node <= b)) + np.sum((rows.w_node > a) & (rows.w_node <= b)))
+    while here < len(rows.t) - 1:
+        edge = int(np.searchsorted(rows.t, rows.t[0] + WINDOW)) if open_ else len(rows.t) - 1
+        edge = max(min(edge, len(rows.t) - 1), here + 1)
+        look = int(np.searchsorted(rows.t, rows.t[0] + max(LOOK, GROWTH * replayed)))
+        before = here
+        here = run(rows, here, edge, look, False, belief, P)
+        done += count(rows, before, here)
+        age = rows.t[here] - rows.t[0]
+        if open_ and here >= look:
+            for _ in range(PASSES):
+                point[:] = nearer(point, belief[7:16])
+                belief, P = anchor.copy(), anchor_P.copy()
+                if run(rows, 0, here, 0 if False else here, True, belief, P) == here and not far(point, belief): break
+            replayed = age
+        if age >= WINDOW - 1e-9 and open_:
+            moveto(point, belief, P)
+            anchor, anchor_P = belief.copy(), P.copy()
+            open_ = doubtful(point, P)
+            rows, here, replayed = after(rows, here), 0, 0.0
     at = np.split(out, [1, *(1 + WHERE), out.shape[1] - 1], axis=1)
     t, q, w, com, J, b, sd, surprise = at
-    q_end, w_end, com_end, J_end, b_end = np.split(end, WHERE[:-1])
-    last = State(float(line.t[-1]), q_end, w_end, com_end, unpack_symmetric(J_end), b_end,
-                 covariance)  # fmt: skip
+    q_end, w_end, com_end, J_end, b_end = np.split(belief, WHERE[:-1])
+    keep = Kept(rows if open_ else after(rows, here), anchor, anchor_P, point, replayed, open_)
+    last = State(float(rows.t[-1]), q_end, w_end, com_end, unpack_symmetric(J_end), b_end, P, keep)
     return Track(t[:, 0], q, w, com, J, b, sd, surprise[:, 0], last)
+
+
+def far(point, belief):
+    size = np.sqrt(point[3:6][[0, 1, 2, 0, 0, 1]] * point[3:6][[0, 1, 2, 1, 2, 2]])
+    off = belief[7:16] - point
+    return bool(np.any(np.abs(off[3:]) > 0.25 * 0.02 * size) or np.linalg.norm(off[:3]) > 0.25 * 0.05 * np.linalg.norm(point[:3]))
+
+
+def moveto(point, belief, P):
+    new = belief[7:16]
+    l = np.zeros(9); l[3:6] = 1 / point[3:6].sum()
+    c = new[3:6].sum() / point[3:6].sum()
+    T = c * np.eye(9) + np.outer(new - c * point, l)
+    P[6:15] = T @ P[6:15]
+    P[:, 6:15] = P[:, 6:15] @ T.T
+    point[:] = new
 
 
 def track_again(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:

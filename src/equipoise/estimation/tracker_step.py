@@ -21,15 +21,16 @@ from equipoise.model.arrays import Floats, Ints
 SIZE = 18  # dth, dw, dr, dJ, db
 N = 15  # of which the propagator moves these, in one block
 COM, BODY = slice(6, 9), slice(6, 15)  # rows of the error state: r; r and J
+FAR, FAR_COM = 0.02, 0.05  # of a moment, of |r|
 AT = 7  # where com stands in a belief written as one array: q, w, com, J, bias
 
 
 @part
 def believed(body: Body, end: Floats) -> Body:
     """Return the body with the centre of mass (m) and the inertia (kg m^2) of a belief."""
-    m, J = body.mass, AT + 3
-    moment = (m * end[AT], m * end[AT + 1], m * end[AT + 2])
-    inertia = (end[J], end[J + 1], end[J + 2], end[J + 3], end[J + 4], end[J + 5])
+    m = body.mass
+    moment = (m * end[0], m * end[1], m * end[2])
+    inertia = (end[3], end[4], end[5], end[6], end[7], end[8])
     return Body(m, body.gravity, inertia, moment, body.torqued, body.torque)
 
 
@@ -137,6 +138,7 @@ class Work(NamedTuple):
     inverse: Floats  # (3, 3) of S
     K: Floats  # (18, 3)
     A: Floats  # (18, 18)
+    v: Floats  # (9,)
 
 
 @part
@@ -222,6 +224,19 @@ def begin(now: Now, end: Floats, y: Floats) -> None:
 
 
 @part
+def lean(now: Now, phi: Floats, point: Floats, y: Floats, end: Floats) -> None:
+    """Write where the belief is after a step from the point: Phi (belief - point)."""
+    a0, a1, a2 = 0.0, 0.0, 0.0
+    b0, b1, b2 = rate_of(now, y)
+    for c in range(9):
+        off = end[AT + c] - point[c]
+        a0, a1, a2 = a0 + phi[0, 6 + c] * off, a1 + phi[1, 6 + c] * off, a2 + phi[2, 6 + c] * off
+        b0, b1, b2 = b0 + phi[3, 6 + c] * off, b1 + phi[4, 6 + c] * off, b2 + phi[5, 6 + c] * off
+    end[0], end[1], end[2], end[3] = turned(y, a0, a1, a2)
+    end[4], end[5], end[6] = b0, b1, b2
+
+
+@part
 def innovation(now: Now, y: Floats, bias: Floats, seen: Floats) -> Triple:
     """Return measured minus predicted rate."""
     w = rate_of(now, y)
@@ -239,47 +254,104 @@ def note(t: float, end: Floats, P: Floats, surprise: float, out: Floats) -> None
         out[1 + n + j] = P[j, j] ** 0.5
 
 
+@part
+def moved(point: Floats, end: Floats) -> bool:
+    """Say whether a belief is too far from the point of linearisation."""
+    for k in range(6):
+        i = 0 if k == 0 or k == 3 or k == 4 else (1 if k == 1 or k == 5 else 2)
+        j = 0 if k == 0 else (1 if k == 1 or k == 3 else 2)
+        off = end[AT + 3 + k] - point[3 + k]
+        if off * off > FAR * FAR * point[3 + i] * point[3 + j]:
+            return True
+    size, off = 0.0, 0.0
+    for k in range(3):
+        size += point[k] * point[k]
+        off += (end[AT + k] - point[k]) ** 2
+    return off > FAR_COM * FAR_COM * size
+
+
+@part
+def transport(P: Floats, point: Floats, end: Floats, v: Floats) -> None:
+    """Turn the unobservable direction of P, (r, J) at the point, into that of the belief.
+
+    T = c E + (x' - c x) l,  l dJ = tr dJ / tr J,  c = tr J' / tr J;  P <- T P T^T.
+    """
+    size = point[3] + point[4] + point[5]
+    c = (end[AT + 3] + end[AT + 4] + end[AT + 5]) / size
+    for k in range(9):
+        v[k] = (end[AT + k] - c * point[k]) / size
+        point[k] = end[AT + k]
+    for j in range(SIZE):
+        along = P[9, j] + P[10, j] + P[11, j]
+        for k in range(9):
+            P[6 + k, j] = c * P[6 + k, j] + v[k] * along
+    for j in range(SIZE):
+        along = P[j, 9] + P[j, 10] + P[j, 11]
+        for k in range(9):
+            P[j, 6 + k] = c * P[j, 6 + k] + v[k] * along
+
+
+class Rows(NamedTuple):
+    """What was seen and known from one moment on, as the filter walks along it."""
+
+    t: Floats  # (n+1,) s
+    known: Floats  # (n+1, 6 + k)
+    owners: Ints
+    q: Floats  # (n_q, 4)
+    q_node: Ints
+    w: Floats  # (n_w, 3) rad/s
+    w_node: Ints
+    stop_node: Ints
+    stop_added: Floats  # (n_s, 3, 3) m^2
+
+
 @kernel
 def run_filter(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    attitude: Floats, q_node: Ints, sd_q: float, rate: Floats, w_node: Ints, sd_w: float,
-    stop_node: Ints, stop_added: Floats, noise: Floats, end: Floats, P: Floats, out: Floats,
-) -> None:  # fmt: skip
-    """Filter every row into one of ``out``; ``end`` (q, w, com, J, bias) and P come and go."""
+    body: Body, maps: Floats, rows: Rows, columns: Columns, sd_q: float, sd_w: float,
+    walks: Floats, first: int, last: int, look: int, folding: bool, quiet: bool,
+    point: Floats, end: Floats, P: Floats, out: Floats,
+) -> int:  # fmt: skip
+    """Filter rows; return the node reached: from ``look`` on, that where the belief has moved."""
+    t, known, owners, q_node, w_node = rows.t, rows.known, rows.owners, rows.q_node, rows.w_node
     y = np.zeros(ROWS + BLOCK)
     at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
     regress, fb, phi = np.zeros((3, WIDTH)), np.zeros(BLOCK), np.zeros((6, N))
     work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
-                np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
+                np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)), np.zeros(9))  # fmt: skip
     bias = end[AT + 9 : AT + 12]
-    body = believed(body, end)
-    now = body_at(body, maps, t, known, 0, 0.0)
-    begin(now, end, y)
-    iq, iw, stop = 0, 0, 0
-    for i in range(t.shape[0] - 1):
+    body = believed(body, point)
+    iq, iw = np.searchsorted(q_node, first + 1), np.searchsorted(w_node, first + 1)
+    stop = np.searchsorted(rows.stop_node, first + 1)
+    written = 0
+    for i in range(first, last):
         now = body_at(body, maps, t, known, i, 0.0)
+        begin(now, end, y)
         unit_columns(now, rate_of(now, y), regress, y)
         step(body, maps, t, known, owners, columns, i, y, regress, fb, at, dy, total)
         now = body_at(body, maps, t, known, i, 1.0)
         transition(now, body.mass, y, regress, phi)
-        predict_covariance(body.inertia, phi, noise, t[i + 1] - t[i], P, work.A)
-        stop = add_stops(stop, i + 1, stop_node, stop_added, P)
+        predict_covariance(body.inertia, phi, walks, t[i + 1] - t[i], P, work.A)
+        stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
+        lean(now, phi, point, y, end)
+        begin(now, end, y)
         for source in range(2):
             if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
-                surprise = correct(P, 0, -1, turn(y, attitude[iq]), sd_q, work)
+                surprise = correct(P, 0, -1, turn(y, rows.q[iq]), sd_q, work)
                 iq += 1
             elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
-                surprise = correct(P, 3, N, innovation(now, y, bias, rate[iw]), sd_w, work)
+                surprise = correct(P, 3, N, innovation(now, y, bias, rows.w[iw]), sd_w, work)
                 iw += 1
             else:
                 continue
             apply(work.x, rate_of(now, y), y, end)
-            note(t[i + 1], end, P, surprise, out[iq + iw - 1])
-            body = believed(body, end)
-            now = body_at(body, maps, t, known, i, 1.0)
             begin(now, end, y)
-    w = rate_of(now, y)
-    for j in range(4):
-        end[j] = y[j]
-    for j in range(3):
-        end[4 + j] = w[j]
+            if not quiet:
+                note(t[i + 1], end, P, surprise, out[written])
+                written += 1
+        if moved(point, end):
+            if folding:
+                transport(P, point, end, work.v)
+                body = believed(body, point)
+            elif i + 1 >= look:
+                return i + 1
+    return last

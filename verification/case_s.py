@@ -1,0 +1,83 @@
+"""Case S: two minutes of a camera alone, three masses moved at half time.
+
+14 kg, J 0.35 / 0.54 / 0.85 kg m^2 with small products, r = (2, -3, -80) um, 5 Hz and 0.2 deg, tilt
+up to 14 deg, rates up to 1.3 deg/s; masses of 31.2 g go by (-10, -10, -50) mm at 60 s. Made with
+our own propagator (which `independent_truth` checks) plus white camera noise.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.maths.attitude import exponential, multiply, to_matrix
+from equipoise.maths.linalg import element_sizes, unpack_symmetric
+from equipoise.model.arrays import Floats, Vector6
+from equipoise.model.mass_properties import MassProperties, is_possible
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import SlidingMass, Testbed
+from tests import builders
+
+SECONDS, MOVED_AT, CAMERA = 120.0, 60.0, 5.0
+MASS, COM = 14.0, np.array([2.0, -3.0, -80.0]) * 1e-6
+MOMENTS = np.array([0.35, 0.54, 0.85])
+PRODUCTS = 0.01  # kg m^2, one sd
+TRACK = builders.move_at(MOVED_AT, SECONDS)  # to (-10, -10, -50) mm at 10 mm/s
+MASSES: tuple[SlidingMass, ...] = tuple(
+    replace(mass, mass=0.0312) for mass in builders.sliding_masses()
+)
+SHIFT = com_shift(mass_maps(MASSES), MASS, TRACK.values[-1])  # m
+
+
+class Case(NamedTuple):
+    """One platform, and how it starts."""
+
+    inertia: Vector6  # kg m^2
+    q0: Floats
+    rate: Floats  # rad/s
+
+
+def case(seed: int) -> Case:
+    """Return the platform of one seed."""
+    rng = np.random.default_rng([seed, 1])
+    inertia = np.concatenate([MOMENTS, PRODUCTS * rng.normal(size=3)])
+    way, tilt = rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(4.0, 14.0))
+    q0 = exponential(tilt * np.array([np.cos(way), np.sin(way), 0.0]))
+    heading = rng.uniform(0, 2 * np.pi)
+    q0 = multiply(q0, exponential(np.array([0.0, 0.0, heading])))
+    spin = rng.choice([-1.0, 1.0]) * rng.uniform(0.5, 0.9)
+    rate = np.radians([*rng.uniform(-0.65, 0.65, 2), spin])
+    return Case(inertia, q0, to_matrix(q0).T @ rate)
+
+
+def clean(seed: int) -> Recording:
+    """Return what a perfect camera would have recorded."""
+    t, one = np.arange(int(SECONDS * CAMERA) + 1) / CAMERA, case(seed)
+    line = builders.line_of(t, TRACK)
+    body = body_of(MASS, builders.GRAVITY, one.inertia, MASS * COM)
+    motion = propagate(body, builders.maps(MASSES), line, one.q0, one.rate)
+    return Recording(Samples(t, motion.q[line.attitude_node]), None, ("x", "y", "z"), TRACK)
+
+
+def run(seed: int) -> Recording:
+    """Return what the camera recorded."""
+    return builders.noisy(clean(seed), seed)
+
+
+def testbed(seed: int, doubt: float) -> Testbed:
+    """Return what is known beforehand: J wrong by ``doubt`` (relative, one sd of each element).
+
+    Drawn about the truth until it is an inertia that a body can have.
+    """
+    true, rng = case(seed).inertia, np.random.default_rng([seed, 5])
+    spread = doubt * element_sizes(unpack_symmetric(true))
+    while True:
+        drawn = unpack_symmetric(true + spread * rng.normal(size=6))
+        guess = MassProperties(MASS, np.array([0.0, 0.0, -100e-6]), drawn)
+        if is_possible(guess):
+            return replace(builders.platform(), body=guess, masses=MASSES, inertia_sd=doubt)
+
+
+testbed.__test__ = False  # pytest would take its name for a test's
