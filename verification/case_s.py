@@ -67,16 +67,18 @@ def run(seed: int) -> Recording:
 
 
 def testbed(seed: int, doubt: float) -> Testbed:
-    """Return what is known beforehand: J wrong by ``doubt`` (relative, one sd of each element).
+    """Return what is known beforehand, wrong by ``doubt`` (relative, one sd of each element of J).
 
-    Drawn about the truth until it is an inertia that a body can have.
+    The truth is normal about what is believed, with an sd that is a share of what is believed;
+    drawn until the belief is an inertia that a body can have.
     """
     true, rng = case(seed).inertia, np.random.default_rng([seed, 5])
-    spread = doubt * element_sizes(unpack_symmetric(true))
     while True:
-        drawn = unpack_symmetric(true + spread * rng.normal(size=6))
-        guess = MassProperties(MASS, np.array([0.0, 0.0, -100e-6]), drawn)
-        if is_possible(guess):
+        normal, drawn = rng.normal(size=6), true
+        for _ in range(50):
+            drawn = true - doubt * element_sizes(unpack_symmetric(drawn)) * normal
+        guess = MassProperties(MASS, np.array([0.0, 0.0, -100e-6]), unpack_symmetric(drawn))
+        if np.all(drawn[:3] > 0) and is_possible(guess):
             return replace(builders.platform(), body=guess, masses=MASSES, inertia_sd=doubt)
 
 

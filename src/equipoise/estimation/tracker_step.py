@@ -21,7 +21,7 @@ from equipoise.model.arrays import Floats, Ints
 SIZE = 18  # dth, dw, dr, dJ, db
 N = 15  # of which the propagator moves these, in one block
 COM, BODY = slice(6, 9), slice(6, 15)  # rows of the error state: r; r and J
-FAR, FAR_COM = 0.02, 0.05  # of a moment, of |r|
+FAR, FAR_COM = 0.01, 0.03  # of a moment, of |r|
 AT = 7  # where com stands in a belief written as one array: q, w, com, J, bias
 
 
