@@ -20,21 +20,23 @@ Cannot see r along gravity until the platform has tilted. Linearises about its b
 coarse from an inertia wrong by more than some 3 %: for a whole record see ``track_again``.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from scipy.special import chdtri
 
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.actuators.stops import travels
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.propagation import Columns, body_of, stacked
-from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
-from equipoise.estimation.tracker_step import BODY, COM, SIZE, Rows, run_filter
+from equipoise.estimation.tracker_contacts import ONSETS
+from equipoise.estimation.tracker_filter import GATE, Model
+from equipoise.estimation.tracker_rows import rows_of
+from equipoise.estimation.tracker_step import BODY, COM, SIZE
+from equipoise.estimation.tracker_window import Memory, Place, Written, follow
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (
     Floats,
-    Ints,
     Matrix3,
     Quaternion,
     Series,
@@ -45,17 +47,15 @@ from equipoise.model.arrays import (
     Vector3,
 )
 from equipoise.model.estimate import INERTIA, Estimate
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
 
 Moves = Literal["fed", "ignored"]
-LONGEST_STEP = 1.0  # s
-WINDOW, LOOK, GROWTH, PASSES, DOUBT = 60.0, 4.0, 1.3, 4, 0.015
+Kind = Literal["impulse", "step", "either", "lost"]
+KINDS: tuple[Kind, ...] = ("impulse", "step", "either", "lost")
 UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump without being told
 WHERE = np.cumsum([4, 3, 3, 6, 3])  # where the parts of a belief written as one array end
-NOTHING = Samples(np.zeros(0), np.zeros((0, 4)))
-NO_RATE = Samples(np.zeros(0), np.zeros((0, 3)))
+QUIET = 600.0  # s: a contact is reported falsely no more often than once in this
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,18 +79,6 @@ class Belief:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Kept:
-    """Rows."""
-
-    rows: Rows
-    belief: Floats
-    covariance: Square
-    point: Floats
-    replayed: float
-    doubtful: bool
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class State:
     """What the tracker believes, at one time."""
 
@@ -101,12 +89,25 @@ class State:
     inertia_P: Matrix3  # kg m^2, masses at home
     bias: Vector3  # rad/s
     covariance: Square  # (18, 18) of dth, dw, dr, dJ, db
-    kept: "Kept | None" = None
+    memory: Memory | None = None  # of the rows before; None: this is where tracking begins
 
     @property
     def belief(self) -> Belief:
         """Return what is believed of the body."""
         return Belief(self.com, self.inertia_P, self.covariance[BODY, BODY])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contact:
+    """Something that free motion does not explain; what is not of its kind is 0."""
+
+    t: float  # s, the row before it
+    kind: Kind  # "lost": the attitude was not known any more and was taken anew
+    weight: float  # l: twice the log of the likelihood ratio
+    impulse: Vector3  # N m s, body axes
+    impulse_sd: Vector3
+    shift: Vector3  # m, of the centre of mass, body axes
+    shift_sd: Vector3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,7 +122,13 @@ class Track:
     bias: Series3
     sd: Series  # (n, 18) of dth, dw, dr, dJ, db
     surprise: Series1  # squared innovation over its covariance, 3 degrees of freedom
+    contacts: tuple[Contact, ...]
     end: State
+
+    @property
+    def not_used(self) -> Series1:
+        """Return the times (s) of rows that are too odd to be used."""
+        return self.t[self.surprise > GATE]
 
     @property
     def com_sd(self) -> Series3:
@@ -156,164 +163,60 @@ def first_state(t: float, q: Quaternion, testbed: Testbed, belief: Belief | None
     return State(t, q, np.zeros(3), belief.com, belief.inertia_P, np.zeros(3), covariance)
 
 
-def stop_covariances(
-    recording: Recording, testbed: Testbed, line: Timeline, after: float
-) -> tuple[Ints, Floats]:
-    """Return the nodes at which masses stopped, and what that adds to the covariance of r.
+def contact_alarm(testbed: Testbed, recording: Recording) -> float:
+    """Return the l that calls a contact: with one false call in 10 min at most.
 
-    A mass that travels up to the end has not stopped yet: the record that goes on counts it.
+    After each row two kinds at a dozen onsets are tested, each with 3 degrees of freedom; that they
+    are far from independent makes the true rate lower (Bonferroni).
     """
-    nodes: list[int] = []
-    added: list[Floats] = []
-    track, total = recording.masses, testbed.body.mass
-    for i, mass in enumerate(testbed.masses if track is not None else ()):
-        assert track is not None
-        for _, last in travels(track.t, track.values[:, i], mass.speed):
-            when = float(track.t[last])
-            if after < when < line.t[-1] and mass.accuracy > 0:
-                nodes.append(min(int(np.searchsorted(line.t, when)), len(line.t) - 1))
-                shift: Vector3 = mass.mass * mass.accuracy / total * mass.axis
-                added.append(shift[:, None] * shift)
-    order = np.argsort(nodes, kind="stable")
-    stacked_up = np.array(added).reshape(-1, 3, 3)
-    return np.array(nodes, dtype=np.int64)[order], stacked_up[order]
+    sensors = ((recording.attitude, testbed.attitude), (recording.rate, testbed.gyro))
+    rows = sum(sensor.rate for seen, sensor in sensors if seen is not None and sensor is not None)
+    return float(chdtri(3, 1 / (max(rows, 1.0) * QUIET * 2 * ONSETS)))
 
 
-def rows_of(recording: Recording, testbed: Testbed, params: Params, state: State) -> Rows:
-    """Return what was seen later than the state."""
-    attitude, rate = recording.attitude or NOTHING, recording.rate or NO_RATE
-    tq, tw = seen_at(attitude.t, testbed.attitude), seen_at(rate.t, testbed.gyro)
-    new_q, new_w = tq > state.t, tw > state.t
-    masses = recording.masses if params.moves == "fed" else None
-    fastest = float(np.linalg.norm(state.rate)) + 0.2
-    line = timeline(
-        np.append(state.t, tq[new_q]), tw[new_w], masses, len(testbed.masses),
-        min(LONGEST_STEP, TURN_PER_STEP / fastest), recording.momentum, recording.torque,
+def model_of(recording: Recording, testbed: Testbed, params: Params, state: State) -> Model:
+    """Return what does not change along the rows."""
+    inertia, mass = pack_symmetric(state.inertia_P), testbed.body.mass
+    walk = params.com_walk if params.moves == "fed" else max(params.com_walk, UNTOLD)
+    bias_walk = params.bias_walk if recording.rate is not None and len(recording.rate) else 0.0
+    sd = [s.noise if s else 1.0 for s in (testbed.attitude, testbed.gyro)]
+    return Model(
+        body_of(mass, testbed.gravity, inertia, mass * state.com, params.torque),
+        stacked(mass_maps(testbed.masses)), filter_columns(), np.array(sd),
+        np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk], 3),
+        contact_alarm(testbed, recording),
     )  # fmt: skip
-    stops, added = stop_covariances(recording if masses else Recording(), testbed, line, state.t)
-    return Rows(
-        line.t, line.known, line.error_mass,
-        np.ascontiguousarray(attitude.values[new_q]), line.attitude_node[1:],
-        np.ascontiguousarray(rate.values[new_w]), line.rate_node, stops, added,
-    )  # fmt: skip
-
-
-def appended(a: Rows, b: Rows) -> Rows:
-    """Return rows that go on where others end."""
-    n = len(a.t) - 1
-    return Rows(
-        np.append(a.t, b.t[1:]), np.vstack([a.known[:-1], b.known]), a.owners,
-        np.vstack([a.q, b.q]), np.append(a.q_node, b.q_node + n),
-        np.vstack([a.w, b.w]), np.append(a.w_node, b.w_node + n),
-        np.append(a.stop_node, b.stop_node + n), np.vstack([a.stop_added, b.stop_added]),
-    )  # fmt: skip
-
-
-def after(rows: Rows, node: int) -> Rows:
-    """Return the rows from a node on."""
-    q, w, s = rows.q_node > node, rows.w_node > node, rows.stop_node > node
-    return Rows(
-        rows.t[node:], rows.known[node:], rows.owners, rows.q[q], rows.q_node[q] - node,
-        rows.w[w], rows.w_node[w] - node, rows.stop_node[s] - node, rows.stop_added[s],
-    )  # fmt: skip
-
-
-def doubtful(point: Floats, P: Floats) -> bool:
-    """Say whether the inertia is too doubtful to linearise about one belief."""
-    moments = point[3:6]
-    size = np.sqrt(moments[[0, 1, 2, 0, 0, 1]] * moments[[0, 1, 2, 1, 2, 2]])
-    return bool(np.any(np.sqrt(np.diag(P)[9:15]) > DOUBT * size))
-
-
-def nearer(point: Floats, belief: Floats) -> Floats:
-    """Return the belief, or a point on the way to it where the inertia stays possible."""
-    share = 1.0
-    root = np.linalg.cholesky(unpack_symmetric(point[3:]))
-    inverse = np.linalg.inv(root)
-    while True:
-        new = point + share * (belief - point)
-        least = np.linalg.eigvalsh(inverse @ unpack_symmetric(new[3:]) @ inverse.T)[0]
-        if least > 0.5:
-            return new
-        share /= 2
 
 
 def track(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
     """Return the beliefs after every row later than the state; call again to go on from its end."""
-    fresh = rows_of(recording, testbed, params, state)
-    belief = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P), state.bias])
-    P = state.covariance.copy()
-    kept = state.kept or Kept(fresh, belief.copy(), P.copy(), belief[7:16].copy(), 0.0, doubtful(belief[7:16], P))
-    rows = appended(kept.rows, fresh) if state.kept else fresh
-    here = len(rows.t) - len(fresh.t)
-    walk = params.com_walk if params.moves == "fed" else max(params.com_walk, UNTOLD)
-    bias_walk = params.bias_walk if len(rows.w) else 0.0
-    walks = np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk], 3)
-    sd_q = testbed.attitude.noise if testbed.attitude else 1.0
-    sd_w = testbed.gyro.noise if testbed.gyro else 1.0
-    body = body_of(testbed.body.mass, testbed.gravity, belief[10:16], belief[7:10], params.torque)
-    maps = stacked(mass_maps(testbed.masses))
-    n = len(fresh.q) + len(fresh.w)
-    out = np.zeros((n, 1 + len(belief) + SIZE + 1))
-    anchor, anchor_P, point, replayed, open_ = kept.belief, kept.covariance, kept.point.copy(), kept.replayed, kept.doubtful
-    done = 0
-    def run(rows, a, b, look, quiet, belief, P):
-        return run_filter(body, maps, rows, filter_columns(), sd_q, sd_w, walks, a, b, look, not open_, quiet, point, belief, P, out[done:])
-    def count(rows, a, b):
-        return int(np.sum((rows.q_node > a) & (rows.q_node <= b)) + np.sum((rows.w_node > a) & (rows.w_node <= b)))
-    while here < len(rows.t) - 1:
-        edge = int(np.searchsorted(rows.t, rows.t[0] + WINDOW)) if open_ else len(rows.t) - 1
-        edge = max(min(edge, len(rows.t) - 1), here + 1)
-        look = int(np.searchsorted(rows.t, rows.t[0] + max(LOOK, GROWTH * replayed)))
-        before = here
-        here = run(rows, here, edge, look, False, belief, P)
-        done += count(rows, before, here)
-        age = rows.t[here] - rows.t[0]
-        if open_ and here >= look:
-            for _ in range(PASSES):
-                point[:] = nearer(point, belief[7:16])
-                belief, P = anchor.copy(), anchor_P.copy()
-                if run(rows, 0, here, 0 if False else here, True, belief, P) == here and not far(point, belief): break
-            replayed = age
-        if age >= WINDOW - 1e-9 and open_:
-            moveto(point, belief, P)
-            anchor, anchor_P = belief.copy(), P.copy()
-            open_ = doubtful(point, P)
-            rows, here, replayed = after(rows, here), 0, 0.0
+    belief = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P),
+                             state.bias])  # fmt: skip
+    speed, fed = float(np.linalg.norm(state.rate)), params.moves == "fed"
+    fresh = rows_of(recording, testbed, fed, state.t, speed)
+    model = model_of(recording, testbed, params, state)
+    memory, here, written = follow(model, state.memory, Place(belief, state.covariance), fresh)
+    q, w, com, J, b = np.split(here.belief, WHERE[:-1])
+    end = State(float(fresh.t[-1]), q, w, com, unpack_symmetric(J), b, here.covariance, memory)
+    return track_of(written, end)
+
+
+def track_of(written: Written, end: State) -> Track:
+    """Return what the walk has written."""
+    out = written.out
     at = np.split(out, [1, *(1 + WHERE), out.shape[1] - 1], axis=1)
     t, q, w, com, J, b, sd, surprise = at
-    q_end, w_end, com_end, J_end, b_end = np.split(belief, WHERE[:-1])
-    keep = Kept(rows if open_ else after(rows, here), anchor, anchor_P, point, replayed, open_)
-    last = State(float(rows.t[-1]), q_end, w_end, com_end, unpack_symmetric(J_end), b_end, P, keep)
-    return Track(t[:, 0], q, w, com, J, b, sd, surprise[:, 0], last)
+    found = tuple(contact_of(event, end) for event in written.events[: written.done[2]])
+    return Track(t[:, 0], q, w, com, J, b, sd, surprise[:, 0], found, end)
 
 
-def far(point, belief):
-    size = np.sqrt(point[3:6][[0, 1, 2, 0, 0, 1]] * point[3:6][[0, 1, 2, 1, 2, 2]])
-    off = belief[7:16] - point
-    return bool(np.any(np.abs(off[3:]) > 0.25 * 0.02 * size) or np.linalg.norm(off[:3]) > 0.25 * 0.05 * np.linalg.norm(point[:3]))
-
-
-def moveto(point, belief, P):
-    new = belief[7:16]
-    l = np.zeros(9); l[3:6] = 1 / point[3:6].sum()
-    c = new[3:6].sum() / point[3:6].sum()
-    T = c * np.eye(9) + np.outer(new - c * point, l)
-    P[6:15] = T @ P[6:15]
-    P[:, 6:15] = P[:, 6:15] @ T.T
-    point[:] = new
-
-
-def track_again(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
-    """Return the track of a second pass, from the mass properties that a first one ended with.
-
-    Only the point of linearisation is new: the covariance to begin with is the same prior's, so the
-    record counts once. (The prior's values are given up for it: this is for priors much wider than
-    what the record tells.)
-    """
-    end = track(recording, testbed, params, state).end
-    again = replace(state, com=end.com, inertia_P=end.inertia_P)
-    return track(recording, testbed, params, again)
+def contact_of(event: Floats, end: State) -> Contact:
+    """Return an event as written."""
+    jump, step, jump_sd, step_sd = np.split(event[3:], 4)
+    J = end.inertia_P
+    impulse_sd = np.sqrt(np.diag(J @ np.diag(jump_sd**2) @ J))
+    kind = KINDS[int(event[1])]
+    return Contact(float(event[0]), kind, float(event[2]), J @ jump, impulse_sd, step, step_sd)
 
 
 def filter_columns() -> Columns:

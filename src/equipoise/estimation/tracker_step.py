@@ -1,4 +1,4 @@
-"""One step of the tracker, compiled: predict along the timeline, correct by a row.
+"""What a step of the tracker is made of, compiled: predict along the timeline, correct by a row.
 
     P- = Phi P Phi^T + Q dt        Phi from the propagator's sensitivities over the step
     K  = P- H^T (H P- H^T + R)^-1,   x = K z,   P+ = (E - K H) P- (E - K H)^T + K R K^T
@@ -8,29 +8,28 @@ H picks three rows of the error state (and the bias), so H P is a few rows of P.
 
 from typing import NamedTuple
 
-import numpy as np
 
-from equipoise.dynamics.propagation import Columns, step
-from equipoise.dynamics.regressor import WIDTH, Triple, momentum_columns
-from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, body_at, rate_of, times
-from equipoise.dynamics.sensitivities import BLOCK, LANES
-from equipoise.maths.compiled import kernel, part
-from equipoise.maths.turns import turn, turned
+
+
+from equipoise.dynamics.regressor import Triple, momentum_columns
+from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, rate_of, times
+from equipoise.estimation.tracker_point import AT
+from equipoise.dynamics.sensitivities import LANES
+from equipoise.maths.compiled import part
+from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints
 
 SIZE = 18  # dth, dw, dr, dJ, db
 N = 15  # of which the propagator moves these, in one block
 COM, BODY = slice(6, 9), slice(6, 15)  # rows of the error state: r; r and J
-FAR, FAR_COM = 0.01, 0.03  # of a moment, of |r|
-AT = 7  # where com stands in a belief written as one array: q, w, com, J, bias
 
 
 @part
-def believed(body: Body, end: Floats) -> Body:
-    """Return the body with the centre of mass (m) and the inertia (kg m^2) of a belief."""
+def placed(body: Body, point: Floats) -> Body:
+    """Return the body with the centre of mass (m) and the inertia (kg m^2) of a point."""
     m = body.mass
-    moment = (m * end[0], m * end[1], m * end[2])
-    inertia = (end[3], end[4], end[5], end[6], end[7], end[8])
+    moment = (m * point[0], m * point[1], m * point[2])
+    inertia = (point[3], point[4], point[5], point[6], point[7], point[8])
     return Body(m, body.gravity, inertia, moment, body.torqued, body.torque)
 
 
@@ -138,7 +137,6 @@ class Work(NamedTuple):
     inverse: Floats  # (3, 3) of S
     K: Floats  # (18, 3)
     A: Floats  # (18, 18)
-    v: Floats  # (9,)
 
 
 @part
@@ -192,18 +190,6 @@ def shrink(P: Floats, first: int, second: int, sd: float, work: Work) -> None:
 
 
 @part
-def correct(P: Floats, first: int, second: int, z: Triple, sd: float, work: Work) -> float:
-    """Write x and P+, return the squared innovation over its covariance.
-
-    H is unit rows at ``first``, and at ``second`` if that is not negative.
-    """
-    expect(P, first, second, sd, work)
-    surprise = weigh(z, work)
-    shrink(P, first, second, sd, work)
-    return surprise
-
-
-@part
 def apply(x: Floats, w: Triple, y: Floats, end: Floats) -> None:
     """Write a belief (q, w, com, J, bias) corrected by the error state; y holds q before."""
     end[0], end[1], end[2], end[3] = turned(y, x[0], x[1], x[2])
@@ -252,106 +238,3 @@ def note(t: float, end: Floats, P: Floats, surprise: float, out: Floats) -> None
         out[1 + j] = end[j]
     for j in range(SIZE):
         out[1 + n + j] = P[j, j] ** 0.5
-
-
-@part
-def moved(point: Floats, end: Floats) -> bool:
-    """Say whether a belief is too far from the point of linearisation."""
-    for k in range(6):
-        i = 0 if k == 0 or k == 3 or k == 4 else (1 if k == 1 or k == 5 else 2)
-        j = 0 if k == 0 else (1 if k == 1 or k == 3 else 2)
-        off = end[AT + 3 + k] - point[3 + k]
-        if off * off > FAR * FAR * point[3 + i] * point[3 + j]:
-            return True
-    size, off = 0.0, 0.0
-    for k in range(3):
-        size += point[k] * point[k]
-        off += (end[AT + k] - point[k]) ** 2
-    return off > FAR_COM * FAR_COM * size
-
-
-@part
-def transport(P: Floats, point: Floats, end: Floats, v: Floats) -> None:
-    """Turn the unobservable direction of P, (r, J) at the point, into that of the belief.
-
-    T = c E + (x' - c x) l,  l dJ = tr dJ / tr J,  c = tr J' / tr J;  P <- T P T^T.
-    """
-    size = point[3] + point[4] + point[5]
-    c = (end[AT + 3] + end[AT + 4] + end[AT + 5]) / size
-    for k in range(9):
-        v[k] = (end[AT + k] - c * point[k]) / size
-        point[k] = end[AT + k]
-    for j in range(SIZE):
-        along = P[9, j] + P[10, j] + P[11, j]
-        for k in range(9):
-            P[6 + k, j] = c * P[6 + k, j] + v[k] * along
-    for j in range(SIZE):
-        along = P[j, 9] + P[j, 10] + P[j, 11]
-        for k in range(9):
-            P[j, 6 + k] = c * P[j, 6 + k] + v[k] * along
-
-
-class Rows(NamedTuple):
-    """What was seen and known from one moment on, as the filter walks along it."""
-
-    t: Floats  # (n+1,) s
-    known: Floats  # (n+1, 6 + k)
-    owners: Ints
-    q: Floats  # (n_q, 4)
-    q_node: Ints
-    w: Floats  # (n_w, 3) rad/s
-    w_node: Ints
-    stop_node: Ints
-    stop_added: Floats  # (n_s, 3, 3) m^2
-
-
-@kernel
-def run_filter(
-    body: Body, maps: Floats, rows: Rows, columns: Columns, sd_q: float, sd_w: float,
-    walks: Floats, first: int, last: int, look: int, folding: bool, quiet: bool,
-    point: Floats, end: Floats, P: Floats, out: Floats,
-) -> int:  # fmt: skip
-    """Filter rows; return the node reached: from ``look`` on, that where the belief has moved."""
-    t, known, owners, q_node, w_node = rows.t, rows.known, rows.owners, rows.q_node, rows.w_node
-    y = np.zeros(ROWS + BLOCK)
-    at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
-    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros(BLOCK), np.zeros((6, N))
-    work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
-                np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)), np.zeros(9))  # fmt: skip
-    bias = end[AT + 9 : AT + 12]
-    body = believed(body, point)
-    iq, iw = np.searchsorted(q_node, first + 1), np.searchsorted(w_node, first + 1)
-    stop = np.searchsorted(rows.stop_node, first + 1)
-    written = 0
-    for i in range(first, last):
-        now = body_at(body, maps, t, known, i, 0.0)
-        begin(now, end, y)
-        unit_columns(now, rate_of(now, y), regress, y)
-        step(body, maps, t, known, owners, columns, i, y, regress, fb, at, dy, total)
-        now = body_at(body, maps, t, known, i, 1.0)
-        transition(now, body.mass, y, regress, phi)
-        predict_covariance(body.inertia, phi, walks, t[i + 1] - t[i], P, work.A)
-        stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
-        lean(now, phi, point, y, end)
-        begin(now, end, y)
-        for source in range(2):
-            if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
-                surprise = correct(P, 0, -1, turn(y, rows.q[iq]), sd_q, work)
-                iq += 1
-            elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
-                surprise = correct(P, 3, N, innovation(now, y, bias, rows.w[iw]), sd_w, work)
-                iw += 1
-            else:
-                continue
-            apply(work.x, rate_of(now, y), y, end)
-            begin(now, end, y)
-            if not quiet:
-                note(t[i + 1], end, P, surprise, out[written])
-                written += 1
-        if moved(point, end):
-            if folding:
-                transport(P, point, end, work.v)
-                body = believed(body, point)
-            elif i + 1 >= look:
-                return i + 1
-    return last

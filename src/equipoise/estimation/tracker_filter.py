@@ -1,0 +1,235 @@
+"""The tracker's walk along its rows, compiled: predict, judge the row, correct, look for contacts.
+
+A row whose squared innovation is beyond ``GATE`` is not used. The walk ends early where the belief
+has moved away from the point of linearisation, or where a contact was mended or the attitude taken
+anew: the caller then decides from where to go on.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.dynamics.propagation import Columns, step
+from equipoise.dynamics.regressor import WIDTH, Triple
+from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at, rate_of
+from equipoise.dynamics.sensitivities import BLOCK
+from equipoise.estimation import tracker_contacts as contacts
+from equipoise.estimation.tracker_contacts import KINDS, LOST, Room, Watch
+from equipoise.estimation.tracker_noise import learn_noise, settled
+from equipoise.estimation.tracker_point import AT, moved, transport
+from equipoise.estimation.tracker_step import (
+    SIZE,
+    N,
+    Work,
+    add_stops,
+    apply,
+    begin,
+    expect,
+    innovation,
+    lean,
+    note,
+    placed,
+    predict_covariance,
+    shrink,
+    transition,
+    unit_columns,
+    weigh,
+)
+from equipoise.maths.compiled import kernel, part
+from equipoise.maths.turns import turn
+from equipoise.model.arrays import Floats, Ints
+
+GATE = 30.7  # chi-square of 3 that one sound row in a million exceeds
+UNSURE = 0.5  # rad, chosen: beyond it an attitude is taken anew rather than corrected
+PATIENT, HASTY = 25, 5  # gated rows in a run, chosen, after which it is: in motion, at the start
+STILLEST = 0.1  # rad/s, least sd of a rate that is taken anew without a row shortly before
+SHORTLY = 1.0  # s
+END, MOVED, BROKEN = 0, 1, 2  # why the walk ended
+
+
+class Model(NamedTuple):
+    """What does not change along the walk."""
+
+    body: Body  # its inertia and moment are not used
+    maps: Floats
+    columns: Columns
+    sd: Floats  # (2,) rad, rad/s: stated noise of camera and gyro
+    walks: Floats  # (18,)
+    alarm: float  # l of a contact
+
+
+class Rows(NamedTuple):
+    """What was seen and known from one moment on."""
+
+    t: Floats  # (n+1,) s
+    known: Floats  # (n+1, 6 + k)
+    owners: Ints
+    q: Floats  # (n_q, 4)
+    q_node: Ints
+    w: Floats  # (n_w, 3) rad/s
+    w_node: Ints
+    stop_node: Ints
+    stop_added: Floats  # (n_s, 3, 3) m^2
+
+
+class Walk(NamedTuple):
+    """From which node to which, and what is wanted of it."""
+
+    first: int
+    last: int
+    look: int  # node from which it ends where the belief has moved
+    folding: bool  # the point goes with the belief
+    again: bool  # rows that have been passed before: nothing is noted or learnt
+
+
+@part
+def attitude_variance(P: Floats) -> float:
+    """Return the variance of the attitude, all axes together."""
+    return P[0, 0] + P[1, 1] + P[2, 2]
+
+
+@part
+def take_anew(rows: Rows, iq: int, t: float, sd: float, end: Floats, P: Floats) -> None:
+    """Write attitude and rate from a row and the one before, and their covariance."""
+    for j in range(4):
+        end[j] = rows.q[iq, j]
+    speed = (end[4] ** 2 + end[5] ** 2 + end[6] ** 2) ** 0.5
+    spread = max(STILLEST, speed)
+    lag = t - rows.t[rows.q_node[iq - 1]] if iq > 0 else SHORTLY
+    if lag < SHORTLY:
+        rate = turn(rows.q[iq - 1], rows.q[iq])
+        spread = 2.0 * sd / lag
+        for j in range(3):
+            end[4 + j] = rate[j] / lag
+            spread += 0.1 * abs(rate[j]) / lag
+    for i in range(6):
+        for j in range(SIZE):
+            P[i, j] = 0.0
+            P[j, i] = 0.0
+    for j in range(3):
+        P[j, j], P[3 + j, 3 + j] = sd * sd, spread * spread
+
+
+@part
+def noise_share(sd: float, S: Floats) -> float:
+    """Return the share of the noise in what is expected of a row."""
+    return 3.0 * sd * sd / (S[0, 0] + S[1, 1] + S[2, 2])
+
+
+@part
+def judge(
+    P: Floats, first: int, second: int, z: Triple, sd: float, level: Floats, again: bool,
+    watch: Watch, work: Work, room: Room,
+) -> float:  # fmt: skip
+    """Write x and P+ (x = 0 and P for a row that is not used); return the squared innovation."""
+    expect(P, first, second, sd, work)
+    surprise = weigh(z, work)
+    odd = surprise > GATE
+    if not again:
+        run = watch.counts[contacts.GATED] + 1 if odd else 0
+        watch.counts[contacts.GATED] = run
+        if run < 2:
+            learn_noise(level, surprise, noise_share(sd, work.S))
+        if run != 1:
+            contacts.gather(watch, first, second, z, work, room)
+        if not odd:
+            contacts.respond(watch, first, second, work, room)
+    if odd:
+        work.x[:] = 0.0
+    else:
+        shrink(P, first, second, sd, work)
+    return surprise
+
+
+@kernel
+def run_filter(
+    model: Model, rows: Rows, walk: Walk, point: Floats, end: Floats, P: Floats,
+    levels: Floats, watch: Watch, out: Floats, events: Floats, done: Ints,
+) -> int:  # fmt: skip
+    """Filter rows; return the node reached. ``done``: why, rows and events written.
+
+    ``point``, ``end`` (q, w, com, J, bias), P, levels and watch come and go.
+    """
+    t, known, owners, q_node, w_node = rows.t, rows.known, rows.owners, rows.q_node, rows.w_node
+    y = np.zeros(ROWS + BLOCK)
+    at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
+    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros(BLOCK), np.zeros((6, N))
+    work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
+                np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
+    many = watch.X.shape[1]
+    room = Room(np.zeros((6, many)), np.zeros((3, many)), np.zeros((3, many)), np.zeros((3, 3)),
+                np.zeros((KINDS, KINDS)), np.zeros(KINDS), np.zeros((SIZE, KINDS)))  # fmt: skip
+    bias, body = end[AT + 9 : AT + 12], placed(model.body, point)
+    first, again = walk.first, walk.again
+    iq, iw = np.searchsorted(q_node, first + 1), np.searchsorted(w_node, first + 1)
+    stop = np.searchsorted(rows.stop_node, first + 1)
+    done[0] = END
+    for i in range(first, walk.last):
+        now = body_at(body, model.maps, t, known, i, 0.0)
+        begin(now, end, y)
+        unit_columns(now, rate_of(now, y), regress, y)
+        step(body, model.maps, t, known, owners, model.columns, i, y, regress, fb, at, dy, total)
+        now = body_at(body, model.maps, t, known, i, 1.0)
+        transition(now, body.mass, y, regress, phi)
+        predict_covariance(body.inertia, phi, model.walks, t[i + 1] - t[i], P, work.A)
+        stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
+        lean(now, phi, point, y, end)
+        begin(now, end, y)
+        if not again:
+            contacts.follow(watch, phi, room)
+        seen = False
+        for source in range(2):
+            sd = model.sd[source] * levels[source, 0] ** 0.5
+            surprise = 0.0
+            if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
+                hasty = not settled(levels)
+                late = watch.counts[contacts.GATED] >= (HASTY if hasty else PATIENT)
+                if attitude_variance(P) > UNSURE * UNSURE or (late and not again):
+                    take_anew(rows, iq, t[i + 1], sd, end, P)
+                    done[0] = BROKEN
+                else:
+                    surprise = judge(P, 0, -1, turn(y, rows.q[iq]), sd, levels[0], again, watch,
+                                     work, room)  # fmt: skip
+                    apply(work.x, rate_of(now, y), y, end)
+                iq += 1
+            elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
+                z = innovation(now, y, bias, rows.w[iw])
+                surprise = judge(P, 3, N, z, sd, levels[1], again, watch, work, room)
+                apply(work.x, rate_of(now, y), y, end)
+                iw += 1
+            else:
+                continue
+            begin(now, end, y)
+            seen = True
+            if not again:
+                note(t[i + 1], end, P, surprise, out[done[1]])
+                done[1] += 1
+        if done[0] == BROKEN:
+            if not again and done[2] < events.shape[0]:
+                events[done[2]] = 0.0
+                events[done[2], 0], events[done[2], 1] = t[i + 1], LOST
+                done[2] += 1
+            contacts.forget(watch)
+            return i + 1
+        if not seen or again:
+            continue
+        gone = moved(point, end)
+        if settled(levels) and (walk.folding or not gone):
+            kind, which, l = contacts.judged(watch, model.alarm, room)
+            if kind >= 0:
+                contacts.mend(watch, kind, which, P, work.x, room)
+                apply(work.x, rate_of(now, y), y, end)
+                if done[2] < events.shape[0]:
+                    contacts.report(watch, kind, which, l, room, events[done[2]])
+                    done[2] += 1
+                contacts.forget(watch)
+                done[0] = BROKEN
+                return i + 1
+        contacts.take_up(watch, t[i + 1])
+        if gone and walk.folding:
+            transport(P, point, end)
+            body = placed(model.body, point)
+        elif gone and i + 1 >= walk.look:
+            done[0] = MOVED
+            return i + 1
+    return walk.last
