@@ -171,7 +171,7 @@ def contact_alarm(testbed: Testbed, recording: Recording) -> float:
     """
     sensors = ((recording.attitude, testbed.attitude), (recording.rate, testbed.gyro))
     rows = sum(sensor.rate for seen, sensor in sensors if seen is not None and sensor is not None)
-    return float(chdtri(3, 1 / (max(rows, 1.0) * QUIET * 2 * ONSETS)))
+    return float(chdtri(3, 1 / (max(rows, 1.0) * QUIET * 2)))
 
 
 def model_of(recording: Recording, testbed: Testbed, params: Params, state: State) -> Model:
