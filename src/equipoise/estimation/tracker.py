@@ -29,7 +29,6 @@ from scipy.special import chdtri
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.propagation import Columns, body_of, stacked
-from equipoise.estimation.tracker_contacts import ONSETS
 from equipoise.estimation.tracker_filter import GATE, Model
 from equipoise.estimation.tracker_rows import rows_of
 from equipoise.estimation.tracker_step import BODY, COM, SIZE
@@ -212,7 +211,7 @@ def track_of(written: Written, end: State) -> Track:
 
 def contact_of(event: Floats, end: State) -> Contact:
     """Return an event as written."""
-    jump, step, jump_sd, step_sd = np.split(event[3:], 4)
+    jump, jump_sd, step, step_sd = np.split(event[3:], 4)
     J = end.inertia_P
     impulse_sd = np.sqrt(np.diag(J @ np.diag(jump_sd**2) @ J))
     kind = KINDS[int(event[1])]

@@ -1,44 +1,54 @@
 """Was the platform touched, or did its centre of mass step? A test of the innovations, compiled.
 
 Willsky and Jones (1976), generalised likelihood ratio: had the rate jumped by v (or r stepped by
-u) after some row, truth and filter would differ by X (v, u) from then on,
+v) after some row, truth and filter would differ by X v from then on,
 
-    X = [0 E 0 0 0; 0 0 E 0 0]^T,    X <- Phi X (prediction),    X <- X - K H X (correction)
+    X = [0 E 0 0 0]^T or [0 0 E 0 0]^T,    X <- Phi X (prediction),    X <- X - K H X (correction)
 
 and innovations by G = H X. Sums over the rows give the size and what it explains:
 
-    C = sum G^T S^-1 G,   d = sum G^T S^-1 z,   v = (C + L)^-1 d,   l = d^T (C + L)^-1 d
+    C = sum G^T S^-1 G,   d = sum G^T S^-1 z,   V = (C + L)^-1,   v = V d,   l = d^T V d
 
-each for jump and step alone, 3 degrees of freedom; L are wide priors. What is believed is mended
-exactly: x + X v, P + X (C + L)^-1 X^T. Onsets are kept at a dozen ages, dense where they are
-young, up to 50 rows. A jump turns the attitude by t, a step by t^2: so after some rows they differ.
+with 3 degrees of freedom; L is a wide prior. Onsets are kept at a dozen ages, dense where they are
+young, up to 50 rows. Each with a jump and a step is a hypothesis; once the best explains more than
+chance does, the belief becomes their mixture, each weighing
+
+    p = e^(l/2) |V|^1/2 |L|^1/2 x rows to the next older onset
+    x + sum p X v,   P + sum p X V X^T + scatter of X v + half the way to the older onset's
+
+which is exact for each (innovations are independent of what the filter errs by), and says what a
+wrong kind or onset would cost.
 """
 
 from typing import NamedTuple
 
+import numpy as np
+
 from equipoise.dynamics.regressor import Triple
-from equipoise.estimation.tracker_step import SIZE, N, Work, invert3
+from equipoise.estimation.tracker_step import SIZE, N, Work
 from equipoise.maths.compiled import part
 from equipoise.model.arrays import Floats, Ints
 
-ONSETS, KINDS = 12, 6  # onsets kept; columns of each: jump of rate, step of r
-WIDTH = ONSETS * KINDS
+ONSETS = 12
+MANY = 2 * ONSETS  # hypotheses: jumps of the rate, then steps of r
+WIDTH = 3 * MANY  # columns of X: hypotheses along x, along y, along z
 OLDEST = 50  # rows
 YOUNGEST = 3  # rows, chosen: a contact shows in more than two
-PRIOR = (0.1, 2e-4)  # rad/s and m, one sd, wide: a jump, a step
-SURE = 9.0  # chosen: a likelihood ratio of 90 tells a jump from a step
-PATIENCE = 15  # rows, chosen: to wait for that
-SPREAD = 0.3  # uniform: of the gap between onsets, one sd
+JUMP_SD, STEP_SD = 0.1, 2e-4  # rad/s and m, wide: what a contact may do
+SURE, LIKELY = 0.99, 0.9  # chosen: probability of a kind, for which to wait, and to report
+PATIENCE = 10  # rows, chosen: to wait for that
+UNIFORM = 1 / 12  # variance of an onset between two that are kept
 COUNT, GATED, WAITED = 0, 1, 2  # in Watch.counts
-JUMP, STEP, EITHER, LOST = 0, 1, 2, 3
+JUMP, STEP, EITHER, LOST = 0, 1, 2, 3  # kinds of event
+EVENT = 15  # onset (s), kind, l, jump, its sd, step, its sd
 
 
 class Watch(NamedTuple):
     """What the test remembers."""
 
     X: Floats  # (18, 72)
-    C: Floats  # (12, 6, 6)
-    d: Floats  # (12, 6)
+    C: Floats  # (6, 24) xx yy zz xy xz yz
+    d: Floats  # (3, 24)
     age: Ints  # (12,) rows
     since: Floats  # (12,) s
     order: Ints  # (12,) onsets, oldest first
@@ -51,10 +61,21 @@ class Room(NamedTuple):
     ahead: Floats  # (6, 72)
     G: Floats  # (3, 72)
     weighed: Floats  # (3, 72) S^-1 G
-    small: Floats  # (3, 3)
-    V: Floats  # (6, 6)
-    v: Floats  # (6,)
-    XV: Floats  # (18, 6)
+    V: Floats  # (6, 24)
+    v: Floats  # (3, 24)
+    l: Floats  # (24,)
+    p: Floats  # (24,) probability
+    one: Floats  # (18,)
+    other: Floats  # (18,)
+
+
+def new_watch() -> Watch:
+    """Return a test that has seen nothing."""
+    return Watch(
+        np.zeros((SIZE, WIDTH)), np.zeros((6, MANY)), np.zeros((3, MANY)),
+        np.zeros(ONSETS, np.int64), np.zeros(ONSETS), np.zeros(ONSETS, np.int64),
+        np.zeros(3, np.int64),
+    )  # fmt: skip
 
 
 @part
@@ -70,8 +91,8 @@ def follow(watch: Watch, phi: Floats, room: Room) -> None:
     X, ahead = watch.X, room.ahead
     for r in range(6):
         for c in range(WIDTH):
-            ahead[r, c] = 0.0
-        for k in range(N):
+            ahead[r, c] = phi[r, 0] * X[0, c]
+        for k in range(1, N):
             for c in range(WIDTH):
                 ahead[r, c] += phi[r, k] * X[k, c]
     for r in range(6):
@@ -80,34 +101,41 @@ def follow(watch: Watch, phi: Floats, room: Room) -> None:
 
 
 @part
-def gather(watch: Watch, first: int, second: int, z: Triple, work: Work, room: Room) -> None:
-    """Add a row to C and d."""
-    X, G, weighed, inverse = watch.X, room.G, room.weighed, work.inverse
+def felt(watch: Watch, first: int, second: int, room: Room) -> None:
+    """Write G = H X."""
+    X, G = watch.X, room.G
     for r in range(3):
         for c in range(WIDTH):
-            G[r, c] = X[first + r, c] + (X[second + r, c] if second >= 0 else 0.0)
-    for r in range(3):
-        for c in range(WIDTH):
-            weighed[r, c] = (
-                inverse[r, 0] * G[0, c] + inverse[r, 1] * G[1, c] + inverse[r, 2] * G[2, c]
-            )
-    for k in range(watch.counts[COUNT]):
-        onset = watch.order[k]
-        c = KINDS * onset
-        for a in range(KINDS):
-            for r in range(3):
-                watch.d[onset, a] += weighed[r, c + a] * z[r]
-                for b in range(KINDS):
-                    watch.C[onset, a, b] += G[r, c + a] * weighed[r, c + b]
+            G[r, c] = X[first + r, c]
+        if second >= 0:
+            for c in range(WIDTH):
+                G[r, c] += X[second + r, c]
 
 
 @part
-def respond(watch: Watch, first: int, second: int, work: Work, room: Room) -> None:
-    """Write X <- X - K H X."""
-    X, G, K = watch.X, room.G, work.K
+def gather(watch: Watch, z: Triple, work: Work, room: Room) -> None:
+    """Add a row to C and d."""
+    G, F, inverse, C, d = room.G, room.weighed, work.inverse, watch.C, watch.d
     for r in range(3):
         for c in range(WIDTH):
-            G[r, c] = X[first + r, c] + (X[second + r, c] if second >= 0 else 0.0)
+            F[r, c] = inverse[r, 0] * G[0, c] + inverse[r, 1] * G[1, c] + inverse[r, 2] * G[2, c]
+    for h in range(MANY):
+        i, j, k = h, MANY + h, 2 * MANY + h
+        C[0, h] += G[0, i] * F[0, i] + G[1, i] * F[1, i] + G[2, i] * F[2, i]
+        C[1, h] += G[0, j] * F[0, j] + G[1, j] * F[1, j] + G[2, j] * F[2, j]
+        C[2, h] += G[0, k] * F[0, k] + G[1, k] * F[1, k] + G[2, k] * F[2, k]
+        C[3, h] += G[0, i] * F[0, j] + G[1, i] * F[1, j] + G[2, i] * F[2, j]
+        C[4, h] += G[0, i] * F[0, k] + G[1, i] * F[1, k] + G[2, i] * F[2, k]
+        C[5, h] += G[0, j] * F[0, k] + G[1, j] * F[1, k] + G[2, j] * F[2, k]
+        d[0, h] += F[0, i] * z[0] + F[1, i] * z[1] + F[2, i] * z[2]
+        d[1, h] += F[0, j] * z[0] + F[1, j] * z[1] + F[2, j] * z[2]
+        d[2, h] += F[0, k] * z[0] + F[1, k] * z[1] + F[2, k] * z[2]
+
+
+@part
+def respond(watch: Watch, work: Work, room: Room) -> None:
+    """Write X <- X - K H X."""
+    X, G, K = watch.X, room.G, work.K
     for i in range(SIZE):
         for c in range(WIDTH):
             X[i, c] -= K[i, 0] * G[0, c] + K[i, 1] * G[1, c] + K[i, 2] * G[2, c]
@@ -140,120 +168,174 @@ def take_up(watch: Watch, t: float) -> None:
     for k in range(watch.counts[COUNT]):
         watch.age[watch.order[k]] += 1
     onset = thin(watch)
-    c = KINDS * onset
     watch.age[onset], watch.since[onset] = 0, t
-    for a in range(KINDS):
-        watch.d[onset, a] = 0.0
-        for i in range(SIZE):
-            watch.X[i, c + a] = 1.0 if i == 3 + a else 0.0
-        for b in range(KINDS):
-            watch.C[onset, a, b] = 0.0
+    for kind in range(2):
+        h = kind * ONSETS + onset
+        for a in range(6):
+            watch.C[a, h] = 0.0
+        for a in range(3):
+            watch.d[a, h] = 0.0
+            for i in range(SIZE):
+                watch.X[i, a * MANY + h] = 1.0 if i == 3 + 3 * kind + a else 0.0
 
 
 @part
-def explained(watch: Watch, onset: int, kind: int, room: Room) -> float:
-    """Return l of a jump (0) or a step (1)."""
-    small, V, C, d, o = room.small, room.V, watch.C, watch.d, 3 * kind
-    for a in range(3):
-        for b in range(3):
-            small[a, b] = C[onset, o + a, o + b]
-        small[a, a] += PRIOR[kind] ** -2
-    invert3(small, V)
-    total = 0.0
-    for a in range(3):
-        for b in range(3):
-            total += d[onset, o + a] * V[a, b] * d[onset, o + b]
-    return total
+def explain(watch: Watch, room: Room) -> None:
+    """Write V, v and l of every hypothesis."""
+    C, d, V, v = watch.C, watch.d, room.V, room.v
+    for h in range(MANY):
+        prior = JUMP_SD**-2 if h < ONSETS else STEP_SD**-2
+        xx, yy, zz = C[0, h] + prior, C[1, h] + prior, C[2, h] + prior
+        xy, xz, yz = C[3, h], C[4, h], C[5, h]
+        a, b, c = yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy
+        k = 1.0 / (xx * a + xy * b + xz * c)
+        V[0, h], V[3, h], V[4, h] = k * a, k * b, k * c
+        V[1, h], V[2, h] = k * (xx * zz - xz * xz), k * (xx * yy - xy * xy)
+        V[5, h] = k * (xy * xz - xx * yz)
+        v[0, h] = V[0, h] * d[0, h] + V[3, h] * d[1, h] + V[4, h] * d[2, h]
+        v[1, h] = V[3, h] * d[0, h] + V[1, h] * d[1, h] + V[5, h] * d[2, h]
+        v[2, h] = V[4, h] * d[0, h] + V[5, h] * d[1, h] + V[2, h] * d[2, h]
+        room.l[h] = v[0, h] * d[0, h] + v[1, h] * d[1, h] + v[2, h] * d[2, h]
 
 
 @part
-def strongest(watch: Watch, kind: int, room: Room) -> tuple[float, int]:
-    """Return the greatest l of a kind, and which in order it is."""
-    best, which = 0.0, 0
+def best_of(watch: Watch, first: int, room: Room) -> int:
+    """Return which of a kind's hypotheses, old enough, explains most; -1 if none is."""
+    best = -1
     for k in range(watch.counts[COUNT]):
-        if watch.age[watch.order[k]] >= YOUNGEST:
-            l = explained(watch, watch.order[k], kind, room)
-            if l > best:
-                best, which = l, k
-    return best, which
+        h = first + watch.order[k]
+        if watch.age[watch.order[k]] >= YOUNGEST and (best < 0 or room.l[h] > room.l[best]):
+            best = h
+    return best
 
 
 @part
-def judged(watch: Watch, alarm: float, room: Room) -> tuple[int, int, float]:
-    """Return the kind (or -1: nothing, or not yet told), the onset and l."""
-    jump, by_jump = strongest(watch, JUMP, room)
-    step, by_step = strongest(watch, STEP, room)
-    best = max(jump, step)
-    if best < alarm:
+def determinant(V: Floats, h: int) -> float:
+    """Return |V| of a hypothesis."""
+    return (
+        V[0, h] * (V[1, h] * V[2, h] - V[5, h] * V[5, h])
+        - V[3, h] * (V[3, h] * V[2, h] - V[5, h] * V[4, h])
+        + V[4, h] * (V[3, h] * V[5, h] - V[1, h] * V[4, h])
+    )
+
+
+@part
+def weigh_up(watch: Watch, top: float, room: Room) -> float:
+    """Write p of every hypothesis; return that of the jumps together."""
+    total, jumps = 0.0, 0.0
+    room.p[:] = 0.0
+    for k in range(watch.counts[COUNT]):
+        onset = watch.order[k]
+        age = watch.age[onset]
+        older = watch.age[watch.order[k - 1]] if k > 0 else age + 1
+        for kind in range(2 if age >= YOUNGEST else 0):
+            h = kind * ONSETS + onset
+            wide = JUMP_SD**-3 if kind == 0 else STEP_SD**-3
+            spread = abs(determinant(room.V, h)) ** 0.5 * wide
+            p = np.exp(0.5 * (room.l[h] - top)) * spread * (older - age)
+            room.p[h] = p
+            total += p
+            jumps += p * (kind == 0)
+    for h in range(MANY):
+        room.p[h] /= total
+    return jumps / total
+
+
+@part
+def judged(watch: Watch, alarm: float, room: Room) -> tuple[int, int]:
+    """Return the kind, or -1 for nothing or not yet told, and the best hypothesis."""
+    explain(watch, room)
+    jump, step = best_of(watch, 0, room), best_of(watch, ONSETS, room)
+    if jump < 0:
+        return -1, 0
+    best = jump if room.l[jump] > room.l[step] else step
+    if room.l[best] < alarm:
         watch.counts[WAITED] = 0
-        return -1, 0, best
+        return -1, 0
+    share = weigh_up(watch, room.l[best], room)
     watch.counts[WAITED] += 1
-    if abs(jump - step) < SURE:
-        if watch.counts[WAITED] < PATIENCE:
-            return -1, 0, best
-        return EITHER, by_jump if jump > step else by_step, best
-    return (JUMP, by_jump, best) if jump > step else (STEP, by_step, best)
+    if max(share, 1.0 - share) < SURE and watch.counts[WAITED] < PATIENCE:
+        return -1, 0
+    if max(share, 1.0 - share) < LIKELY:
+        return EITHER, best
+    return (JUMP, jump) if share > 0.5 else (STEP, step)
 
 
 @part
-def invert_within(A: Floats, low: int, high: int) -> None:
-    """Invert a positive block in place (Gauss and Jordan)."""
-    for p in range(low, high):
-        pivot = 1.0 / A[p, p]
-        A[p, p] = 1.0
-        for j in range(low, high):
-            A[p, j] *= pivot
-        for i in range(low, high):
-            if i != p:
-                factor = A[i, p]
-                A[i, p] = 0.0
-                for j in range(low, high):
-                    A[i, j] -= factor * A[p, j]
-
-
-@part
-def fit(watch: Watch, onset: int, low: int, high: int, room: Room) -> None:
-    """Write V = (C + L)^-1 and v = V d of the columns from low to high."""
-    V, v = room.V, room.v
-    for a in range(low, high):
-        for b in range(low, high):
-            V[a, b] = watch.C[onset, a, b]
-        V[a, a] += PRIOR[a // 3] ** -2
-    invert_within(V, low, high)
-    for a in range(low, high):
-        v[a] = 0.0
-        for b in range(low, high):
-            v[a] += V[a, b] * watch.d[onset, b]
-
-
-@part
-def mend(watch: Watch, kind: int, which: int, P: Floats, x: Floats, room: Room) -> None:
-    """Write x = X v and P + X V X^T, and the doubt from the onset's; V and v stay in room."""
-    onset = watch.order[which]
-    low, high = (0 if kind != STEP else 3), (KINDS if kind != JUMP else 3)
-    fit(watch, onset, low, high, room)
-    older = watch.age[watch.order[which - 1]] if which > 0 else OLDEST
-    share = SPREAD * (older - watch.age[onset]) / watch.age[onset]
-    XV, c = room.XV, KINDS * onset
+def effect(watch: Watch, h: int, by: int, room: Room, out: Floats) -> None:
+    """Write X v, with X of one hypothesis and v of another."""
     for i in range(SIZE):
-        x[i] = 0.0
-        for a in range(low, high):
-            x[i] += watch.X[i, c + a] * room.v[a]
-            XV[i, a] = 0.0
-            for b in range(low, high):
-                XV[i, a] += watch.X[i, c + b] * room.V[b, a]
+        out[i] = 0.0
+        for a in range(3):
+            out[i] += watch.X[i, a * MANY + h] * room.v[a, by]
+
+
+@part
+def scatter(P: Floats, x: Floats, weight: float) -> None:
+    """Add weight x x^T."""
     for i in range(SIZE):
         for j in range(SIZE):
-            P[i, j] += share * share * x[i] * x[j]
-            for a in range(low, high):
-                P[i, j] += XV[i, a] * watch.X[j, c + a]
+            P[i, j] += weight * x[i] * x[j]
 
 
 @part
-def report(watch: Watch, kind: int, which: int, l: float, room: Room, out: Floats) -> None:
-    """Write onset (s), kind, l, jump and step and their sds; what was not fitted is 0."""
-    low, high = (0 if kind != STEP else 3), (KINDS if kind != JUMP else 3)
+def doubts(watch: Watch, h: int, room: Room, P: Floats) -> None:
+    """Add p X V X^T."""
+    X, V, one = watch.X, room.V, room.one
+    for a in range(3):
+        row = (0, 3, 4) if a == 0 else ((3, 1, 5) if a == 1 else (4, 5, 2))
+        for i in range(SIZE):
+            one[i] = 0.0
+            for b in range(3):
+                one[i] += room.p[h] * X[i, b * MANY + h] * V[row[b], h]
+        for i in range(SIZE):
+            for j in range(SIZE):
+                P[i, j] += one[i] * X[j, a * MANY + h]
+
+
+@part
+def mend(watch: Watch, P: Floats, x: Floats, room: Room) -> None:
+    """Write x and P of the mixture."""
+    one, other = room.one, room.other
+    x[:] = 0.0
+    for h in range(MANY):
+        if room.p[h] > 0.0:
+            effect(watch, h, h, room, one)
+            for i in range(SIZE):
+                x[i] += room.p[h] * one[i]
+    for k in range(watch.counts[COUNT]):
+        for kind in range(2):
+            h = kind * ONSETS + watch.order[k]
+            p = room.p[h]
+            if p <= 0.0:
+                continue
+            effect(watch, h, h, room, one)
+            if k > 0:
+                effect(watch, kind * ONSETS + watch.order[k - 1], h, room, other)
+                for i in range(SIZE):
+                    other[i] -= one[i]
+                scatter(P, other, UNIFORM * p)
+            for i in range(SIZE):
+                one[i] -= x[i]
+            scatter(P, one, p)
+            doubts(watch, h, room, P)
+
+
+@part
+def report(watch: Watch, kind: int, best: int, room: Room, out: Floats) -> None:
+    """Write an event; jump and step are means of their kind's hypotheses, 0 where it is not."""
     out[:] = 0.0
-    out[0], out[1], out[2] = watch.since[watch.order[which]], kind, l
-    for a in range(low, high):
-        out[3 + a], out[9 + a] = room.v[a], room.V[a, a] ** 0.5
+    onset = best if best < ONSETS else best - ONSETS
+    out[0], out[1], out[2] = watch.since[onset], kind, room.l[best]
+    for which in range(2):
+        share = 0.0
+        for h in range(which * ONSETS, (which + 1) * ONSETS):
+            share += room.p[h]
+        if share < 1.0 - LIKELY:
+            continue
+        o = 3 + 6 * which
+        for a in range(3):
+            for h in range(which * ONSETS, (which + 1) * ONSETS):
+                out[o + a] += room.p[h] / share * room.v[a, h]
+                out[o + 3 + a] += room.p[h] / share * (room.V[a, h] + room.v[a, h] ** 2)
+            out[o + 3 + a] = abs(out[o + 3 + a] - out[o + a] ** 2) ** 0.5

@@ -14,7 +14,8 @@ from equipoise.dynamics.regressor import WIDTH, Triple
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at, rate_of
 from equipoise.dynamics.sensitivities import BLOCK
 from equipoise.estimation import tracker_contacts as contacts
-from equipoise.estimation.tracker_contacts import KINDS, LOST, Room, Watch
+from equipoise.estimation.tracker_contacts import LOST, MANY, Room, Watch
+from equipoise.estimation.tracker_contacts import WIDTH as WIDE
 from equipoise.estimation.tracker_noise import learn_noise, settled
 from equipoise.estimation.tracker_point import AT, moved, transport
 from equipoise.estimation.tracker_step import (
@@ -130,10 +131,11 @@ def judge(
         watch.counts[contacts.GATED] = run
         if run < 2:
             learn_noise(level, surprise, noise_share(sd, work.S))
+        contacts.felt(watch, first, second, room)
         if run != 1:
-            contacts.gather(watch, first, second, z, work, room)
+            contacts.gather(watch, z, work, room)
         if not odd:
-            contacts.respond(watch, first, second, work, room)
+            contacts.respond(watch, work, room)
     if odd:
         work.x[:] = 0.0
     else:
@@ -156,9 +158,9 @@ def run_filter(
     regress, fb, phi = np.zeros((3, WIDTH)), np.zeros(BLOCK), np.zeros((6, N))
     work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
                 np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
-    many = watch.X.shape[1]
-    room = Room(np.zeros((6, many)), np.zeros((3, many)), np.zeros((3, many)), np.zeros((3, 3)),
-                np.zeros((KINDS, KINDS)), np.zeros(KINDS), np.zeros((SIZE, KINDS)))  # fmt: skip
+    room = Room(np.zeros((6, WIDE)), np.zeros((3, WIDE)), np.zeros((3, WIDE)), np.zeros((6, MANY)),
+                np.zeros((3, MANY)), np.zeros(MANY), np.zeros(MANY), np.zeros(SIZE),
+                np.zeros(SIZE))  # fmt: skip
     bias, body = end[AT + 9 : AT + 12], placed(model.body, point)
     first, again = walk.first, walk.again
     iq, iw = np.searchsorted(q_node, first + 1), np.searchsorted(w_node, first + 1)
@@ -215,12 +217,12 @@ def run_filter(
             continue
         gone = moved(point, end)
         if settled(levels) and (walk.folding or not gone):
-            kind, which, l = contacts.judged(watch, model.alarm, room)
+            kind, best = contacts.judged(watch, model.alarm, room)
             if kind >= 0:
-                contacts.mend(watch, kind, which, P, work.x, room)
+                contacts.mend(watch, P, work.x, room)
                 apply(work.x, rate_of(now, y), y, end)
                 if done[2] < events.shape[0]:
-                    contacts.report(watch, kind, which, l, room, events[done[2]])
+                    contacts.report(watch, kind, best, room, events[done[2]])
                     done[2] += 1
                 contacts.forget(watch)
                 done[0] = BROKEN

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.tracker_contacts import KINDS, ONSETS, WIDTH, Watch
+from equipoise.estimation.tracker_contacts import EVENT, Watch, new_watch
 from equipoise.estimation.tracker_filter import BROKEN, MOVED, Model, Rows, Walk, run_filter
 from equipoise.estimation.tracker_noise import settled
 from equipoise.estimation.tracker_point import (
@@ -42,7 +42,6 @@ LOUDER = 1.2  # of the noise's variance: a change for which rows are passed agai
 TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
 BODY = slice(AT, AT + 9)  # r and J in a belief written as one array
-EVENT = 15
 
 
 class Place(NamedTuple):
@@ -76,15 +75,6 @@ class Written(NamedTuple):
     out: Floats
     events: Floats
     done: Ints  # why it ended, rows, events
-
-
-def new_watch() -> Watch:
-    """Return a contact test that has seen nothing."""
-    return Watch(
-        np.zeros((SIZE, WIDTH)), np.zeros((ONSETS, KINDS, KINDS)), np.zeros((ONSETS, KINDS)),
-        np.zeros(ONSETS, dtype=np.int64), np.zeros(ONSETS), np.zeros(ONSETS, dtype=np.int64),
-        np.zeros(3, dtype=np.int64),
-    )  # fmt: skip
 
 
 def first_memory(here: Place, rows: Rows) -> Memory:
