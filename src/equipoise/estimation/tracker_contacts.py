@@ -13,7 +13,7 @@ with 3 degrees of freedom; L is a wide prior. Onsets are kept at a dozen ages, d
 young, up to 50 rows. Each with a jump and a step is a hypothesis; once the best explains more than
 chance does, the belief becomes their mixture, each weighing
 
-    p = e^(l/2) |V|^1/2 |L|^1/2 x rows to the next older onset
+    p = e^(l/2) |E + |v|^2 C|^-1/2 x rows to the next older onset
     x + sum p X v,   P + sum p X V X^T + scatter of X v + half the way to the older onset's
 
 which is exact for each (innovations are independent of what the filter errs by), and says what a
@@ -34,7 +34,7 @@ MANY = 2 * ONSETS  # hypotheses: jumps of the rate, then steps of r
 WIDTH = 3 * MANY  # columns of X: hypotheses along x, along y, along z
 OLDEST = 50  # rows
 YOUNGEST = 3  # rows, chosen: a contact shows in more than two
-JUMP_SD, STEP_SD = 0.1, 2e-4  # rad/s and m, wide: what a contact may do
+JUMP_SD, STEP_SD = 0.1, 1e-4  # rad/s and m, wide: what a contact may do
 SURE, LIKELY = 0.99, 0.9  # chosen: probability of a kind, for which to wait, and to report
 PATIENCE = 10  # rows, chosen: to wait for that
 UNIFORM = 1 / 12  # variance of an onset between two that are kept
@@ -210,13 +210,14 @@ def best_of(watch: Watch, first: int, room: Room) -> int:
 
 
 @part
-def determinant(V: Floats, h: int) -> float:
-    """Return |V| of a hypothesis."""
-    return (
-        V[0, h] * (V[1, h] * V[2, h] - V[5, h] * V[5, h])
-        - V[3, h] * (V[3, h] * V[2, h] - V[5, h] * V[4, h])
-        + V[4, h] * (V[3, h] * V[5, h] - V[1, h] * V[4, h])
-    )
+def plausibility(watch: Watch, h: int, room: Room) -> float:
+    """Return |E + |v|^2 C|^-1/2 of a hypothesis: how well the size had to be chosen."""
+    C, v = watch.C, room.v
+    k = v[0, h] * v[0, h] + v[1, h] * v[1, h] + v[2, h] * v[2, h]
+    xx, yy, zz = 1.0 + k * C[0, h], 1.0 + k * C[1, h], 1.0 + k * C[2, h]
+    xy, xz, yz = k * C[3, h], k * C[4, h], k * C[5, h]
+    a, b, c = yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy
+    return (xx * a + xy * b + xz * c) ** -0.5
 
 
 @part
@@ -230,9 +231,7 @@ def weigh_up(watch: Watch, top: float, room: Room) -> float:
         older = watch.age[watch.order[k - 1]] if k > 0 else age + 1
         for kind in range(2 if age >= YOUNGEST else 0):
             h = kind * ONSETS + onset
-            wide = JUMP_SD**-3 if kind == 0 else STEP_SD**-3
-            spread = abs(determinant(room.V, h)) ** 0.5 * wide
-            p = np.exp(0.5 * (room.l[h] - top)) * spread * (older - age)
+            p = np.exp(0.5 * (room.l[h] - top)) * plausibility(watch, h, room) * (older - age)
             room.p[h] = p
             total += p
             jumps += p * (kind == 0)
