@@ -13,7 +13,7 @@ with 3 degrees of freedom; L is a wide prior. Onsets are kept at a dozen ages, d
 young, up to 50 rows. Each with a jump and a step is a hypothesis; once the best explains more than
 chance does, the belief becomes their mixture, each weighing
 
-    p = e^(l/2) |E + |v|^2 C|^-1/2 x rows to the next older onset
+    p = e^(l/2) x rows to the next older onset
     x + sum p X v,   P + sum p X V X^T + scatter of X v + half the way to the older onset's
 
 which is exact for each (innovations are independent of what the filter errs by), and says what a
@@ -35,8 +35,11 @@ WIDTH = 3 * MANY  # columns of X: hypotheses along x, along y, along z
 OLDEST = 50  # rows
 YOUNGEST = 3  # rows, chosen: a contact shows in more than two
 JUMP_SD, STEP_SD = 0.1, 1e-4  # rad/s and m, wide: what a contact may do
+TEMPER = 0.25  # chosen: half of the log likelihood's, since an onset is between two that are kept
 SURE, LIKELY = 0.99, 0.9  # chosen: probability of a kind, for which to wait, and to report
-PATIENCE = 10  # rows, chosen: to wait for that
+TELLING = 8  # rows, chosen: by when a jump and a step differ, whenever between rows they began
+PATIENCE = 20  # rows, chosen: to wait for all that
+ROUGH = 0.05  # chosen: of what is mended, one sd, for being linear in a motion that was far off
 UNIFORM = 1 / 12  # variance of an onset between two that are kept
 COUNT, GATED, WAITED = 0, 1, 2  # in Watch.counts
 JUMP, STEP, EITHER, LOST = 0, 1, 2, 3  # kinds of event
@@ -210,17 +213,6 @@ def best_of(watch: Watch, first: int, room: Room) -> int:
 
 
 @part
-def plausibility(watch: Watch, h: int, room: Room) -> float:
-    """Return |E + |v|^2 C|^-1/2 of a hypothesis: how well the size had to be chosen."""
-    C, v = watch.C, room.v
-    k = v[0, h] * v[0, h] + v[1, h] * v[1, h] + v[2, h] * v[2, h]
-    xx, yy, zz = 1.0 + k * C[0, h], 1.0 + k * C[1, h], 1.0 + k * C[2, h]
-    xy, xz, yz = k * C[3, h], k * C[4, h], k * C[5, h]
-    a, b, c = yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy
-    return (xx * a + xy * b + xz * c) ** -0.5
-
-
-@part
 def weigh_up(watch: Watch, top: float, room: Room) -> float:
     """Write p of every hypothesis; return that of the jumps together."""
     total, jumps = 0.0, 0.0
@@ -231,7 +223,7 @@ def weigh_up(watch: Watch, top: float, room: Room) -> float:
         older = watch.age[watch.order[k - 1]] if k > 0 else age + 1
         for kind in range(2 if age >= YOUNGEST else 0):
             h = kind * ONSETS + onset
-            p = np.exp(0.5 * (room.l[h] - top)) * plausibility(watch, h, room) * (older - age)
+            p = np.exp(TEMPER * (room.l[h] - top)) * (older - age)
             room.p[h] = p
             total += p
             jumps += p * (kind == 0)
@@ -253,7 +245,8 @@ def judged(watch: Watch, alarm: float, room: Room) -> tuple[int, int]:
         return -1, 0
     share = weigh_up(watch, room.l[best], room)
     watch.counts[WAITED] += 1
-    if max(share, 1.0 - share) < SURE and watch.counts[WAITED] < PATIENCE:
+    told = max(share, 1.0 - share) > SURE and watch.age[best % ONSETS] >= TELLING
+    if not told and watch.counts[WAITED] < PATIENCE:
         return -1, 0
     if max(share, 1.0 - share) < LIKELY:
         return EITHER, best
@@ -302,6 +295,7 @@ def mend(watch: Watch, P: Floats, x: Floats, room: Room) -> None:
             effect(watch, h, h, room, one)
             for i in range(SIZE):
                 x[i] += room.p[h] * one[i]
+    scatter(P, x, ROUGH**2)
     for k in range(watch.counts[COUNT]):
         for kind in range(2):
             h = kind * ONSETS + watch.order[k]
@@ -324,8 +318,7 @@ def mend(watch: Watch, P: Floats, x: Floats, room: Room) -> None:
 def report(watch: Watch, kind: int, best: int, room: Room, out: Floats) -> None:
     """Write an event; jump and step are means of their kind's hypotheses, 0 where it is not."""
     out[:] = 0.0
-    onset = best if best < ONSETS else best - ONSETS
-    out[0], out[1], out[2] = watch.since[onset], kind, room.l[best]
+    out[0], out[1], out[2] = watch.since[best % ONSETS], kind, room.l[best]
     for which in range(2):
         share = 0.0
         for h in range(which * ONSETS, (which + 1) * ONSETS):
@@ -336,5 +329,6 @@ def report(watch: Watch, kind: int, best: int, room: Room, out: Floats) -> None:
         for a in range(3):
             for h in range(which * ONSETS, (which + 1) * ONSETS):
                 out[o + a] += room.p[h] / share * room.v[a, h]
-                out[o + 3 + a] += room.p[h] / share * (room.V[a, h] + room.v[a, h] ** 2)
+                square = (1 + ROUGH**2) * room.v[a, h] ** 2
+                out[o + 3 + a] += room.p[h] / share * (room.V[a, h] + square)
             out[o + 3 + a] = abs(out[o + 3 + a] - out[o + a] ** 2) ** 0.5

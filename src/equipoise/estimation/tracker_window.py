@@ -36,8 +36,8 @@ from equipoise.model.arrays import Floats, Ints, Square
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
 SHAPE = 0.01  # of a moment, chosen: the same with the scale taken out
 EDGE, LONGEST = 30.0, 240.0  # s between looks at whether the anchor may follow; it must after
-EARLIEST, GROWTH = 4.0, 1.3  # s, and of the window: when rows may be passed again
-PASSES, CLOSE = 4, 0.25  # at most; until the point moves by no more than this of what is far
+EARLIEST, GROWTH = 4.0, 1.6  # s, and of the window: when rows may be passed again
+PASSES, CLOSE = 3, 0.25  # at most; until the point moves by no more than this of what is far
 LOUDER = 1.2  # of the noise's variance: a change for which rows are passed again
 TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
