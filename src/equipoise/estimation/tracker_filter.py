@@ -41,11 +41,12 @@ from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Ints
 
 GATE = 30.7  # chi-square of 3 that one sound row in a million exceeds
-UNSURE = 0.5  # rad, chosen: beyond it an attitude is taken anew rather than corrected
+EARLY_GATE = 10 * GATE  # chosen: while the noise is not known, which may be three times as stated
+UNSURE = 0.1  # rad, chosen: its square is noise that linearising adds; beyond it the attitude is taken anew
 PATIENT, HASTY = 25, 5  # gated rows in a run, chosen, after which it is: in motion, at the start
 STILLEST = 0.1  # rad/s, least sd of a rate that is taken anew without a row shortly before
 SHORTLY = 1.0  # s
-END, MOVED, BROKEN = 0, 1, 2  # why the walk ended
+END, MOVED, BROKEN, ASTRAY = 0, 1, 2, 3  # why the walk ended
 
 
 class Model(NamedTuple):
@@ -119,13 +120,13 @@ def noise_share(sd: float, S: Floats) -> float:
 
 @part
 def judge(
-    P: Floats, first: int, second: int, z: Triple, sd: float, level: Floats, again: bool,
-    watch: Watch, work: Work, room: Room,
+    P: Floats, first: int, second: int, z: Triple, sd: float, level: Floats, known: bool,
+    again: bool, watch: Watch, work: Work, room: Room,
 ) -> float:  # fmt: skip
     """Write x and P+ (x = 0 and P for a row that is not used); return the squared innovation."""
     expect(P, first, second, sd, work)
     surprise = weigh(z, work)
-    odd = surprise > GATE
+    odd = surprise > (GATE if known else EARLY_GATE)
     if not again:
         run = watch.counts[contacts.GATED] + 1 if odd else 0
         watch.counts[contacts.GATED] = run
@@ -152,7 +153,7 @@ def run_filter(
 
     ``point``, ``end`` (q, w, com, J, bias), P, levels and watch come and go.
     """
-    t, known, owners, q_node, w_node = rows.t, rows.known, rows.owners, rows.q_node, rows.w_node
+    t, inputs, owners, q_node, w_node = rows.t, rows.known, rows.owners, rows.q_node, rows.w_node
     y = np.zeros(ROWS + BLOCK)
     at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
     regress, fb, phi = np.zeros((3, WIDTH)), np.zeros(BLOCK), np.zeros((6, N))
@@ -167,11 +168,11 @@ def run_filter(
     stop = np.searchsorted(rows.stop_node, first + 1)
     done[0] = END
     for i in range(first, walk.last):
-        now = body_at(body, model.maps, t, known, i, 0.0)
+        now = body_at(body, model.maps, t, inputs, i, 0.0)
         begin(now, end, y)
         unit_columns(now, rate_of(now, y), regress, y)
-        step(body, model.maps, t, known, owners, model.columns, i, y, regress, fb, at, dy, total)
-        now = body_at(body, model.maps, t, known, i, 1.0)
+        step(body, model.maps, t, inputs, owners, model.columns, i, y, regress, fb, at, dy, total)
+        now = body_at(body, model.maps, t, inputs, i, 1.0)
         transition(now, body.mass, y, regress, phi)
         predict_covariance(body.inertia, phi, model.walks, t[i + 1] - t[i], P, work.A)
         stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
@@ -179,24 +180,23 @@ def run_filter(
         begin(now, end, y)
         if not again:
             contacts.follow(watch, phi, room)
-        seen = False
+        seen, known = False, settled(levels)
         for source in range(2):
             sd = model.sd[source] * levels[source, 0] ** 0.5
             surprise = 0.0
             if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
-                hasty = not settled(levels)
-                late = watch.counts[contacts.GATED] >= (HASTY if hasty else PATIENT)
+                late = watch.counts[contacts.GATED] >= (PATIENT if known else HASTY)
                 if attitude_variance(P) > UNSURE * UNSURE or (late and not again):
+                    done[0] = ASTRAY if late else BROKEN
                     take_anew(rows, iq, t[i + 1], sd, end, P)
-                    done[0] = BROKEN
                 else:
-                    surprise = judge(P, 0, -1, turn(y, rows.q[iq]), sd, levels[0], again, watch,
-                                     work, room)  # fmt: skip
+                    surprise = judge(P, 0, -1, turn(y, rows.q[iq]), sd, levels[0], known,
+                                     again, watch, work, room)  # fmt: skip
                     apply(work.x, rate_of(now, y), y, end)
                 iq += 1
             elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
                 z = innovation(now, y, bias, rows.w[iw])
-                surprise = judge(P, 3, N, z, sd, levels[1], again, watch, work, room)
+                surprise = judge(P, 3, N, z, sd, levels[1], known, again, watch, work, room)
                 apply(work.x, rate_of(now, y), y, end)
                 iw += 1
             else:
@@ -206,7 +206,7 @@ def run_filter(
             if not again:
                 note(t[i + 1], end, P, surprise, out[done[1]])
                 done[1] += 1
-        if done[0] == BROKEN:
+        if done[0] != END:
             if not again and done[2] < events.shape[0]:
                 events[done[2]] = 0.0
                 events[done[2], 0], events[done[2], 1] = t[i + 1], LOST
@@ -216,7 +216,7 @@ def run_filter(
         if not seen or again:
             continue
         gone = moved(point, end)
-        if settled(levels) and (walk.folding or not gone):
+        if known and (walk.folding or not gone):
             kind, best = contacts.judged(watch, model.alarm, room)
             if kind >= 0:
                 contacts.mend(watch, P, work.x, room)

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.tracker_contacts import EVENT, Watch, new_watch
-from equipoise.estimation.tracker_filter import BROKEN, MOVED, Model, Rows, Walk, run_filter
+from equipoise.estimation.tracker_filter import ASTRAY, BROKEN, MOVED, Model, Rows, Walk, run_filter
 from equipoise.estimation.tracker_noise import settled
 from equipoise.estimation.tracker_point import (
     AT,
@@ -42,6 +42,7 @@ LOUDER = 1.2  # of the noise's variance: a change for which rows are passed agai
 TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
 BODY = slice(AT, AT + 9)  # r and J in a belief written as one array
+ERRORS = slice(6, 15)  # and in the error state
 
 
 class Place(NamedTuple):
@@ -98,12 +99,23 @@ def distance(point: Floats, belief: Floats) -> float:
     return max(float(inertia.max()) / FAR, com / FAR_COM)
 
 
-def anchored(model: Model, memory: Memory, here: Place, node: int) -> Memory:
+def anchored(memory: Memory, here: Place, node: int) -> Memory:
     """Return the memory with its anchor here, at a node; transports the covariance."""
-    transport(here.covariance, memory.point, here.belief)
+    target = here.belief.copy()
+    target[BODY] = nearer(memory.point, here.belief[BODY])
+    transport(here.covariance, memory.point, target)
     keeping = doubt(memory.point, here.covariance) > DOUBT or not settled(memory.levels)
     rows, level = later(memory.rows, node), memory.levels[:, 0].copy()
     return replace(memory, anchor=here.copy(), rows=rows, passed=0.0, level=level, keeping=keeping)
+
+
+def without(anchor: Place, here: Place) -> Place:
+    """Return a place that knows of r and J what the anchor did: rows since then have misled it."""
+    found = here.copy()
+    found.belief[BODY] = anchor.belief[BODY]
+    found.covariance[ERRORS] = found.covariance[:, ERRORS] = 0.0
+    found.covariance[ERRORS, ERRORS] = anchor.covariance[ERRORS, ERRORS]
+    return found
 
 
 def pass_again(model: Model, memory: Memory, here: Place, node: int) -> tuple[Memory, Place]:
@@ -141,8 +153,10 @@ def advance(
     walk = Walk(node, edge, look, not keeping, False)
     node = run_filter(model, rows, walk, memory.point, here.belief, here.covariance, memory.levels,
                       memory.watch, *written)  # fmt: skip
-    if written.done[0] == BROKEN:
-        return anchored(model, memory, here, node), here, 0
+    if written.done[0] == ASTRAY and keeping:
+        here = without(memory.anchor, here)
+    if written.done[0] in (BROKEN, ASTRAY):
+        return anchored(memory, here, node), here, 0
     if written.done[0] == MOVED:
         memory, here = pass_again(model, memory, here, node)
     elif rows.t[node] >= due:
@@ -157,7 +171,7 @@ def at_edge(model: Model, memory: Memory, here: Place, node: int) -> tuple[Memor
         memory, here = pass_again(model, memory, here, node)
     shaped = doubt_of_shape(memory.point, here.covariance) < SHAPE and settled(memory.levels)
     if shaped or memory.rows.t[node] - memory.rows.t[0] > LONGEST:
-        return anchored(model, memory, here, node), here, 0
+        return anchored(memory, here, node), here, 0
     return memory, here, node
 
 
