@@ -42,7 +42,8 @@ from equipoise.model.arrays import Floats, Ints
 
 GATE = 30.7  # chi-square of 3 that one sound row in a million exceeds
 EARLY_GATE = 10 * GATE  # chosen: while the noise is not known, which may be three times as stated
-UNSURE = 0.1  # rad, chosen: its square is noise that linearising adds; beyond it the attitude is taken anew
+UNSURE = (0.5, 0.03)  # rad, chosen: beyond it an attitude is taken anew rather than corrected; the
+# second after a gap: a swing of 10 deg whose phase has this doubt is linear to the noise of a camera
 PATIENT, HASTY = 25, 5  # gated rows in a run, chosen, after which it is: in motion, at the start
 STILLEST = 0.1  # rad/s, least sd of a rate that is taken anew without a row shortly before
 SHORTLY = 1.0  # s
@@ -85,9 +86,17 @@ class Walk(NamedTuple):
 
 
 @part
-def attitude_variance(P: Floats) -> float:
-    """Return the variance of the attitude, all axes together."""
-    return P[0, 0] + P[1, 1] + P[2, 2]
+def lag_of(rows: Rows, iq: int, first: float) -> float:
+    """Return the time (s) since the attitude row before, or since the walk's first node."""
+    t = rows.t[rows.q_node[iq]]
+    return t - (rows.t[rows.q_node[iq - 1]] if iq > 0 else first)
+
+
+@part
+def unsure(P: Floats, lag: float) -> bool:
+    """Say whether the predicted attitude, all axes together, is too doubtful to be corrected."""
+    limit = UNSURE[1] if lag > SHORTLY else UNSURE[0]
+    return P[0, 0] + P[1, 1] + P[2, 2] > limit * limit
 
 
 @part
@@ -186,7 +195,7 @@ def run_filter(
             surprise = 0.0
             if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
                 late = watch.counts[contacts.GATED] >= (PATIENT if known else HASTY)
-                if attitude_variance(P) > UNSURE * UNSURE or (late and not again):
+                if unsure(P, lag_of(rows, iq, t[0])) or (late and not again):
                     done[0] = ASTRAY if late else BROKEN
                     take_anew(rows, iq, t[i + 1], sd, end, P)
                 else:
