@@ -35,7 +35,7 @@ from equipoise.model.arrays import Floats, Ints, Square
 
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
 SHAPE = 0.01  # of a moment, chosen: the same with the scale taken out
-EDGE, LONGEST = 30.0, 240.0  # s between looks at whether the anchor may follow; it must after
+EDGE, LONGEST = 15.0, 240.0  # s between looks at whether the anchor may follow; it must after
 EARLIEST, GROWTH = 4.0, 1.6  # s, and of the window: when rows may be passed again
 PASSES, CLOSE = 3, 0.25  # at most; until the point moves by no more than this of what is far
 LOUDER = 1.2  # of the noise's variance: a change for which rows are passed again
@@ -166,8 +166,10 @@ def advance(
 
 def at_edge(model: Model, memory: Memory, here: Place, node: int) -> tuple[Memory, Place, int]:
     """Pass the rows again if anything has changed, and let the anchor follow where it may."""
-    change = np.abs(np.log(memory.levels[:, 0] / memory.level)).max()
-    if distance(memory.point, here.belief) > CLOSE or change > np.log(LOUDER):
+    grown = np.log(memory.levels[:, 0] / memory.level)
+    if grown.max() > np.log(LOUDER):  # noise has been taken for motion: from the anchor's point
+        memory, here = pass_again(model, memory, memory.anchor.copy(), node)
+    elif grown.min() < -np.log(LOUDER) or distance(memory.point, here.belief) > CLOSE:
         memory, here = pass_again(model, memory, here, node)
     shaped = doubt_of_shape(memory.point, here.covariance) < SHAPE and settled(memory.levels)
     if shaped or memory.rows.t[node] - memory.rows.t[0] > LONGEST:
