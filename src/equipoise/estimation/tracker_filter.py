@@ -121,10 +121,36 @@ def take_anew(rows: Rows, iq: int, t: float, sd: float, end: Floats, P: Floats) 
         P[j, j], P[3 + j, 3 + j] = sd * sd, spread * spread
 
 
+class Moving(NamedTuple):
+    """Arrays that a step of the propagator works in."""
+
+    y: Floats  # (7 + 96,) attitude, momentum, sensitivities
+    at: Floats
+    dy: Floats
+    total: Floats
+    regress: Floats  # (3, 25)
+    fb: Floats
+    phi: Floats  # (6, 15)
+
+
 @part
-def noise_share(sd: float, S: Floats) -> float:
-    """Return the share of the noise in what is expected of a row."""
-    return 3.0 * sd * sd / (S[0, 0] + S[1, 1] + S[2, 2])
+def predict(
+    model: Model, rows: Rows, body: Body, i: int, point: Floats, end: Floats, P: Floats,
+    moving: Moving, A: Floats,
+) -> Now:  # fmt: skip
+    """Take belief and covariance over step i; return the platform at its end."""
+    y, regress, phi, t, inputs = moving.y, moving.regress, moving.phi, rows.t, rows.known
+    now = body_at(body, model.maps, t, inputs, i, 0.0)
+    begin(now, end, y)
+    unit_columns(now, rate_of(now, y), regress, y)
+    step(body, model.maps, t, inputs, rows.owners, model.columns, i, y, regress, moving.fb,
+         moving.at, moving.dy, moving.total)  # fmt: skip
+    now = body_at(body, model.maps, t, inputs, i, 1.0)
+    transition(now, body.mass, y, regress, phi)
+    predict_covariance(body.inertia, phi, model.walks, t[i + 1] - t[i], P, A)
+    lean(now, phi, point, y, end)
+    begin(now, end, y)
+    return now
 
 
 @part
@@ -140,7 +166,8 @@ def judge(
         run = watch.counts[contacts.GATED] + 1 if odd else 0
         watch.counts[contacts.GATED] = run
         if run < 2:
-            learn_noise(level, surprise, noise_share(sd, work.S))
+            S = work.S
+            learn_noise(level, surprise, 3.0 * sd * sd / (S[0, 0] + S[1, 1] + S[2, 2]))
         contacts.felt(watch, first, second, room)
         if run != 1:
             contacts.gather(watch, z, work, room)
@@ -153,6 +180,50 @@ def judge(
     return surprise
 
 
+@part
+def by_attitude(
+    rows: Rows, iq: int, now: Now, sd: float, levels: Floats, known: bool, again: bool,
+    end: Floats, P: Floats, y: Floats, watch: Watch, work: Work, room: Room, done: Ints,
+) -> float:  # fmt: skip
+    """Correct by a row of the camera, or take attitude and rate from it anew."""
+    late = watch.counts[contacts.GATED] >= (PATIENT if known else HASTY) and not again
+    if late or unsure(P, lag_of(rows, iq, rows.t[0])):
+        done[0] = ASTRAY if late else BROKEN
+        take_anew(rows, iq, rows.t[rows.q_node[iq]], sd, end, P)
+        return 0.0
+    z = turn(y, rows.q[iq])
+    surprise = judge(P, 0, -1, z, sd, levels[0], known, again, watch, work, room)
+    apply(work.x, rate_of(now, y), y, end)
+    return surprise
+
+
+@part
+def touched(
+    model: Model, now: Now, y: Floats, end: Floats, P: Floats, watch: Watch, work: Work,
+    room: Room, events: Floats, done: Ints,
+) -> bool:  # fmt: skip
+    """Look for a contact; mend the belief if there was one."""
+    kind, best = contacts.judged(watch, model.alarm, room)
+    if kind < 0:
+        return False
+    contacts.mend(watch, P, work.x, room)
+    apply(work.x, rate_of(now, y), y, end)
+    if done[2] < events.shape[0]:
+        contacts.report(watch, kind, best, room, events[done[2]])
+        done[2] += 1
+    done[0] = BROKEN
+    return True
+
+
+@part
+def report_loss(t: float, events: Floats, done: Ints) -> None:
+    """Write that the attitude was taken anew."""
+    if done[2] < events.shape[0]:
+        events[done[2]] = 0.0
+        events[done[2], 0], events[done[2], 1] = t, LOST
+        done[2] += 1
+
+
 @kernel
 def run_filter(
     model: Model, rows: Rows, walk: Walk, point: Floats, end: Floats, P: Floats,
@@ -162,46 +233,31 @@ def run_filter(
 
     ``point``, ``end`` (q, w, com, J, bias), P, levels and watch come and go.
     """
-    t, inputs, owners, q_node, w_node = rows.t, rows.known, rows.owners, rows.q_node, rows.w_node
+    t, q_node, w_node, again = rows.t, rows.q_node, rows.w_node, walk.again
     y = np.zeros(ROWS + BLOCK)
-    at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
-    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros(BLOCK), np.zeros((6, N))
+    moving = Moving(y, np.empty_like(y), np.empty_like(y), np.empty_like(y), np.zeros((3, WIDTH)),
+                    np.zeros(BLOCK), np.zeros((6, N)))  # fmt: skip
     work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
                 np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
     room = Room(np.zeros((6, WIDE)), np.zeros((3, WIDE)), np.zeros((3, WIDE)), np.zeros((6, MANY)),
                 np.zeros((3, MANY)), np.zeros(MANY), np.zeros(MANY), np.zeros(SIZE),
                 np.zeros(SIZE))  # fmt: skip
     bias, body = end[AT + 9 : AT + 12], placed(model.body, point)
-    first, again = walk.first, walk.again
-    iq, iw = np.searchsorted(q_node, first + 1), np.searchsorted(w_node, first + 1)
-    stop = np.searchsorted(rows.stop_node, first + 1)
+    iq = np.searchsorted(q_node, walk.first + 1)
+    iw = np.searchsorted(w_node, walk.first + 1)
+    stop = np.searchsorted(rows.stop_node, walk.first + 1)
     done[0] = END
-    for i in range(first, walk.last):
-        now = body_at(body, model.maps, t, inputs, i, 0.0)
-        begin(now, end, y)
-        unit_columns(now, rate_of(now, y), regress, y)
-        step(body, model.maps, t, inputs, owners, model.columns, i, y, regress, fb, at, dy, total)
-        now = body_at(body, model.maps, t, inputs, i, 1.0)
-        transition(now, body.mass, y, regress, phi)
-        predict_covariance(body.inertia, phi, model.walks, t[i + 1] - t[i], P, work.A)
+    for i in range(walk.first, walk.last):
+        now = predict(model, rows, body, i, point, end, P, moving, work.A)
         stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
-        lean(now, phi, point, y, end)
-        begin(now, end, y)
         if not again:
-            contacts.follow(watch, phi, room)
-        seen, known = False, settled(levels)
+            contacts.follow(watch, moving.phi, room)
+        seen, known = 0, settled(levels)
         for source in range(2):
             sd = model.sd[source] * levels[source, 0] ** 0.5
-            surprise = 0.0
             if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
-                late = watch.counts[contacts.GATED] >= (PATIENT if known else HASTY)
-                if unsure(P, lag_of(rows, iq, t[0])) or (late and not again):
-                    done[0] = ASTRAY if late else BROKEN
-                    take_anew(rows, iq, t[i + 1], sd, end, P)
-                else:
-                    surprise = judge(P, 0, -1, turn(y, rows.q[iq]), sd, levels[0], known,
-                                     again, watch, work, room)  # fmt: skip
-                    apply(work.x, rate_of(now, y), y, end)
+                surprise = by_attitude(rows, iq, now, sd, levels, known, again, end, P, y, watch,
+                                       work, room, done)  # fmt: skip
                 iq += 1
             elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
                 z = innovation(now, y, bias, rows.w[iw])
@@ -211,31 +267,21 @@ def run_filter(
             else:
                 continue
             begin(now, end, y)
-            seen = True
+            seen += 1
             if not again:
                 note(t[i + 1], end, P, surprise, out[done[1]])
                 done[1] += 1
         if done[0] != END:
-            if not again and done[2] < events.shape[0]:
-                events[done[2]] = 0.0
-                events[done[2], 0], events[done[2], 1] = t[i + 1], LOST
-                done[2] += 1
+            report_loss(t[i + 1], events, done)
             contacts.forget(watch)
             return i + 1
-        if not seen or again:
+        if seen == 0 or again:
             continue
         gone = moved(point, end)
-        if known and (walk.folding or not gone):
-            kind, best = contacts.judged(watch, model.alarm, room)
-            if kind >= 0:
-                contacts.mend(watch, P, work.x, room)
-                apply(work.x, rate_of(now, y), y, end)
-                if done[2] < events.shape[0]:
-                    contacts.report(watch, kind, best, room, events[done[2]])
-                    done[2] += 1
-                contacts.forget(watch)
-                done[0] = BROKEN
-                return i + 1
+        sound = known and (walk.folding or not gone)
+        if sound and touched(model, now, y, end, P, watch, work, room, events, done):
+            contacts.forget(watch)
+            return i + 1
         contacts.take_up(watch, t[i + 1])
         if gone and walk.folding:
             transport(P, point, end)

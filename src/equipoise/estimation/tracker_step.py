@@ -8,13 +8,10 @@ H picks three rows of the error state (and the bias), so H P is a few rows of P.
 
 from typing import NamedTuple
 
-
-
-
 from equipoise.dynamics.regressor import Triple, momentum_columns
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, rate_of, times
-from equipoise.estimation.tracker_point import AT
 from equipoise.dynamics.sensitivities import LANES
+from equipoise.estimation.tracker_point import AT
 from equipoise.maths.compiled import part
 from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints

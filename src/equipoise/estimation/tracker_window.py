@@ -1,14 +1,14 @@
 """Passing the last rows again when the belief has moved: the tracker's memory and its use.
 
 While the inertia is doubtful, one linearisation will not do. The walk then keeps its rows from an
-anchor on (a belief with its covariance) and linearises about a point that stays, on which the belief
-leans. When the belief has moved far from the point, the point moves to it and the rows since the
-anchor are passed again, from the same belief there: Gauss-Newton steps of the least-squares problem
-of anchor and rows. That each pass begins with the anchor's own covariance counts every row once.
-Passes come after windows that grow by a share, so that a row is passed some few times in all.
+anchor on (a belief with its covariance) and linearises about a point that stays, on which the
+belief leans. When the belief has moved far from the point, the point moves to it and the rows since
+the anchor are passed again, from the same belief there: Gauss-Newton steps of the least-squares
+problem of anchor and rows. As each pass begins with the anchor's own covariance, every row counts
+once. Passes come after windows that double, so that a row is passed some few times in all.
 
-Once the shape of the inertia (all but its scale) is known, the anchor follows, and the covariance is
-transported; with the inertia known, nothing is kept and the point follows the belief.
+Once the shape of the inertia (all but its scale) is known, the anchor follows, and the covariance
+is transported; with the inertia known, nothing is kept and the point follows the belief.
 """
 
 from dataclasses import dataclass, replace
@@ -36,8 +36,8 @@ from equipoise.model.arrays import Floats, Ints, Square
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
 SHAPE = 0.01  # of a moment, chosen: the same with the scale taken out
 EDGE, LONGEST = 15.0, 240.0  # s between looks at whether the anchor may follow; it must after
-EARLIEST, GROWTH = 4.0, 1.6  # s, and of the window: when rows may be passed again
-PASSES, CLOSE = 3, 0.25  # at most; until the point moves by no more than this of what is far
+EARLIEST, GROWTH = 4.0, 2.0  # s, and of the window: when rows may be passed again
+PASSES, CLOSE = 3, 0.5  # at most; until the point moves by no more than this of what is far
 LOUDER = 1.2  # of the noise's variance: a change for which rows are passed again
 TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
