@@ -16,8 +16,16 @@ The inertia is part of the state with its own sd, since an error of 2 % in it wo
 sd in r_z: as the swing shows J and r only by their ratio, r is never told better than J until a
 known move separates them. An sd of 0 takes the inertia as known.
 
-Cannot see r along gravity until the platform has tilted. Linearises about its belief, which is too
-coarse from an inertia wrong by more than some 3 %: for a whole record see ``track_again``.
+Cannot see r along gravity until the platform has tilted, nor the scale of (J, r) before a move.
+
+What it does about what it does not know:
+
+    inertia     rows are passed again where the belief has moved far (``tracker_window``), and the
+                direction that free motion cannot show stays what it is (``tracker_point``)
+    contacts    found in the innovations, mended and reported (``tracker_contacts``)
+    noise       its level is learnt from the innovations (``tracker_noise``); a row beyond all
+                bounds is not used (``Track.not_used``)
+    gaps        a row whose attitude cannot be predicted starts anew from it (``tracker_filter``)
 """
 
 from dataclasses import dataclass

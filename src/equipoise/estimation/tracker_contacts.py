@@ -66,7 +66,7 @@ class Room(NamedTuple):
     weighed: Floats  # (3, 72) S^-1 G
     V: Floats  # (6, 24)
     v: Floats  # (3, 24)
-    l: Floats  # (24,)
+    gain: Floats  # (24,) l
     p: Floats  # (24,) probability
     one: Floats  # (18,)
     other: Floats  # (18,)
@@ -198,7 +198,7 @@ def explain(watch: Watch, room: Room) -> None:
         v[0, h] = V[0, h] * d[0, h] + V[3, h] * d[1, h] + V[4, h] * d[2, h]
         v[1, h] = V[3, h] * d[0, h] + V[1, h] * d[1, h] + V[5, h] * d[2, h]
         v[2, h] = V[4, h] * d[0, h] + V[5, h] * d[1, h] + V[2, h] * d[2, h]
-        room.l[h] = v[0, h] * d[0, h] + v[1, h] * d[1, h] + v[2, h] * d[2, h]
+        room.gain[h] = v[0, h] * d[0, h] + v[1, h] * d[1, h] + v[2, h] * d[2, h]
 
 
 @part
@@ -207,7 +207,7 @@ def best_of(watch: Watch, first: int, room: Room) -> int:
     best = -1
     for k in range(watch.counts[COUNT]):
         h = first + watch.order[k]
-        if watch.age[watch.order[k]] >= YOUNGEST and (best < 0 or room.l[h] > room.l[best]):
+        if watch.age[watch.order[k]] >= YOUNGEST and (best < 0 or room.gain[h] > room.gain[best]):
             best = h
     return best
 
@@ -223,13 +223,13 @@ def weigh_up(watch: Watch, top: float, room: Room) -> float:
         older = watch.age[watch.order[k - 1]] if k > 0 else age + 1
         for kind in range(2 if age >= YOUNGEST else 0):
             h = kind * ONSETS + onset
-            p = np.exp(TEMPER * (room.l[h] - top)) * (older - age)
+            p = np.exp(TEMPER * (room.gain[h] - top)) * (older - age)
             room.p[h] = p
             total += p
             jumps += p * (kind == 0)
     for h in range(MANY):
         room.p[h] /= total
-    return jumps / total
+    return float(jumps / total)
 
 
 @part
@@ -239,11 +239,11 @@ def judged(watch: Watch, alarm: float, room: Room) -> tuple[int, int]:
     jump, step = best_of(watch, 0, room), best_of(watch, ONSETS, room)
     if jump < 0:
         return -1, 0
-    best = jump if room.l[jump] > room.l[step] else step
-    if room.l[best] < alarm:
+    best = jump if room.gain[jump] > room.gain[step] else step
+    if room.gain[best] < alarm:
         watch.counts[WAITED] = 0
         return -1, 0
-    share = weigh_up(watch, room.l[best], room)
+    share = weigh_up(watch, room.gain[best], room)
     watch.counts[WAITED] += 1
     told = max(share, 1.0 - share) > SURE and watch.age[best % ONSETS] >= TELLING
     if not told and watch.counts[WAITED] < PATIENCE:
@@ -286,39 +286,49 @@ def doubts(watch: Watch, h: int, room: Room, P: Floats) -> None:
 
 
 @part
-def mend(watch: Watch, P: Floats, x: Floats, room: Room) -> None:
-    """Write x and P of the mixture."""
-    one, other = room.one, room.other
+def mean_effect(watch: Watch, x: Floats, room: Room) -> None:
+    """Write x = sum p X v."""
     x[:] = 0.0
     for h in range(MANY):
         if room.p[h] > 0.0:
-            effect(watch, h, h, room, one)
+            effect(watch, h, h, room, room.one)
             for i in range(SIZE):
-                x[i] += room.p[h] * one[i]
+                x[i] += room.p[h] * room.one[i]
+
+
+@part
+def add_hypothesis(watch: Watch, k: int, kind: int, P: Floats, x: Floats, room: Room) -> None:
+    """Add to P what one hypothesis of the mixture does."""
+    one, other, h = room.one, room.other, kind * ONSETS + watch.order[k]
+    p = float(room.p[h])
+    effect(watch, h, h, room, one)
+    if k > 0:
+        effect(watch, kind * ONSETS + watch.order[k - 1], h, room, other)
+        for i in range(SIZE):
+            other[i] -= one[i]
+        scatter(P, other, UNIFORM * p)
+    for i in range(SIZE):
+        one[i] -= x[i]
+    scatter(P, one, p)
+    doubts(watch, h, room, P)
+
+
+@part
+def mend(watch: Watch, P: Floats, x: Floats, room: Room) -> None:
+    """Write x and P of the mixture."""
+    mean_effect(watch, x, room)
     scatter(P, x, ROUGH**2)
     for k in range(watch.counts[COUNT]):
         for kind in range(2):
-            h = kind * ONSETS + watch.order[k]
-            p = room.p[h]
-            if p <= 0.0:
-                continue
-            effect(watch, h, h, room, one)
-            if k > 0:
-                effect(watch, kind * ONSETS + watch.order[k - 1], h, room, other)
-                for i in range(SIZE):
-                    other[i] -= one[i]
-                scatter(P, other, UNIFORM * p)
-            for i in range(SIZE):
-                one[i] -= x[i]
-            scatter(P, one, p)
-            doubts(watch, h, room, P)
+            if room.p[kind * ONSETS + watch.order[k]] > 0.0:
+                add_hypothesis(watch, k, kind, P, x, room)
 
 
 @part
 def report(watch: Watch, kind: int, best: int, room: Room, out: Floats) -> None:
     """Write an event; jump and step are means of their kind's hypotheses, 0 where it is not."""
     out[:] = 0.0
-    out[0], out[1], out[2] = watch.since[best % ONSETS], kind, room.l[best]
+    out[0], out[1], out[2] = watch.since[best % ONSETS], kind, room.gain[best]
     for which in range(2):
         share = 0.0
         for h in range(which * ONSETS, (which + 1) * ONSETS):

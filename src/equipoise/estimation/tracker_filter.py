@@ -41,9 +41,9 @@ from equipoise.maths.turns import turn
 from equipoise.model.arrays import Floats, Ints
 
 GATE = 30.7  # chi-square of 3 that one sound row in a million exceeds
-EARLY_GATE = 10 * GATE  # chosen: while the noise is not known, which may be three times as stated
+EARLY_GATE = 10 * GATE  # chosen: while the noise is not known; it may be three times as stated
 UNSURE = (0.5, 0.03)  # rad, chosen: beyond it an attitude is taken anew rather than corrected; the
-# second after a gap: a swing of 10 deg whose phase has this doubt is linear to the noise of a camera
+# second after a gap: with more, the phase of a swing of 10 deg is not linear to a camera's noise
 PATIENT, HASTY = 25, 5  # gated rows in a run, chosen, after which it is: in motion, at the start
 STILLEST = 0.1  # rad/s, least sd of a rate that is taken anew without a row shortly before
 SHORTLY = 1.0  # s
@@ -88,8 +88,7 @@ class Walk(NamedTuple):
 @part
 def lag_of(rows: Rows, iq: int, first: float) -> float:
     """Return the time (s) since the attitude row before, or since the walk's first node."""
-    t = rows.t[rows.q_node[iq]]
-    return t - (rows.t[rows.q_node[iq - 1]] if iq > 0 else first)
+    return float(rows.t[rows.q_node[iq]] - (rows.t[rows.q_node[iq - 1]] if iq > 0 else first))
 
 
 @part
@@ -189,12 +188,39 @@ def by_attitude(
     late = watch.counts[contacts.GATED] >= (PATIENT if known else HASTY) and not again
     if late or unsure(P, lag_of(rows, iq, rows.t[0])):
         done[0] = ASTRAY if late else BROKEN
-        take_anew(rows, iq, rows.t[rows.q_node[iq]], sd, end, P)
+        take_anew(rows, iq, float(rows.t[rows.q_node[iq]]), sd, end, P)
         return 0.0
     z = turn(y, rows.q[iq])
     surprise = judge(P, 0, -1, z, sd, levels[0], known, again, watch, work, room)
     apply(work.x, rate_of(now, y), y, end)
     return surprise
+
+
+@part
+def see(
+    model: Model, rows: Rows, again: bool, node: int, iq: int, iw: int, now: Now, known: bool,
+    end: Floats, P: Floats, y: Floats, levels: Floats, watch: Watch, work: Work, room: Room,
+    out: Floats, done: Ints,
+) -> tuple[int, int]:  # fmt: skip
+    """Correct by the rows at a node and write them down; return the rows that are next."""
+    for source in range(2):
+        sd = model.sd[source] * levels[source, 0] ** 0.5
+        if source == 0 and iq < rows.q_node.shape[0] and rows.q_node[iq] == node:
+            surprise = by_attitude(rows, iq, now, sd, levels, known, again, end, P, y, watch, work,
+                                   room, done)  # fmt: skip
+            iq += 1
+        elif source == 1 and iw < rows.w_node.shape[0] and rows.w_node[iw] == node:
+            z = innovation(now, y, end[AT + 9 :], rows.w[iw])
+            surprise = judge(P, 3, N, z, sd, levels[1], known, again, watch, work, room)
+            apply(work.x, rate_of(now, y), y, end)
+            iw += 1
+        else:
+            continue
+        begin(now, end, y)
+        if not again:
+            note(float(rows.t[node]), end, P, surprise, out[done[1]])
+            done[1] += 1
+    return iq, iw
 
 
 @part
@@ -225,7 +251,7 @@ def report_loss(t: float, events: Floats, done: Ints) -> None:
 
 
 @kernel
-def run_filter(
+def run_filter(  # noqa: C901 - one loop, whose branches are parts already
     model: Model, rows: Rows, walk: Walk, point: Floats, end: Floats, P: Floats,
     levels: Floats, watch: Watch, out: Floats, events: Floats, done: Ints,
 ) -> int:  # fmt: skip
@@ -233,7 +259,7 @@ def run_filter(
 
     ``point``, ``end`` (q, w, com, J, bias), P, levels and watch come and go.
     """
-    t, q_node, w_node, again = rows.t, rows.q_node, rows.w_node, walk.again
+    again = walk.again
     y = np.zeros(ROWS + BLOCK)
     moving = Moving(y, np.empty_like(y), np.empty_like(y), np.empty_like(y), np.zeros((3, WIDTH)),
                     np.zeros(BLOCK), np.zeros((6, N)))  # fmt: skip
@@ -242,47 +268,31 @@ def run_filter(
     room = Room(np.zeros((6, WIDE)), np.zeros((3, WIDE)), np.zeros((3, WIDE)), np.zeros((6, MANY)),
                 np.zeros((3, MANY)), np.zeros(MANY), np.zeros(MANY), np.zeros(SIZE),
                 np.zeros(SIZE))  # fmt: skip
-    bias, body = end[AT + 9 : AT + 12], placed(model.body, point)
-    iq = np.searchsorted(q_node, walk.first + 1)
-    iw = np.searchsorted(w_node, walk.first + 1)
-    stop = np.searchsorted(rows.stop_node, walk.first + 1)
+    body = placed(model.body, point)
+    iq = int(np.searchsorted(rows.q_node, walk.first + 1))
+    iw = int(np.searchsorted(rows.w_node, walk.first + 1))
+    stop = int(np.searchsorted(rows.stop_node, walk.first + 1))
     done[0] = END
     for i in range(walk.first, walk.last):
         now = predict(model, rows, body, i, point, end, P, moving, work.A)
         stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, P)
         if not again:
             contacts.follow(watch, moving.phi, room)
-        seen, known = 0, settled(levels)
-        for source in range(2):
-            sd = model.sd[source] * levels[source, 0] ** 0.5
-            if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
-                surprise = by_attitude(rows, iq, now, sd, levels, known, again, end, P, y, watch,
-                                       work, room, done)  # fmt: skip
-                iq += 1
-            elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
-                z = innovation(now, y, bias, rows.w[iw])
-                surprise = judge(P, 3, N, z, sd, levels[1], known, again, watch, work, room)
-                apply(work.x, rate_of(now, y), y, end)
-                iw += 1
-            else:
-                continue
-            begin(now, end, y)
-            seen += 1
-            if not again:
-                note(t[i + 1], end, P, surprise, out[done[1]])
-                done[1] += 1
+        known, before = settled(levels), iq + iw
+        iq, iw = see(model, rows, again, i + 1, iq, iw, now, known, end, P, y, levels, watch, work,
+                     room, out, done)  # fmt: skip
         if done[0] != END:
-            report_loss(t[i + 1], events, done)
+            report_loss(float(rows.t[i + 1]), events, done)
             contacts.forget(watch)
             return i + 1
-        if seen == 0 or again:
+        if iq + iw == before or again:
             continue
         gone = moved(point, end)
         sound = known and (walk.folding or not gone)
         if sound and touched(model, now, y, end, P, watch, work, room, events, done):
             contacts.forget(watch)
             return i + 1
-        contacts.take_up(watch, t[i + 1])
+        contacts.take_up(watch, float(rows.t[i + 1]))
         if gone and walk.folding:
             transport(P, point, end)
             body = placed(model.body, point)

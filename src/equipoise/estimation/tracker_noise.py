@@ -5,8 +5,8 @@
 
 A row counts while noise is most of what is expected of it; an odd row counts no more than one at
 three times the mean (0.979 is the mean of the bounded term), so contacts and slips raise the level
-by a few hundredths at most. With the least gain k wanders by 8 % (one sd), a sd in R^1/2 of 4 %, and
-follows a change within some hundred rows.
+by a few hundredths at most. With the least gain k wanders by some 6 % (one sd), R^1/2 by 3 %, and a
+change is followed within some hundred rows.
 """
 
 from equipoise.maths.compiled import part

@@ -1,4 +1,4 @@
-"""Rows of a recording as the tracker's walk takes them: sensors, masses, and where masses stopped."""
+"""Rows of a recording as the tracker's walk takes them: sensors, masses, stops of masses."""
 
 import numpy as np
 

@@ -35,7 +35,7 @@ from equipoise.model.arrays import Floats, Ints, Square
 
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
 SHAPE = 0.01  # of a moment, chosen: the same with the scale taken out
-EDGE, LONGEST = 15.0, 240.0  # s between looks at whether the anchor may follow; it must after
+EDGE, LONGEST = 15.0, 239.0  # s between looks at whether the anchor may follow; after which it must
 EARLIEST, GROWTH = 4.0, 2.0  # s, and of the window: when rows may be passed again
 PASSES, CLOSE = 3, 0.5  # at most; until the point moves by no more than this of what is far
 LOUDER = 1.2  # of the noise's variance: a change for which rows are passed again
@@ -87,7 +87,10 @@ def first_memory(here: Place, rows: Rows) -> Memory:
 
 def copied(memory: Memory) -> Memory:
     """Return a memory that can be written on."""
-    watch = Watch(*[array.copy() for array in memory.watch])
+    X, C, d, age, since, order, counts = memory.watch
+    watch = Watch(
+        X.copy(), C.copy(), d.copy(), age.copy(), since.copy(), order.copy(), counts.copy()
+    )
     return replace(memory, point=memory.point.copy(), levels=memory.levels.copy(), watch=watch)
 
 
@@ -144,10 +147,11 @@ def advance(
 ) -> tuple[Memory, Place, int]:
     """Walk until something is to be done or the rows end, and do it."""
     rows, keeping = memory.rows, memory.keeping
-    last, start = len(rows.t) - 1, rows.t[0]
-    edge, look, due = last, last, np.inf
+    last, start = len(rows.t) - 1, float(rows.t[0])
+    edge, look, due = last, last, float(np.inf)
     if keeping:
-        due = start + EDGE * (np.floor((rows.t[node] - start) / EDGE + TINY) + 1) - TINY
+        whole = int((float(rows.t[node]) - start) / EDGE + TINY)
+        due = start + EDGE * (whole + 1) - TINY
         edge = min(int(np.searchsorted(rows.t, due)), last)
         look = int(np.searchsorted(rows.t, start + max(EARLIEST, GROWTH * memory.passed)))
     walk = Walk(node, edge, look, not keeping, False)
