@@ -52,18 +52,50 @@ def case(seed: int) -> Case:
     return Case(inertia, q0, to_matrix(q0).T @ rate)
 
 
-def clean(seed: int) -> Recording:
+class Event(NamedTuple):
+    """What happens to the platform, apart from free motion."""
+
+    t: float  # s
+    impulse: Floats  # N m s, body axes
+    shift: Floats  # m, of the centre of mass
+
+
+def clean(seed: int, event: Event | None = None) -> Recording:
     """Return what a perfect camera would have recorded."""
     t, one = np.arange(int(SECONDS * CAMERA) + 1) / CAMERA, case(seed)
+    cut = SECONDS if event is None else event.t
+    before = np.append(t[t < cut], cut)
+    q, end, rate = stretch(before, one.inertia, COM, one.q0, one.rate)
+    if event is not None:
+        rate = rate + np.linalg.solve(unpack_symmetric(one.inertia), event.impulse)
+        later = np.append(cut, t[t > cut])
+        more, _, _ = stretch(later, one.inertia, COM + event.shift, end, rate)
+        q = np.vstack([q[: int(np.sum(t < cut))], more[-int(np.sum(t >= cut)) :]])
+    return Recording(Samples(t, q), None, ("x", "y", "z"), TRACK)
+
+
+def stretch(
+    t: Floats, inertia: Vector6, com: Floats, q0: Floats, rate: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """Return attitudes at times t (s), and attitude and rate at the last."""
     line = builders.line_of(t, TRACK)
-    body = body_of(MASS, builders.GRAVITY, one.inertia, MASS * COM)
-    motion = propagate(body, builders.maps(MASSES), line, one.q0, one.rate)
-    return Recording(Samples(t, motion.q[line.attitude_node]), None, ("x", "y", "z"), TRACK)
+    body = body_of(MASS, builders.GRAVITY, inertia, MASS * com)
+    motion = propagate(body, builders.maps(MASSES), line, q0, rate)
+    return motion.q[line.attitude_node], motion.q[-1], motion.rate[-1]
 
 
-def run(seed: int) -> Recording:
-    """Return what the camera recorded."""
-    return builders.noisy(clean(seed), seed)
+def run(seed: int, event: Event | None = None, louder: float = 1.0) -> Recording:
+    """Return what the camera recorded, its noise being ``louder`` times as stated."""
+    record, rng = clean(seed, event), np.random.default_rng(seed)
+    attitude = record.attitude
+    error = exponential(louder * builders.CAMERA_SD * rng.normal(size=(len(attitude), 3)))
+    return replace(record, attitude=Samples(attitude.t, multiply(attitude.values, error)))
+
+
+def way(seed: int) -> Floats:
+    """Return a direction."""
+    vector = np.random.default_rng([seed, 9]).normal(size=3)
+    return vector / np.linalg.norm(vector)
 
 
 def testbed(seed: int, doubt: float) -> Testbed:

@@ -99,6 +99,11 @@ class State:
     memory: Memory | None = None  # of the rows before; None: this is where tracking begins
 
     @property
+    def noise_levels(self) -> Floats:
+        """Return how many times as loud as stated camera and gyro are, of one sd."""
+        return np.ones(2) if self.memory is None else np.sqrt(self.memory.levels[:, 0])
+
+    @property
     def belief(self) -> Belief:
         """Return what is believed of the body."""
         return Belief(self.com, self.inertia_P, self.covariance[BODY, BODY])

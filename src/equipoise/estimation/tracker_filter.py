@@ -251,7 +251,7 @@ def report_loss(t: float, events: Floats, done: Ints) -> None:
 
 
 @kernel
-def run_filter(  # noqa: C901 - one loop, whose branches are parts already
+def run_filter(
     model: Model, rows: Rows, walk: Walk, point: Floats, end: Floats, P: Floats,
     levels: Floats, watch: Watch, out: Floats, events: Floats, done: Ints,
 ) -> int:  # fmt: skip
