@@ -62,7 +62,7 @@ Kind = Literal["impulse", "step", "either", "lost"]
 KINDS: tuple[Kind, ...] = ("impulse", "step", "either", "lost")
 UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump without being told
 WHERE = np.cumsum([4, 3, 3, 6, 3])  # where the parts of a belief written as one array end
-QUIET = 600.0  # s: a contact is reported falsely no more often than once in this
+QUIET = 7200.0  # s, chosen: how often chance alone is called a contact; it costs what was known
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -176,10 +176,10 @@ def first_state(t: float, q: Quaternion, testbed: Testbed, belief: Belief | None
 
 
 def contact_alarm(testbed: Testbed, recording: Recording) -> float:
-    """Return the l that calls a contact: with one false call in 10 min at most.
+    """Return the l that calls a contact: chance does so once in two hours.
 
-    After each row two kinds at a dozen onsets are tested, each with 3 degrees of freedom; that they
-    are far from independent makes the true rate lower (Bonferroni).
+    After each row two kinds are tested, with 3 degrees of freedom, at a dozen onsets that are so
+    alike that rows and kinds alone are counted; neighbouring rows are alike too.
     """
     sensors = ((recording.attitude, testbed.attitude), (recording.rate, testbed.gyro))
     rows = sum(sensor.rate for seen, sensor in sensors if seen is not None and sensor is not None)
