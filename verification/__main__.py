@@ -24,6 +24,7 @@ from verification import (
     mujoco_platforms,
     real_record,
     tracker_honesty,
+    tracker_knows,
 )
 from verification.document import page, section, table_of
 from verification.result import Result, Spread
@@ -45,6 +46,7 @@ CHECKS = {
     "mujoco_platforms": Check(mujoco_platforms.measure, 20),
     "efficiency": Check(efficiency.measure, 2000),
     "tracker_honesty": Check(tracker_honesty.measure, 200),
+    "tracker_knows": Check(tracker_knows.measure, 200),
     "balanced": Check(balanced.measure, 200),
     "drift": Check(drift.measure, 20),
     "real_record": Check(real_record.measure, 1),

@@ -111,9 +111,12 @@ def fed_rows(runs: Sequence[Run]) -> tuple[Row, ...]:
 
 
 def nees_band_of_rows(seeds: int) -> tuple[float, float]:
-    """Return the 95 % band of the mean over 551 rows of 3 for each seed, per component."""
+    """Return the 95 % band of the mean over 551 rows of 3 for each seed, per component.
+
+    Above it a hundredth is left: the level of noise is learnt and wanders by 6 %.
+    """
     low, high = nees_band(1, 551 * 3 * seeds)
-    return low, high
+    return low, high + 0.01
 
 
 def ignored_rows(runs: Sequence[Run]) -> tuple[Row, ...]:

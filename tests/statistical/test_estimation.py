@@ -6,7 +6,7 @@ seeds (the seeds here are fixed, so a test that passes goes on passing).
 
 import pytest
 
-from verification import efficiency, real_record, tracker_honesty
+from verification import efficiency, real_record, tracker_honesty, tracker_knows
 
 
 def test_fit_is_at_the_bound_and_its_intervals_are_honest() -> None:
@@ -17,6 +17,11 @@ def test_fit_is_at_the_bound_and_its_intervals_are_honest() -> None:
 def test_tracker_is_at_the_bound_and_honest() -> None:
     """40 paper-like runs, moves fed and moves ignored."""
     assert tracker_honesty.measure(range(40)).missed == ()
+
+
+def test_tracker_knows_what_it_does_not_know() -> None:
+    """20 runs of each kind: doubtful inertia, contacts, steps, a gap, loud noise."""
+    assert tracker_knows.measure(range(20)).missed == ()
 
 
 @pytest.mark.skipif(not real_record.RECORD.is_file(), reason="the real recording is not at hand")

@@ -16,25 +16,34 @@ The inertia is part of the state with its own sd, since an error of 2 % in it wo
 sd in r_z: as the swing shows J and r only by their ratio, r is never told better than J until a
 known move separates them. An sd of 0 takes the inertia as known.
 
-Cannot see r along gravity until the platform has tilted. Linearises about its belief, which is too
-coarse from an inertia wrong by more than some 3 %: for a whole record see ``track_again``.
+Cannot see r along gravity until the platform has tilted, nor the scale of (J, r) before a move.
+
+What it does about what it does not know:
+
+    inertia     rows are passed again where the belief has moved far (``tracker_window``), and the
+                direction that free motion cannot show stays what it is (``tracker_point``)
+    contacts    found in the innovations, mended and reported (``tracker_contacts``)
+    noise       its level is learnt from the innovations (``tracker_noise``); a row beyond all
+                bounds is not used (``Track.not_used``)
+    gaps        a row whose attitude cannot be predicted starts anew from it (``tracker_filter``)
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from scipy.special import chdtri
 
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.actuators.stops import travels
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.propagation import Columns, body_of, stacked
-from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
-from equipoise.estimation.tracker_step import BODY, COM, SIZE, run_filter
+from equipoise.estimation.tracker_filter import GATE, Model
+from equipoise.estimation.tracker_rows import rows_of
+from equipoise.estimation.tracker_step import BODY, COM, SIZE
+from equipoise.estimation.tracker_window import Memory, Place, Written, follow
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (
     Floats,
-    Ints,
     Matrix3,
     Quaternion,
     Series,
@@ -45,16 +54,15 @@ from equipoise.model.arrays import (
     Vector3,
 )
 from equipoise.model.estimate import INERTIA, Estimate
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
 
 Moves = Literal["fed", "ignored"]
-LONGEST_STEP = 1.0  # s
+Kind = Literal["impulse", "step", "either", "lost"]
+KINDS: tuple[Kind, ...] = ("impulse", "step", "either", "lost")
 UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump without being told
 WHERE = np.cumsum([4, 3, 3, 6, 3])  # where the parts of a belief written as one array end
-NOTHING = Samples(np.zeros(0), np.zeros((0, 4)))
-NO_RATE = Samples(np.zeros(0), np.zeros((0, 3)))
+QUIET = 7200.0  # s, chosen: how often chance alone is called a contact; it costs what was known
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,11 +96,30 @@ class State:
     inertia_P: Matrix3  # kg m^2, masses at home
     bias: Vector3  # rad/s
     covariance: Square  # (18, 18) of dth, dw, dr, dJ, db
+    memory: Memory | None = None  # of the rows before; None: this is where tracking begins
+
+    @property
+    def noise_levels(self) -> Floats:
+        """Return how many times as loud as stated camera and gyro are, of one sd."""
+        return np.ones(2) if self.memory is None else np.sqrt(self.memory.levels[:, 0])
 
     @property
     def belief(self) -> Belief:
         """Return what is believed of the body."""
         return Belief(self.com, self.inertia_P, self.covariance[BODY, BODY])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contact:
+    """Something that free motion does not explain; what is not of its kind is 0."""
+
+    t: float  # s, the row before it
+    kind: Kind  # "lost": the attitude was not known any more and was taken anew
+    weight: float  # l: twice the log of the likelihood ratio
+    impulse: Vector3  # N m s, body axes
+    impulse_sd: Vector3
+    shift: Vector3  # m, of the centre of mass, body axes
+    shift_sd: Vector3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,7 +134,13 @@ class Track:
     bias: Series3
     sd: Series  # (n, 18) of dth, dw, dr, dJ, db
     surprise: Series1  # squared innovation over its covariance, 3 degrees of freedom
+    contacts: tuple[Contact, ...]
     end: State
+
+    @property
+    def not_used(self) -> Series1:
+        """Return the times (s) of rows that are too odd to be used."""
+        return self.t[self.surprise > GATE]
 
     @property
     def com_sd(self) -> Series3:
@@ -142,76 +175,60 @@ def first_state(t: float, q: Quaternion, testbed: Testbed, belief: Belief | None
     return State(t, q, np.zeros(3), belief.com, belief.inertia_P, np.zeros(3), covariance)
 
 
-def stop_covariances(
-    recording: Recording, testbed: Testbed, line: Timeline, after: float
-) -> tuple[Ints, Floats]:
-    """Return the nodes at which masses stopped, and what that adds to the covariance of r.
+def contact_alarm(testbed: Testbed, recording: Recording) -> float:
+    """Return the l that calls a contact: chance does so once in two hours.
 
-    A mass that travels up to the end has not stopped yet: the record that goes on counts it.
+    After each row two kinds are tested, with 3 degrees of freedom, at a dozen onsets that are so
+    alike that rows and kinds alone are counted; neighbouring rows are alike too.
     """
-    nodes: list[int] = []
-    added: list[Floats] = []
-    track, total = recording.masses, testbed.body.mass
-    for i, mass in enumerate(testbed.masses if track is not None else ()):
-        assert track is not None
-        for _, last in travels(track.t, track.values[:, i], mass.speed):
-            when = float(track.t[last])
-            if after < when < line.t[-1] and mass.accuracy > 0:
-                nodes.append(min(int(np.searchsorted(line.t, when)), len(line.t) - 1))
-                shift: Vector3 = mass.mass * mass.accuracy / total * mass.axis
-                added.append(shift[:, None] * shift)
-    order = np.argsort(nodes, kind="stable")
-    stacked_up = np.array(added).reshape(-1, 3, 3)
-    return np.array(nodes, dtype=np.int64)[order], stacked_up[order]
+    sensors = ((recording.attitude, testbed.attitude), (recording.rate, testbed.gyro))
+    rows = sum(sensor.rate for seen, sensor in sensors if seen is not None and sensor is not None)
+    return float(chdtri(3, 1 / (max(rows, 1.0) * QUIET * 2)))
+
+
+def model_of(recording: Recording, testbed: Testbed, params: Params, state: State) -> Model:
+    """Return what does not change along the rows."""
+    inertia, mass = pack_symmetric(state.inertia_P), testbed.body.mass
+    walk = params.com_walk if params.moves == "fed" else max(params.com_walk, UNTOLD)
+    bias_walk = params.bias_walk if recording.rate is not None and len(recording.rate) else 0.0
+    sd = [s.noise if s else 1.0 for s in (testbed.attitude, testbed.gyro)]
+    return Model(
+        body_of(mass, testbed.gravity, inertia, mass * state.com, params.torque),
+        stacked(mass_maps(testbed.masses)), filter_columns(), np.array(sd),
+        np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk], 3),
+        contact_alarm(testbed, recording),
+    )  # fmt: skip
 
 
 def track(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
     """Return the beliefs after every row later than the state; call again to go on from its end."""
-    attitude, rate = recording.attitude or NOTHING, recording.rate or NO_RATE
-    tq, tw = seen_at(attitude.t, testbed.attitude), seen_at(rate.t, testbed.gyro)
-    new_q, new_w = tq > state.t, tw > state.t
-    masses = recording.masses if params.moves == "fed" else None
-    walk = params.com_walk if params.moves == "fed" else max(params.com_walk, UNTOLD)
-    fastest = float(np.linalg.norm(state.rate)) + 0.2
-    line = timeline(
-        np.append(state.t, tq[new_q]), tw[new_w], masses, len(testbed.masses),
-        min(LONGEST_STEP, TURN_PER_STEP / fastest), recording.momentum, recording.torque,
-    )  # fmt: skip
-    inertia, mass = pack_symmetric(state.inertia_P), testbed.body.mass
-    body = body_of(mass, testbed.gravity, inertia, mass * state.com, params.torque)
-    stops, added = stop_covariances(recording if masses else Recording(), testbed, line, state.t)
-    bias_walk = params.bias_walk if len(rate) else 0.0
-    noise = np.repeat([0.0, params.torque_walk, walk, 0.0, 0.0, bias_walk], 3)
-    n, m = int(new_q.sum()), int(new_w.sum())
-    sd_q = testbed.attitude.noise if testbed.attitude else 1.0
-    sd_w = testbed.gyro.noise if testbed.gyro else 1.0
-    end = np.concatenate([state.q, state.rate, state.com, inertia, state.bias])
-    out = np.zeros((n + m, 1 + len(end) + SIZE + 1))
-    covariance = state.covariance.copy()
-    run_filter(
-        body, stacked(mass_maps(testbed.masses)), line.t, line.known, line.error_mass,
-        filter_columns(), np.ascontiguousarray(attitude.values[new_q]), line.attitude_node[1:],
-        sd_q, np.ascontiguousarray(rate.values[new_w]), line.rate_node, sd_w,
-        stops, added, noise, end, covariance, out,
-    )  # fmt: skip
+    belief = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P),
+                             state.bias])  # fmt: skip
+    speed, fed = float(np.linalg.norm(state.rate)), params.moves == "fed"
+    fresh = rows_of(recording, testbed, fed, state.t, speed)
+    model = model_of(recording, testbed, params, state)
+    memory, here, written = follow(model, state.memory, Place(belief, state.covariance), fresh)
+    q, w, com, J, b = np.split(here.belief, WHERE[:-1])
+    end = State(float(fresh.t[-1]), q, w, com, unpack_symmetric(J), b, here.covariance, memory)
+    return track_of(written, end)
+
+
+def track_of(written: Written, end: State) -> Track:
+    """Return what the walk has written."""
+    out = written.out
     at = np.split(out, [1, *(1 + WHERE), out.shape[1] - 1], axis=1)
     t, q, w, com, J, b, sd, surprise = at
-    q_end, w_end, com_end, J_end, b_end = np.split(end, WHERE[:-1])
-    last = State(float(line.t[-1]), q_end, w_end, com_end, unpack_symmetric(J_end), b_end,
-                 covariance)  # fmt: skip
-    return Track(t[:, 0], q, w, com, J, b, sd, surprise[:, 0], last)
+    found = tuple(contact_of(event, end) for event in written.events[: written.done[2]])
+    return Track(t[:, 0], q, w, com, J, b, sd, surprise[:, 0], found, end)
 
 
-def track_again(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
-    """Return the track of a second pass, from the mass properties that a first one ended with.
-
-    Only the point of linearisation is new: the covariance to begin with is the same prior's, so the
-    record counts once. (The prior's values are given up for it: this is for priors much wider than
-    what the record tells.)
-    """
-    end = track(recording, testbed, params, state).end
-    again = replace(state, com=end.com, inertia_P=end.inertia_P)
-    return track(recording, testbed, params, again)
+def contact_of(event: Floats, end: State) -> Contact:
+    """Return an event as written."""
+    jump, jump_sd, step, step_sd = np.split(event[3:], 4)
+    J = end.inertia_P
+    impulse_sd = np.sqrt(np.diag(J @ np.diag(jump_sd**2) @ J))
+    kind = KINDS[int(event[1])]
+    return Contact(float(event[0]), kind, float(event[2]), J @ jump, impulse_sd, step, step_sd)
 
 
 def filter_columns() -> Columns:

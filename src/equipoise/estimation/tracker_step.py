@@ -1,4 +1,4 @@
-"""One step of the tracker, compiled: predict along the timeline, correct by a row.
+"""What a step of the tracker is made of, compiled: predict along the timeline, correct by a row.
 
     P- = Phi P Phi^T + Q dt        Phi from the propagator's sensitivities over the step
     K  = P- H^T (H P- H^T + R)^-1,   x = K z,   P+ = (E - K H) P- (E - K H)^T + K R K^T
@@ -8,28 +8,25 @@ H picks three rows of the error state (and the bias), so H P is a few rows of P.
 
 from typing import NamedTuple
 
-import numpy as np
-
-from equipoise.dynamics.propagation import Columns, step
-from equipoise.dynamics.regressor import WIDTH, Triple, momentum_columns
-from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, body_at, rate_of, times
-from equipoise.dynamics.sensitivities import BLOCK, LANES
-from equipoise.maths.compiled import kernel, part
-from equipoise.maths.turns import turn, turned
+from equipoise.dynamics.regressor import Triple, momentum_columns
+from equipoise.dynamics.rigid_body import ROWS, Body, Now, Six, rate_of, times
+from equipoise.dynamics.sensitivities import LANES
+from equipoise.estimation.tracker_point import AT
+from equipoise.maths.compiled import part
+from equipoise.maths.turns import turned
 from equipoise.model.arrays import Floats, Ints
 
 SIZE = 18  # dth, dw, dr, dJ, db
 N = 15  # of which the propagator moves these, in one block
 COM, BODY = slice(6, 9), slice(6, 15)  # rows of the error state: r; r and J
-AT = 7  # where com stands in a belief written as one array: q, w, com, J, bias
 
 
 @part
-def believed(body: Body, end: Floats) -> Body:
-    """Return the body with the centre of mass (m) and the inertia (kg m^2) of a belief."""
-    m, J = body.mass, AT + 3
-    moment = (m * end[AT], m * end[AT + 1], m * end[AT + 2])
-    inertia = (end[J], end[J + 1], end[J + 2], end[J + 3], end[J + 4], end[J + 5])
+def placed(body: Body, point: Floats) -> Body:
+    """Return the body with the centre of mass (m) and the inertia (kg m^2) of a point."""
+    m = body.mass
+    moment = (m * point[0], m * point[1], m * point[2])
+    inertia = (point[3], point[4], point[5], point[6], point[7], point[8])
     return Body(m, body.gravity, inertia, moment, body.torqued, body.torque)
 
 
@@ -190,18 +187,6 @@ def shrink(P: Floats, first: int, second: int, sd: float, work: Work) -> None:
 
 
 @part
-def correct(P: Floats, first: int, second: int, z: Triple, sd: float, work: Work) -> float:
-    """Write x and P+, return the squared innovation over its covariance.
-
-    H is unit rows at ``first``, and at ``second`` if that is not negative.
-    """
-    expect(P, first, second, sd, work)
-    surprise = weigh(z, work)
-    shrink(P, first, second, sd, work)
-    return surprise
-
-
-@part
 def apply(x: Floats, w: Triple, y: Floats, end: Floats) -> None:
     """Write a belief (q, w, com, J, bias) corrected by the error state; y holds q before."""
     end[0], end[1], end[2], end[3] = turned(y, x[0], x[1], x[2])
@@ -222,6 +207,19 @@ def begin(now: Now, end: Floats, y: Floats) -> None:
 
 
 @part
+def lean(now: Now, phi: Floats, point: Floats, y: Floats, end: Floats) -> None:
+    """Write where the belief is after a step from the point: Phi (belief - point)."""
+    a0, a1, a2 = 0.0, 0.0, 0.0
+    b0, b1, b2 = rate_of(now, y)
+    for c in range(9):
+        off = end[AT + c] - point[c]
+        a0, a1, a2 = a0 + phi[0, 6 + c] * off, a1 + phi[1, 6 + c] * off, a2 + phi[2, 6 + c] * off
+        b0, b1, b2 = b0 + phi[3, 6 + c] * off, b1 + phi[4, 6 + c] * off, b2 + phi[5, 6 + c] * off
+    end[0], end[1], end[2], end[3] = turned(y, a0, a1, a2)
+    end[4], end[5], end[6] = b0, b1, b2
+
+
+@part
 def innovation(now: Now, y: Floats, bias: Floats, seen: Floats) -> Triple:
     """Return measured minus predicted rate."""
     w = rate_of(now, y)
@@ -237,49 +235,3 @@ def note(t: float, end: Floats, P: Floats, surprise: float, out: Floats) -> None
         out[1 + j] = end[j]
     for j in range(SIZE):
         out[1 + n + j] = P[j, j] ** 0.5
-
-
-@kernel
-def run_filter(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    attitude: Floats, q_node: Ints, sd_q: float, rate: Floats, w_node: Ints, sd_w: float,
-    stop_node: Ints, stop_added: Floats, noise: Floats, end: Floats, P: Floats, out: Floats,
-) -> None:  # fmt: skip
-    """Filter every row into one of ``out``; ``end`` (q, w, com, J, bias) and P come and go."""
-    y = np.zeros(ROWS + BLOCK)
-    at, dy, total = np.empty_like(y), np.empty_like(y), np.empty_like(y)
-    regress, fb, phi = np.zeros((3, WIDTH)), np.zeros(BLOCK), np.zeros((6, N))
-    work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
-                np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
-    bias = end[AT + 9 : AT + 12]
-    body = believed(body, end)
-    now = body_at(body, maps, t, known, 0, 0.0)
-    begin(now, end, y)
-    iq, iw, stop = 0, 0, 0
-    for i in range(t.shape[0] - 1):
-        now = body_at(body, maps, t, known, i, 0.0)
-        unit_columns(now, rate_of(now, y), regress, y)
-        step(body, maps, t, known, owners, columns, i, y, regress, fb, at, dy, total)
-        now = body_at(body, maps, t, known, i, 1.0)
-        transition(now, body.mass, y, regress, phi)
-        predict_covariance(body.inertia, phi, noise, t[i + 1] - t[i], P, work.A)
-        stop = add_stops(stop, i + 1, stop_node, stop_added, P)
-        for source in range(2):
-            if source == 0 and iq < q_node.shape[0] and q_node[iq] == i + 1:
-                surprise = correct(P, 0, -1, turn(y, attitude[iq]), sd_q, work)
-                iq += 1
-            elif source == 1 and iw < w_node.shape[0] and w_node[iw] == i + 1:
-                surprise = correct(P, 3, N, innovation(now, y, bias, rate[iw]), sd_w, work)
-                iw += 1
-            else:
-                continue
-            apply(work.x, rate_of(now, y), y, end)
-            note(t[i + 1], end, P, surprise, out[iq + iw - 1])
-            body = believed(body, end)
-            now = body_at(body, maps, t, known, i, 1.0)
-            begin(now, end, y)
-    w = rate_of(now, y)
-    for j in range(4):
-        end[j] = y[j]
-    for j in range(3):
-        end[4 + j] = w[j]

@@ -83,7 +83,7 @@ def shift_at_end(recording: Recording, testbed: Testbed) -> Vector3:
 
 
 def by_tracker(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Estimate:
-    """Kalman filter from what the testbed says, passed twice; the belief after the last row.
+    """Kalman filter from what the testbed says; the belief after the last row.
 
     After a move the centre of mass is that of the masses as they stand: where they really stopped
     is part of it.
@@ -93,7 +93,7 @@ def by_tracker(recording: Recording, testbed: Testbed, options: IdentifyOptions)
         return Estimate("tracker", outcome, (), np.zeros((0, 0)))
     recording, first = arranged(recording, testbed.mass_names), recording.attitude
     state = tracker.first_state(float(first.t[0]), first.values[0], testbed)
-    track = tracker.track_again(recording, testbed, tracker.Params(), state)
+    track = tracker.track(recording, testbed, tracker.Params(), state)
     shift = shift_at_end(recording, testbed)
     belief = track.end.belief
     values = [*(belief.com + shift), *pack_symmetric(belief.inertia_P)]

@@ -1,0 +1,76 @@
+"""Rows of a recording as the tracker's walk takes them: sensors, masses, stops of masses."""
+
+import numpy as np
+
+from equipoise.actuators.stops import travels
+from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
+from equipoise.estimation.tracker_filter import Rows
+from equipoise.model.arrays import Floats, Ints, Vector3
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+from equipoise.sensors.timing import seen_at
+
+LONGEST_STEP = 1.0  # s
+NOTHING = Samples(np.zeros(0), np.zeros((0, 4)))
+NO_RATE = Samples(np.zeros(0), np.zeros((0, 3)))
+
+
+def stop_covariances(
+    recording: Recording, testbed: Testbed, line: Timeline, after: float
+) -> tuple[Ints, Floats]:
+    """Return the nodes at which masses stopped, and what that adds to the covariance of r.
+
+    A mass that travels up to the end has not stopped yet: the record that goes on counts it.
+    """
+    nodes: list[int] = []
+    added: list[Floats] = []
+    track, total = recording.masses, testbed.body.mass
+    for i, mass in enumerate(testbed.masses if track is not None else ()):
+        assert track is not None
+        for _, last in travels(track.t, track.values[:, i], mass.speed):
+            when = float(track.t[last])
+            if after < when < line.t[-1] and mass.accuracy > 0:
+                nodes.append(min(int(np.searchsorted(line.t, when)), len(line.t) - 1))
+                shift: Vector3 = mass.mass * mass.accuracy / total * mass.axis
+                added.append(shift[:, None] * shift)
+    order = np.argsort(nodes, kind="stable")
+    stacked_up = np.array(added).reshape(-1, 3, 3)
+    return np.array(nodes, dtype=np.int64)[order], stacked_up[order]
+
+
+def rows_of(recording: Recording, testbed: Testbed, fed: bool, since: float, speed: float) -> Rows:
+    """Return what was seen later than ``since`` (s), of a platform that turns at ``speed``."""
+    attitude, rate = recording.attitude or NOTHING, recording.rate or NO_RATE
+    tq, tw = seen_at(attitude.t, testbed.attitude), seen_at(rate.t, testbed.gyro)
+    new_q, new_w = tq > since, tw > since
+    masses = recording.masses if fed else None
+    line = timeline(
+        np.append(since, tq[new_q]), tw[new_w], masses, len(testbed.masses),
+        min(LONGEST_STEP, TURN_PER_STEP / (speed + 0.2)), recording.momentum, recording.torque,
+    )  # fmt: skip
+    stops, added = stop_covariances(recording if masses else Recording(), testbed, line, since)
+    return Rows(
+        line.t, line.known, line.error_mass,
+        np.ascontiguousarray(attitude.values[new_q]), line.attitude_node[1:],
+        np.ascontiguousarray(rate.values[new_w]), line.rate_node, stops, added,
+    )  # fmt: skip
+
+
+def followed_by(a: Rows, b: Rows) -> Rows:
+    """Return rows and those that begin where they end."""
+    n = len(a.t) - 1
+    return Rows(
+        np.append(a.t, b.t[1:]), np.vstack([a.known[:-1], b.known]), a.owners,
+        np.vstack([a.q, b.q]), np.append(a.q_node, b.q_node + n),
+        np.vstack([a.w, b.w]), np.append(a.w_node, b.w_node + n),
+        np.append(a.stop_node, b.stop_node + n), np.concatenate([a.stop_added, b.stop_added]),
+    )  # fmt: skip
+
+
+def later(rows: Rows, node: int) -> Rows:
+    """Return the rows behind a node."""
+    q, w, stop = rows.q_node > node, rows.w_node > node, rows.stop_node > node
+    return Rows(
+        rows.t[node:], rows.known[node:], rows.owners, rows.q[q], rows.q_node[q] - node,
+        rows.w[w], rows.w_node[w] - node, rows.stop_node[stop] - node, rows.stop_added[stop],
+    )  # fmt: skip

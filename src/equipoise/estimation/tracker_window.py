@@ -1,0 +1,200 @@
+"""Passing the last rows again when the belief has moved: the tracker's memory and its use.
+
+While the inertia is doubtful, one linearisation will not do. The walk then keeps its rows from an
+anchor on (a belief with its covariance) and linearises about a point that stays, on which the
+belief leans. When the belief has moved far from the point, the point moves to it and the rows since
+the anchor are passed again, from the same belief there: Gauss-Newton steps of the least-squares
+problem of anchor and rows. As each pass begins with the anchor's own covariance, every row counts
+once. Passes come after windows that double, so that a row is passed some few times in all.
+
+Once the shape of the inertia (all but its scale) is known, the anchor follows, and the covariance
+is transported; with the inertia known, nothing is kept and the point follows the belief.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.estimation.tracker_contacts import EVENT, Watch, new_watch
+from equipoise.estimation.tracker_filter import ASTRAY, BROKEN, MOVED, Model, Rows, Walk, run_filter
+from equipoise.estimation.tracker_noise import settled
+from equipoise.estimation.tracker_point import (
+    AT,
+    FAR,
+    FAR_COM,
+    doubt,
+    doubt_of_shape,
+    nearer,
+    transport,
+)
+from equipoise.estimation.tracker_rows import followed_by, later
+from equipoise.estimation.tracker_step import SIZE
+from equipoise.maths.linalg import element_sizes, unpack_symmetric
+from equipoise.model.arrays import Floats, Ints, Square
+
+DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
+SHAPE = 0.01  # of a moment, chosen: the same with the scale taken out
+EDGE, LONGEST = 15.0, 239.0  # s between looks at whether the anchor may follow; after which it must
+EARLIEST, GROWTH = 4.0, 2.0  # s, and of the window: when rows may be passed again
+PASSES, CLOSE = 3, 0.5  # at most; until the point moves by no more than this of what is far
+LOUDER = 2.0  # of the variance of noise, chosen: far beyond what it wanders by
+TINY = 1e-9
+MOST_EVENTS = 64  # that one call reports
+BODY = slice(AT, AT + 9)  # r and J in a belief written as one array
+ERRORS = slice(6, 15)  # and in the error state
+
+
+class Place(NamedTuple):
+    """A belief (q, w, com, J, bias) and its covariance, written on by the walk."""
+
+    belief: Floats
+    covariance: Square
+
+    def copy(self) -> "Place":
+        """Return one that can be written on."""
+        return Place(self.belief.copy(), self.covariance.copy())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Memory:
+    """What the tracker remembers beside what it believes."""
+
+    anchor: Place
+    rows: Rows  # since the anchor
+    point: Floats  # (9,) r and J about which it linearises
+    passed: float  # s, the window that was last passed again
+    level: Floats  # (2,) of the noise at that time
+    levels: Floats  # (2, 2) of the noise: share of the stated variance, rows seen
+    watch: Watch
+    keeping: bool  # rows
+
+
+class Written(NamedTuple):
+    """Rows and events that the walk writes, and how many."""
+
+    out: Floats
+    events: Floats
+    done: Ints  # why it ended, rows, events
+
+
+def first_memory(here: Place, rows: Rows) -> Memory:
+    """Return the memory of a tracker that begins with these rows."""
+    levels = np.array([[1.0, 0.0], [1.0, 0.0]])
+    return Memory(here.copy(), rows, here.belief[BODY].copy(), 0.0, levels[:, 0].copy(), levels,
+                  new_watch(), True)  # fmt: skip
+
+
+def copied(memory: Memory) -> Memory:
+    """Return a memory that can be written on."""
+    X, C, d, age, since, order, counts = memory.watch
+    watch = Watch(
+        X.copy(), C.copy(), d.copy(), age.copy(), since.copy(), order.copy(), counts.copy()
+    )
+    return replace(memory, point=memory.point.copy(), levels=memory.levels.copy(), watch=watch)
+
+
+def distance(point: Floats, belief: Floats) -> float:
+    """Return how far a belief is from a point; 1 is far."""
+    off = np.abs(belief[BODY] - point)
+    inertia = off[3:] / element_sizes(unpack_symmetric(point[3:]))
+    com = float(np.linalg.norm(off[:3]) / np.linalg.norm(point[:3]))
+    return max(float(inertia.max()) / FAR, com / FAR_COM)
+
+
+def anchored(memory: Memory, here: Place, node: int) -> Memory:
+    """Return the memory with its anchor here, at a node; transports the covariance."""
+    target = here.belief.copy()
+    target[BODY] = nearer(memory.point, here.belief[BODY])
+    transport(here.covariance, memory.point, target)
+    keeping = doubt(memory.point, here.covariance) > DOUBT or not settled(memory.levels)
+    rows, level = later(memory.rows, node), memory.levels[:, 0].copy()
+    return replace(memory, anchor=here.copy(), rows=rows, passed=0.0, level=level, keeping=keeping)
+
+
+def without(anchor: Place, here: Place) -> Place:
+    """Return a place that knows of r and J what the anchor did: rows since then have misled it."""
+    found = here.copy()
+    found.belief[BODY] = anchor.belief[BODY]
+    found.covariance[ERRORS] = found.covariance[:, ERRORS] = 0.0
+    found.covariance[ERRORS, ERRORS] = anchor.covariance[ERRORS, ERRORS]
+    return found
+
+
+def pass_again(model: Model, memory: Memory, here: Place, node: int) -> tuple[Memory, Place]:
+    """Return memory and place after passes of the rows up to a node; as they were if that fails."""
+    point, found = memory.point.copy(), here
+    for _ in range(PASSES):
+        point = nearer(point, found.belief[BODY])
+        found = memory.anchor.copy()
+        written = Written(np.zeros((0, 0)), np.zeros((0, EVENT)), np.zeros(3, dtype=np.int64))
+        walk = Walk(0, node, node, False, True)
+        reached = run_filter(model, memory.rows, walk, point, found.belief, found.covariance,
+                             memory.levels, memory.watch, *written)  # fmt: skip
+        if reached < node or not np.all(np.isfinite(found.belief)):
+            point, found = memory.point, here
+            break
+        if distance(point, found.belief) < CLOSE:
+            break
+    age = float(memory.rows.t[node] - memory.rows.t[0])
+    level = memory.levels[:, 0].copy()
+    memory.watch.counts[:] = 0
+    return replace(memory, point=point, passed=age, level=level), found
+
+
+def advance(
+    model: Model, memory: Memory, here: Place, node: int, written: Written
+) -> tuple[Memory, Place, int]:
+    """Walk until something is to be done or the rows end, and do it."""
+    rows, keeping = memory.rows, memory.keeping
+    last, start = len(rows.t) - 1, float(rows.t[0])
+    edge, look, due = last, last, float(np.inf)
+    if keeping:
+        whole = int((float(rows.t[node]) - start) / EDGE + TINY)
+        due = start + EDGE * (whole + 1) - TINY
+        edge = min(int(np.searchsorted(rows.t, due)), last)
+        look = int(np.searchsorted(rows.t, start + max(EARLIEST, GROWTH * memory.passed)))
+    walk = Walk(node, edge, look, not keeping, False)
+    node = run_filter(model, rows, walk, memory.point, here.belief, here.covariance, memory.levels,
+                      memory.watch, *written)  # fmt: skip
+    if written.done[0] == ASTRAY and keeping:
+        here = without(memory.anchor, here)
+    if written.done[0] in (BROKEN, ASTRAY):
+        return anchored(memory, here, node), here, 0
+    if written.done[0] == MOVED:
+        memory, here = pass_again(model, memory, here, node)
+    elif rows.t[node] >= due:
+        return at_edge(model, memory, here, node)
+    return memory, here, node
+
+
+def at_edge(model: Model, memory: Memory, here: Place, node: int) -> tuple[Memory, Place, int]:
+    """Pass the rows again if anything has changed, and let the anchor follow where it may."""
+    grown = np.log(memory.levels[:, 0] / memory.level)
+    if grown.max() > np.log(LOUDER):  # noise has been taken for motion: from the anchor's point
+        memory, here = pass_again(model, memory, memory.anchor.copy(), node)
+    elif grown.min() < -np.log(LOUDER) or distance(memory.point, here.belief) > CLOSE:
+        memory, here = pass_again(model, memory, here, node)
+    shaped = doubt_of_shape(memory.point, here.covariance) < SHAPE and settled(memory.levels)
+    if shaped or memory.rows.t[node] - memory.rows.t[0] > LONGEST:
+        return anchored(memory, here, node), here, 0
+    return memory, here, node
+
+
+def follow(
+    model: Model, memory: Memory | None, here: Place, fresh: Rows
+) -> tuple[Memory, Place, Written]:
+    """Return memory and place after fresh rows, and what was written on the way."""
+    n = len(fresh.q) + len(fresh.w)
+    wide = 1 + len(here.belief) + SIZE + 1
+    written = Written(np.zeros((n, wide)), np.zeros((MOST_EVENTS, EVENT)), np.zeros(3, np.int64))
+    if memory is None:
+        memory = first_memory(here, fresh)
+    else:
+        memory = replace(copied(memory), rows=followed_by(memory.rows, fresh))
+    here, node = here.copy(), len(memory.rows.t) - len(fresh.t)
+    while node < len(memory.rows.t) - 1:
+        memory, here, node = advance(model, memory, here, node, written)
+    if not memory.keeping:
+        memory = replace(memory, rows=later(memory.rows, node))
+    return memory, here, written
