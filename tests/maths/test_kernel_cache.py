@@ -4,7 +4,9 @@ import os
 
 import pytest
 
-from equipoise.maths.kernel_cache import drop_stale, fingerprint
+from equipoise.maths.kernel_cache import MARK, PACKAGE, drop_stale, fingerprint
+
+IMPORT = "from equipoise.maths.compiled import kernel\n"
 
 
 @pytest.fixture
@@ -13,7 +15,8 @@ def package(tmp_path):
     for room in ("low", "high"):
         cache = tmp_path / room / "__pycache__"
         cache.mkdir(parents=True)
-        (tmp_path / room / "kernel.py").write_text("x = 1\n")
+        (tmp_path / room / "kernel.py").write_text(f"{IMPORT}x = 1\n")
+        (tmp_path / room / "plain.py").write_text("y = 1\n")
         (cache / "kernel.nbi").write_text("index")
         (cache / "kernel.1.nbc").write_text("code")
         (cache / "kernel.cpython-311.pyc").write_text("python's own")
@@ -49,7 +52,7 @@ def test_fresh_kernels_stay(package, stamp):
 
 
 def edit(source):
-    source.write_text("x = -1\n")
+    source.write_text(f"{IMPORT}x = -1\n")
 
 
 def touch(source):
@@ -62,7 +65,7 @@ def rename(source):
 
 
 def add(source):
-    source.with_name("new.py").write_text("")
+    source.with_name("new.py").write_text(IMPORT)
 
 
 def remove(source):
@@ -77,6 +80,25 @@ def test_any_change_below_drops_the_kernels_above(package, stamp, change):
     change(package / "low" / "kernel.py")
     assert drop_stale(package, stamp)
     assert compiled(package) == []
+
+
+def test_sources_without_kernels_may_change(package, stamp):
+    """An edited command or table costs nobody a compilation."""
+    drop_stale(package, stamp)
+    compile_again(package)
+    (package / "low" / "plain.py").write_text("y = 2\n")
+    assert not drop_stale(package, stamp)
+    assert compiled(package) == ["kernel.nbi"]
+
+
+def test_every_source_with_a_kernel_is_marked():
+    """What is not marked could live on in a kernel after it changed."""
+    sources = list(PACKAGE.rglob("*.py"))
+    compiling = [
+        s for s in sources if b"\n@kernel" in s.read_bytes() or b"\n@part" in s.read_bytes()
+    ]
+    assert len(compiling) > 10
+    assert all(MARK in source.read_bytes() for source in compiling)
 
 
 def test_fingerprint_does_not_depend_on_where_the_package_lies(package):

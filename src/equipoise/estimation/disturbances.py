@@ -9,6 +9,8 @@ u is its estimate, D^-1 its covariance, and the surprise is chi-square of dim B 
 when nothing jumped (Rao's score test; the generalised likelihood ratio of Willsky and Jones 1976;
 for a cut whose jump has a prior, the standardised smoothed disturbance of de Jong and Penzer 1998).
 
+A cut whose numbers are not finite, after a fit that went astray, says nothing.
+
 Cannot see jumps at the very ends, where one side has too few rows to tell.
 """
 
@@ -37,7 +39,10 @@ def disturbances(smoothed: Smoothed, coordinates: slice) -> Disturbances:
     p, PB = smoothed.score[1:, B], smoothed.information[1:, :, B]
     behind = P[:, B, B]
     all_rows = behind - np.einsum("kia,kij,kjb->kab", PB, C, PB, optimize=True)
-    told = np.linalg.eigvalsh(all_rows)[:, 0] > TOLD * np.einsum("kaa->k", behind)
+    finite = np.isfinite(all_rows).all(axis=(1, 2)) & np.isfinite(p).all(axis=1)
+    all_rows = np.where(finite[:, None, None], all_rows, 0.0)
+    p = np.where(finite[:, None], p, 0.0)
+    told = finite & (np.linalg.eigvalsh(all_rows)[:, 0] > TOLD * np.einsum("kaa->k", behind))
     D = np.where(told[:, None, None], all_rows, np.eye(all_rows.shape[1]))
     jump = np.where(told[:, None], np.linalg.solve(D, p[..., None])[..., 0], 0.0)
     return Disturbances(np.einsum("ka,ka->k", jump, p), jump, D, p)

@@ -1,15 +1,25 @@
-"""Events in their place: moved to the moment that explains most, merged, taken back if not needed."""
+"""Events in their place: moved to the moment that explains most, merged, taken back at need."""
 
 from dataclasses import replace
 
 import numpy as np
 from scipy.stats import chi2
 
-from equipoise.estimation.believed_model import Believed, active, fitted_in, refitted, smoothed
+from equipoise.estimation.believed_model import (
+    Believed,
+    Happening,
+    active,
+    fitted_in,
+    refitted,
+    smoothed,
+)
 from equipoise.estimation.survey_noise import KINDS
 
 FALSE_ALARM = 600.0  # s between false alarms, at most
 NEAR = 1.6  # spacings, chosen: events nearer than this may be one
+NEARBY = (1.0, 0.5, 0.25)  # spacings
+WIDE_AND_NEARBY = (8.0, 4.0, 2.0, *NEARBY)
+BOTH_KINDS = 4.0  # spacings; a move so far may also be to the other kind
 FEW = 4  # evaluations to compare neighbouring models by
 
 
@@ -18,24 +28,33 @@ def threshold(spacing: float) -> float:
     return float(chi2.isf(spacing / FALSE_ALARM / len(KINDS), 3))
 
 
-def moved(belief: Believed, k: int, shift: float) -> Believed:
-    """Return the belief with one event moved by a share of the spacing."""
-    event = belief.events[k]
-    there = replace(event, t=event.t + shift * belief.spacing)
-    events = (*belief.events[:k], there, *belief.events[k + 1 :])
-    trial = replace(belief, events=events)
+def moved(belief: Believed, k: int, kind: str, shift: float) -> Believed:
+    """Return the belief with one event of that kind, moved by a share of the spacing."""
+    event = Happening(belief.events[k].t + shift * belief.spacing, kind)
+    trial = replace(belief, events=(*belief.events[:k], event, *belief.events[k + 1 :]))
     return replace(trial, fitted=fitted_in(trial, active(trial), FEW))
 
 
-def timed(belief: Believed) -> Believed:
-    """Return the belief with each event at the moment that explains most, to a quarter spacing."""
+def placed(belief: Believed, k: int, kinds: tuple[str, ...], reach: float) -> Believed:
+    """Return the belief with one event where it explains most, of all a reach away."""
     start, end = belief.recording.span
+    t, far = belief.events[k].t, reach * belief.spacing
+    shifts = [s for s in (-reach, 0.0, reach) if start < t + s / reach * far < end]
+    trials = [moved(belief, k, kind, shift) for kind in kinds for shift in shifts]
+    return min([belief, *trials], key=lambda trial: trial.fitted.at.cost)
+
+
+def timed(belief: Believed) -> Believed:
+    """Return the belief with each event at the moment that explains most, to a quarter spacing.
+
+    Without process noise the whole record bears on an event, and a wrong first guess of the others
+    may have put it far off, or taken one kind for the other.
+    """
+    reaches = NEARBY if belief.wanders else WIDE_AND_NEARBY
     for k in range(len(belief.events)):
-        for reach in (1.0, 0.5, 0.25):
-            t = belief.events[k].t
-            shifts = [s for s in (-reach, 0.0, reach) if start < t + s * belief.spacing < end]
-            trials = [moved(belief, k, s) for s in shifts]
-            belief = min(trials, key=lambda trial: trial.fitted.at.cost)
+        for reach in reaches:
+            kinds = (belief.events[k].kind,) if reach < BOTH_KINDS else tuple(KINDS)
+            belief = placed(belief, k, kinds, reach)
     return refitted(belief)
 
 

@@ -1,4 +1,4 @@
-"""Throw away compiled kernels when any source of the package has changed.
+"""Throw away compiled kernels when any source with a kernel in it has changed.
 
 The compiler keeps kernels on disk and renews one when *its own* file changes, but kernels are
 merged into those that call them from other files: an edited sign could live on in a caller. This
@@ -10,13 +10,16 @@ from hashlib import sha256
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent
+MARK = b"maths.compiled import"  # a kernel and all it takes constants from have it
 STAMP = PACKAGE / "maths" / "__pycache__" / "kernels.stamp"
 
 
 def fingerprint(package: Path = PACKAGE) -> str:
-    """Return a hash of names, sizes and times of change of the package's sources."""
+    """Return a hash of names, sizes and times of change of the sources that compile something."""
     digest = sha256()
     for source in sorted(package.rglob("*.py")):
+        if MARK not in source.read_bytes():
+            continue
         seen = source.stat()
         digest.update(f"{source.relative_to(package)} {seen.st_size} {seen.st_mtime_ns}".encode())
     return digest.hexdigest()

@@ -21,6 +21,7 @@ from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.procedure.sound_rows import sound
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -137,6 +138,7 @@ def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -
         raise InputError("method", f"'{options.method}'", wanted)
     start, end = recording.span
     yield Step("look", end, f"Read {end - start:.4g} s of recording.", recording=recording)
+    recording, testbed = sound(recording, testbed)
     chosen = COARSE_TO_FINE if options.method == "auto" else (options.method,)
     for name in chosen:
         estimate = METHODS[name](recording, testbed, options)

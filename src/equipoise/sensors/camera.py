@@ -12,7 +12,8 @@ axes; in laboratory axes the errors of one order k would be of orders k - 1 and 
 A small change dth of the attitude (body axes), dphi and deta are seen as
 
     x - eta x x,   x = dth + R^T ( dphi - phi x dphi / 2 )    and    deta - eta x deta / 2
-    d psi = (R^T da).dth,   da = ( -p_z p_x / h^2, -p_z p_y / h^2, 1 ),   p = R f,   h^2 = p_x^2 + p_y^2
+    d psi = (R^T da).dth,   da = ( -p_z p_x / h^2, -p_z p_y / h^2, 1 ),   p = R f,
+    h^2 = p_x^2 + p_y^2
 """
 
 from typing import NamedTuple
@@ -88,4 +89,5 @@ def column(term: int, q: Floats, sensor: Floats, now: Seeing) -> Triple:
 def said(q: Floats, sensor: Floats, eta: Triple) -> tuple[float, float, float, float]:
     """Return exp(phi) (x) q (x) exp(eta)."""
     x = to_body(q, (sensor[PLUMB], sensor[PLUMB + 1], 0.0))
-    return turned(turned(q, x[0], x[1], x[2]), eta[0], eta[1], eta[2])
+    leaning = turned(q, x[0], x[1], x[2])
+    return turned(leaning, eta[0], eta[1], eta[2])  # pyright: ignore[reportArgumentType]
