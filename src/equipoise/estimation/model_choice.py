@@ -5,9 +5,8 @@ the present optimum and the group's coefficients having a plausible size each (W
 
     2 ln ratio = b^T (S + W)^-1 b - ln det(E + W^-1 S),     S = A_BB - A_BA A_AA^-1 A_AB
 
-(the Bayes factor in Laplace's approximation; Kass and Raftery 1995 call 6 strong), and kept when it also predicts: fitted with blocks of the record left out, the model with the group
-is nearer to the rows of these blocks than the one without. A term that merely bends to fit loses
-where it has not seen.
+(the Bayes factor in Laplace's approximation; Kass and Raftery 1995 call 6 strong), and kept when it
+also predicts (``held_out_rows``): a term that merely bends to fit loses where it has not seen.
 
 Cannot tell apart terms that do the same within the record: the first that predicts is kept.
 """
@@ -16,27 +15,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.believed_model import (
-    Believed,
-    active,
-    jumps_of,
-)
-from equipoise.estimation.fitted import settle
-from equipoise.estimation.jumps import carried
-from equipoise.estimation.trajectory import problem_of
-from equipoise.estimation.trajectory_problem import Problem, changes, evaluate
+from equipoise.estimation.believed_model import Believed
+from equipoise.estimation.held_out_rows import posed_in
+from equipoise.estimation.trajectory_problem import changes, evaluate
 from equipoise.estimation.unknowns import sensor_sizes, term_sizes
 from equipoise.model import sensor_terms, torque_terms
-from equipoise.model.arrays import Bools, Floats
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.arrays import Floats
 
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
 CAMERA = (sensor_terms.GROUPS["plumb"], HEADING)
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
 DELAY = sensor_terms.GROUPS["camera_delay"]
-EVALUATIONS = 8  # chosen: from the optimum of all rows it takes three or four
 SURE = 6.0  # 2 ln ratio
-BLOCKS = 8  # chosen: enough that each is short against the record
 
 
 def candidates(belief: Believed) -> list[tuple[str, ...]]:
@@ -63,15 +53,6 @@ def with_group(belief: Believed, group: tuple[str, ...]) -> Believed:
     wanted = {*params.terms, *group}
     terms = tuple(term for term in torque_terms.TERMS if term in wanted)
     return replace(belief, params=replace(params, terms=terms))
-
-
-def posed_in(belief: Believed, recording: Recording) -> tuple[Problem, Floats]:
-    """Return the problem of a model on a record or a part of it, and where its jumps stand."""
-    whole = replace(belief, recording=recording)
-    params = replace(belief.params, jumps=jumps_of(whole, active(belief)))
-    problem = problem_of(recording, belief.testbed, params)
-    before = belief.fitted
-    return problem, carried(before.problem.jumps, before.jumps, problem.jumps)
 
 
 def plausible(belief: Believed, group: tuple[str, ...]) -> Floats:
@@ -104,42 +85,3 @@ def best_group(belief: Believed, refused: set[tuple[str, ...]]) -> tuple[tuple[s
     found = [surplus(belief, group) - SURE for group in open_to]
     most = int(np.argmax(found)) if found else 0
     return (open_to[most], found[most]) if found else ((), -np.inf)
-
-
-def without(channel: Samples | None, held: Bools, edges: Floats) -> Samples | None:
-    """Return a channel without its rows in the blocks ``held``; its first and last row stay."""
-    if channel is None or not len(channel):
-        return channel
-    block = np.clip(np.searchsorted(edges, channel.t, side="right") - 1, 0, BLOCKS - 1)
-    keep = ~held[block]
-    keep[[0, -1]] = True
-    return Samples(channel.t[keep], channel.values[keep])
-
-
-def missed(belief: Believed, held: Bools, edges: Floats) -> float:
-    """Return the sum of squared residuals (sd) of held-out blocks, fitted to the other rows."""
-    recording = belief.recording
-    attitude, rate = (without(c, held, edges) for c in (recording.attitude, recording.rate))
-    problem, jumps = posed_in(belief, replace(recording, attitude=attitude, rate=rate))
-    found = settle(problem, belief.fitted.point, jumps, EVALUATIONS)
-    problem, _ = posed_in(belief, recording)
-    at, total = evaluate(problem, found.point, found.jumps), 0.0
-    for channel, left in ((recording.attitude, at.left_q), (recording.rate, at.left_w)):
-        if channel is not None and len(channel):
-            block = np.clip(np.searchsorted(edges, channel.t, side="right") - 1, 0, BLOCKS - 1)
-            total += float(np.sum(left[held[block]] ** 2))
-    return total
-
-
-def predicts_better(poorer: Believed, richer: Believed) -> bool:
-    """Say whether the richer model of two is nearer to rows that it has not seen.
-
-    The record is cut into blocks; each fold leaves out two, half a record apart, so that what is
-    left spans it all. The blocks left out are bridged by the motion itself.
-    """
-    edges = np.linspace(*poorer.recording.span, BLOCKS + 1)
-    costs: list[float] = []
-    for belief in (poorer, richer):
-        folds = [np.arange(BLOCKS) % (BLOCKS // 2) == fold for fold in range(BLOCKS // 2)]
-        costs.append(sum(missed(belief, held, edges) for held in folds))
-    return costs[1] < costs[0]

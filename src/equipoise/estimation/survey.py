@@ -30,7 +30,8 @@ from equipoise.estimation.believed_model import (
     smoothed,
 )
 from equipoise.estimation.fitted import Fitted
-from equipoise.estimation.model_choice import best_group, predicts_better, with_group
+from equipoise.estimation.held_out_rows import predicts_better
+from equipoise.estimation.model_choice import best_group, with_group
 from equipoise.estimation.survey_events import settled, threshold
 from equipoise.estimation.survey_noise import calibrated, excesses, first_walk, quiet, weighed
 from equipoise.estimation.trajectory import Params

@@ -4,7 +4,8 @@ import numpy as np
 
 from equipoise.estimation.believed_model import Believed
 from equipoise.estimation.conclusion import CORE
-from equipoise.estimation.model_choice import candidates, posed_in, with_group
+from equipoise.estimation.held_out_rows import posed_in
+from equipoise.estimation.model_choice import candidates, with_group
 from equipoise.estimation.trajectory import Params
 from equipoise.estimation.trajectory_problem import evaluate
 from equipoise.maths.linalg import inverse_spd
