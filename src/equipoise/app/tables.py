@@ -13,6 +13,7 @@ from equipoise.assessment.finding import Finding
 from equipoise.model.estimate import COM, Estimate, Parameter, Residual
 from equipoise.model.step import Step
 
+NOT_WHITE = 1e-3  # probability
 MARKS = {"content": "  ", "motion": "  ", "problem": "! ", "mended": "~ "}
 FINDING_STYLE = {"content": "", "motion": "", "problem": "bold yellow", "mended": "dim"}
 STEP_STYLE = {"look": "dim", "estimate": "", "move": "cyan", "verify": "bold", "stop": "bold"}
@@ -100,7 +101,16 @@ def residual_line(residual: Residual) -> str:
             f"; {_rms(residual.held_out_rms)} {unit} predicted for {start:.4g} to {end:.4g} s "
             "by a fit that was not shown them"
         )
-    return f"{text}. Lag-one correlation {fixed(residual.lag_one, 2)}."
+    if residual.steady_rms is not None and fitted is not None and residual.steady_rms > fitted:
+        text += f"; {_rms(residual.steady_rms)} {unit} without the torque that wanders"
+    return f"{text}. Lag-one correlation {fixed(residual.lag_one, 2)}; {_white(residual)}."
+
+
+def _white(residual: Residual) -> str:
+    """Say whether what is left is white noise, by the portmanteau test."""
+    if residual.whiteness < NOT_WHITE:
+        return f"not white noise (p < {NOT_WHITE:g})"
+    return f"white noise as far as rows tell (p = {residual.whiteness:.2g})"
 
 
 def _rms(value: float | None) -> str:

@@ -9,6 +9,7 @@ from equipoise.app.units import MM, UM
 from equipoise.assessment.finding import Finding
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import Estimate, Parameter, Residual
+from equipoise.model.event import UNITS, Event
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.move import Move
 from equipoise.model.recording import CHANNELS, Recording
@@ -52,6 +53,8 @@ def estimate_json(estimate: Estimate, findings: Sequence[Finding] = ()) -> View:
         "covariance": numbers(estimate.covariance),
         "residual": None if estimate.residual is None else residual_json(estimate.residual),
         "unobservable": list(estimate.unobservable),
+        "events": [event_json(event) for event in estimate.events],
+        "unexplained": list(estimate.unexplained),
         "ratios": [parameter_json(p) for p in estimate.ratios],
         "possible": estimate.possible,
         "findings": [finding_json(f) for f in findings],
@@ -72,6 +75,19 @@ def parameter_json(parameter: Parameter) -> View:
     }
 
 
+def event_json(event: Event) -> View:
+    """Return an event: a jump of momentum in laboratory axes, or of com in body axes."""
+    return {
+        "kind": event.kind,
+        "time_s": event.t,
+        "unit": UNITS[event.kind],
+        "size": numbers(event.size),
+        "covariance": numbers(event.covariance),
+        "chi_square": event.surprise,
+        "azimuth_rad": event.azimuth,
+    }
+
+
 def residual_json(residual: Residual) -> View:
     """Return what the model leaves."""
     return {
@@ -81,6 +97,8 @@ def residual_json(residual: Residual) -> View:
         "degrees_of_freedom": residual.degrees_of_freedom,
         "reduced_chi_square": residual.reduced_chi_square,
         "lag_one": residual.lag_one,
+        "whiteness_p": residual.whiteness,
+        "steady_rms": residual.steady_rms,
         "held_out_rms": residual.held_out_rms,
         "held_out_span_s": residual.held_out_span,
     }

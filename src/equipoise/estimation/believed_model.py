@@ -19,7 +19,7 @@ from equipoise.model.estimate import COM
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-WIDE = {"impulse": 1.0, "com_step": 1e-3, "gap": 1.0}  # rad/s, m: sd of an event, chosen: any
+WIDE = {"impulse": 1.0, "com_step": 1e-3}  # rad/s, m: sd of an event, chosen: any
 NAMES = {"impulse": RATE, "com_step": COM}
 
 

@@ -54,8 +54,10 @@ def gravity_torque(belief: Believed) -> float:
     if not len(seen.attitude):
         return weight * float(np.linalg.norm(point.com))
     w, x, y, z = seen.attitude.T
-    down = -np.column_stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])
-    torque: Floats = np.cross(point.com, down).astype(np.float64) * weight
+    down: Floats = -np.column_stack(
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
+    )
+    torque: Floats = weight * np.cross(point.com, down)
     return float(np.sqrt(np.mean(np.sum((torque - torque.mean(axis=0)) ** 2, axis=1))))
 
 

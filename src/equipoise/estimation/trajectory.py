@@ -21,6 +21,7 @@ import numpy as np
 
 from equipoise.estimation.fitted import Fitted, settle
 from equipoise.estimation.jumps import UNCUT, Jump
+from equipoise.estimation.shooting import shot
 from equipoise.estimation.start import start
 from equipoise.estimation.trajectory_problem import (
     ANCHOR,
@@ -40,6 +41,7 @@ from equipoise.model.testbed import Testbed
 
 METHOD = "trajectory"
 CAPTURE = 0.5  # rad rms, chosen: beyond this the first guess is not followed to the end
+LOST = 3.0  # chosen: chi-square a degree of freedom beyond which another start is tried
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
 SHORTEST = 0.02  # of the record, the least part to begin with
 GUIDED = 0.1  # natural sizes of torques, on the way
@@ -170,4 +172,27 @@ def fit(
             point = approach(recording, testbed, params, point)
     else:
         point = guess
-    return settle(problem, point)
+    found = settle(problem, point)
+    if guess is not None or explains(found) or recording.attitude is None:
+        return found
+    return min(found, settle(problem, shoot(recording, testbed, params, point)), key=cost_of)
+
+
+def explains(fit: Fitted) -> bool:
+    """Say whether a fit leaves so little that no other start need be tried."""
+    rows = 3 * (len(fit.at.left_q) + len(fit.at.left_w))
+    return fit.converged and 2 * fit.at.cost < LOST * rows
+
+
+def cost_of(fit: Fitted) -> float:
+    """Return the cost, infinite if there is none."""
+    return fit.at.cost if np.isfinite(fit.at.cost) else np.inf
+
+
+def shoot(recording: Recording, testbed: Testbed, params: Params, body: Unknowns) -> Unknowns:
+    """Return a point by multiple shooting, from the measured motion and a first body."""
+
+    def posed_with(jumps: tuple[Jump, ...]) -> Problem:
+        return problem_of(recording, testbed, replace(params, jumps=jumps))
+
+    return shot(recording, testbed, posed_with, body)

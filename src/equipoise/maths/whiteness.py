@@ -19,11 +19,11 @@ def portmanteau(residual: Series) -> float:
     n = len(residual)
     if n < FEWEST:
         return 1.0
-    centred: Floats = residual - residual.mean(axis=0)
+    centred: Floats = residual - np.mean(residual, axis=0)
     power = np.maximum(np.sum(centred**2, axis=0), 1e-300)
     rho: list[Floats] = [
         np.sum(centred[k:] * centred[:-k], axis=0) / power for k in range(1, LAGS + 1)
     ]
     left = n - np.arange(1, LAGS + 1)
-    Q = n * (n + 2) * np.sum(np.array(rho) ** 2 / left[:, None], axis=0)
-    return float(chi2.sf(np.sum(Q), LAGS * Q.size))
+    Q: Floats = n * (n + 2) * np.sum(np.array(rho) ** 2 / left[:, None], axis=0)
+    return float(chi2.sf(float(np.sum(Q)), LAGS * Q.size))

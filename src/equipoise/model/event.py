@@ -5,17 +5,17 @@ from typing import Literal
 
 from equipoise.model.arrays import Matrix3, Vector3
 
-Kind = Literal["impulse", "com_step", "gap"]
-UNITS: dict[Kind, str] = {"impulse": "N m s", "com_step": "m", "gap": "rad/s"}
+Kind = Literal["impulse", "com_step"]
+UNITS: dict[Kind, str] = {"impulse": "N m s", "com_step": "m"}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Event:
-    """One event; ``size`` is a jump of angular momentum about P, of com, or of rate over a gap."""
+    """One event; ``size`` is a jump of angular momentum about P, or of com."""
 
     kind: Kind
     t: float  # s
     size: Vector3  # in UNITS; laboratory axes for an impulse, body axes otherwise
     covariance: Matrix3
     surprise: float  # chi-square of three degrees of freedom that it explains
-    azimuth: float | None = None  # rad, body place that was pushed up, from x towards y seen on top
+    azimuth: float | None = None  # rad about the body's up axis, of the place pushed from below

@@ -90,6 +90,7 @@ def _carried_out(
 ) -> "Identification":
     """Identify; what the recording holds is told before."""
     from equipoise.app.identify_views import Identification, show_findings
+    from equipoise.assessment.event_findings import event_findings
     from equipoise.assessment.record_findings import findings
     from equipoise.procedure.identify import identify as procedure
 
@@ -97,7 +98,11 @@ def _carried_out(
     if not quiet:
         show_findings(found)
     steps = list(watched(procedure(recording, testbed, options), "identifying"))
-    return Identification(testbed, recording, found, steps)
+    last = steps[-1].estimate
+    happened = [] if last is None else event_findings(last)
+    if not quiet:
+        show_findings(happened)
+    return Identification(testbed, recording, [*found, *happened], steps)
 
 
 def _tell(done: "Identification", json: bool, out: Path | None) -> None:

@@ -1,9 +1,14 @@
 """`equipoise inspect`: what a file holds and what is wrong with it."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from equipoise.app.commands.kinds import Flag
 from equipoise.app.terminal import stdout, tell_paths
+
+if TYPE_CHECKING:
+    from equipoise.assessment.finding import Finding
+    from equipoise.model.testbed import Testbed
 
 
 def inspect(
@@ -25,7 +30,8 @@ def inspect(
     file
         Recording, as CSV or Parquet.
     testbed
-        Testbed file or preset: adds what only it can tell, such as which axis is up.
+        Testbed file or preset: adds what only it can tell, such as which axis is up, and what
+        happened during the record: touches, parts that shifted.
     dialect
         How to read the table: native, optitrack or ros. Left out: by its header.
     columns
@@ -42,7 +48,9 @@ def inspect(
 
     bed = None if testbed is None else testbed_of(testbed)
     recording = recording_of(file, dialect, columns)
-    found = findings(recording, bed)
+    found = [*findings(recording, bed)]
+    if bed is not None:
+        found += _happened(file, dialect, columns, bed)
     if figure is not None:
         from equipoise.app.figures.record import draw
         from equipoise.app.outputs import write_figure
@@ -56,3 +64,22 @@ def inspect(
     if figure is not None:
         tell_paths([figure])
     return 0
+
+
+def _happened(
+    file: str, dialect: str | None, columns: str | None, testbed: "Testbed"
+) -> "list[Finding]":
+    """Return what a fit of the record stepped over, and how well it explains the rest."""
+    from equipoise.app.terminal import watched
+    from equipoise.app.wiring import fitting_recording_of
+    from equipoise.assessment.event_findings import event_findings
+    from equipoise.assessment.finding import Finding
+    from equipoise.procedure.identify import IdentifyOptions, identify
+
+    recording = fitting_recording_of(file, dialect, columns, testbed)
+    *_, last = watched(identify(recording, testbed, IdentifyOptions("trajectory")), "looking")
+    if last.estimate is None:
+        return []
+    outcome = last.estimate.outcome
+    kind = "content" if outcome.usable else "problem"
+    return [*event_findings(last.estimate), Finding(kind, outcome.sentence)]

@@ -1,0 +1,47 @@
+"""What happened to the platform while it was watched, as findings."""
+
+import math
+
+import numpy as np
+
+from equipoise.assessment.finding import Finding
+from equipoise.model.estimate import Estimate
+from equipoise.model.event import Event
+
+MILLI, MICRO = 1e3, 1e6
+
+
+def event_findings(estimate: Estimate) -> list[Finding]:
+    """Return the events that an estimate steps over, and what its model leaves open."""
+    told = [_impulse(e) if e.kind == "impulse" else _step(e) for e in estimate.events]
+    return told + [Finding("content", sentence) for sentence in estimate.unexplained]
+
+
+def _sizes(values: np.ndarray, factor: float) -> str:
+    return ", ".join(f"{factor * x:.2g}" for x in values)
+
+
+def _impulse(event: Event) -> Finding:
+    """Return a touch: its impulse in laboratory axes, with its sd, and the place if it is told."""
+    sd = math.sqrt(float(np.trace(event.covariance)) / 3)
+    text = (
+        f"at {event.t:.4g} s something gave the platform an impulse of "
+        f"{MILLI * float(np.linalg.norm(event.size)):.2g} mN m s (laboratory x, y, z: "
+        f"{_sizes(event.size, MILLI)}; sd {MILLI * sd:.1g})"
+    )
+    if event.azimuth is not None:
+        text += (
+            ", as a push from below does at the body azimuth "
+            f"{math.degrees(event.azimuth):.0f} deg, or one from above opposite"
+        )
+    return Finding("problem", f"{text}.", (event.t, event.t), "touch")
+
+
+def _step(event: Event) -> Finding:
+    """Return a step of the centre of mass, in body axes."""
+    sd = np.sqrt(np.diag(event.covariance))
+    text = (
+        f"at {event.t:.4g} s the centre of mass moved by {_sizes(event.size, MICRO)} um "
+        f"(body x, y, z; sd {_sizes(sd, MICRO)}): a part shifted."
+    )
+    return Finding("problem", text, (event.t, event.t), "shift")
