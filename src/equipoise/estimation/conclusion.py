@@ -64,7 +64,7 @@ def selection(layout: Layout) -> list[int]:
 def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | None:
     """Return com at the end, and its derivative by the unknowns of the last stretch.
 
-    Masses as they stand, drift and steps included. None where that is the com with the masses at home.
+    Masses as they stand, drift and steps included. None where that is the com with masses at home.
     """
     problem, layout = fitted.problem, fitted.problem.layout
     k, line = len(problem.maps.momentum), problem.line

@@ -253,6 +253,17 @@ def propose(
     return promised
 
 
+@part
+def report(
+    posed: Posed, best: Local, x: Floats, chain: Chain, normal: Floats, descent: Floats
+) -> None:
+    """Write A and b of the first stretch's unknowns, undamped."""
+    model_at(posed, best, 0.0, x, chain)
+    copy_rows(chain.normal, normal)
+    for k in range(descent.shape[0]):
+        descent[k] = chain.descent[k]
+
+
 @kernel
 def local_for(posed: Posed, point: Floats) -> Local:
     """Return a point with room for the local models there."""
@@ -270,8 +281,7 @@ def descend(posed: Posed, best: Local, most: int, normal: Floats, descent: Float
     """
     n, rows = posed.slots.shape[0], 3 * (best.left_q.shape[0] + best.left_w.shape[0])
     trial = local_for(posed, best.point)
-    for k in range(best.pieces.jumps.shape[0]):
-        trial.pieces.jumps[k] = best.pieces.jumps[k]
+    copy_rows(best.pieces.jumps, trial.pieces.jumps)
     known = posed.known.copy() if posed.owners.shape[0] else posed.known
     work, step_work = pass_for(posed.columns.kinds.shape[0], n), step_work_for(n)
     chain, step, x = chain_for(posed.cuts, n), np.empty(n), np.empty(n)
@@ -296,13 +306,10 @@ def descend(posed: Posed, best: Local, most: int, normal: Floats, descent: Float
         promised, allowed = (propose(posed, best, damping, chain, x, step_work, step, trial),
                              tolerated(cost, rows))  # fmt: skip
         if promised < allowed:
-            if damping >= FREE:
-                promised = propose(posed, best, FREE, chain, x, step_work, step, trial)
+            bold = min(damping, FREE)
+            promised = propose(posed, best, bold, chain, x, step_work, step, trial)
             converged = abs(promised) < NEAR * allowed
             break
     if np.isfinite(cost):
-        model_at(posed, best, 0.0, x, chain)
-        copy_rows(chain.normal, normal)
-        for k in range(n):
-            descent[k] = chain.descent[k]
+        report(posed, best, x, chain, normal, descent)
     return Ended(cost, converged, evaluations)

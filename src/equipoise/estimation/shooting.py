@@ -1,4 +1,4 @@
-"""Multiple shooting: a start for the trajectory fit from the measured motion, however wrong the body.
+"""Multiple shooting: a start for the trajectory fit from the measured motion, whatever the body.
 
 A single trajectory from a wrong body leaves the data within a swing, and from there no local step
 leads back. So the record is cut into short stretches that each begin at the measured attitude and
@@ -60,8 +60,9 @@ def section(line: Timeline, first: int, last: int) -> Timeline:
 
 def missing(problem: Problem, point: Unknowns, motion: SampledMotion, cuts: Cuts) -> Floats:
     """Return the jumps from the end of each stretch to the measured beginning of the next."""
-    rigid = body_of(problem.mass, problem.gravity, pack_symmetric(point.body(problem.mass).inertia_P),
-                    problem.mass * point.com, point.torque)  # fmt: skip
+    body = point.body(problem.mass)
+    inertia, moment = pack_symmetric(body.inertia_P), body.first_moment
+    rigid = body_of(body.mass, problem.gravity, inertia, moment, point.torque)
     out = np.zeros((len(cuts.nodes) - 2, 6))
     q, w = point.q0, point.w0
     for k in range(len(out)):

@@ -101,8 +101,8 @@ def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothe
     at.pieces.jumps[:] = jumps
     pieces_at(posed, at)
     n, (k, a) = len(posed.slots), posed.cuts.free.shape
-    out = Smoothed(np.zeros((k + 1, n, n)), np.zeros((k + 1, n)), np.zeros((k + 1, n, n)),
-                   np.zeros((k, a, a)), at.pieces.points, np.eye(n), np.zeros((k, a, a)))  # fmt: skip
+    square, scores, small = np.zeros((2, k + 1, n, n)), np.zeros((k + 1, n)), np.zeros((2, k, a, a))
+    out = Smoothed(square[0], scores, square[1], small[0], at.pieces.points, np.eye(n), small[1])
     chain = chain_for(posed.cuts, n)
     look_back(posed.cuts, at.pieces, chain, out)
     look_ahead(posed.cuts, at.pieces, chain, first, out)

@@ -89,25 +89,39 @@ def count_free(free: Ints) -> int:
 
 
 @part
+def pose_jump(cuts: Cuts, pieces: Pieces, k: int, a: int, damping: float, chain: Chain) -> None:
+    """Factorise M of the jump at inner cut k, of ``a`` coordinates, and write c behind it."""
+    M, free = chain.crossed[:a, :a], cuts.free[k]
+    for i in range(a):
+        for j in range(a):
+            M[i, j] = chain.normal[free[i], free[j]]
+        M[i, i] += cuts.weight[k, i]
+        pulled = cuts.weight[k, i] * pieces.jumps[k, i]
+        chain.right[i] = chain.descent[free[i]] - pulled
+    factorise(M, damping, chain.scale, chain.factors)
+
+
+@part
+def write_gain(free: Ints, a: int, chain: Chain, gain: Floats) -> None:
+    """Write M^-1 P_u, column by column."""
+    for j in range(gain.shape[1]):
+        for i in range(a):
+            chain.column[i] = chain.normal[free[i], j]
+        solve(chain.scale, chain.factors, chain.column[:a], chain.ahead[:a])
+        for i in range(a):
+            gain[i, j] = chain.ahead[i]
+
+
+@part
 def absorb_jump(cuts: Cuts, pieces: Pieces, k: int, damping: float, chain: Chain) -> float:
     """Take the jump at inner cut k out of P and p; return what it promises of twice the cost."""
     a, n, P, p = count_free(cuts.free[k]), chain.descent.shape[0], chain.normal, chain.descent
     if a == 0:
         return 0.0
-    M, free, firm, gain = chain.crossed[:a, :a], cuts.free[k], chain.firm[k], chain.gain[k]
-    for i in range(a):
-        for j in range(a):
-            M[i, j] = P[free[i], free[j]]
-        M[i, i] += cuts.weight[k, i]
-        chain.right[i] = p[free[i]] - cuts.weight[k, i] * pieces.jumps[k, i]
-    factorise(M, damping, chain.scale, chain.factors)
+    free, firm, gain = cuts.free[k], chain.firm[k], chain.gain[k]
+    pose_jump(cuts, pieces, k, a, damping, chain)
     solve(chain.scale, chain.factors, chain.right[:a], firm[:a])
-    for j in range(n):
-        for i in range(a):
-            chain.column[i] = P[free[i], j]
-        solve(chain.scale, chain.factors, chain.column[:a], chain.ahead[:a])
-        for i in range(a):
-            gain[i, j] = chain.ahead[i]
+    write_gain(free, a, chain, gain)
     promised = 0.0
     for i in range(a):
         promised += chain.right[i] * firm[i]

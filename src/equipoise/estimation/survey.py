@@ -71,7 +71,7 @@ def most_surprising(belief: Believed, surprise: dict[str, Floats], fit: Fitted) 
 
 
 def touched(belief: Believed, events: list[Happening]) -> Believed | None:
-    """Return the belief with the one event of these that explains most, or None if there is none."""
+    """Return the belief with the one of these events that explains most; None if there is none."""
     models = [refitted(replace(belief, events=(*belief.events, event))) for event in events]
     return min(models, key=lambda model: model.fitted.at.cost, default=None)
 
@@ -109,7 +109,7 @@ def searched(belief: Believed, most: int) -> Believed:
 
 
 def is_calm(belief: Believed) -> bool:
-    """Say whether what is left is white noise, and cuts are no more surprised than they should be."""
+    """Say whether what is left is white noise, and no cut has to be surprised."""
     fit, after = smoothed(belief)
     far = quiet(belief, np.array([jump.t for jump in fit.problem.jumps]))
     white = min(portmanteau(left) for left in (fit.at.left_q, fit.at.left_w)) > WHITE

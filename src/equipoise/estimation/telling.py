@@ -58,7 +58,8 @@ def gravity_torque(belief: Believed) -> float:
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
     )
     torque: Floats = weight * np.cross(point.com, down)
-    return float(np.sqrt(np.mean(np.sum((torque - torque.mean(axis=0)) ** 2, axis=1))))
+    off: Floats = torque - np.mean(torque, axis=0)
+    return float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
 
 
 def slowest(belief: Believed) -> float:

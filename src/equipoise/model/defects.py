@@ -38,9 +38,10 @@ class Gap:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CameraErrors:
-    """Rotation vectors and outliers; psi is the heading. Plumb in laboratory, the rest in body axes.
+    """Rotation vectors and outliers, plumb in laboratory axes, the rest in body axes.
 
-    measured = exp(plumb) (x) true (x) exp(heading_cos cos 2 psi + heading_sin sin 2 psi)
+    measured = exp(plumb) (x) true (x) exp(heading_cos cos 2 psi + heading_sin sin 2 psi),
+    psi being the heading.
     """
 
     plumb: Vector3 = field(default_factory=nothing)  # rad, about the laboratory's x and y

@@ -1,7 +1,8 @@
 """What camera and gyro get wrong beside noise and bias.
 
     camera   measured = exp(plumb) (x) true (x) exp(c cos 2 psi + s sin 2 psi)
-             plumb in laboratory axes, c and s in body axes; a bad row is turned by a fixed angle about any body axis
+             plumb in laboratory axes, c and s in body axes
+             a bad row is turned by a fixed angle about any body axis
     gyro     w_measured = (1 + scale) R(turn)^T w
     quantum  roll, pitch and yaw (3-2-1), or rates, to the nearest whole multiple
 
