@@ -45,7 +45,8 @@ def unknowns_of(problem: Problem, point: Point) -> Unknowns:
     """Return one of the peers' points as the library keeps it."""
     inertia_C = unpack_symmetric(point.inertia) - parallel_axis(problem.mass, point.com)
     six = pseudo_inertia.from_inertia(inertia_C)
-    return Unknowns(point.q, point.rate, six, point.com, np.zeros(16), np.zeros(24), np.zeros(0), np.zeros(3))
+    none = (np.zeros(16), np.zeros(24), np.zeros(0), np.zeros(3))  # torques, sensors, stops, bias
+    return Unknowns(point.q, point.rate, six, point.com, *none)
 
 
 def point_of(problem: Problem, fitted: Fitted) -> Point:

@@ -59,7 +59,7 @@ def gravity_torque(belief: Believed) -> float:
     )
     torque: Floats = weight * np.cross(point.com, down)
     off: Floats = torque - np.mean(torque, axis=0)
-    return float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
+    return float(np.linalg.norm(off)) / len(off) ** 0.5
 
 
 def slowest(belief: Believed) -> float:
