@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from builders import camera_says
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -127,16 +128,6 @@ def test_less_cross_by_hand():
 # --- Plain NumPy --------------------------------------------------------------------------------
 
 
-def plain(q, sensor, forward=X):
-    """The measurement, written out."""
-    p = to_matrix(q) @ forward
-    psi = np.arctan2(p[1], p[0])
-    c2, s2, c3, s3 = sensor[HEADING:DELAY].reshape(4, 3)
-    eta = c2 * np.cos(2 * psi) + s2 * np.sin(2 * psi) + c3 * np.cos(3 * psi) + s3 * np.sin(3 * psi)
-    phi = np.array([sensor[0], sensor[1], 0.0])
-    return multiply(exponential(phi), multiply(q, exponential(eta)))
-
-
 tilts = arrays(np.float64, 2, elements=st.floats(-0.5, 0.5))
 yaws = st.floats(-3.1, 3.1)
 axes = st.sampled_from([X, (0.0, 1.0, 0.0), (0.8, 0.0, -0.6)])
@@ -150,7 +141,7 @@ def tilted(yaw, tilt):
 def test_agrees_with_plain_numpy(yaw, tilt, forward):
     """Any heading, tilts up to 40 deg."""
     q = tilted(yaw, tilt)
-    expected = plain(q, EVERY, forward)
+    expected = camera_says(q, EVERY, forward)
     np.testing.assert_allclose(as_said(q, EVERY, forward), expected, rtol=0, atol=1e-15)
 
 
@@ -164,7 +155,7 @@ def test_columns_are_central_differences(yaw, tilt, forward, term):
     """One unit of each coefficient, at a point where all others are there."""
     q, step = tilted(yaw, tilt), 1e-5 * (np.arange(N_SENSOR) == term)
     found = column(term, q, EVERY, seeing(q, forward, EVERY))
-    more, less = plain(q, EVERY + step, forward), plain(q, EVERY - step, forward)
+    more, less = (camera_says(q, sensor, forward) for sensor in (EVERY + step, EVERY - step))
     np.testing.assert_allclose(found, difference(more, less) / 2e-5, rtol=0, atol=LEFT_OUT)
 
 
