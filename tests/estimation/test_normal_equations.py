@@ -19,14 +19,12 @@ from builders import (
     recording,
     travel,
 )
+from posing import noded, stepped, with_errors
 
 from equipoise.dynamics.propagation import body_of, propagate
-from equipoise.dynamics.rigid_body import KNOWN_D
-from equipoise.dynamics.timeline import timeline
-from equipoise.estimation.point_steps import retract
 from equipoise.estimation.trajectory import HUBER, Params, problem_of
 from equipoise.estimation.trajectory_problem import evaluate
-from equipoise.estimation.unknowns import FIXED, R, Unknowns, unknowns_of
+from equipoise.estimation.unknowns import FIXED, R, Unknowns
 from equipoise.maths.attitude import difference, exponential, multiply, normalise
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
@@ -95,21 +93,6 @@ def posed(case):
     return problem, somewhere(len(problem.layout.errors), SENSOR if params.sensor else None)
 
 
-def noded(problem, record):
-    """The same problem with a node at every row, where the plain propagator can be compared."""
-    line = timeline(
-        record.attitude.t, record.rate.t, record.masses, len(problem.maps.momentum), 1.0,
-        record.momentum, record.torque, problem.stops.felt, problem.stops.owner,
-    )  # fmt: skip
-    seen = problem.seen._replace(
-        attitude_node=line.attitude_node,
-        attitude_share=line.attitude_share,
-        rate_node=line.rate_node,
-        rate_share=line.rate_share,
-    )
-    return replace(problem, line=line, seen=seen)
-
-
 def test_reading_between_steps_agrees_with_steps_to_every_row(posed, case):
     """The state between steps is good to a tenth of what all rows together can tell: an error of
     0.1 / sqrt(rows) sd in every row at once."""
@@ -121,14 +104,6 @@ def test_reading_between_steps_agrees_with_steps_to_every_row(posed, case):
     assert len(between.line.t) < len(problem.line.t)
     assert np.abs(found.left_q - exact.left_q).max() < 0.1 / np.sqrt(len(exact.left_q))
     assert np.abs(found.left_w - exact.left_w).max() < 0.1 / np.sqrt(len(exact.left_w))
-
-
-def with_errors(problem, error):
-    """Return the known inputs with the masses where they really stop."""
-    known, k = problem.line.known.copy(), len(problem.maps.momentum)
-    for j, owner in enumerate(problem.stops.owner):
-        known[:, KNOWN_D + owner] += error[j] * known[:, KNOWN_D + k + j]
-    return known
 
 
 def with_nodes(line, t):
@@ -240,12 +215,6 @@ def test_outliers_are_there_and_are_counted_linearly(posed):
     at = evaluate(problem, point)
     beyond = [np.linalg.norm(left, axis=1) > 2 * HUBER for left in (at.left_q, at.left_w)]
     assert all(0.01 < b.mean() < 0.99 for b in beyond)
-
-
-def stepped(problem, point, step):
-    out = np.empty_like(point.flat)
-    retract(point.flat, step, MASS, problem.layout.slots, out)
-    return unknowns_of(out)
 
 
 def descents(problem, point):
