@@ -157,6 +157,27 @@ def test_no_jump_allowed_is_the_uncut_fit(cut):
     assert np.abs(apart(whole, *(fit.point for fit in fits)) / deviations(fits[0])).max() < 1e-3
 
 
+def test_two_jumps_a_rounding_apart_are_both_felt(cut):
+    """As one jump of all their coordinates."""
+    record, _, point = cut
+    one = (Jump(8.0, (*RATES, "com_x"), (1e-3,) * 3 + (1e-5,)),)
+    two = (Jump(8.0, RATES, (1e-3,) * 3), Jump(8.0 + 1e-12, ("com_x",), (1e-5,)))
+    problems = [problem_of(record, KNOWN, Params(("swirl",), jumps=jumps)) for jumps in (one, two)]
+    sizes = np.array([[1e-3, -2e-3, 1e-3, 1e-5]])
+    costs = [evaluate(problem, point, sizes).cost for problem in problems]
+    assert costs[1] == costs[0]
+
+
+def test_a_mean_beside_a_cut_and_a_corner_is_a_mean(cut):
+    """The exposure of a row is centred where travel ends, and a cut is a rounding later."""
+    record, _, point = cut
+    long = replace(KNOWN, attitude=replace(KNOWN.attitude, delay=-0.1, averaging=0.2))
+    jumps = [(Jump(10.0 + dt, (), ()),) for dt in (0.0, 2e-12)]
+    problems = [problem_of(record, long, Params(("swirl",), jumps=jump)) for jump in jumps]
+    left = [evaluate(problem, point).left_q for problem in problems]
+    np.testing.assert_allclose(*left, rtol=0, atol=1e-6)
+
+
 def deviations(fit):
     return np.sqrt(np.diag(np.linalg.inv(fit.at.normal)))
 

@@ -36,6 +36,19 @@ def test_jumps_of_one_time_are_one():
     assert not inside((SLIP, Jump(5.0, ("com_y",), (1.0,))), 0.0, 10.0)[0].is_event
 
 
+def test_jumps_that_differ_by_rounding_are_one():
+    """At the first of their times; a microsecond apart they are two."""
+    near, far = Jump(5.0 + 1e-12, ("com_y",), (1.0,)), Jump(5.0 + 1e-6, ("com_z",), (1.0,))
+    assert inside((far, near, SLIP), 0.0, 10.0) == (
+        Jump(5.0, ("com_x", "com_y"), (1e-3, 1.0)), far,
+    )  # fmt: skip
+
+
+def test_a_jump_at_the_edge_but_for_rounding_is_at_the_edge():
+    """Before the first row, or behind the last, nothing tells of it."""
+    assert inside((Jump(1e-12, RATE, (1.0,) * 3), Jump(10 - 1e-12, (), ())), 0.0, 10.0) == ()
+
+
 def test_walk_jumps_at_every_time():
     found = walk(np.array([1.0, 2.0]), RATE, np.array([0.1, 0.2, 0.3]))
     assert found == (Jump(1.0, RATE, (0.1, 0.2, 0.3)), Jump(2.0, RATE, (0.1, 0.2, 0.3)))
