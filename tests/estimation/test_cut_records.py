@@ -41,15 +41,15 @@ BIASES = ("gyro_bias_x", "gyro_bias_y", "gyro_bias_z")
 # masses set off at 5 s, x and y stop at 6 s, z at 10 s
 JUMPS = (
     Jump(4.0, RATES, (1e-3, 2e-3, 3e-3)),
+    Jump(6.0, (), ()),  # where x and y stop and the rate jumps, momentum not
     Jump(8.03, ("com_x", "com_z", "swirl"), (1e-5, 2e-5, 1e-5)),  # on the way
-    Jump(10.0, (), ()),  # where travel ends
     Jump(13.0, (*RATES, *COM_NAMES), (1e-3,) * 3 + (1e-5,) * 3),
     Jump(16.02, BIASES, (1e-4,) * 3),
 )
 SIZES = np.array([  # about an sd each
     [1e-3, -2e-3, 1.5e-3, 0, 0, 0],
-    [1e-5, -1e-5, 5e-6, 0, 0, 0],
     [0, 0, 0, 0, 0, 0],
+    [1e-5, -1e-5, 5e-6, 0, 0, 0],
     [-1e-3, 5e-4, 1e-3, 5e-6, -1e-5, 2e-5],
     [1e-4, -2e-4, 1e-4, 0, 0, 0],
 ])  # fmt: skip

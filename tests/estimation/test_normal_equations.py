@@ -251,21 +251,23 @@ FAST = np.array([0.3, -0.2, 0.5])  # rad/s
 DELAYS, WIDTHS = (0.05, 0.02), (0.2, 0.1)  # s, of camera and gyro
 
 
-@pytest.fixture(scope="module")
-def tumbling():
-    """A record of sensors that average, and a point; the motion begins where the camera looks."""
-    t = np.arange(0, 10.01, 0.05)
-    motion = travel(line_of(t), w0=FAST)
-    record = Recording(Samples(t[::4], motion.q[::4]), Samples(t, motion.rate))
+def averaging(record, widths=WIDTHS):
+    """Return the problem of a record of sensors that average."""
     testbed = platform(gyro=True)
     testbed = replace(
         testbed,
-        attitude=replace(testbed.attitude, delay=DELAYS[0], averaging=WIDTHS[0]),
-        gyro=replace(testbed.gyro, delay=DELAYS[1], averaging=WIDTHS[1]),
+        attitude=replace(testbed.attitude, delay=DELAYS[0], averaging=widths[0]),
+        gyro=replace(testbed.gyro, delay=DELAYS[1], averaging=widths[1]),
     )
-    problem = problem_of(record, testbed, Params())
-    point = replace(somewhere(0), w0=FAST, torque=np.zeros(16))
-    return record, problem, point
+    return problem_of(record, testbed, Params())
+
+
+def moving(w0):
+    """Return a record without noise, and a point; the motion begins where the camera looks."""
+    t = np.arange(0, 10.01, 0.05)
+    motion = travel(line_of(t), w0=w0)
+    record = Recording(Samples(t[::4], motion.q[::4]), Samples(t, motion.rate))
+    return record, replace(somewhere(0), w0=w0, torque=np.zeros(16))
 
 
 def windows(t, delay, width, start):
@@ -280,9 +282,10 @@ def means(values, first, width):
     return (inside.sum(axis=1) - 0.5 * (inside[:, 0] + inside[:, -1])) / n
 
 
-def test_rows_are_means(tumbling):
+def test_rows_are_means():
     """Attitudes and rates by the mean over every row's window, from a motion in steps of 0.5 ms."""
-    record, problem, point = tumbling
+    record, point = moving(FAST)
+    problem = averaging(record)
     start = problem.line.t[0]
     assert start == pytest.approx(-DELAYS[0] - WIDTHS[0] / 2)
     fine = problem.line._replace(t=start + np.arange(20_301) * 5e-4, known=np.zeros((20_301, 9)))
@@ -302,10 +305,26 @@ def test_rows_are_means(tumbling):
     np.testing.assert_allclose(found_w, e_w, rtol=0, atol=2e-7)
 
 
-def test_gradient_of_means_is_that_of_the_cost(tumbling):
-    """As above; what is averaged is the sensitivity too. Without a move one moment is held."""
-    _, problem, point = tumbling
+def free_descents(problem, point):
+    """Return what ``descents`` does of all that may move: without a move one moment is held."""
     free = ~problem.prior.held
     assert np.sum(free) == problem.layout.size - 1
-    found, numeric = (descent[free] for descent in descents(problem, point))
+    return [descent[free] for descent in descents(problem, point)]
+
+
+def test_gradient_of_mean_rates_is_that_of_the_cost():
+    """As above; what is averaged is the sensitivity too."""
+    record, point = moving(FAST)
+    found, numeric = free_descents(averaging(replace(record, attitude=None)), point)
     np.testing.assert_allclose(found, numeric, rtol=0, atol=1e-5 * np.abs(numeric).max())
+
+
+def test_gradient_of_mean_attitudes_is_that_of_the_cost():
+    """A swing, half a second of averaging.
+
+    Sensitivities are averaged in body axes, which turn meanwhile: off by w p T^2 / 12 = 6e-5 for
+    w = 0.015 rad/s and a swing of p = 0.18 rad/s; without averaging them, by (p T)^2 / 24 = 3e-4.
+    """
+    record, point = moving(RATE)
+    found, numeric = free_descents(averaging(replace(record, rate=None), (0.5, 0.0)), point)
+    np.testing.assert_allclose(found, numeric, rtol=0, atol=1e-4 * np.abs(numeric).max())
