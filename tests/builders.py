@@ -8,7 +8,7 @@ from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.dynamics.propagation import NO_COLUMNS, Columns, Motion, body_of, propagate
 from equipoise.dynamics.rigid_body import Body
 from equipoise.dynamics.timeline import Timeline, timeline
-from equipoise.maths.attitude import exponential, multiply
+from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
@@ -107,3 +107,15 @@ def noisy(clean: Recording, seed: int, bias: np.ndarray | None = None) -> Record
         error = GYRO_SD * rng.normal(size=(len(rate), 3))
         rate = Samples(rate.t, rate.values + error + (0 if bias is None else bias))
     return replace(clean, attitude=attitude, rate=rate)
+
+
+def camera_says(q: np.ndarray, sensor: np.ndarray, forward: np.ndarray) -> np.ndarray:
+    """What a camera makes of attitudes: plumb, and harmonics of the heading of ``forward``.
+
+    ``sensor`` has plumb x, y and then cos 2, sin 2, cos 3, sin 3 times heading, each about x y z.
+    """
+    p = to_matrix(q) @ forward
+    psi = np.arctan2(p[..., 1], p[..., 0])[..., None]
+    c2, s2, c3, s3 = sensor[2:14].reshape(4, 3)
+    eta = c2 * np.cos(2 * psi) + s2 * np.sin(2 * psi) + c3 * np.cos(3 * psi) + s3 * np.sin(3 * psi)
+    return multiply(exponential(np.array([*sensor[:2], 0.0])), multiply(q, exponential(eta)))

@@ -6,7 +6,7 @@ from builders import move_at
 from hypothesis import given
 from hypothesis import strategies as st
 
-from equipoise.dynamics.timeline import corners, fill, straight_lines, timeline
+from equipoise.dynamics.timeline import corners, distinct, fill, straight_lines, timeline
 from equipoise.model.recording import Samples
 
 NONE = np.zeros(0)
@@ -43,6 +43,19 @@ def test_fill_keeps_all_and_cuts_equally(steps, longest):
 def test_fill_of_one_time():
     """Nothing to cut."""
     assert fill(np.array([3.0]), 0.1).tolist() == [3.0]
+
+
+def test_times_that_differ_by_rounding_are_one():
+    """0.1 + 0.2 is not 0.3 to a computer; a microsecond is a step."""
+    found = distinct(np.array([0.1 + 0.2, 0.0, 0.3, 0.3 + 1e-6, 0.0]))
+    assert found.tolist() == [0.0, 0.3, 0.3 + 1e-6]
+
+
+def test_a_cut_beside_a_corner_makes_no_step_of_nothing():
+    """Travel ends at 10 s, the cut is a rounding later: one node for both."""
+    cut = np.array([10.0 + 2e-15])
+    line = timeline(np.array([0.0, 20.0]), NONE, move_at(5.0, 20.0), 3, 1.0, cut=cut)
+    assert np.diff(line.t).min() > 0.1
 
 
 def test_straight_lines_by_hand():

@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from equipoise.maths.attitude import difference, exponential, multiply
-from equipoise.maths.turns import turn, turned
+from equipoise.maths.attitude import difference, exponential, multiply, to_matrix
+from equipoise.maths.turns import to_body, to_laboratory, turn, turned
 
 vectors = arrays(np.float64, 3, elements=st.floats(-1.8, 1.8))
 sizes = st.sampled_from([1.0, 1e-3, 1e-10, 0.0])
@@ -26,3 +26,26 @@ def test_turn_is_the_logarithm(start, vector, size, sign):
     p = exponential(start)
     q = sign * multiply(p, exponential(size * vector))
     np.testing.assert_allclose(turn(p, q), difference(q, p), rtol=0, atol=1e-14)
+
+
+@given(vectors, vectors)
+def test_to_laboratory_is_the_matrix(start, vector):
+    """R v for any attitude."""
+    q = exponential(start)
+    expected = to_matrix(q) @ vector
+    np.testing.assert_allclose(to_laboratory(q, tuple(vector)), expected, rtol=0, atol=1e-14)
+
+
+@given(vectors, vectors)
+def test_to_body_is_the_transposed_matrix(start, vector):
+    """R^T v for any attitude."""
+    q = exponential(start)
+    expected = to_matrix(q).T @ vector
+    np.testing.assert_allclose(to_body(q, tuple(vector)), expected, rtol=0, atol=1e-14)
+
+
+def test_a_quarter_turn_by_hand():
+    """Yaw of 90 deg: body x points along laboratory y, which is where -y of the body was."""
+    q = exponential(np.array([0, 0, np.pi / 2]))
+    np.testing.assert_allclose(to_laboratory(q, (1.0, 0.0, 0.0)), [0, 1, 0], atol=1e-15)
+    np.testing.assert_allclose(to_body(q, (1.0, 0.0, 0.0)), [0, -1, 0], atol=1e-15)

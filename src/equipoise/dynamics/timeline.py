@@ -14,6 +14,7 @@ from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
 
 TURN_PER_STEP = 0.1  # rad; RK4 then errs by less than 1e-7 rad a step
+SAME = 1e-9  # s, chosen: far beyond rounding; means over a shorter step would be rounding alone
 
 
 class Timeline(NamedTuple):
@@ -38,6 +39,12 @@ def fill(times: Series1, longest: float) -> Series1:
     lengths = np.repeat(np.diff(times) / parts, parts)
     within = np.arange(int(parts.sum())) - np.repeat(np.cumsum(parts) - parts, parts)
     return np.append(starts + within * lengths, times[-1])
+
+
+def distinct(times: Series1) -> Series1:
+    """Return times in order, without those that only rounding tells from the one before."""
+    t = np.unique(times)
+    return t[np.append(True, np.diff(t) > SAME)]
 
 
 def straight_lines(channel: Samples | None, t: Series1, width: int) -> Floats:
@@ -80,7 +87,7 @@ def timeline(
     knots = [corners(c, start, end) for c in (masses, momentum, torque, errors)]
     firm = seen if at_nodes else np.array([start, end])
     inner = np.zeros(0) if cut is None else cut
-    t = fill(np.unique(np.concatenate([firm, inner, *knots])), longest)
+    t = fill(distinct(np.concatenate([firm, inner, *knots])), longest)
     owners = np.zeros(0, dtype=np.int64) if error_mass is None else error_mass
     inputs = ((momentum, 3), (torque, 3), (masses, n_masses), (errors, len(owners)))
     return Timeline(

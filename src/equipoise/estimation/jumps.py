@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.dynamics.timeline import SAME
 from equipoise.estimation.stretches import Cuts
 from equipoise.estimation.unknowns import Layout
 from equipoise.model.arrays import Floats, Series1
@@ -54,14 +55,20 @@ def carried(old: tuple[Jump, ...], values: Floats, new: tuple[Jump, ...]) -> Flo
 
 
 def inside(jumps: Iterable[Jump], start: float, end: float) -> tuple[Jump, ...]:
-    """Return the jumps within a record, in order of time, those of one time as one."""
-    together: dict[float, Jump] = {}
+    """Return the jumps within a record, in order of time, those of one time as one.
+
+    Times that the grid does not tell apart are one: no stretch is empty.
+    """
+    found: list[Jump] = []
     for jump in sorted(jumps, key=lambda j: j.t):
-        if start < jump.t < end:
-            before = together.get(jump.t, Jump(jump.t, (), ()))
-            names, sd = before.names + jump.names, before.sd + jump.sd
-            together[jump.t] = Jump(jump.t, names, sd, before.is_event or jump.is_event)
-    return tuple(together.values())
+        if not start + SAME < jump.t < end - SAME:
+            continue
+        if found and jump.t - found[-1].t <= SAME:
+            last = found.pop()
+            either = last.is_event or jump.is_event
+            jump = Jump(last.t, last.names + jump.names, last.sd + jump.sd, either)
+        found.append(jump)
+    return tuple(found)
 
 
 def cuts_of(jumps: tuple[Jump, ...], t: Series1, layout: Layout) -> Cuts:
@@ -73,6 +80,6 @@ def cuts_of(jumps: tuple[Jump, ...], t: Series1, layout: Layout) -> Cuts:
     for k, jump in enumerate(jumps):
         free[k, : len(jump.names)] = [where[name] for name in jump.names]
         weight[k, : len(jump.names)] = np.array(jump.sd) ** -2.0
-    inner = np.searchsorted(t, [jump.t - 1e-9 for jump in jumps])
+    inner = np.searchsorted(t, [jump.t - SAME for jump in jumps])
     nodes = np.concatenate([[0], inner, [len(t) - 1]]).astype(np.int64)
     return Cuts(nodes, free, weight)

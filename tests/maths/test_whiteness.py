@@ -1,0 +1,68 @@
+"""The portmanteau test: a sum worked by hand, white noise let pass, neighbours alike rejected."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+from scipy.stats import chi2, kstest
+
+from equipoise.maths.whiteness import FEWEST, LAGS, portmanteau
+
+
+def test_by_hand():
+    """40 rows of +1, -1, ...: rho_k = (-1)^k (40 - k) / 40, so Q = 42 / 40 sum (40 - k) = 362.25.
+
+    Ten lags: sum (40 - k) = 400 - 55 = 345. Ten degrees of freedom.
+    """
+    series = np.tile([1.0, -1.0], 20)[:, None]
+    assert portmanteau(series) == pytest.approx(chi2.sf(362.25, 10), rel=1e-9)
+
+
+def test_columns_add_up():
+    """Two columns alike: twice the sum, twice the degrees of freedom. A mean does not count."""
+    series = np.zeros((40, 2))
+    series[5:8] = 1.0  # mean 0.075, power 3 - 9 / 40
+    p = 3 / 40
+    x = series[:, 0] - p
+    rho = [x[k:] @ x[:-k] / (3 - 9 / 40) for k in range(1, 11)]
+    total = 40 * 42 * sum(r**2 / (40 - k) for k, r in enumerate(rho, 1))
+    assert portmanteau(series + [3.0, -7.0]) == pytest.approx(chi2.sf(2 * total, 20), rel=1e-9)
+
+
+def test_too_few_rows_say_nothing():
+    """One row fewer than are asked for: even a series that is plainly not white passes."""
+    series = np.tile([1.0, -1.0], FEWEST)[:, None]
+    assert portmanteau(series[: FEWEST - 1]) == 1.0
+    assert portmanteau(series[:FEWEST]) < 1e-6
+
+
+def test_a_column_of_zeros_does_not_matter():
+    """It adds degrees of freedom, no number that is none."""
+    assert np.isfinite(portmanteau(np.zeros((100, 3))))
+
+
+def test_white_noise_gives_an_even_probability():
+    """400 series of 500 rows: Kolmogorov and Smirnov find nothing at 1 %."""
+    rng = np.random.default_rng(1)
+    values = [portmanteau(rng.normal(scale=[1, 5, 0.1], size=(500, 3))) for _ in range(400)]
+    assert kstest(values, "uniform").pvalue > 0.01
+
+
+def test_neighbours_alike_are_seen():
+    """x_k = 0.3 x_(k-1) + e: of 500 rows every one of 50 series is rejected at 1e-4.
+
+    Q is about 500 rho^2 (1 + rho^2) = 49 for each of three columns, on thirty degrees of freedom.
+    """
+    rng = np.random.default_rng(2)
+    values = [
+        portmanteau(lfilter([1], [1, -0.3], rng.normal(size=(500, 3)), axis=0)) for _ in range(50)
+    ]
+    assert max(values) < 1e-4
+
+
+def test_likeness_is_seen_as_far_as_it_looks():
+    """An echo after ``LAGS`` rows is seen, one a row later is not."""
+    rng = np.random.default_rng(3)
+    noise = rng.normal(size=(2000, 1))
+    near, far = (portmanteau(noise[lag:] + 0.4 * noise[:-lag]) for lag in (LAGS, LAGS + 1))
+    assert near < 1e-9
+    assert far > 1e-3

@@ -1,0 +1,27 @@
+"""When a row really looked."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from builders import platform
+
+from equipoise.sensors.timing import seen_at, spread_of
+
+LATE = replace(platform().attitude, delay=0.3, averaging=0.2)
+
+
+def test_a_row_stands_for_the_middle_of_its_averaging_before_its_delay():
+    """Stamped 10 s, 0.3 s late, the mean of 0.2 s: from 9.5 to 9.7 s, middle 9.6 s."""
+    assert seen_at(np.array([10.0]), LATE)[0] == pytest.approx(9.6)
+
+
+def test_spread_is_the_variance_of_the_moments():
+    """Evenly over 0.2 s."""
+    moments = np.linspace(-0.1, 0.1, 100_001)
+    assert spread_of(LATE) == pytest.approx(moments.var(), rel=1e-4)
+
+
+def test_no_sensor_looks_when_it_says():
+    assert seen_at(np.array([10.0]), None)[0] == 10.0
+    assert spread_of(None) == 0.0
