@@ -56,12 +56,12 @@ def test_heading_is_that_of_body_x_when_z_or_y_is_up(up):
     assert heading(q, np.array(up)) == pytest.approx(np.arctan2(y, x))
 
 
-def test_heading_errors_stand_in_laboratory_axes():
+def test_heading_errors_stand_in_body_axes():
     """c cos 2 psi + s sin 2 psi: c at 0 deg, s at 45, -c at 90, -s at 135."""
     c, s = np.array([1e-3, 0.0, 2e-3]), np.array([0.0, -2e-3, 1e-3])
     true = yawed([0, 45, 90, 135])
     seen = misread(true, CameraErrors(heading_cos=c, heading_sin=s), UP_Z)
-    np.testing.assert_allclose(left(seen, true), [c, s, -c, -s], atol=1e-15)
+    np.testing.assert_allclose(difference(seen, true), [c, s, -c, -s], atol=1e-15)
 
 
 def test_the_bench_shows_its_camera_errors(testbed):

@@ -238,24 +238,10 @@ def see_rate(
 
 @part
 def accumulate(
-    body: Body,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    owners: Ints,
-    columns: Columns,
-    q0: Floats,
-    w0: Floats,
-    sensor: Floats,
-    bias: Floats,
-    seen: Seen,
-    limit: float,
-    stretch: tuple[int, int],
-    rows: tuple[int, int],
-    work: Pass,
-    left_q: Floats,
-    left_w: Floats,
-) -> tuple[float, int, int]:
+    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
+    q0: Floats, w0: Floats, sensor: Floats, bias: Floats, seen: Seen, limit: float,
+    stretch: tuple[int, int], rows: tuple[int, int], work: Pass, left_q: Floats, left_w: Floats,
+) -> tuple[float, int, int]:  # fmt: skip
     """Sum the normal equations of the steps from one node to another (``stretch``).
 
     ``rows`` are the first camera and gyro row from there on. Write the residuals in units of sd;

@@ -29,6 +29,7 @@ CALIBRATIONS = 12
 BEST = 0.02  # chosen: no sensor is fifty times better than stated
 BOLDEST = 5.0  # factor by which a noise is changed at once
 STEPS = 8
+LEAST = 1e-3  # chosen: of the greatest process noise, so that no sd is zero
 PRICE = 9.0  # chosen: -2 ln probability that process noise about three axes must gain
 KINDS = {"impulse": RATE, "com_step": R}
 
@@ -123,10 +124,13 @@ def likelier(belief: Believed) -> Believed:
     """
     fit, after = smoothed(belief)
     noise = [bool(jump.names) and not jump.is_event for jump in fit.problem.jumps]
+    if not any(noise):
+        return belief
     sd = np.array([jump.sd for jump, one in zip(fit.problem.jumps, noise, strict=True) if one])
     u, spread = fit.jumps[noise, :3], np.einsum("kaa->ka", after.jump_covariance[noise, :3, :3])
     told = np.maximum(np.sum(1 - spread / sd**2, axis=0), 1e-9)
     walk = belief.walk * np.sqrt(np.sum(u**2 / sd**2, axis=0) / told)
+    walk = np.maximum(walk, LEAST * walk.max())
     camera, gyro = misfits(fit)
     share = 1 - (freedom(fit, after) + fit.problem.layout.size) / (3 * (len(camera) + len(gyro)))
     factors = [
