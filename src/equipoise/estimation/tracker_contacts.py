@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.dynamics.regressor import Triple
-from equipoise.estimation.tracker_step import SIZE, N, Work
+from equipoise.estimation.tracker_step import SIZE, Work, ahead
 from equipoise.maths.compiled import part
 from equipoise.model.arrays import Floats, Ints
 
@@ -61,7 +61,7 @@ class Watch(NamedTuple):
 class Room(NamedTuple):
     """Arrays that the test works in."""
 
-    ahead: Floats  # (6, 72)
+    after: Floats  # (6, 72)
     G: Floats  # (3, 72)
     weighed: Floats  # (3, 72) S^-1 G
     V: Floats  # (6, 24)
@@ -91,16 +91,13 @@ def forget(watch: Watch) -> None:
 @part
 def follow(watch: Watch, phi: Floats, room: Room) -> None:
     """Write X <- Phi X."""
-    X, ahead = watch.X, room.ahead
+    X, after = watch.X, room.after
     for r in range(6):
         for c in range(WIDTH):
-            ahead[r, c] = phi[r, 0] * X[0, c]
-        for k in range(1, N):
-            for c in range(WIDTH):
-                ahead[r, c] += phi[r, k] * X[k, c]
+            after[r, c] = ahead(phi, r, X, c)
     for r in range(6):
         for c in range(WIDTH):
-            X[r, c] = ahead[r, c]
+            X[r, c] = after[r, c]
 
 
 @part
@@ -141,7 +138,7 @@ def respond(watch: Watch, work: Work, room: Room) -> None:
     X, G, K = watch.X, room.G, work.K
     for i in range(SIZE):
         for c in range(WIDTH):
-            X[i, c] -= K[i, 0] * G[0, c] + K[i, 1] * G[1, c] + K[i, 2] * G[2, c]
+            X[i, c] -= K[0, i] * G[0, c] + K[1, i] * G[1, c] + K[2, i] * G[2, c]
 
 
 @part

@@ -175,7 +175,7 @@ def judge(
     if odd:
         work.x[:] = 0.0
     else:
-        shrink(P, first, second, sd, work)
+        shrink(P, work)
     return surprise
 
 
@@ -264,7 +264,7 @@ def run_filter(
     moving = Moving(y, np.empty_like(y), np.empty_like(y), np.empty_like(y), np.zeros((3, WIDTH)),
                     np.zeros(BLOCK), np.zeros((6, N)))  # fmt: skip
     work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
-                np.zeros((SIZE, 3)), np.zeros((SIZE, SIZE)))  # fmt: skip
+                np.zeros((3, SIZE)), np.zeros((3, SIZE)), np.zeros((6, SIZE)))  # fmt: skip
     room = Room(np.zeros((6, WIDE)), np.zeros((3, WIDE)), np.zeros((3, WIDE)), np.zeros((6, MANY)),
                 np.zeros((3, MANY)), np.zeros(MANY), np.zeros(MANY), np.zeros(SIZE),
                 np.zeros(SIZE))  # fmt: skip
