@@ -136,8 +136,8 @@ class Work(NamedTuple):
 
 
 @part
-def expect(P: Floats, first: int, second: int, sd: float, work: Work) -> None:
-    """Write H P, S = H P H^T + R and its inverse."""
+def expect(P: Floats, first: int, second: int, R: float, work: Work) -> None:
+    """Write H P, S = H P H^T + R E and its inverse."""
     HP, S = work.HP, work.S
     for r in range(3):
         for j in range(SIZE):
@@ -145,7 +145,7 @@ def expect(P: Floats, first: int, second: int, sd: float, work: Work) -> None:
     for r in range(3):
         for c in range(3):
             S[r, c] = HP[r, first + c] + (HP[r, second + c] if second >= 0 else 0.0)
-        S[r, r] += sd * sd
+        S[r, r] += R
     invert3(S, work.inverse)
 
 

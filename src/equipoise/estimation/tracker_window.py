@@ -12,13 +12,13 @@ is transported; with the inertia known, nothing is kept and the point follows th
 """
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.tracker_contacts import EVENT, Watch, new_watch
-from equipoise.estimation.tracker_filter import ASTRAY, BROKEN, MOVED, Model, Rows, Walk, run_filter
+from equipoise.estimation.tracker_filter import run_filter
+from equipoise.estimation.tracker_mixture import EVENT
 from equipoise.estimation.tracker_noise import settled
+from equipoise.estimation.tracker_onsets import Watch, new_watch
 from equipoise.estimation.tracker_point import (
     AT,
     FAR,
@@ -28,10 +28,21 @@ from equipoise.estimation.tracker_point import (
     nearer,
     transport,
 )
-from equipoise.estimation.tracker_rows import followed_by, later
+from equipoise.estimation.tracker_rows import Rows, followed_by, later
 from equipoise.estimation.tracker_step import SIZE
+from equipoise.estimation.tracker_walk import (
+    ASTRAY,
+    BROKEN,
+    MOVED,
+    REASON,
+    Carried,
+    Model,
+    Place,
+    Walk,
+    Written,
+)
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
-from equipoise.model.arrays import Floats, Ints, Square
+from equipoise.model.arrays import Floats
 
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
 SHAPE = 0.01  # of a moment, chosen: the same with the scale taken out
@@ -43,17 +54,6 @@ TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
 BODY = slice(AT, AT + 9)  # r and J in a belief written as one array
 ERRORS = slice(6, 15)  # and in the error state
-
-
-class Place(NamedTuple):
-    """A belief (q, w, com, J, bias) and its covariance, written on by the walk."""
-
-    belief: Floats
-    covariance: Square
-
-    def copy(self) -> "Place":
-        """Return one that can be written on."""
-        return Place(self.belief.copy(), self.covariance.copy())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,14 +68,6 @@ class Memory:
     levels: Floats  # (2, 2) of the noise: share of the stated variance, rows seen
     watch: Watch
     keeping: bool  # rows
-
-
-class Written(NamedTuple):
-    """Rows and events that the walk writes, and how many."""
-
-    out: Floats
-    events: Floats
-    done: Ints  # why it ended, rows, events
 
 
 def first_memory(here: Place, rows: Rows) -> Memory:
@@ -129,8 +121,8 @@ def pass_again(model: Model, memory: Memory, here: Place, node: int) -> tuple[Me
         found = memory.anchor.copy()
         written = Written(np.zeros((0, 0)), np.zeros((0, EVENT)), np.zeros(3, dtype=np.int64))
         walk = Walk(0, node, node, False, True)
-        reached = run_filter(model, memory.rows, walk, point, found.belief, found.covariance,
-                             memory.levels, memory.watch, *written)  # fmt: skip
+        carried = Carried(found, memory.levels, memory.watch)
+        reached = run_filter(model, memory.rows, walk, point, carried, written)
         if reached < node or not np.all(np.isfinite(found.belief)):
             point, found = memory.point, here
             break
@@ -155,13 +147,13 @@ def advance(
         edge = min(int(np.searchsorted(rows.t, due)), last)
         look = int(np.searchsorted(rows.t, start + max(EARLIEST, GROWTH * memory.passed)))
     walk = Walk(node, edge, look, not keeping, False)
-    node = run_filter(model, rows, walk, memory.point, here.belief, here.covariance, memory.levels,
-                      memory.watch, *written)  # fmt: skip
-    if written.done[0] == ASTRAY and keeping:
+    carried = Carried(here, memory.levels, memory.watch)
+    node = run_filter(model, rows, walk, memory.point, carried, written)
+    if written.done[REASON] == ASTRAY and keeping:
         here = without(memory.anchor, here)
-    if written.done[0] in (BROKEN, ASTRAY):
+    if written.done[REASON] in (BROKEN, ASTRAY):
         return anchored(memory, here, node), here, 0
-    if written.done[0] == MOVED:
+    if written.done[REASON] == MOVED:
         memory, here = pass_again(model, memory, here, node)
     elif rows.t[node] >= due:
         return at_edge(model, memory, here, node)
