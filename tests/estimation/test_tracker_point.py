@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.estimation.tracker_point import doubt, doubt_of_shape, moved, nearer, transport
+from equipoise.estimation.tracker_point import distance, doubt, doubt_of_shape, nearer, transport
 
 POINT = np.array([2e-6, -3e-6, -80e-6, 0.35, 0.54, 0.85, 0.01, -0.02, 0.015])
 BELIEF = np.array([3e-6, -2e-6, -95e-6, 0.38, 0.50, 0.92, 0.02, -0.01, 0.0])
@@ -76,8 +76,8 @@ def test_far_is_a_hundredth_of_a_moment_or_three_of_r():
         near, far = POINT.copy(), POINT.copy()
         near[k] += 0.98 * step
         far[k] += 1.02 * step
-        assert not moved(POINT, belief_at(near))
-        assert moved(POINT, belief_at(far))
+        assert distance(POINT, belief_at(near)) == pytest.approx(0.98, rel=2e-3)
+        assert distance(POINT, belief_at(far)) == pytest.approx(1.02, rel=2e-3)
 
 
 def test_an_impossible_inertia_is_approached_and_stays_possible():

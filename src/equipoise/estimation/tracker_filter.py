@@ -12,7 +12,7 @@ from equipoise.estimation import tracker_onsets as onsets
 from equipoise.estimation.tracker_contacts import LOST, judged
 from equipoise.estimation.tracker_mixture import mend, report
 from equipoise.estimation.tracker_noise import settled
-from equipoise.estimation.tracker_point import moved, transport
+from equipoise.estimation.tracker_point import distance, transport
 from equipoise.estimation.tracker_rows import Rows
 from equipoise.estimation.tracker_step import (
     add_stops,
@@ -151,7 +151,7 @@ def run_filter(
             return i + 1
         if iq + iw == before or again:
             continue
-        gone = moved(point, place.belief)
+        gone = distance(point, place.belief) > 1.0
         sound = known and (walk.folding or not gone)
         if sound and touched(model, now, carried, written, tools):
             onsets.forget(watch)

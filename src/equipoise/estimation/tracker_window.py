@@ -21,8 +21,7 @@ from equipoise.estimation.tracker_noise import settled
 from equipoise.estimation.tracker_onsets import Watch, new_watch
 from equipoise.estimation.tracker_point import (
     AT,
-    FAR,
-    FAR_COM,
+    distance,
     doubt,
     doubt_of_shape,
     nearer,
@@ -41,7 +40,6 @@ from equipoise.estimation.tracker_walk import (
     Walk,
     Written,
 )
-from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.model.arrays import Floats
 
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
@@ -84,14 +82,6 @@ def copied(memory: Memory) -> Memory:
         X.copy(), C.copy(), d.copy(), age.copy(), since.copy(), order.copy(), counts.copy()
     )
     return replace(memory, point=memory.point.copy(), levels=memory.levels.copy(), watch=watch)
-
-
-def distance(point: Floats, belief: Floats) -> float:
-    """Return how far a belief is from a point; 1 is far."""
-    off = np.abs(belief[BODY] - point)
-    inertia = off[3:] / element_sizes(unpack_symmetric(point[3:]))
-    com = float(np.linalg.norm(off[:3]) / np.linalg.norm(point[:3]))
-    return max(float(inertia.max()) / FAR, com / FAR_COM)
 
 
 def anchored(memory: Memory, here: Place, node: int) -> Memory:
