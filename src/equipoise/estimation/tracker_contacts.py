@@ -13,7 +13,7 @@ contact: the belief becomes the mixture of all (``tracker_mixture``), each weigh
 
 import numpy as np
 
-from equipoise.estimation.tracker_onsets import COUNT, MANY, ONSETS, WAITED, Room, Watch
+from equipoise.estimation.tracker_onsets import COUNT, MANY, ONSETS, SUSPECT, WAITED, Room, Watch
 from equipoise.maths.compiled import part
 
 YOUNGEST = 3  # rows, chosen: a contact shows in more than two
@@ -73,6 +73,15 @@ def weigh_up(watch: Watch, top: float, room: Room) -> float:
     for h in range(MANY):
         room.p[h] /= total
     return float(jumps / total)
+
+
+@part
+def suspect(watch: Watch, alarm: float, room: Room) -> None:
+    """Note that a contact would explain what was seen, where the motion may not be linear."""
+    explain(watch, room)
+    jump, step = best_of(watch, 0, room), best_of(watch, ONSETS, room)
+    if jump >= 0 and max(room.gain[jump], room.gain[step]) > alarm:
+        watch.counts[SUSPECT] = 1
 
 
 @part

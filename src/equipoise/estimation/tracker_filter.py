@@ -9,7 +9,7 @@ import numpy as np
 from equipoise.dynamics.propagation import step
 from equipoise.dynamics.rigid_body import Body, Now, body_at, rate_of
 from equipoise.estimation import tracker_onsets as onsets
-from equipoise.estimation.tracker_contacts import LOST, judged
+from equipoise.estimation.tracker_contacts import LOST, judged, suspect
 from equipoise.estimation.tracker_mixture import mend, report
 from equipoise.estimation.tracker_noise import settled
 from equipoise.estimation.tracker_point import distance, transport
@@ -77,22 +77,22 @@ def noted(t: float, surprise: float, place: Place, written: Written) -> None:
 
 @part
 def see(
-    model: Model, rows: Rows, again: bool, node: int, iq: int, iw: int, now: Now, known: bool,
+    model: Model, rows: Rows, walk: Walk, node: int, iq: int, iw: int, now: Now, known: bool,
     carried: Carried, written: Written, tools: Tools,
 ) -> tuple[int, int]:  # fmt: skip
     """Correct by the rows at a node and write them down; return the rows that are next."""
     place, y, t = carried.place, tools.moving.y, float(rows.t[node])
     if iq < rows.q_node.shape[0] and rows.q_node[iq] == node:
-        surprise = by_attitude(model, rows, iq, now, known, again, carried, tools, written.done)
+        surprise = by_attitude(model, rows, iq, now, known, walk, carried, tools, written.done)
         begin(now, place.belief, y)
         iq += 1
-        if not again:
+        if not walk.again:
             noted(t, surprise, place, written)
     if iw < rows.w_node.shape[0] and rows.w_node[iw] == node:
-        surprise = by_rate(model, rows, iw, now, known, again, carried, tools)
+        surprise = by_rate(model, rows, iw, now, known, walk, carried, tools)
         begin(now, place.belief, y)
         iw += 1
-        if not again:
+        if not walk.again:
             noted(t, surprise, place, written)
     return iq, iw
 
@@ -129,8 +129,8 @@ def run_filter(
     model: Model, rows: Rows, walk: Walk, point: Floats, carried: Carried, written: Written
 ) -> int:
     """Filter rows; return the node reached. ``point`` and what is carried come and go."""
-    again, place, levels, watch, done = (
-        walk.again, carried.place, carried.levels, carried.watch, written.done,
+    place, levels, watch, done = (
+        carried.place, carried.levels, carried.watch, written.done,
     )  # fmt: skip
     tools = new_tools()
     body = placed(model.body, point)
@@ -141,26 +141,28 @@ def run_filter(
     for i in range(walk.first, walk.last):
         now = predict(model, rows, body, i, point, place, tools)
         stop = add_stops(stop, i + 1, rows.stop_node, rows.stop_added, place.covariance)
-        if not again:
+        if walk.testing:
             onsets.follow(watch, tools.moving.phi, tools.room)
         known, before = settled(levels), iq + iw
-        iq, iw = see(model, rows, again, i + 1, iq, iw, now, known, carried, written, tools)
+        iq, iw = see(model, rows, walk, i + 1, iq, iw, now, known, carried, written, tools)
         if done[REASON] != END:
             report_loss(float(rows.t[i + 1]), written)
             onsets.forget(watch)
             return i + 1
-        if iq + iw == before or again:
+        if iq + iw == before or not walk.testing:
             continue
         gone = distance(point, place.belief) > 1.0
-        sound = known and (walk.folding or not gone)
+        sound = known and (walk.folding or walk.again or not gone)
         if sound and touched(model, now, carried, written, tools):
             onsets.forget(watch)
             return i + 1
+        if known and not sound:
+            suspect(watch, model.alarm, tools.room)
         onsets.take_up(watch, float(rows.t[i + 1]))
         if gone and walk.folding:
             transport(place.covariance, point, place.belief)
             body = placed(model.body, point)
-        elif gone and i + 1 >= walk.look:
+        elif gone and not walk.again and i + 1 >= walk.look:
             done[REASON] = MOVED
             return i + 1
     return walk.last

@@ -26,7 +26,7 @@ ONSETS = 12
 MANY = 2 * ONSETS  # hypotheses: jumps of the rate, then steps of r
 COLUMNS = 3 * MANY  # of X: hypotheses along x, along y, along z
 OLDEST = 50  # rows
-COUNT, GATED, WAITED = 0, 1, 2  # in Watch.counts
+COUNT, GATED, WAITED, SUSPECT = 0, 1, 2, 3  # in Watch.counts
 
 
 class Watch(NamedTuple):
@@ -38,7 +38,7 @@ class Watch(NamedTuple):
     age: Ints  # (12,) rows
     since: Floats  # (12,) s
     order: Ints  # (12,) onsets, oldest first
-    counts: Ints  # (3,) onsets in use, gated rows in a run, rows waited
+    counts: Ints  # (4,) onsets in use, gated rows in a run, rows waited, whether to look closer
 
 
 class Room(NamedTuple):
@@ -60,7 +60,7 @@ def new_watch() -> Watch:
     return Watch(
         np.zeros((SIZE, COLUMNS)), np.zeros((6, MANY)), np.zeros((3, MANY)),
         np.zeros(ONSETS, np.int64), np.zeros(ONSETS), np.zeros(ONSETS, np.int64),
-        np.zeros(3, np.int64),
+        np.zeros(4, np.int64),
     )  # fmt: skip
 
 

@@ -165,26 +165,28 @@ def weigh(z: Triple, work: Work) -> float:
 
 
 @part
-def shrink(P: Floats, work: Work) -> None:
-    """Write P+ in Joseph's form: A = P - K H P,  P+ = A + (K R - A H^T) K^T.
+def add_product(P: Floats, A: Floats, B: Floats, sign: float) -> None:
+    """Add sign A^T B, (18, 18), which is symmetric: half of it is worked out and serves for both."""
+    for i in range(SIZE):
+        a, b, c = sign * A[0, i], sign * A[1, i], sign * A[2, i]
+        for j in range(i + 1):
+            P[i, j] = P[j, i] = P[i, j] + (a * B[0, j] + b * B[1, j] + c * B[2, j])
 
-    K R - A H^T = K S - P H^T, so that one sweep over P will do; of rounding alone, it keeps P
-    symmetric.
+
+@part
+def shrink(P: Floats, first: int, second: int, R: float, work: Work) -> None:
+    """Write P+ in Joseph's form, by parts: A = P - K H P;  P+ = A + (K R - A H^T) K^T.
+
+    The second part is of rounding alone, and takes back along H what A was rounded by: it has to
+    be found from A as it is stored. P is symmetric to the last digit, as the prediction takes it.
     """
-    HP, K, S, left = work.HP, work.K, work.S, work.left
+    K, left = work.K, work.left
+    add_product(P, K, work.HP, -1.0)
     for r in range(3):
         for i in range(SIZE):
-            left[r, i] = K[0, i] * S[0, r] + K[1, i] * S[1, r] + K[2, i] * S[2, r] - HP[r, i]
-    for i in range(SIZE):
-        a, b, c = K[0, i], K[1, i], K[2, i]
-        d, e, f = left[0, i], left[1, i], left[2, i]
-        for j in range(SIZE):
-            P[i, j] += (
-                d * K[0, j]
-                + e * K[1, j]
-                + f * K[2, j]
-                - (a * HP[0, j] + b * HP[1, j] + c * HP[2, j])
-            )
+            AH = P[i, first + r] + (P[i, second + r] if second >= 0 else 0.0)
+            left[r, i] = R * K[r, i] - AH
+    add_product(P, left, K, 1.0)
 
 
 @part

@@ -22,6 +22,7 @@ from equipoise.estimation.tracker_walk import (
     Model,
     Place,
     Tools,
+    Walk,
 )
 from equipoise.maths.compiled import part
 from equipoise.maths.turns import turn
@@ -88,7 +89,7 @@ def learn(z: Triple, odd: bool, carried: Carried, tools: Tools) -> None:
 
 @part
 def judge(
-    model: Model, sensor: int, z: Triple, known: bool, again: bool, carried: Carried, tools: Tools
+    model: Model, sensor: int, z: Triple, known: bool, walk: Walk, carried: Carried, tools: Tools
 ) -> float:
     """Write x and P+ (x = 0 and P for a row that is not used); return the squared innovation."""
     P, work, level, watch = (
@@ -102,46 +103,47 @@ def judge(
     expect(P, first, second, R, work)
     surprise = weigh(z, work)
     odd = surprise > (GATE if known else EARLY_GATE)
-    if not again:
+    if not walk.again:
         watch.counts[onsets.GATED] = watch.counts[onsets.GATED] + 1 if odd else 0
         if watch.counts[onsets.GATED] < 2:
             S = work.S
             learn_noise(level, surprise, 3.0 * R / (S[0, 0] + S[1, 1] + S[2, 2]))
+    if walk.testing:
         onsets.felt(watch, first, second, tools.room)
         learn(z, odd, carried, tools)
     if odd:
         work.x[:] = 0.0
     else:
-        shrink(P, work)
+        shrink(P, first, second, R, work)
     return surprise
 
 
 @part
 def by_attitude(
-    model: Model, rows: Rows, iq: int, now: Now, known: bool, again: bool, carried: Carried,
+    model: Model, rows: Rows, iq: int, now: Now, known: bool, walk: Walk, carried: Carried,
     tools: Tools, done: Ints,
 ) -> float:  # fmt: skip
     """Correct by a row of the camera, or take attitude and rate from it anew."""
     place, y = carried.place, tools.moving.y
-    late = carried.watch.counts[onsets.GATED] >= (PATIENT if known else HASTY) and not again
+    late = carried.watch.counts[onsets.GATED] >= (PATIENT if known else HASTY) and not walk.again
     if late or unsure(place.covariance, lag_of(rows, iq)):
         done[REASON] = ASTRAY if late else BROKEN
         sd = model.sd[CAMERA] * carried.levels[CAMERA, 0] ** 0.5
         take_anew(rows, iq, sd, place)
         return 0.0
-    surprise = judge(model, CAMERA, turn(y, rows.q[iq]), known, again, carried, tools)
+    surprise = judge(model, CAMERA, turn(y, rows.q[iq]), known, walk, carried, tools)
     apply(tools.work.x, rate_of(now, y), y, place.belief)
     return surprise
 
 
 @part
 def by_rate(
-    model: Model, rows: Rows, iw: int, now: Now, known: bool, again: bool, carried: Carried,
+    model: Model, rows: Rows, iw: int, now: Now, known: bool, walk: Walk, carried: Carried,
     tools: Tools,
 ) -> float:  # fmt: skip
     """Correct by a row of the gyro."""
     end, y = carried.place.belief, tools.moving.y
     z = innovation(now, y, end[AT + 9 :], rows.w[iw])
-    surprise = judge(model, GYRO, z, known, again, carried, tools)
+    surprise = judge(model, GYRO, z, known, walk, carried, tools)
     apply(tools.work.x, rate_of(now, y), y, end)
     return surprise

@@ -36,7 +36,8 @@ class Walk(NamedTuple):
     last: int
     look: int  # node from which it ends where the belief has moved
     folding: bool  # the point goes with the belief
-    again: bool  # rows that have been passed before: nothing is noted or learnt
+    again: bool  # rows that have been passed before: nothing is noted, no noise learnt
+    testing: bool  # for contacts
 
 
 class Place(NamedTuple):

@@ -18,7 +18,7 @@ import numpy as np
 from equipoise.estimation.tracker_filter import run_filter
 from equipoise.estimation.tracker_mixture import EVENT
 from equipoise.estimation.tracker_noise import settled
-from equipoise.estimation.tracker_onsets import Watch, new_watch
+from equipoise.estimation.tracker_onsets import SUSPECT, Watch, new_watch
 from equipoise.estimation.tracker_point import (
     AT,
     distance,
@@ -103,16 +103,28 @@ def without(anchor: Place, here: Place) -> Place:
     return found
 
 
-def pass_again(model: Model, memory: Memory, here: Place, node: int) -> tuple[Memory, Place]:
-    """Return memory and place after passes of the rows up to a node; as they were if that fails."""
+def passed(
+    model: Model, memory: Memory, point: Floats, node: int, testing: bool, written: Written
+) -> tuple[Place, int]:
+    """Return the place after a pass from the anchor up to a node, and the node reached."""
+    found, silent = memory.anchor.copy(), Written(np.zeros((0, 0)), written.events, written.done)
+    walk = Walk(0, node, node, False, True, testing)
+    carried = Carried(found, memory.levels, memory.watch)
+    return found, run_filter(model, memory.rows, walk, point, carried, silent)
+
+
+def pass_again(
+    model: Model, memory: Memory, here: Place, node: int, written: Written
+) -> tuple[Memory, Place, int]:
+    """Return memory, place and node after passes of the rows up to a node.
+
+    They are as they were if that fails. Where a contact was suspected on the way, which may have
+    been for want of linearity, it is looked for once more about the point that was found.
+    """
     point, found = memory.point.copy(), here
     for _ in range(PASSES):
         point = nearer(point, found.belief[BODY])
-        found = memory.anchor.copy()
-        written = Written(np.zeros((0, 0)), np.zeros((0, EVENT)), np.zeros(3, dtype=np.int64))
-        walk = Walk(0, node, node, False, True)
-        carried = Carried(found, memory.levels, memory.watch)
-        reached = run_filter(model, memory.rows, walk, point, carried, written)
+        found, reached = passed(model, memory, point, node, False, written)
         if reached < node or not np.all(np.isfinite(found.belief)):
             point, found = memory.point, here
             break
@@ -120,8 +132,22 @@ def pass_again(model: Model, memory: Memory, here: Place, node: int) -> tuple[Me
             break
     age = float(memory.rows.t[node] - memory.rows.t[0])
     level = memory.levels[:, 0].copy()
-    memory.watch.counts[:] = 0
-    return replace(memory, point=point, passed=age, level=level), found
+    suspected = bool(memory.watch.counts[SUSPECT]) and distance(point, found.belief) < CLOSE
+    memory.watch.counts[: SUSPECT + (1 if suspected else 0)] = 0
+    memory = replace(memory, point=point, passed=age, level=level)
+    return look_closer(model, memory, found, node, written) if suspected else (memory, found, node)
+
+
+def look_closer(
+    model: Model, memory: Memory, here: Place, node: int, written: Written
+) -> tuple[Memory, Place, int]:
+    """Return memory, place and node after a pass that ends at a contact, and passes of the rest."""
+    found, reached = passed(model, memory, memory.point.copy(), node, True, written)
+    if written.done[REASON] != BROKEN:
+        return memory, here, node
+    memory = anchored(memory, found, reached)
+    memory.watch.counts[SUSPECT] = 1
+    return pass_again(model, memory, found, node - reached, written)
 
 
 def advance(
@@ -136,7 +162,7 @@ def advance(
         due = start + EDGE * (whole + 1) - TINY
         edge = min(int(np.searchsorted(rows.t, due)), last)
         look = int(np.searchsorted(rows.t, start + max(EARLIEST, GROWTH * memory.passed)))
-    walk = Walk(node, edge, look, not keeping, False)
+    walk = Walk(node, edge, look, not keeping, False, True)
     carried = Carried(here, memory.levels, memory.watch)
     node = run_filter(model, rows, walk, memory.point, carried, written)
     if written.done[REASON] == ASTRAY and keeping:
@@ -144,19 +170,21 @@ def advance(
     if written.done[REASON] in (BROKEN, ASTRAY):
         return anchored(memory, here, node), here, 0
     if written.done[REASON] == MOVED:
-        memory, here = pass_again(model, memory, here, node)
+        memory, here, node = pass_again(model, memory, here, node, written)
     elif rows.t[node] >= due:
-        return at_edge(model, memory, here, node)
+        return at_edge(model, memory, here, node, written)
     return memory, here, node
 
 
-def at_edge(model: Model, memory: Memory, here: Place, node: int) -> tuple[Memory, Place, int]:
+def at_edge(
+    model: Model, memory: Memory, here: Place, node: int, written: Written
+) -> tuple[Memory, Place, int]:
     """Pass the rows again if anything has changed, and let the anchor follow where it may."""
     grown = np.log(memory.levels[:, 0] / memory.level)
     if grown.max() > np.log(LOUDER):  # noise has been taken for motion: from the anchor's point
-        memory, here = pass_again(model, memory, memory.anchor.copy(), node)
+        memory, here, node = pass_again(model, memory, memory.anchor.copy(), node, written)
     elif grown.min() < -np.log(LOUDER) or distance(memory.point, here.belief) > CLOSE:
-        memory, here = pass_again(model, memory, here, node)
+        memory, here, node = pass_again(model, memory, here, node, written)
     shaped = doubt_of_shape(memory.point, here.covariance) < SHAPE and settled(memory.levels)
     if shaped or memory.rows.t[node] - memory.rows.t[0] > LONGEST:
         return anchored(memory, here, node), here, 0
