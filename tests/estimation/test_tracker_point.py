@@ -90,6 +90,18 @@ def test_an_impossible_inertia_is_approached_and_stays_possible():
     np.testing.assert_array_equal(nearer(body, BELIEF), BELIEF)
 
 
+def test_products_decide_whether_an_inertia_is_possible():
+    """From diag(2, 2, 2): products c, c, c leave eigenvalues 2 + 2 c, 2 - c, 2 - c; least 1.
+
+    c = 0.9 leaves 1.1: all the way. c = -0.9 leaves 0.2: half-way 1.1.
+    """
+    body = np.array([0, 0, -1e-4, 2.0, 2.0, 2.0, 0.0, 0.0, 0.0])
+    for product, expected in ((0.9, 0.9), (-0.9, -0.45)):
+        wild = body.copy()
+        wild[6:] = product
+        np.testing.assert_allclose(nearer(body, wild)[6:], expected)
+
+
 def test_scale_is_doubt_but_no_doubt_of_shape():
     """Only the common factor unknown, by 20 %: every moment 20 %, the shape not at all."""
     P = np.zeros((18, 18))
