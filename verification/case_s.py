@@ -99,9 +99,10 @@ def way(seed: int) -> Floats:
 
 
 def believed(true: Vector6, doubt: float, rng: np.random.Generator) -> MassProperties:
-    """Return what is believed of a body, wrong by ``doubt`` (relative, one sd of each element of J).
+    """Return what is believed of a body, wrong by ``doubt`` (one sd of J).
 
-    The truth is normal about what is believed, with an sd that is a share of what is believed;
+    The truth is normal about what is believed, element by element of J, with an sd that is a share
+    of the size sqrt(J_ii J_jj) of what is believed;
     drawn until the belief is an inertia that a body can have.
     """
     while True:

@@ -191,7 +191,7 @@ def test_an_event_tells_mean_and_spread_of_its_hypotheses():
 
 
 def test_an_attitude_taken_anew_brings_its_rate():
-    """0.02 rad about y in 0.2 s: 0.1 rad/s; sd 2 x 1e-3 / 0.2 + 0.1 x 0.1 = 0.02; r, J as before."""
+    """0.02 rad about y in 0.2 s: 0.1 rad/s; sd 2 x 1e-3 / 0.2 + 0.1 x 0.1 = 0.02."""
     q = exponential(np.array([[0.0, 0.0, 0.0], [0.0, 0.02, 0.0]]))
     rows = Rows(
         np.array([0.0, 0.2, 0.4]), np.zeros((3, 6)), np.zeros(0, np.int64), q, np.array([1, 2]),

@@ -27,12 +27,12 @@ from equipoise.estimation.tracker_step import (
 )
 from equipoise.estimation.tracker_update import by_attitude, by_rate
 from equipoise.estimation.tracker_walk import (
-    BROKEN,
     END,
     EVENTS,
     MOVED,
     NOTED,
     REASON,
+    TOUCHED,
     Carried,
     Model,
     Place,
@@ -110,18 +110,36 @@ def touched(model: Model, now: Now, carried: Carried, written: Written, tools: T
     if done[EVENTS] < written.events.shape[0]:
         report(carried.watch, kind, best, room, written.events[done[EVENTS]])
         done[EVENTS] += 1
-    done[REASON] = BROKEN
+    done[REASON] = TOUCHED
     return True
 
 
 @part
-def report_loss(t: float, written: Written) -> None:
+def report_loss(walk: Walk, t: float, written: Written) -> None:
     """Write that the attitude was taken anew."""
     events, done = written.events, written.done
-    if done[EVENTS] < events.shape[0]:
+    if not walk.again and done[EVENTS] < events.shape[0]:
         events[done[EVENTS]] = 0.0
         events[done[EVENTS], 0], events[done[EVENTS], 1] = t, LOST
         done[EVENTS] += 1
+
+
+@part
+def mended(
+    model: Model, t: float, now: Now, known: bool, linear: bool, carried: Carried, written: Written,
+    tools: Tools,
+) -> bool:  # fmt: skip
+    """Say whether a contact was found and mended; none is looked for until the noise is known.
+
+    Where the motion may not be ``linear`` in what is unknown, a contact is suspected, no more.
+    """
+    watch = carried.watch
+    if known and linear and touched(model, now, carried, written, tools):
+        return True
+    if known and not linear:
+        suspect(watch, model.alarm, tools.room)
+    onsets.take_up(watch, t)
+    return False
 
 
 @kernel
@@ -129,9 +147,7 @@ def run_filter(
     model: Model, rows: Rows, walk: Walk, point: Floats, carried: Carried, written: Written
 ) -> int:
     """Filter rows; return the node reached. ``point`` and what is carried come and go."""
-    place, levels, watch, done = (
-        carried.place, carried.levels, carried.watch, written.done,
-    )  # fmt: skip
+    place, levels, watch, done = carried.place, carried.levels, carried.watch, written.done
     tools = new_tools()
     body = placed(model.body, point)
     iq = int(np.searchsorted(rows.q_node, walk.first + 1))
@@ -146,19 +162,17 @@ def run_filter(
         known, before = settled(levels), iq + iw
         iq, iw = see(model, rows, walk, i + 1, iq, iw, now, known, carried, written, tools)
         if done[REASON] != END:
-            report_loss(float(rows.t[i + 1]), written)
+            report_loss(walk, float(rows.t[i + 1]), written)
             onsets.forget(watch)
             return i + 1
         if iq + iw == before or not walk.testing:
             continue
         gone = distance(point, place.belief) > 1.0
-        sound = known and (walk.folding or walk.again or not gone)
-        if sound and touched(model, now, carried, written, tools):
+        linear = walk.folding or walk.again or not gone
+        t = float(rows.t[i + 1])
+        if mended(model, t, now, known, linear, carried, written, tools):
             onsets.forget(watch)
             return i + 1
-        if known and not sound:
-            suspect(watch, model.alarm, tools.room)
-        onsets.take_up(watch, float(rows.t[i + 1]))
         if gone and walk.folding:
             transport(place.covariance, point, place.belief)
             body = placed(model.body, point)

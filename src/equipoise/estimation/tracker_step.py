@@ -166,7 +166,7 @@ def weigh(z: Triple, work: Work) -> float:
 
 @part
 def add_product(P: Floats, A: Floats, B: Floats, sign: float) -> None:
-    """Add sign A^T B, (18, 18), which is symmetric: half of it is worked out and serves for both."""
+    """Add sign A^T B, (18, 18), which is symmetric: half of it is worked out, for both."""
     for i in range(SIZE):
         a, b, c = sign * A[0, i], sign * A[1, i], sign * A[2, i]
         for j in range(i + 1):

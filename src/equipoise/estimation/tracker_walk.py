@@ -14,7 +14,7 @@ from equipoise.maths.compiled import kernel
 from equipoise.model.arrays import Floats, Ints, Square
 
 CAMERA, GYRO = 0, 1  # sensors
-END, MOVED, BROKEN, ASTRAY = 0, 1, 2, 3  # why the walk ended
+END, MOVED, BROKEN, ASTRAY, TOUCHED = 0, 1, 2, 3, 4  # why the walk ended
 REASON, NOTED, EVENTS = 0, 1, 2  # in Written.done
 
 

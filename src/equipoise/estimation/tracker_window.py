@@ -7,6 +7,10 @@ the anchor are passed again, from the same belief there: Gauss-Newton steps of t
 problem of anchor and rows. As each pass begins with the anchor's own covariance, every row counts
 once. Passes come after windows that double, so that a row is passed some few times in all.
 
+A contact bends the belief, so that it soon is far from the point, where the test for contacts is
+not to be trusted: then it is suspected only, and looked for again in a pass about the point where
+the belief came to rest. Where it is found the anchor follows, and the rest of the rows is passed.
+
 Once the shape of the inertia (all but its scale) is known, the anchor follows, and the covariance
 is transported; with the inertia known, nothing is kept and the point follows the belief.
 """
@@ -34,6 +38,7 @@ from equipoise.estimation.tracker_walk import (
     BROKEN,
     MOVED,
     REASON,
+    TOUCHED,
     Carried,
     Model,
     Place,
@@ -143,7 +148,7 @@ def look_closer(
 ) -> tuple[Memory, Place, int]:
     """Return memory, place and node after a pass that ends at a contact, and passes of the rest."""
     found, reached = passed(model, memory, memory.point.copy(), node, True, written)
-    if written.done[REASON] != BROKEN:
+    if written.done[REASON] != TOUCHED:
         return memory, here, node
     memory = anchored(memory, found, reached)
     memory.watch.counts[SUSPECT] = 1
@@ -167,7 +172,7 @@ def advance(
     node = run_filter(model, rows, walk, memory.point, carried, written)
     if written.done[REASON] == ASTRAY and keeping:
         here = without(memory.anchor, here)
-    if written.done[REASON] in (BROKEN, ASTRAY):
+    if written.done[REASON] in (BROKEN, ASTRAY, TOUCHED):
         return anchored(memory, here, node), here, 0
     if written.done[REASON] == MOVED:
         memory, here, node = pass_again(model, memory, here, node, written)
