@@ -98,20 +98,26 @@ def way(seed: int) -> Floats:
     return vector / np.linalg.norm(vector)
 
 
-def testbed(seed: int, doubt: float) -> Testbed:
-    """Return what is known beforehand, wrong by ``doubt`` (relative, one sd of each element of J).
+def believed(true: Vector6, doubt: float, rng: np.random.Generator) -> MassProperties:
+    """Return what is believed of a body, wrong by ``doubt`` (one sd of J).
 
-    The truth is normal about what is believed, with an sd that is a share of what is believed;
+    The truth is normal about what is believed, element by element of J, with an sd that is a share
+    of the size sqrt(J_ii J_jj) of what is believed;
     drawn until the belief is an inertia that a body can have.
     """
-    true, rng = case(seed).inertia, np.random.default_rng([seed, 5])
     while True:
         normal, drawn = rng.normal(size=6), true
         for _ in range(50):
             drawn = true - doubt * element_sizes(unpack_symmetric(drawn)) * normal
         guess = MassProperties(MASS, np.array([0.0, 0.0, -100e-6]), unpack_symmetric(drawn))
         if np.all(drawn[:3] > 0) and is_possible(guess):
-            return replace(builders.platform(), body=guess, masses=MASSES, inertia_sd=doubt)
+            return guess
+
+
+def testbed(seed: int, doubt: float) -> Testbed:
+    """Return what is known beforehand; its inertia is wrong by ``doubt``."""
+    guess = believed(case(seed).inertia, doubt, np.random.default_rng([seed, 5]))
+    return replace(builders.platform(), body=guess, masses=MASSES, inertia_sd=doubt)
 
 
 testbed.__test__ = False  # pytest would take its name for a test's

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from equipoise.estimation import tracker
 from equipoise.model.estimate import NORMAL_95
 from equipoise.model.recording import Recording, Samples, window
-from verification import case_s
+from equipoise.model.testbed import Testbed
+from verification import case_s, case_s_mujoco
 from verification.chance import RARE, fewest, nees_band, share_band
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn, triple
 
@@ -19,8 +20,12 @@ COVER = (0.90, 0.99)  # share of 95 % intervals that hold the truth
 EXCESS = 1.25  # of the NEES, which rare runs far off dominate
 BEFORE, AT = 55.0, 95.0  # s: before the move; an event after it
 STILL = 1e-10  # m/sqrt(s) and N m sqrt(s): nothing walks in these runs
+DOUBTS = (0.02, 0.2)  # of the size of an element of J, one sd
+HIT, STRONG = 2e-3, 1.2e-3  # N m s, by MuJoCo: of one contact; of those that must be noticed
+AFTERWARDS = 15.0  # s in which a contact is reported
 SIZES = (0.7, 2.0, 20.0)  # mN m s
 STEPS = (5.0, 20.0)  # um
+CAUGHT = 0.85  # chosen: of strong contacts at any time, also while J is learnt
 NAMED = 0.85  # chosen: small steps look like impulses for some seconds
 AFTER_EVENT = 0.85  # chosen: of the intervals 25 s after a contact, whose kind may be mistaken
 GAP, LOUDER = (70.0, 98.0), 3.0  # s; of the stated noise
@@ -40,10 +45,15 @@ class Run(NamedTuple):
 
 def tracked(recording: Recording, seed: int, doubt: float, shift: Array = NOWHERE) -> Run:
     """Track one record, whose centre of mass shifts by what nobody knows (m), to its end."""
-    testbed = case_s.testbed(seed, doubt)
+    true = np.concatenate([case_s.COM + shift, case_s.case(seed).inertia])
+    return tracked_by(recording, case_s.testbed(seed, doubt), true)
+
+
+def tracked_by(recording: Recording, testbed: Testbed, true: Array) -> Run:
+    """Track a record to its end, where r and J are in truth these nine."""
+    assert recording.attitude is not None
     first = tracker.first_state(0.0, recording.attitude.values[0], testbed)
     track = tracker.track(recording, testbed, tracker.Params("fed", STILL, STILL), first)
-    true = np.concatenate([case_s.COM + shift, case_s.case(seed).inertia])
     error = np.concatenate([track.com[-1], track.inertia[-1]]) - true
     covariance = track.end.belief.covariance
     nees = float(error @ np.linalg.solve(covariance, error))
@@ -82,6 +92,33 @@ def loud(doubt: float, seed: int) -> Run:
     return tracked(case_s.run(seed, None, LOUDER), seed, doubt)
 
 
+def by_mujoco(one: case_s_mujoco.Sample, seed: int, doubt: float) -> Run:
+    """Track a record that MuJoCo made."""
+    true = np.concatenate([one.logged.truth.com, one.inertia])
+    testbed = case_s_mujoco.testbed(one, seed, doubt)
+    return tracked_by(one.logged.recording, testbed, true)
+
+
+def untouched(seed: int) -> tuple[Run, ...]:
+    """Track what MuJoCo made of one seed from each doubt about the inertia."""
+    one = case_s_mujoco.untouched(seed)
+    return tuple(by_mujoco(one, seed, doubt) for doubt in DOUBTS)
+
+
+def touched_once(seed: int) -> Run:
+    """Track the same with one contact."""
+    event = case_s.Event(AT + seed % 7 / 7, HIT * case_s.way(seed), NOWHERE)
+    return by_mujoco(case_s_mujoco.touched_once(seed, event), seed, DOUBTS[0])
+
+
+def touched(seed: int) -> tuple[bool, ...]:
+    """Track the same with contacts as drawn; say of the strong ones whether they were noticed."""
+    one = case_s_mujoco.touched(seed)
+    run = by_mujoco(one, seed, DOUBTS[0])
+    times = case_s_mujoco.strong(one, STRONG, case_s.SECONDS - AFTERWARDS)
+    return tuple(reported(run, t) for t in times)
+
+
 def inside(runs: Sequence[Run]) -> float:
     """Return the share of 95 % intervals that hold the truth."""
     return float(np.mean([np.abs(run.error) < NORMAL_95 * run.sd for run in runs]))
@@ -101,8 +138,13 @@ def honest_rows(what: str, runs: Sequence[Run], excess: float = EXCESS) -> tuple
 
 
 def noticed(run: Run) -> bool:
-    """Say whether an event at its time was reported."""
-    return any(AT - 6 < contact.t < AT + 15 for contact in run.contacts)
+    """Say whether the event was reported."""
+    return reported(run, AT)
+
+
+def reported(run: Run, t: float) -> bool:
+    """Say whether an event at a time (s) was reported."""
+    return any(t - 6 < contact.t < t + AFTERWARDS for contact in run.contacts)
 
 
 def named(run: Run, kind: str) -> bool:
@@ -127,7 +169,7 @@ def event_rows(what: str, kind: str, runs: Sequence[Run]) -> tuple[Row, ...]:
 def doubt_rows(seeds: Sequence[int], spread: Spread) -> tuple[Row, ...]:
     """Return the rows on a doubtful inertia, and how often nothing was called a contact."""
     rows: list[Row] = []
-    for doubt in (0.02, 0.2):
+    for doubt in DOUBTS:
         before = spread(partial(doubted, doubt, BEFORE), seeds)
         end = spread(partial(doubted, doubt, case_s.SECONDS), seeds)
         rows += honest_rows(f"J wrong by {doubt:.0%}, before the move", before)
@@ -156,6 +198,20 @@ def other_rows(seeds: Sequence[int], spread: Spread) -> tuple[Row, ...]:
     return tuple(rows)
 
 
+def mujoco_rows(seeds: Sequence[int], spread: Spread) -> tuple[Row, ...]:
+    """Return the rows on records from an engine that shares nothing with the tracker."""
+    rows: list[Row] = []
+    for doubt, runs in zip(DOUBTS, zip(*spread(untouched, seeds), strict=True), strict=True):
+        rows += honest_rows(f"MuJoCo, J wrong by {doubt:.0%}, at the end", runs)
+    hit = spread(touched_once, seeds)
+    rows += event_rows(f"MuJoCo, impulse of {1e3 * HIT:g} mN m s", "impulse", hit)
+    seen = np.concatenate(spread(touched, seeds))
+    rows.append(at_least(f"MuJoCo, 1 to 4 contacts at any time, J wrong by 2 %: noticed, of "
+                         f"{len(seen)} beyond {1e3 * STRONG:g} mN m s", float(np.mean(seen)),
+                         fewest(CAUGHT, len(seen)), ".1%"))  # fmt: skip
+    return tuple(rows)
+
+
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Track Case S with what goes wrong, one record of each kind for each seed."""
     claim = (
@@ -164,4 +220,5 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         "after the move that shows the scale; impulses and steps of the centre of mass (at 95 s, J "
         "2 % wrong) are noticed and survived, and so are a gap and noise three times as stated."
     )
-    return Result("tracker_knows", claim, (*doubt_rows(seeds, spread), *other_rows(seeds, spread)))
+    rows = (*doubt_rows(seeds, spread), *other_rows(seeds, spread), *mujoco_rows(seeds, spread))
+    return Result("tracker_knows", claim, rows)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.estimation.tracker_point import doubt, doubt_of_shape, moved, nearer, transport
+from equipoise.estimation.tracker_point import distance, doubt, doubt_of_shape, nearer, transport
 
 POINT = np.array([2e-6, -3e-6, -80e-6, 0.35, 0.54, 0.85, 0.01, -0.02, 0.015])
 BELIEF = np.array([3e-6, -2e-6, -95e-6, 0.38, 0.50, 0.92, 0.02, -0.01, 0.0])
@@ -76,8 +76,8 @@ def test_far_is_a_hundredth_of_a_moment_or_three_of_r():
         near, far = POINT.copy(), POINT.copy()
         near[k] += 0.98 * step
         far[k] += 1.02 * step
-        assert not moved(POINT, belief_at(near))
-        assert moved(POINT, belief_at(far))
+        assert distance(POINT, belief_at(near)) == pytest.approx(0.98, rel=2e-3)
+        assert distance(POINT, belief_at(far)) == pytest.approx(1.02, rel=2e-3)
 
 
 def test_an_impossible_inertia_is_approached_and_stays_possible():
@@ -88,6 +88,18 @@ def test_an_impossible_inertia_is_approached_and_stays_possible():
     wild[3] = -0.35
     assert nearer(body, wild)[3] == pytest.approx(0.2625)
     np.testing.assert_array_equal(nearer(body, BELIEF), BELIEF)
+
+
+def test_products_decide_whether_an_inertia_is_possible():
+    """From diag(2, 2, 2): products c, c, c leave eigenvalues 2 + 2 c, 2 - c, 2 - c; least 1.
+
+    c = 0.9 leaves 1.1: all the way. c = -0.9 leaves 0.2: half-way 1.1.
+    """
+    body = np.array([0, 0, -1e-4, 2.0, 2.0, 2.0, 0.0, 0.0, 0.0])
+    for product, expected in ((0.9, 0.9), (-0.9, -0.45)):
+        wild = body.copy()
+        wild[6:] = product
+        np.testing.assert_allclose(nearer(body, wild)[6:], expected)
 
 
 def test_scale_is_doubt_but_no_doubt_of_shape():

@@ -25,7 +25,7 @@ What it does about what it does not know:
     contacts    found in the innovations, mended and reported (``tracker_contacts``)
     noise       its level is learnt from the innovations (``tracker_noise``); a row beyond all
                 bounds is not used (``Track.not_used``)
-    gaps        a row whose attitude cannot be predicted starts anew from it (``tracker_filter``)
+    gaps        a row whose attitude cannot be predicted starts anew from it (``tracker_update``)
 """
 
 from dataclasses import dataclass
@@ -37,10 +37,11 @@ from scipy.special import chdtri
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.propagation import Columns, body_of, stacked
-from equipoise.estimation.tracker_filter import GATE, Model
 from equipoise.estimation.tracker_rows import rows_of
 from equipoise.estimation.tracker_step import BODY, COM, SIZE
-from equipoise.estimation.tracker_window import Memory, Place, Written, follow
+from equipoise.estimation.tracker_update import GATE
+from equipoise.estimation.tracker_walk import EVENTS, Model, Place, Written
+from equipoise.estimation.tracker_window import Memory, follow
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import (
     Floats,
@@ -218,7 +219,7 @@ def track_of(written: Written, end: State) -> Track:
     out = written.out
     at = np.split(out, [1, *(1 + WHERE), out.shape[1] - 1], axis=1)
     t, q, w, com, J, b, sd, surprise = at
-    found = tuple(contact_of(event, end) for event in written.events[: written.done[2]])
+    found = tuple(contact_of(event, end) for event in written.events[: written.done[EVENTS]])
     return Track(t[:, 0], q, w, com, J, b, sd, surprise[:, 0], found, end)
 
 

@@ -25,19 +25,18 @@ POSSIBLE = 0.5  # chosen: a point's inertia shrinks to no less than this at a ti
 
 
 @part
-def moved(point: Floats, end: Floats) -> bool:
-    """Say whether a belief is too far from the point of linearisation."""
+def distance(point: Floats, end: Floats) -> float:
+    """Return how far a belief is from a point of linearisation; 1 is far."""
+    size, off, far = 0.0, 0.0, 0.0
     for k in range(6):
         i = 0 if k == 0 or k == 3 or k == 4 else (1 if k == 1 or k == 5 else 2)
         j = 0 if k == 0 else (1 if k == 1 or k == 3 else 2)
-        off = end[AT + 3 + k] - point[3 + k]
-        if off * off > FAR * FAR * point[3 + i] * point[3 + j]:
-            return True
-    size, off = 0.0, 0.0
+        share = (end[AT + 3 + k] - point[3 + k]) ** 2 / (point[3 + i] * point[3 + j])
+        far = max(far, share / (FAR * FAR))
     for k in range(3):
         size += point[k] * point[k]
         off += (end[AT + k] - point[k]) ** 2
-    return off > FAR_COM * FAR_COM * size
+    return max(far, off / (FAR_COM * FAR_COM * size)) ** 0.5
 
 
 @kernel
@@ -57,13 +56,21 @@ def transport(P: Floats, point: Floats, end: Floats) -> None:
         point[k] = end[AT + k]
 
 
+def shrunk(point: Floats, new: Floats) -> bool:
+    """Say whether J' - J POSSIBLE is not positive: one of its leading minors (Sylvester)."""
+    xx, yy, zz = (float(new[k] - POSSIBLE * point[k]) for k in (3, 4, 5))
+    xy, xz, yz = (float(new[k] - POSSIBLE * point[k]) for k in (6, 7, 8))
+    minor = xx * yy - xy * xy
+    whole = zz * minor - xx * yz * yz - yy * xz * xz + 2 * xy * xz * yz
+    return not (xx > 0.0 and minor > 0.0 and whole > 0.0)
+
+
 def nearer(point: Floats, belief: Floats) -> Floats:
     """Return the belief of (r, J), or a point on the way to it where J stays possible."""
     share = 1.0
-    root = np.linalg.inv(np.linalg.cholesky(unpack_symmetric(point[3:])))
     while share > 1e-3:
         new = point + share * (belief - point)
-        if np.linalg.eigvalsh(root @ unpack_symmetric(new[3:]) @ root.T)[0] > POSSIBLE:
+        if not shrunk(point, new):
             return new
         share /= 2
     return point

@@ -1,10 +1,11 @@
 """Rows of a recording as the tracker's walk takes them: sensors, masses, stops of masses."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from equipoise.actuators.stops import travels
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
-from equipoise.estimation.tracker_filter import Rows
 from equipoise.model.arrays import Floats, Ints, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
@@ -13,6 +14,20 @@ from equipoise.sensors.timing import seen_at
 LONGEST_STEP = 1.0  # s
 NOTHING = Samples(np.zeros(0), np.zeros((0, 4)))
 NO_RATE = Samples(np.zeros(0), np.zeros((0, 3)))
+
+
+class Rows(NamedTuple):
+    """What was seen and known from one moment on."""
+
+    t: Floats  # (n+1,) s
+    known: Floats  # (n+1, 6 + k)
+    owners: Ints
+    q: Floats  # (n_q, 4)
+    q_node: Ints
+    w: Floats  # (n_w, 3) rad/s
+    w_node: Ints
+    stop_node: Ints
+    stop_added: Floats  # (n_s, 3, 3) m^2
 
 
 def stop_covariances(

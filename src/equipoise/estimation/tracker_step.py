@@ -65,36 +65,34 @@ def transition(now: Now, mass: float, y: Floats, regress: Floats, phi: Floats) -
 
 
 @part
-def times_covariance(phi: Floats, P: Floats, A: Floats) -> None:
-    """Write A = Phi P; below its sixth row Phi is the unit matrix, beyond column N it is 0."""
-    for i in range(SIZE):
-        for j in range(SIZE):
-            total = P[i, j] if i >= 6 else 0.0
-            if i < 6:
-                for k in range(N):
-                    total += phi[i, k] * P[k, j]
-            A[i, j] = total
-
-
-@part
-def times_transpose(A: Floats, phi: Floats, P: Floats) -> None:
-    """Write P = A Phi^T."""
-    for i in range(SIZE):
-        for j in range(SIZE):
-            total = A[i, j] if j >= 6 else 0.0
-            if j < 6:
-                for k in range(N):
-                    total += A[i, k] * phi[j, k]
-            P[i, j] = total
+def ahead(phi: Floats, row: int, X: Floats, column: int) -> float:
+    """Return an element of Phi X; written out, so that neighbouring columns go at once."""
+    f, c = phi[row], column
+    return (f[0] * X[0, c] + f[1] * X[1, c] + f[2] * X[2, c] + f[3] * X[3, c] + f[4] * X[4, c]
+            + f[5] * X[5, c] + f[6] * X[6, c] + f[7] * X[7, c] + f[8] * X[8, c] + f[9] * X[9, c]
+            + f[10] * X[10, c] + f[11] * X[11, c] + f[12] * X[12, c] + f[13] * X[13, c]
+            + f[14] * X[14, c])  # fmt: skip
 
 
 @part
 def predict_covariance(
     inertia: Six, phi: Floats, noise: Floats, dt: float, P: Floats, A: Floats
 ) -> None:
-    """Write Phi P Phi^T + Q dt in place; torque noise reaches the rate through J."""
-    times_covariance(phi, P, A)
-    times_transpose(A, phi, P)
+    """Write Phi P Phi^T + Q dt in place; torque noise reaches the rate through J.
+
+    Below its sixth row Phi is the unit matrix, so only six rows and columns of P change.
+    """
+    for i in range(6):
+        for j in range(SIZE):
+            A[i, j] = ahead(phi, i, P, j)
+    for i in range(6):
+        for j in range(i + 1):
+            total = 0.0
+            for k in range(N):
+                total += A[i, k] * phi[j, k]
+            P[i, j] = P[j, i] = total
+        for j in range(6, SIZE):
+            P[i, j] = P[j, i] = A[i, j]
     for j in range(SIZE):
         spread = noise[j] / inertia[j - 3] if 3 <= j < 6 else noise[j]
         P[j, j] += spread * spread * dt
@@ -132,13 +130,14 @@ class Work(NamedTuple):
     HP: Floats  # (3, 18)
     S: Floats  # (3, 3) covariance of the innovation
     inverse: Floats  # (3, 3) of S
-    K: Floats  # (18, 3)
-    A: Floats  # (18, 18)
+    K: Floats  # (3, 18) gain, transposed
+    left: Floats  # (3, 18) what Joseph's form adds, transposed
+    A: Floats  # (6, 18)
 
 
 @part
-def expect(P: Floats, first: int, second: int, sd: float, work: Work) -> None:
-    """Write H P, S = H P H^T + R and its inverse."""
+def expect(P: Floats, first: int, second: int, R: float, work: Work) -> None:
+    """Write H P, S = H P H^T + R E and its inverse."""
     HP, S = work.HP, work.S
     for r in range(3):
         for j in range(SIZE):
@@ -146,44 +145,48 @@ def expect(P: Floats, first: int, second: int, sd: float, work: Work) -> None:
     for r in range(3):
         for c in range(3):
             S[r, c] = HP[r, first + c] + (HP[r, second + c] if second >= 0 else 0.0)
-        S[r, r] += sd * sd
+        S[r, r] += R
     invert3(S, work.inverse)
 
 
 @part
 def weigh(z: Triple, work: Work) -> float:
-    """Write K = P H^T S^-1 and x = K z; return the squared innovation over its covariance."""
-    x, HP, inverse, K = work.x, work.HP, work.inverse, work.K
+    """Write K^T = S^-1 H P and x = K z; return the squared innovation over its covariance."""
+    x, HP, V, K = work.x, work.HP, work.inverse, work.K
     surprise = 0.0
     for r in range(3):
         for c in range(3):
-            surprise += z[r] * inverse[r, c] * z[c]
+            surprise += z[r] * V[r, c] * z[c]
+        for i in range(SIZE):
+            K[r, i] = V[r, 0] * HP[0, i] + V[r, 1] * HP[1, i] + V[r, 2] * HP[2, i]
     for i in range(SIZE):
-        x[i] = 0.0
-        for c in range(3):
-            K[i, c] = 0.0
-            for r in range(3):
-                K[i, c] += HP[r, i] * inverse[r, c]
-            x[i] += K[i, c] * z[c]
+        x[i] = K[0, i] * z[0] + K[1, i] * z[1] + K[2, i] * z[2]
     return surprise
 
 
 @part
-def shrink(P: Floats, first: int, second: int, sd: float, work: Work) -> None:
-    """Write P+ in Joseph's form, by parts: A = P - K H P;  P+ = A - A H^T K^T + K R K^T."""
-    HP, K, A = work.HP, work.K, work.A
+def add_product(P: Floats, A: Floats, B: Floats, sign: float) -> None:
+    """Add sign A^T B, (18, 18), which is symmetric: half of it is worked out, for both."""
     for i in range(SIZE):
-        for j in range(SIZE):
-            A[i, j] = P[i, j]
-            for c in range(3):
-                A[i, j] -= K[i, c] * HP[c, j]
-    for i in range(SIZE):
-        for j in range(SIZE):
-            total = A[i, j]
-            for c in range(3):
-                felt = A[i, first + c] + (A[i, second + c] if second >= 0 else 0.0)
-                total += (sd * sd * K[i, c] - felt) * K[j, c]
-            P[i, j] = total
+        a, b, c = sign * A[0, i], sign * A[1, i], sign * A[2, i]
+        for j in range(i + 1):
+            P[i, j] = P[j, i] = P[i, j] + (a * B[0, j] + b * B[1, j] + c * B[2, j])
+
+
+@part
+def shrink(P: Floats, first: int, second: int, R: float, work: Work) -> None:
+    """Write P+ in Joseph's form, by parts: A = P - K H P;  P+ = A + (K R - A H^T) K^T.
+
+    The second part is of rounding alone, and takes back along H what A was rounded by: it has to
+    be found from A as it is stored. P is symmetric to the last digit, as the prediction takes it.
+    """
+    K, left = work.K, work.left
+    add_product(P, K, work.HP, -1.0)
+    for r in range(3):
+        for i in range(SIZE):
+            AH = P[i, first + r] + (P[i, second + r] if second >= 0 else 0.0)
+            left[r, i] = R * K[r, i] - AH
+    add_product(P, left, K, 1.0)
 
 
 @part

@@ -7,31 +7,45 @@ the anchor are passed again, from the same belief there: Gauss-Newton steps of t
 problem of anchor and rows. As each pass begins with the anchor's own covariance, every row counts
 once. Passes come after windows that double, so that a row is passed some few times in all.
 
+A contact bends the belief, so that it soon is far from the point, where the test for contacts is
+not to be trusted: then it is suspected only, and looked for again in a pass about the point where
+the belief came to rest. Where it is found the anchor follows, and the rest of the rows is passed.
+
 Once the shape of the inertia (all but its scale) is known, the anchor follows, and the covariance
 is transported; with the inertia known, nothing is kept and the point follows the belief.
 """
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.tracker_contacts import EVENT, Watch, new_watch
-from equipoise.estimation.tracker_filter import ASTRAY, BROKEN, MOVED, Model, Rows, Walk, run_filter
+from equipoise.estimation.tracker_filter import run_filter
+from equipoise.estimation.tracker_mixture import EVENT
 from equipoise.estimation.tracker_noise import settled
+from equipoise.estimation.tracker_onsets import SUSPECT, Watch, new_watch
 from equipoise.estimation.tracker_point import (
     AT,
-    FAR,
-    FAR_COM,
+    distance,
     doubt,
     doubt_of_shape,
     nearer,
     transport,
 )
-from equipoise.estimation.tracker_rows import followed_by, later
+from equipoise.estimation.tracker_rows import Rows, followed_by, later
 from equipoise.estimation.tracker_step import SIZE
-from equipoise.maths.linalg import element_sizes, unpack_symmetric
-from equipoise.model.arrays import Floats, Ints, Square
+from equipoise.estimation.tracker_walk import (
+    ASTRAY,
+    BROKEN,
+    MOVED,
+    REASON,
+    TOUCHED,
+    Carried,
+    Model,
+    Place,
+    Walk,
+    Written,
+)
+from equipoise.model.arrays import Floats
 
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
 SHAPE = 0.01  # of a moment, chosen: the same with the scale taken out
@@ -43,17 +57,6 @@ TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
 BODY = slice(AT, AT + 9)  # r and J in a belief written as one array
 ERRORS = slice(6, 15)  # and in the error state
-
-
-class Place(NamedTuple):
-    """A belief (q, w, com, J, bias) and its covariance, written on by the walk."""
-
-    belief: Floats
-    covariance: Square
-
-    def copy(self) -> "Place":
-        """Return one that can be written on."""
-        return Place(self.belief.copy(), self.covariance.copy())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,14 +73,6 @@ class Memory:
     keeping: bool  # rows
 
 
-class Written(NamedTuple):
-    """Rows and events that the walk writes, and how many."""
-
-    out: Floats
-    events: Floats
-    done: Ints  # why it ended, rows, events
-
-
 def first_memory(here: Place, rows: Rows) -> Memory:
     """Return the memory of a tracker that begins with these rows."""
     levels = np.array([[1.0, 0.0], [1.0, 0.0]])
@@ -92,14 +87,6 @@ def copied(memory: Memory) -> Memory:
         X.copy(), C.copy(), d.copy(), age.copy(), since.copy(), order.copy(), counts.copy()
     )
     return replace(memory, point=memory.point.copy(), levels=memory.levels.copy(), watch=watch)
-
-
-def distance(point: Floats, belief: Floats) -> float:
-    """Return how far a belief is from a point; 1 is far."""
-    off = np.abs(belief[BODY] - point)
-    inertia = off[3:] / element_sizes(unpack_symmetric(point[3:]))
-    com = float(np.linalg.norm(off[:3]) / np.linalg.norm(point[:3]))
-    return max(float(inertia.max()) / FAR, com / FAR_COM)
 
 
 def anchored(memory: Memory, here: Place, node: int) -> Memory:
@@ -121,16 +108,28 @@ def without(anchor: Place, here: Place) -> Place:
     return found
 
 
-def pass_again(model: Model, memory: Memory, here: Place, node: int) -> tuple[Memory, Place]:
-    """Return memory and place after passes of the rows up to a node; as they were if that fails."""
+def passed(
+    model: Model, memory: Memory, point: Floats, node: int, testing: bool, written: Written
+) -> tuple[Place, int]:
+    """Return the place after a pass from the anchor up to a node, and the node reached."""
+    found, silent = memory.anchor.copy(), Written(np.zeros((0, 0)), written.events, written.done)
+    walk = Walk(0, node, node, False, True, testing)
+    carried = Carried(found, memory.levels, memory.watch)
+    return found, run_filter(model, memory.rows, walk, point, carried, silent)
+
+
+def pass_again(
+    model: Model, memory: Memory, here: Place, node: int, written: Written
+) -> tuple[Memory, Place, int]:
+    """Return memory, place and node after passes of the rows up to a node.
+
+    They are as they were if that fails. Where a contact was suspected on the way, which may have
+    been for want of linearity, it is looked for once more about the point that was found.
+    """
     point, found = memory.point.copy(), here
     for _ in range(PASSES):
         point = nearer(point, found.belief[BODY])
-        found = memory.anchor.copy()
-        written = Written(np.zeros((0, 0)), np.zeros((0, EVENT)), np.zeros(3, dtype=np.int64))
-        walk = Walk(0, node, node, False, True)
-        reached = run_filter(model, memory.rows, walk, point, found.belief, found.covariance,
-                             memory.levels, memory.watch, *written)  # fmt: skip
+        found, reached = passed(model, memory, point, node, False, written)
         if reached < node or not np.all(np.isfinite(found.belief)):
             point, found = memory.point, here
             break
@@ -138,8 +137,22 @@ def pass_again(model: Model, memory: Memory, here: Place, node: int) -> tuple[Me
             break
     age = float(memory.rows.t[node] - memory.rows.t[0])
     level = memory.levels[:, 0].copy()
-    memory.watch.counts[:] = 0
-    return replace(memory, point=point, passed=age, level=level), found
+    suspected = bool(memory.watch.counts[SUSPECT]) and distance(point, found.belief) < CLOSE
+    memory.watch.counts[: SUSPECT + (1 if suspected else 0)] = 0
+    memory = replace(memory, point=point, passed=age, level=level)
+    return look_closer(model, memory, found, node, written) if suspected else (memory, found, node)
+
+
+def look_closer(
+    model: Model, memory: Memory, here: Place, node: int, written: Written
+) -> tuple[Memory, Place, int]:
+    """Return memory, place and node after a pass that ends at a contact, and passes of the rest."""
+    found, reached = passed(model, memory, memory.point.copy(), node, True, written)
+    if written.done[REASON] != TOUCHED:
+        return memory, here, node
+    memory = anchored(memory, found, reached)
+    memory.watch.counts[SUSPECT] = 1
+    return pass_again(model, memory, found, node - reached, written)
 
 
 def advance(
@@ -154,27 +167,29 @@ def advance(
         due = start + EDGE * (whole + 1) - TINY
         edge = min(int(np.searchsorted(rows.t, due)), last)
         look = int(np.searchsorted(rows.t, start + max(EARLIEST, GROWTH * memory.passed)))
-    walk = Walk(node, edge, look, not keeping, False)
-    node = run_filter(model, rows, walk, memory.point, here.belief, here.covariance, memory.levels,
-                      memory.watch, *written)  # fmt: skip
-    if written.done[0] == ASTRAY and keeping:
+    walk = Walk(node, edge, look, not keeping, False, True)
+    carried = Carried(here, memory.levels, memory.watch)
+    node = run_filter(model, rows, walk, memory.point, carried, written)
+    if written.done[REASON] == ASTRAY and keeping:
         here = without(memory.anchor, here)
-    if written.done[0] in (BROKEN, ASTRAY):
+    if written.done[REASON] in (BROKEN, ASTRAY, TOUCHED):
         return anchored(memory, here, node), here, 0
-    if written.done[0] == MOVED:
-        memory, here = pass_again(model, memory, here, node)
+    if written.done[REASON] == MOVED:
+        memory, here, node = pass_again(model, memory, here, node, written)
     elif rows.t[node] >= due:
-        return at_edge(model, memory, here, node)
+        return at_edge(model, memory, here, node, written)
     return memory, here, node
 
 
-def at_edge(model: Model, memory: Memory, here: Place, node: int) -> tuple[Memory, Place, int]:
+def at_edge(
+    model: Model, memory: Memory, here: Place, node: int, written: Written
+) -> tuple[Memory, Place, int]:
     """Pass the rows again if anything has changed, and let the anchor follow where it may."""
     grown = np.log(memory.levels[:, 0] / memory.level)
     if grown.max() > np.log(LOUDER):  # noise has been taken for motion: from the anchor's point
-        memory, here = pass_again(model, memory, memory.anchor.copy(), node)
+        memory, here, node = pass_again(model, memory, memory.anchor.copy(), node, written)
     elif grown.min() < -np.log(LOUDER) or distance(memory.point, here.belief) > CLOSE:
-        memory, here = pass_again(model, memory, here, node)
+        memory, here, node = pass_again(model, memory, here, node, written)
     shaped = doubt_of_shape(memory.point, here.covariance) < SHAPE and settled(memory.levels)
     if shaped or memory.rows.t[node] - memory.rows.t[0] > LONGEST:
         return anchored(memory, here, node), here, 0
