@@ -25,6 +25,6 @@ def test_tracker_knows_what_it_does_not_know() -> None:
 
 
 @pytest.mark.skipif(not real_record.RECORD.is_file(), reason="the real recording is not at hand")
-def test_real_record_fits_where_it_can_and_is_refused_where_it_cannot() -> None:
+def test_real_record_is_explained_and_predicts() -> None:
     """All of it: 20-40 s with and without a held value, and the whole minute."""
     assert real_record.measure().missed == ()
