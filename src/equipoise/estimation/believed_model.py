@@ -74,19 +74,26 @@ def jumps_of(belief: Believed, cuts: Series1) -> tuple[Jump, ...]:
     return inside((*noise, *(event.jump for event in belief.events)), *belief.recording.span)
 
 
-def fitted_in(belief: Believed, cuts: Series1, most: int = MOST) -> Fitted:
-    """Return the optimum of a model with these cuts, from where the belief stands."""
+def fitted_in(
+    belief: Believed, cuts: Series1, most: int = MOST, moved: tuple[Happening, ...] = ()
+) -> Fitted:
+    """Return the optimum of a model with these cuts, from where the belief stands.
+
+    ``moved``: where the events were in the fit that the belief holds, if elsewhere.
+    """
     jumps = jumps_of(belief, cuts)
     params = replace(belief.params, jumps=jumps)
     problem = problem_of(belief.recording, belief.testbed, params)
     before = belief.fitted
-    first = carried(before.problem.jumps, before.jumps, problem.jumps)
+    now = {old.t: event.t for old, event in zip(moved, belief.events, strict=bool(moved))}
+    old = tuple(replace(jump, t=now.get(jump.t, jump.t)) for jump in before.problem.jumps)
+    first = carried(old, before.jumps, problem.jumps)
     return settle(problem, before.point, first, most)
 
 
-def refitted(belief: Believed) -> Believed:
+def refitted(belief: Believed, moved: tuple[Happening, ...] = ()) -> Believed:
     """Return the belief at its optimum, with a cut only where something may jump."""
-    return replace(belief, fitted=fitted_in(belief, active(belief)))
+    return replace(belief, fitted=fitted_in(belief, active(belief), moved=moved))
 
 
 def active(belief: Believed) -> Series1:
@@ -100,25 +107,43 @@ def smoothed(belief: Believed) -> tuple[Fitted, Smoothed]:
     return fit, smooth_at(fit)
 
 
+def slowest(belief: Believed) -> float:
+    """Return the time (s) within which gravity must tell: that of the swing, over 2 pi."""
+    body = belief.fitted.point.body(belief.testbed.body.mass)
+    stiffness = body.mass * belief.testbed.gravity * float(np.linalg.norm(body.com))
+    start, end = belief.recording.span
+    swing = float(np.sqrt(np.trace(body.inertia_P) / 3 / max(stiffness, 1e-12)))
+    return float(np.clip(swing, belief.spacing, end - start))
+
+
 def misfits(fit: Fitted) -> tuple[Floats, Floats]:
     """Return squared residual vectors of camera and gyro in sd."""
     return np.sum(fit.at.left_q**2, axis=1), np.sum(fit.at.left_w**2, axis=1)
 
 
-def evidence(fit: Fitted, after: Smoothed) -> float:
+def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
     """Return -2 ln of how probable the record is in a model, but for a constant.
 
     All unknowns are integrated out about the optimum (Laplace's approximation):
     2 cost + sum ln sd^2 over rows, jumps and priors + ln det of the information on all unknowns.
+    An event has no prior to speak of: all else is as informed as if it were known, and it costs
+    ``price``, the surprise that it must exceed.
     """
-    seen, cuts, prior = fit.problem.seen, posed(fit.problem).cuts, fit.problem.prior
+    seen, prior = fit.problem.seen, fit.problem.prior
     loose = (prior.weight > 0) & ~prior.held
     total = 2.0 * fit.at.cost + log_det(fit.at.normal) - float(np.sum(np.log(prior.weight[loose])))
     for rows, sd in ((seen.attitude, seen.attitude_sd), (seen.rate, seen.rate_sd)):
         total += 6.0 * len(rows) * float(np.log(sd))
-    for free, weight, firm in zip(cuts.free, cuts.weight, after.firm, strict=True):
+    cuts, jumps = posed(fit.problem).cuts, fit.problem.jumps
+    for k, (jump, free, weight) in enumerate(zip(jumps, cuts.free, cuts.weight, strict=True)):
         a = count_free(free)
-        total -= float(np.sum(np.log(weight[:a]))) + (log_det(firm[:a, :a]) if a else 0.0)
+        if not a:
+            continue
+        total -= log_det(after.firm[k, :a, :a])
+        if jump.is_event:
+            total += price * a / 3 + log_det(after.jump_covariance[k, :a, :a])
+        else:
+            total -= float(np.sum(np.log(weight[:a])))
     return total
 
 

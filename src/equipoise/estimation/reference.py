@@ -13,6 +13,7 @@ import numpy as np
 
 from equipoise.estimation.believed_model import Believed, refitted, smoothed
 from equipoise.estimation.conclusion import conclude
+from equipoise.estimation.event_spread import with_moments
 from equipoise.estimation.fitted import Fitted, settle
 from equipoise.estimation.jumps import carried
 from equipoise.estimation.survey import MOST_EVENTS, survey
@@ -124,6 +125,7 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
     concluded = conclude(belief.fitted, METHOD, recording)
     if not np.isfinite(belief.fitted.at.cost):
         return concluded
+    concluded = with_moments(concluded, belief)
     fit, after = smoothed(belief)
     concluded = replace(concluded, events=told(belief, fit, after),
                         unexplained=open_sentences(belief))  # fmt: skip

@@ -29,10 +29,11 @@ from equipoise.estimation.believed_model import (
     refitted,
     smoothed,
 )
+from equipoise.estimation.event_price import threshold
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.held_out_rows import predicts_better
 from equipoise.estimation.model_choice import best_group, with_group
-from equipoise.estimation.survey_events import settled, threshold
+from equipoise.estimation.survey_events import of_either_kind, settled
 from equipoise.estimation.survey_noise import calibrated, excesses, first_walk, quiet, weighed
 from equipoise.estimation.trajectory import Params
 from equipoise.maths.whiteness import portmanteau
@@ -60,20 +61,14 @@ def cut_times(recording: Recording) -> Series1:
     return np.arange(start + spacing, end - 0.5 * spacing, spacing)
 
 
-def most_surprising(belief: Believed, surprise: dict[str, Floats], fit: Fitted) -> list[Happening]:
-    """Return the event of each kind that explains most, if it is beyond the threshold."""
-    found: list[Happening] = []
-    for kind, value in surprise.items():
-        k = int(np.argmax(value))
-        if value[k] > threshold(belief.spacing):
-            found.append(Happening(fit.problem.jumps[k].t, kind))
-    return found
-
-
-def touched(belief: Believed, events: list[Happening]) -> Believed | None:
-    """Return the belief with the one of these events that explains most; None if there is none."""
-    models = [refitted(replace(belief, events=(*belief.events, event))) for event in events]
-    return min(models, key=lambda model: model.fitted.at.cost, default=None)
+def touched(belief: Believed, surprise: dict[str, Floats], fit: Fitted) -> Believed | None:
+    """Return the belief with the event that surprises most, if it is beyond the threshold."""
+    kind, values = max(surprise.items(), key=lambda item: float(np.max(item[1])))
+    k = int(np.argmax(values))
+    if values[k] < threshold(belief.spacing):
+        return None
+    event = Happening(fit.problem.jumps[k].t, kind)
+    return of_either_kind(replace(belief, events=(*belief.events, event)), len(belief.events))
 
 
 def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Believed:
@@ -87,10 +82,10 @@ def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Beli
 
 def likeliest(models: list[Believed]) -> Believed:
     """Return the model in which the record is most probable."""
-    return min(models, key=lambda model: evidence(*smoothed(model)))
+    return min(models, key=lambda model: evidence(*smoothed(model), threshold(model.spacing)))
 
 
-def searched(belief: Believed, most: int) -> Believed:
+def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
     """Return the belief with all terms that the record supports and the events that surprise.
 
     Of a term and an event that both promise, the one goes first in which the record is likelier.
@@ -98,8 +93,8 @@ def searched(belief: Believed, most: int) -> Believed:
     refused: Refused = set()
     while len(belief.events) < most:
         belief, surprise, fit = calibrated(belief)
-        group, promise = best_group(belief, refused)
-        shaken = touched(belief, most_surprising(belief, surprise, fit))
+        group, promise = best_group(belief, refused) if terms else ((), 0.0)
+        shaken = touched(belief, surprise, fit)
         if promise <= 0 and shaken is None:
             break
         richer = extended(belief, group, refused) if promise > 0 else belief
@@ -130,6 +125,34 @@ def driven(belief: Believed) -> Believed:
     return belief
 
 
+def repeated(belief: Believed, most: int, terms: bool = True) -> Believed:
+    """Return the belief searched and settled again and again, until nothing new is found."""
+    for _ in range(ROUNDS):
+        before = (belief.events, belief.params.terms, belief.params.sensor)
+        belief = searched(belief, most, terms)
+        if (belief.events, belief.params.terms, belief.params.sensor) == before:
+            break
+        belief = settled(belief)
+    return belief
+
+
+def calm(belief: Believed) -> Believed:
+    """Return the belief without process noise.
+
+    An event that is not known yet may look like a term, and a term like events. So where both are
+    found, or neither is enough, all is sought once more, events first; the likelier is taken.
+    """
+    greedy = repeated(belief, FEW_EVENTS)
+    plain = (greedy.params.terms, greedy.params.sensor) == (
+        belief.params.terms,
+        belief.params.sensor,
+    )
+    if plain or (not greedy.events and is_calm(greedy)):
+        return greedy
+    events_first = repeated(belief, FEW_EVENTS, terms=False)
+    return likeliest([greedy, repeated(events_first, FEW_EVENTS)])
+
+
 def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Believed:
     """Return the model that the record supports, and the fit in it.
 
@@ -140,7 +163,7 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     belief = Believed(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
     if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
         return replace(belief, cuts=np.zeros(0))
-    simple = settled(searched(belief, FEW_EVENTS))
+    simple = calm(belief)
     if is_calm(simple):
         return simple
     other = driven(belief)

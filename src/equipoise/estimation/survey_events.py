@@ -3,105 +3,108 @@
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import chi2
 
 from equipoise.estimation.believed_model import (
     Believed,
     Happening,
-    active,
-    fitted_in,
     refitted,
+    slowest,
     smoothed,
 )
-from equipoise.estimation.survey_noise import KINDS
+from equipoise.estimation.event_moments import FARTHEST, later, rows_of, timed
+from equipoise.estimation.event_price import KINDS, threshold
+from equipoise.model.arrays import Floats
 
-FALSE_ALARM = 600.0  # s between false alarms, at most
-NEAR = 1.6  # spacings, chosen: events nearer than this may be one
-NEARBY = (1.0, 0.5, 0.25)  # spacings
-WIDE_AND_NEARBY = (8.0, 4.0, 2.0, *NEARBY)
-BOTH_KINDS = 4.0  # spacings; a move so far may also be to the other kind
-FEW = 4  # evaluations to compare neighbouring models by
-
-
-def threshold(spacing: float) -> float:
-    """Return the surprise beyond which a cut is an event."""
-    return float(chi2.isf(spacing / FALSE_ALARM / len(KINDS), 3))
+NEAR = 1.6  # spacings, chosen: with process noise, events nearer than this may be one
+FAR = (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)  # of the time within which a swing turns by a radian
+DOUBTFUL = 4.0  # thresholds, chosen: an event so sure is not put to the test
 
 
-def moved(belief: Believed, k: int, kind: str, shift: float) -> Believed:
-    """Return the belief with one event of that kind, moved by a share of the spacing."""
-    event = Happening(belief.events[k].t + shift * belief.spacing, kind)
-    trial = replace(belief, events=(*belief.events[:k], event, *belief.events[k + 1 :]))
-    return replace(trial, fitted=fitted_in(trial, active(trial), FEW))
+def of_either_kind(belief: Believed, k: int) -> Believed:
+    """Return the belief with one event of the kind, and at the moment, that explain most."""
+    event, models = belief.events[k], list[Believed]()
+    for kind in KINDS:
+        events = (*belief.events[:k], Happening(event.t, kind), *belief.events[k + 1 :])
+        models.append(timed(refitted(replace(belief, events=events)), k))
+    return min(models, key=lambda model: model.fitted.at.cost)
 
 
-def placed(belief: Believed, k: int, kinds: tuple[str, ...], reach: float) -> Believed:
-    """Return the belief with one event where it explains most, of all a reach away."""
-    start, end = belief.recording.span
-    t, far = belief.events[k].t, reach * belief.spacing
-    shifts = [s for s in (-reach, 0.0, reach) if start < t + s / reach * far < end]
-    trials = [moved(belief, k, kind, shift) for kind in kinds for shift in shifts]
-    return min([belief, *trials], key=lambda trial: trial.fitted.at.cost)
-
-
-def timed(belief: Believed) -> Believed:
-    """Return the belief with each event at the moment that explains most, to a quarter spacing.
-
-    Without process noise the whole record bears on an event, and a wrong first guess of the others
-    may have put it far off, or taken one kind for the other.
-    """
-    reaches = NEARBY if belief.wanders else WIDE_AND_NEARBY
-    for k in range(len(belief.events)):
-        for reach in reaches:
-            kinds = (belief.events[k].kind,) if reach < BOTH_KINDS else tuple(KINDS)
-            belief = placed(belief, k, kinds, reach)
-    return refitted(belief)
+def alone(belief: Believed, keep: int, drop: int) -> Believed:
+    """Return the belief without one event, another in the place that is then best for it."""
+    events = belief.events[:drop] + belief.events[drop + 1 :]
+    return of_either_kind(replace(belief, events=events), keep - (drop < keep))
 
 
 def merged(belief: Believed) -> Believed:
     """Return the belief with neighbouring events as one, where one explains as much as two.
 
-    A touch between two cuts first shows as an event at either.
+    A touch between two cuts first shows as an event at either; one that was put at a wrong moment
+    draws another near, which mends that.
     """
-    k = 0
+    reach = (NEAR if belief.wanders else FARTHEST[False]) * belief.spacing
     belief = replace(belief, events=tuple(sorted(belief.events, key=lambda event: event.t)))
+    k = 0
     while k + 1 < len(belief.events):
-        one, two = belief.events[k], belief.events[k + 1]
-        near = one.kind == two.kind and two.t - one.t < NEAR * belief.spacing
-        if near:
-            middle = replace(one, t=0.5 * (one.t + two.t))
-            events = (*belief.events[:k], middle, *belief.events[k + 2 :])
-            trial = refitted(replace(belief, events=events))
-            if 2 * (trial.fitted.at.cost - belief.fitted.at.cost) < threshold(belief.spacing):
-                belief = trial
+        if belief.events[k + 1].t - belief.events[k].t < reach:
+            trials = [alone(belief, k, k + 1), alone(belief, k + 1, k)]
+            one = min(trials, key=lambda trial: trial.fitted.at.cost)
+            if 2 * (one.fitted.at.cost - belief.fitted.at.cost) < threshold(belief.spacing):
+                belief, k = one, max(k - 1, 0)
                 continue
         k += 1
     return belief
 
 
-def weakest(belief: Believed) -> tuple[float, int]:
-    """Return the least chi-square with which an event differs from nothing, and which it is."""
+def surprises_of(belief: Believed) -> Floats:
+    """Return the chi-square (of 3) with which each event differs from nothing."""
     fit, after = smoothed(belief)
-    values: list[float] = []
-    for event in belief.events:
-        k = [abs(jump.t - event.t) < 1e-9 for jump in fit.problem.jumps].index(True)
-        jump = fit.jumps[k, :3]
-        values.append(float(jump @ np.linalg.solve(after.jump_covariance[k, :3, :3], jump)))
-    least = int(np.argmin(values))
-    return values[least], least
+    rows = rows_of(fit, belief.events)
+    jump, spread = fit.jumps[rows, :3], after.jump_covariance[rows, :3, :3]
+    return np.einsum("ka,ka->k", jump, np.linalg.solve(spread, jump[..., None])[..., 0])
+
+
+def without(belief: Believed, k: int) -> Believed:
+    """Return the belief without one event, all others where they are then best."""
+    events = belief.events[:k] + belief.events[k + 1 :]
+    return timed(refitted(replace(belief, events=events)))
 
 
 def pruned(belief: Believed) -> Believed:
-    """Return the belief without the events that do not earn their place."""
+    """Return the belief without the events that do not earn their place.
+
+    An event may owe its surprise to another at a wrong moment: those of doubt are judged by what is
+    lost without them when all others have moved.
+    """
+    price = threshold(belief.spacing)
     while belief.events:
-        value, k = weakest(belief)
-        if value > threshold(belief.spacing):
+        worth = surprises_of(belief)
+        doubtful = [k for k in np.argsort(worth) if worth[k] < DOUBTFUL * price]
+        trials = (without(belief, k) for k in doubtful)
+        lost = (t for t in trials if 2 * (t.fitted.at.cost - belief.fitted.at.cost) < price)
+        simpler = next(lost, None)
+        if simpler is None:
             break
-        events = belief.events[:k] + belief.events[k + 1 :]
-        belief = refitted(replace(belief, events=events))
+        belief = simpler
     return belief
+
+
+def relocated(belief: Believed, k: int) -> Believed:
+    """Return the belief with one event within a swing of where it is, where it explains most.
+
+    What explains it best may lie at several moments of a swing; Newton steps find the nearest.
+    """
+    row = np.arange(len(belief.events)) == k
+    trials = [later(belief, share * slowest(belief) * row) for share in FAR]
+    best = timed(min(trials, key=lambda trial: trial.fitted.at.cost))
+    return min(belief, best, key=lambda model: model.fitted.at.cost)
 
 
 def settled(belief: Believed) -> Believed:
     """Return the belief with its events in their place and none that is not needed."""
-    return pruned(timed(merged(belief))) if belief.events else belief
+    if not belief.events:
+        return belief
+    belief = timed(merged(belief))
+    if not belief.wanders:
+        for k in range(len(belief.events)):
+            belief = relocated(belief, k)
+    return pruned(belief)

@@ -17,9 +17,10 @@ from scipy.stats import chi2
 
 from equipoise.estimation.believed_model import Believed, evidence, misfits, refitted, smoothed
 from equipoise.estimation.disturbances import disturbances
+from equipoise.estimation.event_price import KINDS, threshold
 from equipoise.estimation.fitted import Fitted, freedom
 from equipoise.estimation.smoothing import Smoothed
-from equipoise.estimation.unknowns import RATE, R
+from equipoise.estimation.unknowns import RATE
 from equipoise.model.arrays import Bools, Floats, Series1, Vector3
 from equipoise.model.testbed import Testbed
 
@@ -31,7 +32,6 @@ BOLDEST = 5.0  # factor by which a noise is changed at once
 STEPS = 8
 LEAST = 1e-3  # chosen: of the greatest process noise, so that no sd is zero
 PRICE = 9.0  # chosen: -2 ln probability that process noise about three axes must gain
-KINDS = {"impulse": RATE, "com_step": R}
 
 
 def quiet(belief: Believed, cuts: Series1) -> Bools:
@@ -154,6 +154,7 @@ def weighed(belief: Believed) -> Believed:
     for _ in range(3):
         fit, after = smoothed(bare)
         bare = refitted(replace(bare, testbed=noisier(bare, *noise_factors(bare, fit, after))))
-    worth = [evidence(*smoothed(model)) for model in (belief, trial, bare)]
+    price = threshold(belief.spacing)
+    worth = [evidence(*smoothed(model), price) for model in (belief, trial, bare)]
     worth[2] -= PRICE
     return (belief, trial, bare)[int(np.argmin(worth))]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from equipoise.estimation.believed_model import Believed
+from equipoise.estimation.believed_model import Believed, slowest
 from equipoise.estimation.conclusion import CORE
 from equipoise.estimation.held_out_rows import posed_in
 from equipoise.estimation.model_choice import candidates, with_group
@@ -60,15 +60,6 @@ def gravity_torque(belief: Believed) -> float:
     torque: Floats = weight * np.cross(point.com, down)
     off: Floats = torque - np.mean(torque, axis=0)
     return float(np.linalg.norm(off)) / len(off) ** 0.5
-
-
-def slowest(belief: Believed) -> float:
-    """Return the time (s) within which gravity must tell: that of the swing, over 2 pi."""
-    body = belief.fitted.point.body(belief.testbed.body.mass)
-    stiffness = body.mass * belief.testbed.gravity * float(np.linalg.norm(body.com))
-    start, end = belief.recording.span
-    swing = float(np.sqrt(np.trace(body.inertia_P) / 3 / max(stiffness, 1e-12)))
-    return float(np.clip(swing, belief.spacing, end - start))
 
 
 def driven(belief: Believed) -> float:
