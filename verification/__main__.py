@@ -18,6 +18,7 @@ from equipoise.io.whole_file import check_writable, write_whole
 from equipoise.model.errors import InputError
 from verification import (
     balanced,
+    defective_logs,
     drift,
     efficiency,
     independent_truth,
@@ -47,6 +48,7 @@ CHECKS = {
     "efficiency": Check(efficiency.measure, 2000),
     "tracker_honesty": Check(tracker_honesty.measure, 200),
     "tracker_knows": Check(tracker_knows.measure, 200),
+    "defective_logs": Check(defective_logs.measure, 200),
     "balanced": Check(balanced.measure, 200),
     "drift": Check(drift.measure, 20),
     "real_record": Check(real_record.measure, 1),

@@ -3,6 +3,7 @@
     case_s   120 s, 14 kg, camera 5 Hz and 0.2 deg, no gyro; masses moved at 60 s
     case_g   the same body, camera 50 Hz and 0.05 deg, gyro 1e-4 rad/s, soft servos:
              the masses lag their command by 25 ms and sag by 1.5 mm
+    case_i   as case_s, with a gyro of 10 Hz and 2e-3 rad/s
     spinner  60 s, 2.7 kg, com 20 mm below P along body -y, 105 deg/s, camera 10 Hz, drag, no masses
 
 One seed gives platform, noise, first guess and defects, each from a stream of its own: with other
@@ -136,6 +137,12 @@ def case_s(seed: int, kinds: tuple[str, ...] = (), defects: Defects | None = Non
     """Return Case S with defects of these kinds, drawn, or with those given."""
     camera = AttitudeSensor(5.0, np.deg2rad(0.2))
     return logged(_fourteen_case(seed, SOFT, camera, None), seed, kinds, defects)
+
+
+def case_i(seed: int, kinds: tuple[str, ...] = (), defects: Defects | None = None) -> Logged:
+    """Return Case S with a low-cost gyro beside the camera."""
+    camera, gyro = AttitudeSensor(5.0, np.deg2rad(0.2)), Gyro(10.0, 2e-3, np.deg2rad(1.0))
+    return logged(_fourteen_case(seed, SOFT, camera, gyro), seed, kinds, defects)
 
 
 def case_g(seed: int, kinds: tuple[str, ...] = (), defects: Defects | None = None) -> Logged:

@@ -79,7 +79,9 @@ def event_json(event: Event) -> View:
     """Return an event: a jump of momentum in laboratory axes, or of com in body axes."""
     return {
         "kind": event.kind,
+        "kind_unclear": event.unclear,
         "time_s": event.t,
+        "time_sd_s": event.t_sd,
         "unit": UNITS[event.kind],
         "size": numbers(event.size),
         "covariance": numbers(event.covariance),

@@ -9,12 +9,19 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.event import Event
 
 MILLI, MICRO = 1e3, 1e6
+UNCLEAR_TOUCH = "A part that shifted would explain it about as well: intervals allow for either."
+UNCLEAR_STEP = "A touch would explain it about as well: intervals allow for either."
 
 
 def event_findings(estimate: Estimate) -> list[Finding]:
     """Return the events that an estimate steps over, and what its model leaves open."""
     told = [_impulse(e) if e.kind == "impulse" else _step(e) for e in estimate.events]
     return told + [Finding("content", sentence) for sentence in estimate.unexplained]
+
+
+def span_of(event: Event) -> tuple[float, float]:
+    """Return when an event happened, one sd to either side, s."""
+    return (event.t - event.t_sd, event.t + event.t_sd)
 
 
 def _sizes(values: np.ndarray, factor: float) -> str:
@@ -34,7 +41,8 @@ def _impulse(event: Event) -> Finding:
             ", as a push from below does at the body azimuth "
             f"{math.degrees(event.azimuth):.0f} deg, or one from above opposite"
         )
-    return Finding("problem", f"{text}.", (event.t, event.t), "touch")
+    text += f". {UNCLEAR_TOUCH}" if event.unclear else "."
+    return Finding("problem", text, span_of(event), "touch")
 
 
 def _step(event: Event) -> Finding:
@@ -44,4 +52,5 @@ def _step(event: Event) -> Finding:
         f"at {event.t:.4g} s the centre of mass moved by {_sizes(event.size, MICRO)} um "
         f"(body x, y, z; sd {_sizes(sd, MICRO)}): a part shifted."
     )
-    return Finding("problem", text, (event.t, event.t), "shift")
+    text += f" {UNCLEAR_STEP}" if event.unclear else ""
+    return Finding("problem", text, span_of(event), "shift")

@@ -29,12 +29,15 @@ class Happening:
 
     t: float  # s
     kind: str  # of NAMES
+    unclear: bool = False  # it may as well be of another kind: both may jump
 
     @property
     def jump(self) -> Jump:
-        """Return what may jump then."""
-        names = NAMES[self.kind]
-        return Jump(self.t, names, (WIDE[self.kind],) * len(names), is_event=True)
+        """Return what may jump then, that of its own kind first."""
+        others = [kind for kind in NAMES if kind != self.kind] if self.unclear else []
+        pairs = [(name, WIDE[kind]) for kind in (self.kind, *others) for name in NAMES[kind]]
+        names, sd = zip(*pairs, strict=True)
+        return Jump(self.t, names, sd, is_event=True)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

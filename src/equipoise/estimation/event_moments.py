@@ -17,18 +17,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.believed_model import Believed, Happening, refitted, smoothed
+from equipoise.estimation.believed_model import Believed, Happening, refitted
 from equipoise.estimation.disturbances import TOLD
-from equipoise.estimation.fitted import Fitted
-from equipoise.estimation.smoothing import Smoothed
+from equipoise.estimation.fitted import Fitted, smooth_at
 from equipoise.estimation.unknowns import RATE, TURN, unknowns_of
 from equipoise.maths.attitude import to_matrix
+from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Vector3
 
 DOWN_N = np.array([0.0, 0.0, -1.0])
 FARTHEST = {False: 8.0, True: 1.0}  # spacings a step, without and with process noise, chosen
 STEPS = 12
-CLOSE = 0.02  # spacings, chosen: a moment that moves by less is found
+SHARES = (1.0, 0.3)  # of a step that are tried
+CLOSE = 0.1  # sd, chosen: a moment that is off by less is found
 APART = 0.25  # spacings, chosen: two events are not told apart any nearer
 
 
@@ -45,12 +46,13 @@ def lateness(belief: Believed, kind: str, jump: Vector3, flat: Floats) -> tuple[
     here = unknowns_of(flat)
     body = here.body(belief.testbed.body.mass)
     weight = body.mass * belief.testbed.gravity
-    torque = weight * np.cross(jump, to_matrix(here.q0).T @ DOWN_N)
-    return RATE, -np.linalg.solve(body.inertia_P, torque)
+    torque: Vector3 = weight * np.cross(jump, to_matrix(here.q0).T @ DOWN_N)
+    return RATE, -inverse_spd(body.inertia_P) @ torque
 
 
-def moment_errors(belief: Believed, fit: Fitted, after: Smoothed) -> tuple[Floats, Floats]:
+def moment_errors(belief: Believed) -> tuple[Floats, Floats]:
     """Return by how much each event came later than believed, and the sd, s; no h: 0 and 0."""
+    fit, after = belief.fitted, smooth_at(belief.fitted)
     late, sd = np.zeros((2, len(belief.events)))
     for i, k in enumerate(rows_of(fit, belief.events)):
         kind = belief.events[i].kind
@@ -70,9 +72,8 @@ def later(belief: Believed, shifts: Floats) -> Believed:
     for k, event in enumerate(belief.events):
         t = event.t + float(shifts[k])
         others = (e.t for j, e in enumerate(events) if j != k)
-        if all(abs(t - o) > APART * belief.spacing for o in (start, end, *others)) and (
-            start < t < end
-        ):
+        free = all(abs(t - other) > APART * belief.spacing for other in others)
+        if free and start + belief.spacing < t < end - belief.spacing:
             events[k] = replace(event, t=t)
     return refitted(replace(belief, events=tuple(events)), belief.events)
 
@@ -82,16 +83,14 @@ def timed(belief: Believed, only: int | None = None) -> Believed:
     most = FARTHEST[belief.wanders] * belief.spacing
     chosen = np.ones(len(belief.events)) if only is None else np.arange(len(belief.events)) == only
     for _ in range(STEPS):
-        if not belief.events:
-            break
-        late, _ = moment_errors(belief, *smoothed(belief))
+        late, sd = moment_errors(belief)
         step = chosen * np.clip(late, -most, most)
-        trials = (later(belief, share * step) for share in (1.0, 0.5, 0.2))
+        if np.all(np.abs(step) <= CLOSE * sd):
+            break
+        trials = (later(belief, share * step) for share in SHARES)
         better = (t for t in trials if t.fitted.at.cost < belief.fitted.at.cost)
         nearer = next(better, None)
         if nearer is None:
             break
         belief = nearer
-        if np.max(np.abs(step)) < CLOSE * belief.spacing:
-            break
     return belief

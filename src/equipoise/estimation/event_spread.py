@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.believed_model import Believed, smoothed
+from equipoise.estimation.believed_model import Believed
 from equipoise.estimation.conclusion import conclude
 from equipoise.estimation.event_moments import later, moment_errors
 from equipoise.estimation.trajectory import METHOD
@@ -38,7 +38,7 @@ def with_moments(concluded: Estimate, belief: Believed) -> Estimate:
     """Return an estimate whose intervals count that the moments of its events are not known."""
     if not belief.events:
         return concluded
-    _, sd = moment_errors(belief, *smoothed(belief))
+    _, sd = moment_errors(belief)
     models = [later(belief, row) for row in np.diag(sd)]
     shifted = [conclude(model.fitted, METHOD, belief.recording) for model in models]
     columns = columns_of(concluded.parameters, [one.parameters for one in shifted])

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.believed_model import Believed, refitted, smoothed
+from equipoise.estimation.believed_model import Believed, refitted
 from equipoise.estimation.conclusion import conclude
 from equipoise.estimation.event_spread import with_moments
 from equipoise.estimation.fitted import Fitted, settle
@@ -126,9 +126,7 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
     if not np.isfinite(belief.fitted.at.cost):
         return concluded
     concluded = with_moments(concluded, belief)
-    fit, after = smoothed(belief)
-    concluded = replace(concluded, events=told(belief, fit, after),
-                        unexplained=open_sentences(belief))  # fmt: skip
+    concluded = replace(concluded, events=told(belief), unexplained=open_sentences(belief))
     assert concluded.residual is not None
     residual = held_out(belief, params.hold_out, concluded.residual)
     return replace(concluded, residual=residual, outcome=outcome_of(belief, params, concluded))

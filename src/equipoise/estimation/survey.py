@@ -33,7 +33,7 @@ from equipoise.estimation.event_price import threshold
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.held_out_rows import predicts_better
 from equipoise.estimation.model_choice import best_group, with_group
-from equipoise.estimation.survey_events import of_either_kind, settled
+from equipoise.estimation.survey_events import doubted, of_either_kind, settled
 from equipoise.estimation.survey_noise import calibrated, excesses, first_walk, quiet, weighed
 from equipoise.estimation.trajectory import Params
 from equipoise.maths.whiteness import portmanteau
@@ -42,7 +42,7 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
 FINEST, MOST_CUTS = 0.1, 2000  # s, -; chosen: shorter than a touch, and what memory holds
-ROWS = 2  # camera rows between cuts
+ROWS, EDGE = 2, 2  # camera rows between cuts, and cuts' spacings left alone at either end
 FEWEST = 8  # cuts, chosen: below this a median says nothing
 WRONG = 1.8  # chosen: root of the median surprise over its due; by chance it is below 1.6
 WHITE = 1e-3  # probability
@@ -58,7 +58,7 @@ def cut_times(recording: Recording) -> Series1:
     assert rows is not None
     usual = ROWS * float(np.median(np.diff(rows.t)))
     spacing = max(usual, FINEST, (end - start) / MOST_CUTS)
-    return np.arange(start + spacing, end - 0.5 * spacing, spacing)
+    return np.arange(start + EDGE * spacing, end - (EDGE - 0.5) * spacing, spacing)
 
 
 def touched(belief: Believed, surprise: dict[str, Floats], fit: Fitted) -> Believed | None:
@@ -164,7 +164,5 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
         return replace(belief, cuts=np.zeros(0))
     simple = calm(belief)
-    if is_calm(simple):
-        return simple
-    other = driven(belief)
-    return likeliest([simple, other])
+    models = [simple] if is_calm(simple) else [simple, driven(belief)]
+    return doubted(likeliest(models))

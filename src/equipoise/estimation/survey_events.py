@@ -9,30 +9,56 @@ from equipoise.estimation.believed_model import (
     Happening,
     refitted,
     slowest,
-    smoothed,
 )
-from equipoise.estimation.event_moments import FARTHEST, later, rows_of, timed
+from equipoise.estimation.event_moments import later, rows_of, timed
 from equipoise.estimation.event_price import KINDS, threshold
+from equipoise.estimation.fitted import smooth_at
 from equipoise.model.arrays import Floats
 
 NEAR = 1.6  # spacings, chosen: with process noise, events nearer than this may be one
+CLEAR = 9.0  # chosen: 2 ln of how much likelier one kind is than another, to be told apart
 FAR = (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)  # of the time within which a swing turns by a radian
+SWINGS = 2.0  # of the same time, chosen: without process noise, events nearer than this may be one
 DOUBTFUL = 4.0  # thresholds, chosen: an event so sure is not put to the test
+
+
+def with_kind(belief: Believed, k: int, kind: str) -> Believed:
+    """Return the belief with one event of that kind."""
+    event = Happening(belief.events[k].t, kind)
+    return refitted(replace(belief, events=(*belief.events[:k], event, *belief.events[k + 1 :])))
 
 
 def of_either_kind(belief: Believed, k: int) -> Believed:
     """Return the belief with one event of the kind, and at the moment, that explain most."""
-    event, models = belief.events[k], list[Believed]()
-    for kind in KINDS:
-        events = (*belief.events[:k], Happening(event.t, kind), *belief.events[k + 1 :])
-        models.append(timed(refitted(replace(belief, events=events)), k))
+    models = [timed(with_kind(belief, k, kind), k) for kind in KINDS]
     return min(models, key=lambda model: model.fitted.at.cost)
 
 
-def alone(belief: Believed, keep: int, drop: int) -> Believed:
-    """Return the belief without one event, another in the place that is then best for it."""
-    events = belief.events[:drop] + belief.events[drop + 1 :]
-    return of_either_kind(replace(belief, events=events), keep - (drop < keep))
+def doubted(belief: Believed) -> Believed:
+    """Return the belief with all that may jump at events that may as well be of another kind.
+
+    Without a swing behind them a touch and a part that shifts look alike; what follows for the
+    centre of mass does not.
+    """
+    for k, event in enumerate(belief.events):
+        others = [other for other in KINDS if other != event.kind]
+        models = [timed(with_kind(belief, k, other), k) for other in others]
+        lost = min(model.fitted.at.cost for model in models) - belief.fitted.at.cost
+        if 2 * lost < CLEAR:
+            open_to = replace(event, unclear=True)
+            events = (*belief.events[:k], open_to, *belief.events[k + 1 :])
+            belief = replace(belief, events=events)
+    return refitted(belief)
+
+
+def joined(belief: Believed, k: int) -> Believed:
+    """Return the belief with one event for two neighbours, of the kind and moment that are best."""
+    one, two = belief.events[k : k + 2]
+    models: list[Believed] = []
+    for t in (one.t, 0.5 * (one.t + two.t), two.t):
+        events = (*belief.events[:k], replace(one, t=t), *belief.events[k + 2 :])
+        models += [with_kind(replace(belief, events=events), k, kind) for kind in KINDS]
+    return timed(min(models, key=lambda model: model.fitted.at.cost), k)
 
 
 def merged(belief: Believed) -> Believed:
@@ -41,13 +67,12 @@ def merged(belief: Believed) -> Believed:
     A touch between two cuts first shows as an event at either; one that was put at a wrong moment
     draws another near, which mends that.
     """
-    reach = (NEAR if belief.wanders else FARTHEST[False]) * belief.spacing
+    reach = NEAR * belief.spacing if belief.wanders else SWINGS * slowest(belief)
     belief = replace(belief, events=tuple(sorted(belief.events, key=lambda event: event.t)))
     k = 0
     while k + 1 < len(belief.events):
         if belief.events[k + 1].t - belief.events[k].t < reach:
-            trials = [alone(belief, k, k + 1), alone(belief, k + 1, k)]
-            one = min(trials, key=lambda trial: trial.fitted.at.cost)
+            one = joined(belief, k)
             if 2 * (one.fitted.at.cost - belief.fitted.at.cost) < threshold(belief.spacing):
                 belief, k = one, max(k - 1, 0)
                 continue
@@ -57,7 +82,7 @@ def merged(belief: Believed) -> Believed:
 
 def surprises_of(belief: Believed) -> Floats:
     """Return the chi-square (of 3) with which each event differs from nothing."""
-    fit, after = smoothed(belief)
+    fit, after = belief.fitted, smooth_at(belief.fitted)
     rows = rows_of(fit, belief.events)
     jump, spread = fit.jumps[rows, :3], after.jump_covariance[rows, :3, :3]
     return np.einsum("ka,ka->k", jump, np.linalg.solve(spread, jump[..., None])[..., 0])
@@ -95,7 +120,7 @@ def relocated(belief: Believed, k: int) -> Believed:
     """
     row = np.arange(len(belief.events)) == k
     trials = [later(belief, share * slowest(belief) * row) for share in FAR]
-    best = timed(min(trials, key=lambda trial: trial.fitted.at.cost))
+    best = timed(min(trials, key=lambda trial: trial.fitted.at.cost), k)
     return min(belief, best, key=lambda model: model.fitted.at.cost)
 
 

@@ -6,10 +6,13 @@ most of it can come of an upward push at a place of the body, which lies along
     z x L_h                           (a push along z at rho gives L = rho x z dt)
 """
 
+from dataclasses import replace
+
 import numpy as np
 
-from equipoise.estimation.believed_model import Believed
-from equipoise.estimation.fitted import Fitted
+from equipoise.estimation.believed_model import Believed, Happening, refitted
+from equipoise.estimation.event_moments import moment_errors, rows_of
+from equipoise.estimation.fitted import Fitted, smooth_at
 from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.trajectory_problem import forward_of
 from equipoise.estimation.unknowns import unknowns_of
@@ -32,22 +35,28 @@ def azimuth_of(impulse_N: Vector3, sd: float, R: Matrix3, up: Vector3) -> float 
     return float(np.arctan2(place @ np.cross(up, forward), place @ forward))
 
 
-def told(belief: Believed, fit: Fitted, after: Smoothed) -> tuple[Event, ...]:
-    """Return the events of a belief in order of time."""
-    at = {round(jump.t, 9): k for k, jump in enumerate(fit.problem.jumps)}
-    found: list[Event] = []
-    for event in sorted(belief.events, key=lambda e: e.t):
-        k = at[round(event.t, 9)]
-        jump, spread = fit.jumps[k, :3], after.jump_covariance[k, :3, :3]
-        surprise = float(jump @ np.linalg.solve(spread, jump))
-        if event.kind == "com_step":
-            found.append(Event("com_step", event.t, jump.copy(), spread.copy(), surprise))
-            continue
-        point = unknowns_of(after.points[k + 1])
-        R = to_matrix(point.q0)
-        turn: Matrix3 = R @ point.body(belief.testbed.body.mass).inertia_P
-        size, covariance = turn @ jump, turn @ spread @ turn.T
-        sd = float(np.sqrt(np.trace(covariance) / 3))
-        where = azimuth_of(size, sd, R, belief.testbed.up)
-        found.append(Event("impulse", event.t, size, covariance, surprise, where))
-    return tuple(found)
+def told(belief: Believed) -> tuple[Event, ...]:
+    """Return the events of a belief in order of time, each as if its kind were clear."""
+    order = sorted(belief.events, key=lambda event: event.t)
+    clear = tuple(replace(event, unclear=False) for event in order)
+    single = refitted(replace(belief, events=clear))
+    fit, after = single.fitted, smooth_at(single.fitted)
+    rows = zip(order, rows_of(fit, clear), moment_errors(single)[1], strict=True)
+    return tuple(told_one(belief, event, fit, after, k, float(s)) for event, k, s in rows)
+
+
+def told_one(
+    belief: Believed, event: Happening, fit: Fitted, after: Smoothed, k: int, sd: float
+) -> Event:
+    """Return the event at inner cut ``k`` of a fit."""
+    jump, spread = fit.jumps[k, :3], after.jump_covariance[k, :3, :3]
+    surprise = float(jump @ np.linalg.solve(spread, jump))
+    found = Event("com_step", event.t, sd, jump.copy(), spread.copy(), surprise, event.unclear)
+    if event.kind == "com_step":
+        return found
+    point = unknowns_of(after.points[k + 1])
+    R = to_matrix(point.q0)
+    turn: Matrix3 = R @ point.body(belief.testbed.body.mass).inertia_P
+    size, covariance = turn @ jump, turn @ spread @ turn.T
+    where = azimuth_of(size, float(np.sqrt(np.trace(covariance) / 3)), R, belief.testbed.up)
+    return replace(found, kind="impulse", size=size, covariance=covariance, azimuth=where)
