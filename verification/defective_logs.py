@@ -144,14 +144,14 @@ def identified(kinds: tuple[str, ...], with_gyro: bool, seed: int) -> Log:
     estimate = reference.estimate(recording, testbed, Params())
     truth = np.concatenate([logged.truth.com, pack_symmetric(logged.truth.inertia_P)])
     sd = np.array([estimate.parameters[estimate.index(name)].sd for name in COM + INERTIA])
-    rows, kept = logged.recording.attitude, recording.attitude
-    assert rows is not None
+    kept = recording.attitude
     assert kept is not None
-    bad = rows.t[logged.bad_row]
+    bad = np.array([row.time for row in logged.defects.bad_rows])
+    known = np.isin(np.round(kept.t, 6), np.round(bad, 6))
     return Log(
         (estimate.values(COM + INERTIA) - truth) / sd,
         (*logged.defects.contacts, *logged.defects.com_steps), estimate.events,
-        len(bad), int(np.isin(bad, kept.t).sum()), estimate.outcome.usable,
+        len(bad), int(known.sum()), estimate.outcome.usable,
         logged.case.duration,
     )  # fmt: skip
 

@@ -2,9 +2,10 @@
 
 With sd_k that of moment k and x(t_k) the estimate when it is believed to be t_k,
 
-    covariance += sum_k c_k c_k^T,      c_k = x(t_k + sd_k) - x(t_k)
+    covariance += sum_k c_k c_k^T,      c_k = (x(t_k + sd_k) - x(t_k)) / max(1, rise_k)^(1/2)
 
-(to first order the covariance with all moments free, but for what two moments share).
+(to first order the covariance with all moments free, but for what two moments share). Twice the
+cost rises by 1 if it is smooth; a gyro's rows, which an event passes one by one, make it rise more.
 """
 
 from dataclasses import replace
@@ -28,10 +29,12 @@ def wider(found: tuple[Parameter, ...], columns: Floats) -> tuple[Parameter, ...
     )
 
 
-def columns_of(found: tuple[Parameter, ...], shifted: list[tuple[Parameter, ...]]) -> Floats:
+def columns_of(
+    found: tuple[Parameter, ...], shifted: list[tuple[Parameter, ...]], rise: Floats
+) -> Floats:
     """Return c of every event, (parameters, k)."""
     values = np.array([[p.value for p in one] for one in (found, *shifted)])
-    return (values[1:] - values[0]).T
+    return (values[1:] - values[0]).T / np.sqrt(np.maximum(rise, 1.0))
 
 
 def with_moments(concluded: Estimate, belief: Believed) -> Estimate:
@@ -41,8 +44,9 @@ def with_moments(concluded: Estimate, belief: Believed) -> Estimate:
     _, sd = moment_errors(belief)
     models = [later(belief, row) for row in np.diag(sd)]
     shifted = [conclude(model.fitted, METHOD, belief.recording) for model in models]
-    columns = columns_of(concluded.parameters, [one.parameters for one in shifted])
-    ratios = columns_of(concluded.ratios, [one.ratios for one in shifted])
+    rise = np.array([2 * (m.fitted.at.cost - belief.fitted.at.cost) for m in models])
+    columns = columns_of(concluded.parameters, [one.parameters for one in shifted], rise)
+    ratios = columns_of(concluded.ratios, [one.ratios for one in shifted], rise)
     return replace(
         concluded,
         parameters=wider(concluded.parameters, columns),
