@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import chi2, kstest
 
-from equipoise.maths.whiteness import FEWEST, LAGS, portmanteau
+from equipoise.maths.whiteness import BINS, FEWEST, LAGS, portmanteau, spectral_peak
 
 
 def test_by_hand():
@@ -66,3 +66,39 @@ def test_likeness_is_seen_as_far_as_it_looks():
     near, far = (portmanteau(noise[lag:] + 0.4 * noise[:-lag]) for lag in (LAGS, LAGS + 1))
     assert near < 1e-9
     assert far > 1e-3
+
+
+def test_peak_of_a_wave_in_noise_by_hand():
+    """A wave of amplitude a fills one bin with n a^2 / 4 of power over BINS, noise each with 1."""
+    rng, n, amplitude = np.random.default_rng(5), 4000, 0.5
+    wave = amplitude * np.sin(2 * np.pi * 400 * np.arange(n) / n)
+    series = rng.normal(size=(n, 3)) + wave[:, None]
+    expected = (1 + n * amplitude**2 / 4 / BINS) / (1 + amplitude**2 / 2)
+    assert spectral_peak(series) == pytest.approx(expected, rel=0.15)
+
+
+def test_peak_of_an_autoregression():
+    """(1 - r^2) / (1 - r)^2 at frequency zero; the greatest of many bins is up to twice that."""
+    rng = np.random.default_rng(6)
+    series = lfilter([1], [1, -0.6], rng.normal(size=(20000, 3)), axis=0)
+    assert 4.0 < spectral_peak(series) < 8.0
+
+
+def test_white_noise_has_no_peak():
+    rng = np.random.default_rng(7)
+    assert spectral_peak(rng.normal(size=(500, 3))) == 1.0
+    assert spectral_peak(np.zeros((0, 3))) == 1.0
+
+
+def test_no_parameter_errs_by_more_than_the_root_of_the_peak():
+    """Slope, wave and mean fitted by least squares to correlated errors, 2000 draws."""
+    rng, n = np.random.default_rng(8), 300
+    t = np.arange(n)
+    H = np.column_stack([np.ones(n), t / n, np.sin(0.1 * t), np.cos(2.0 * t)])
+    noise = lfilter([1], [1, -0.7], rng.normal(size=(2000, n + 100)), axis=1)[:, 100:]
+    noise *= np.sqrt(1 - 0.7**2)
+    sd = noise @ np.linalg.pinv(H).T
+    ratio = np.std(sd, axis=0) / np.sqrt(np.diag(np.linalg.inv(H.T @ H)))
+    peak = (1 - 0.7**2) / (1 - 0.7) ** 2
+    assert np.all(ratio < 1.05 * np.sqrt(peak))
+    assert ratio[0] > 0.9 * np.sqrt(peak)  # slow parameters meet the bound

@@ -100,6 +100,7 @@ def residual_json(residual: Residual) -> View:
         "reduced_chi_square": residual.reduced_chi_square,
         "lag_one": residual.lag_one,
         "whiteness_p": residual.whiteness,
+        "spectral_peak": residual.spectral_peak,
         "steady_rms": residual.steady_rms,
         "held_out_rms": residual.held_out_rms,
         "held_out_span_s": residual.held_out_span,

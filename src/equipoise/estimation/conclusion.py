@@ -13,14 +13,13 @@ from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, physical, unknowns_of
 from equipoise.maths.attitude import logarithm
 from equipoise.maths.linalg import lag_one
-from equipoise.maths.whiteness import portmanteau
+from equipoise.maths.whiteness import portmanteau, spectral_peak
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM, END, Estimate, Parameter, Residual
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording
 
 SURE = 4.0  # sd of a statistic before it counts as more than chance
-WHITE = 0.2  # chosen: a lag-one correlation below this widens an interval by less than a quarter
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
 CORE = slice(JP.start, R.stop)  # inertia and centre of mass
 
@@ -42,6 +41,7 @@ def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
         max(round(rows - fitted.problem.layout.size - jumped), 1),
         lag_one(left),
         portmanteau(left),
+        spectral_peak=spectral_peak(left),
     )
 
 
@@ -49,10 +49,7 @@ def widening(residual: Residual) -> float:
     """Return the factor on every sd for a residual larger or less white than noise."""
     excess, chance = residual.reduced_chi_square, SURE / np.sqrt(residual.degrees_of_freedom)
     factor = excess if excess > 1 + chance * np.sqrt(2) else 1.0
-    rho = min(abs(residual.lag_one), 0.98)
-    if residual.lag_one > max(WHITE, chance):
-        factor *= (1 + rho) / (1 - rho)
-    return float(np.sqrt(factor))
+    return float(np.sqrt(factor * residual.spectral_peak))
 
 
 def selection(layout: Layout) -> list[int]:
@@ -108,8 +105,9 @@ def sentence_of(fitted: Fitted, residual: Residual, view: Visibility, factor: fl
     text = f"The model explains the record to {left} rms per axis."
     if factor > 1:
         text += (
-            f" What is left is not quite noise (lag-one correlation {residual.lag_one:.2f}): "
-            f"intervals are widened {factor:.2g} times."
+            f" What is left is not quite noise (lag-one correlation {residual.lag_one:.2f}, "
+            f"spectral peak {residual.spectral_peak:.2g} times the mean): intervals are widened "
+            f"{factor:.2g} times."
         )
     if view.scale_open:
         text = "The scale is open: only ratios of inertia and centre of mass are known. " + text

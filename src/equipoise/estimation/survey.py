@@ -126,14 +126,22 @@ def driven(belief: Believed) -> Believed:
 
 
 def repeated(belief: Believed, most: int, terms: bool = True) -> Believed:
-    """Return the belief searched and settled again and again, until nothing new is found."""
+    """Return the belief searched and settled again and again, until nothing new stays."""
     for _ in range(ROUNDS):
-        before = (belief.events, belief.params.terms, belief.params.sensor)
+        before = contents(belief)
         belief = searched(belief, most, terms)
-        if (belief.events, belief.params.terms, belief.params.sensor) == before:
+        if contents(belief) == before:
             break
         belief = settled(belief)
+        if contents(belief) == before:
+            break
     return belief
+
+
+def contents(belief: Believed) -> tuple[object, ...]:
+    """Return what a belief believes in: terms, and how many events of each kind."""
+    kinds = sorted(event.kind for event in belief.events)
+    return (belief.params.terms, belief.params.sensor, *kinds)
 
 
 def calm(belief: Believed) -> Believed:

@@ -13,6 +13,7 @@ from equipoise.estimation.believed_model import (
 from equipoise.estimation.event_moments import later, rows_of, timed
 from equipoise.estimation.event_price import KINDS, threshold
 from equipoise.estimation.fitted import smooth_at
+from equipoise.maths.whiteness import spectral_peak
 from equipoise.model.arrays import Floats
 
 NEAR = 1.6  # spacings, chosen: with process noise, events nearer than this may be one
@@ -88,6 +89,17 @@ def surprises_of(belief: Believed) -> Floats:
     return np.einsum("ka,ka->k", jump, np.linalg.solve(spread, jump[..., None])[..., 0])
 
 
+def colour(belief: Believed) -> float:
+    """Return the peak of the spectral density of what is left, over its mean.
+
+    Process noise takes up what is slow, as events are; with it what is left has no say.
+    """
+    if belief.wanders:
+        return 1.0
+    at = belief.fitted.at
+    return max(spectral_peak(left) for left in (at.left_q, at.left_w))
+
+
 def without(belief: Believed, k: int) -> Believed:
     """Return the belief without one event, all others where they are then best."""
     events = belief.events[:k] + belief.events[k + 1 :]
@@ -98,10 +110,11 @@ def pruned(belief: Believed) -> Believed:
     """Return the belief without the events that do not earn their place.
 
     An event may owe its surprise to another at a wrong moment: those of doubt are judged by what is
-    lost without them when all others have moved.
+    lost without them when all others have moved. Where what is left is not white, a surprise by
+    chance is greater, at most by the peak of its spectral density.
     """
-    price = threshold(belief.spacing)
     while belief.events:
+        price = threshold(belief.spacing) * colour(belief)
         worth = surprises_of(belief)
         doubtful = [k for k in np.argsort(worth) if worth[k] < DOUBTFUL * price]
         trials = (without(belief, k) for k in doubtful)

@@ -1,8 +1,15 @@
-"""Whether a series is white noise: the portmanteau test of Ljung and Box (1978).
+"""Whether a series is white noise, and what it can do at most if it is not.
+
+The portmanteau test of Ljung and Box (1978):
 
     Q = n (n + 2) sum_k rho_k^2 / (n - k),    k = 1 ... m;    chi-square of m degrees of freedom
 
 rho_k is the correlation of rows k apart, for each column by itself.
+
+Least squares of Jacobian H, told that its rows err by white noise, has in truth the covariance
+(H^T H)^-1 H^T S H (H^T H)^-1 for errors of covariance S. That is at most (H^T H)^-1 times the
+greatest eigenvalue of S, and those of a stationary series lie below the peak of its spectral
+density (Grenander and Szegoe 1958, section 5.2): no parameter errs by more than its root.
 """
 
 import numpy as np
@@ -12,6 +19,8 @@ from equipoise.model.arrays import Floats, Series
 
 LAGS = 10  # chosen: a few rows more than neighbours that share a cause
 FEWEST = 30  # rows
+WHITE = 1e-3  # probability below which a series is not white, chosen
+BINS = 5  # of the periodogram, chosen: the mean of three columns is then known to a quarter
 
 
 def portmanteau(residual: Series) -> float:
@@ -27,3 +36,16 @@ def portmanteau(residual: Series) -> float:
     left = n - np.arange(1, LAGS + 1)
     Q: Floats = n * (n + 2) * np.sum(np.array(rho) ** 2 / left[:, None], axis=0)
     return float(chi2.sf(float(np.sum(Q)), LAGS * Q.size))
+
+
+def spectral_peak(residual: Series) -> float:
+    """Return the peak of the spectral density over its mean, at least 1; 1 for white noise.
+
+    Rows count as evenly spaced; the periodogram is smoothed over ``BINS`` frequencies and columns.
+    """
+    if portmanteau(residual) > WHITE:
+        return 1.0
+    centred: Floats = residual - np.mean(residual, axis=0)
+    power: Floats = np.sum(np.abs(np.fft.rfft(centred, axis=0)[1:]) ** 2, axis=1)
+    smooth: Floats = np.convolve(power, np.full(BINS, 1 / BINS), mode="valid")
+    return max(float(smooth.max() / power.mean()), 1.0)

@@ -47,6 +47,7 @@ class Residual:
     lag_one: float  # correlation of neighbouring residuals; white: near 0
     whiteness: float = 1.0  # probability of correlations as large as these, were it white noise
     steady_rms: float | None = None  # rad or rad/s per axis, without process noise
+    spectral_peak: float = 1.0  # of the residuals' density over its mean; white: 1
     held_out_rms: float | None = None  # rad per axis (rad/s without attitude), predicted
     held_out_span: tuple[float, float] | None = None  # s
 
