@@ -158,16 +158,22 @@ def at_rest(problem: Problem, point: Unknowns) -> Unknowns:
 
 
 def fit(
-    recording: Recording, testbed: Testbed, params: Params, guess: Unknowns | None = None
+    recording: Recording,
+    testbed: Testbed,
+    params: Params,
+    guess: Unknowns | None = None,
+    early: Recording | None = None,
 ) -> Fitted:
-    """Return the optimum for a record, from a given point or from the linear methods."""
+    """Return the optimum for a record, from a given point or from the linear methods.
+
+    These are given the record's first part ``early``, if any: one that they can integrate.
+    """
     recording = arranged(recording, testbed.mass_names)
     problem = problem_of(recording, testbed, params)
     if guess is None:
         first = float(problem.line.t[0])
-        point = start(
-            recording, testbed, problem.layout, first, held_names(recording, testbed, params)
-        )
+        hold = held_names(recording, testbed, params)
+        point = start(early or recording, testbed, problem.layout, first, hold)
         if params.terms or misfit(problem, point) > CAPTURE:
             point = approach(recording, testbed, params, point)
     else:
