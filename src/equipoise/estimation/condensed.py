@@ -24,8 +24,9 @@ from typing import TypeVar
 import numpy as np
 
 from equipoise.estimation.survey import ROWS, finest_spacing
-from equipoise.estimation.trajectory_problem import quickest_swing
+from equipoise.estimation.trajectory_problem import quickest_swing, stops_of
 from equipoise.maths.attitude import difference, exponential, multiply
+from equipoise.maths.straight_pieces import straight_pieces
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
@@ -36,6 +37,7 @@ MOSTLY = 95  # % of the rows between which it turns by less
 SLACK = 0.1  # of a mean's length, chosen: by which missing rows may make it longer
 WHOLE = 0.9  # chosen: share of the rows that must be part of some mean
 DENSEST = 4  # rows, below which no row is the mean of others
+FINE = 1e-3  # chosen: half an hour of such errors in a row stays below the noise
 Turn = Callable[[Samples, int], float]
 Sensor = TypeVar("Sensor", AttitudeSensor, Gyro)
 
@@ -119,6 +121,26 @@ def most_rows(channel: Samples | None, longest: float, turn: Turn) -> int:
     return k if k * len(first_rows(channel.t, k)) >= WHOLE * len(channel) else 1
 
 
+def with_few_bends(recording: Recording, testbed: Testbed, within: float) -> Recording:
+    """Return the recording with displacements as few straight lines; ``within`` is T, s.
+
+    What they are off by, weight times lever, turns the platform within T by less than ``FINE`` of
+    a row's noise. Unchanged where that would hide a stop.
+    """
+    masses, sensors = recording.masses, (testbed.attitude, testbed.gyro)
+    if masses is None or len(masses) < DENSEST:
+        return recording
+    scale = (1.0, within)  # a rate that is off turns the platform within T
+    noise = min(s.noise * x for s, x in zip(sensors, scale, strict=True) if s is not None)
+    moment = float(np.linalg.eigvalsh(testbed.body.inertia_P)[0])
+    heavy = np.array([mass.mass for mass in testbed.masses]) * testbed.gravity
+    tolerance = FINE * noise * moment / (heavy * within**2)
+    few = Samples(*straight_pieces(masses.t, masses.values, tolerance))
+    found = replace(recording, masses=few)
+    same = stops_of(found, testbed).names == stops_of(recording, testbed).names
+    return found if same else recording
+
+
 def condensed(recording: Recording, testbed: Testbed) -> Condensed | None:
     """Return a dense record as one of means; None if it is not dense enough."""
     attitude, rate = recording.attitude, recording.rate
@@ -136,4 +158,5 @@ def condensed(recording: Recording, testbed: Testbed) -> Condensed | None:
         gyro = averaged(gyro, k_w, float(np.median(np.diff(rate.t))))
         rate = mean_rows(rate, k_w)
     few = replace(recording, attitude=attitude, rate=rate, attitude_norm=None)
-    return Condensed(few, replace(testbed, attitude=camera, gyro=gyro), k_q, k_w)
+    seen = replace(testbed, attitude=camera, gyro=gyro)
+    return Condensed(with_few_bends(few, seen, longest), seen, k_q, k_w)

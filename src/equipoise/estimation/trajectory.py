@@ -44,6 +44,7 @@ CAPTURE = 0.5  # rad rms, chosen: beyond this the first guess is not followed to
 LOST = 3.0  # chosen: chi-square a degree of freedom beyond which another start is tried
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
 SHORTEST = 0.02  # of the record, the least part to begin with
+FEW_SWINGS = 1 / 32  # of a long record, chosen: 56 s of half an hour
 GUIDED = 0.1  # natural sizes of torques, on the way
 COARSE = 0.01  # rad, rad/s, chosen: half a degree
 
@@ -116,8 +117,16 @@ def misfit(problem: Problem, point: Unknowns) -> float:
     return float(np.sqrt(np.mean(square)))
 
 
-def approach(recording: Recording, testbed: Testbed, params: Params, point: Unknowns) -> Unknowns:
+def approach(
+    recording: Recording,
+    testbed: Testbed,
+    params: Params,
+    point: Unknowns,
+    most: float = 1.0,
+) -> Unknowns:
     """Return a point from which the whole record can be fitted: fit a growing first part.
+
+    The first is of the share ``most`` of the record, or as short as the point can be followed.
 
     On the way the testbed's inertia counts as prior, torques are kept small and the camera counts
     as coarse, so that a part too short to show them, or a model that does not hold, cannot drive
@@ -133,7 +142,7 @@ def approach(recording: Recording, testbed: Testbed, params: Params, point: Unkn
         problem = problem_of(part(share), coarse, guided, GUIDED)
         return problem, at_rest(problem, point)
 
-    share = 1.0
+    share = most
     while share > SHORTEST and misfit(*posed(share)) > CAPTURE:
         share /= 2
     while share <= 1.0:
@@ -166,7 +175,7 @@ def fit(
 ) -> Fitted:
     """Return the optimum for a record, from a given point or from the linear methods.
 
-    These are given the record's first part ``early``, if any: one that they can integrate.
+    A record so long that a point is lost by whole swings gives these only a first part, ``early``.
     """
     recording = arranged(recording, testbed.mass_names)
     problem = problem_of(recording, testbed, params)
@@ -174,7 +183,9 @@ def fit(
         first = float(problem.line.t[0])
         hold = held_names(recording, testbed, params)
         point = start(early or recording, testbed, problem.layout, first, hold)
-        if params.terms or misfit(problem, point) > CAPTURE:
+        if early is not None:
+            point = approach(recording, testbed, params, point, FEW_SWINGS)
+        elif params.terms or misfit(problem, point) > CAPTURE:
             point = approach(recording, testbed, params, point)
     else:
         point = guess
