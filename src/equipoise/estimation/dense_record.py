@@ -26,6 +26,7 @@ from equipoise.model.recording import Recording, window
 from equipoise.model.testbed import Testbed
 
 EARLY = 0.02  # of the record, chosen: the least part that the linear start is given
+FINE = 2.0  # chosen: cuts are nodes too; the optimum may not depend on that by what a cut tells
 WIDE = 3.0  # rows, chosen: a shorter interruption is no gap
 
 
@@ -44,7 +45,7 @@ def first_gap(recording: Recording, testbed: Testbed) -> float:
 
 def surveyed_condensed(few: Condensed, params: Params) -> Believed:
     """Return the model that a condensed record supports."""
-    recording, testbed = few.recording, few.testbed
+    recording, testbed, params = few.recording, few.testbed, replace(params, fineness=FINE)
     early = window(recording, recording.span[0], first_gap(recording, testbed))
     return survey(recording, testbed, params, fit(recording, testbed, params, early=early))
 
@@ -72,7 +73,10 @@ def with_all_rows(
     """Return the belief about a condensed record as one about the record, not fitted yet."""
     testbed = with_noise_of(few, belief, stated)
     first = moved(belief.fitted, problem_of(recording, testbed, belief.params))
-    return replace(belief, recording=recording, testbed=testbed, stated=stated, fitted=first)
+    params = replace(belief.params, fineness=1.0)
+    return replace(
+        belief, recording=recording, testbed=testbed, params=params, stated=stated, fitted=first
+    )
 
 
 def coloured(belief: Believed) -> Believed:

@@ -28,6 +28,7 @@ from equipoise.estimation.trajectory_problem import (
     Problem,
     changes,
     evaluate,
+    longest_step,
     pose,
     prior_of,
     stops_of,
@@ -59,6 +60,7 @@ class Params:
     use_prior: bool = False  # the testbed's inertia and centre of mass, with their sd
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     robust: bool = False  # Huber's loss
+    fineness: float = 1.0  # by which integration steps are shorter than estimates need
     hold_out: float = 0.25  # share of the record to predict instead of fit, for the residual
 
 
@@ -105,8 +107,9 @@ def problem_of(
     hold = held_names(recording, testbed, params)
     prior = prior_of(testbed, stops, layout, params.use_prior, hold, torque_anchor)
     limit = HUBER if params.robust else 0.0
-    fastest = fastest_rate(recording)
-    return pose(recording, testbed, layout, stops, prior, fastest, limit, scale_open, params.jumps)
+    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
+    longest = longest_step(testbed, fastest_rate(recording), rows) / params.fineness
+    return pose(recording, testbed, layout, stops, prior, longest, limit, scale_open, params.jumps)
 
 
 def misfit(problem: Problem, point: Unknowns) -> float:

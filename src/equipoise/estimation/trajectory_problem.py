@@ -185,12 +185,12 @@ def pose(
     layout: Layout,
     stops: StopErrors,
     prior: Prior,
-    fastest: float,
+    longest: float,
     limit: float,
     scale_open: bool,
     jumps: tuple[Jump, ...] = UNCUT,
 ) -> Problem:
-    """Return the problem of a recording; ``fastest`` (rad/s) sets the integration step."""
+    """Return the problem of a recording, integrated in steps of ``longest`` seconds at most."""
     attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
     jumps = inside(jumps, *recording.span)
     line = timeline(
@@ -198,7 +198,7 @@ def pose(
         seen_at(rate.t, testbed.gyro),
         recording.masses,
         len(testbed.masses),
-        longest_step(testbed, fastest, len(attitude) + len(rate)),
+        longest,
         recording.momentum,
         recording.torque,
         stops.felt,
