@@ -21,6 +21,7 @@ from verification import (
     drift,
     efficiency,
     independent_truth,
+    long_record,
     mujoco_platforms,
     real_record,
     tracker_honesty,
@@ -49,6 +50,7 @@ CHECKS = {
     "tracker_knows": Check(tracker_knows.measure, 200),
     "balanced": Check(balanced.measure, 200),
     "drift": Check(drift.measure, 20),
+    "long_record": Check(long_record.measure, 5),
     "real_record": Check(real_record.measure, 1),
 }
 

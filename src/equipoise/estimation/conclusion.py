@@ -159,12 +159,11 @@ def without_scale(view: Visibility, layout: Layout) -> Visibility:
     return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True)
 
 
-def conclude(
-    fitted: Fitted, method: str, recording: Recording, coloured: float = 1.0
-) -> Estimate:
+def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float = 1.0) -> Estimate:
     """Return the estimate. Units are SI; ``com_end`` is with the masses as they stand at the end.
 
-    Intervals are at least ``coloured`` times as wide as rows say that err independently. The sd of the first attitude (a rotation vector) is that of a small turn in body axes.
+    Intervals are at least ``coloured`` times as wide as rows say that err independently. The sd of
+    the first attitude (a rotation vector) is that of a small turn in body axes.
     """
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)

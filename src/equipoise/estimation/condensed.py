@@ -27,7 +27,7 @@ from equipoise.estimation.survey import ROWS, finest_spacing
 from equipoise.estimation.trajectory_problem import quickest_swing, stops_of
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.straight_pieces import straight_pieces
-from equipoise.model.arrays import Floats, Ints, Series1
+from equipoise.model.arrays import Ints, Series1
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 

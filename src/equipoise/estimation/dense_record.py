@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.believed_model import Believed, active, fitted_in, refitted, smoothed
-from equipoise.estimation.condensed import TURNED, Condensed, condensed
+from equipoise.estimation.condensed import TURNED, Condensed
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.survey import survey
 from equipoise.estimation.survey_noise import is_known, noise_factors, noisier
@@ -64,7 +64,8 @@ def with_noise_of(few: Condensed, belief: Believed, testbed: Testbed) -> Testbed
 def moved(fitted: Fitted, problem: Problem) -> Fitted:
     """Return a fit with its first attitude where that of another record of the motion begins."""
     point, late = fitted.point, float(problem.line.t[0] - fitted.problem.line.t[0])
-    return replace(fitted, point=replace(point, q0=multiply(point.q0, exponential(late * point.w0))))
+    q0 = multiply(point.q0, exponential(late * point.w0))
+    return replace(fitted, point=replace(point, q0=q0))
 
 
 def with_all_rows(
@@ -97,4 +98,5 @@ def surveyed_densely(
     whole = with_all_rows(few, belief, recording, testbed)
     if not belief.fitted.converged:
         return replace(whole, fitted=fitted_in(whole, active(whole), 1))
-    return coloured(refitted(whole))
+    whole = refitted(whole)
+    return coloured(whole) if whole.fitted.converged else whole

@@ -46,6 +46,7 @@ LOST = 3.0  # chosen: chi-square a degree of freedom beyond which another start 
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
 SHORTEST = 0.02  # of the record, the least part to begin with
 FEW_SWINGS = 1 / 32  # of a long record, chosen: 56 s of half an hour
+FEW_ROWS = 50  # chosen: fewer are no motion
 GUIDED = 0.1  # natural sizes of torques, on the way
 COARSE = 0.01  # rad, rad/s, chosen: half a degree
 
@@ -154,6 +155,16 @@ def approach(
     return point
 
 
+def few_swings(recording: Recording) -> float:
+    """Return the first share of a long record to fit: ``FEW_SWINGS``, or more if it is sparse."""
+    start_t, end_t = recording.span
+    channels = [c.t for c in (recording.attitude, recording.rate) if c is not None]
+    share, rows = FEW_SWINGS, np.concatenate(channels)
+    while np.sum(rows < start_t + share * (end_t - start_t)) < FEW_ROWS:
+        share *= 2
+    return share
+
+
 def coarsened(testbed: Testbed) -> Testbed:
     """Return the testbed with sensors that are no better than the model is early in the search."""
     camera, gyro = testbed.attitude, testbed.gyro
@@ -187,7 +198,7 @@ def fit(
         hold = held_names(recording, testbed, params)
         point = start(early or recording, testbed, problem.layout, first, hold)
         if early is not None:
-            point = approach(recording, testbed, params, point, FEW_SWINGS)
+            point = approach(recording, testbed, params, point, few_swings(recording))
         elif params.terms or misfit(problem, point) > CAPTURE:
             point = approach(recording, testbed, params, point)
     else:
