@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from builders import move_at, noisy, platform, recording
 
+from equipoise.estimation import reference
 from equipoise.estimation.condensed import (
     DENSE,
     averaged,
@@ -18,9 +19,9 @@ from equipoise.estimation.condensed import (
     turned,
 )
 from equipoise.estimation.dense_record import first_gap, with_noise_of
-from equipoise.estimation.survey import survey
+from equipoise.estimation.fitted import settle
+from equipoise.estimation.survey import cut_times, looked_into, survey
 from equipoise.estimation.trajectory import Params, fit, problem_of
-from equipoise.estimation.trajectory_problem import evaluate
 from equipoise.maths.attitude import difference, exponential
 from equipoise.model.recording import Recording, Samples
 from equipoise.sensors.timing import seen_at, spread_of
@@ -90,25 +91,22 @@ def test_a_mean_stands_for_the_moments_of_its_rows():
     assert mean.rate == 25.0
 
 
-def test_long_means_are_predicted_as_means():
-    """Of 2.56 s in swings of 40 s, noise-free: to 1e-6 rad, where moments are off by 1e-4 and more.
+def left_of(record, testbed):
+    """The rms (rad) that a fit of a record without noise leaves."""
+    params = Params(hold=("inertia_P_zz",))
+    at = fit(record, testbed, params).at
+    return float(np.sqrt(np.mean(at.left_q**2))) * testbed.attitude.noise
 
-    W T = 0.4: a mean is short by W^2 T^2 / 24 = 0.7 % of 0.05 rad, told to W^4 T^4 / 1920 = 1e-5.
-    """
-    k = 256
-    record, true = dense(), replace(platform(), attitude=FAST.attitude)
+
+def test_long_means_are_predicted_as_means():
+    """Of 2.56 s in swings of 40 s: what is left falls from W^2 T^2 / 24 to W^4 T^4 / 1920."""
+    k, record = 256, recording(120.0, camera=100.0)
     few = replace(record, attitude=mean_attitudes(record.attitude, k))
-    told = replace(true, attitude=averaged(true.attitude, k, 0.01))
-    moments = replace(told, attitude=replace(told.attitude, averaging=0.0, delay=0.0))
-    start = fit(record, true, Params(hold=("inertia_P_zz",)))
-    left = []
-    for bed in (told, moments):
-        problem = problem_of(few, bed, Params(hold=("inertia_P_zz",)))
-        found = fit(few, bed, Params(hold=("inertia_P_zz",)), guess=start.point)
-        at = evaluate(problem, found.point)
-        left.append(float(np.sqrt(np.mean(at.left_q**2))) * bed.attitude.noise)
-    assert left[0] < 3e-6
-    assert left[1] > 30 * left[0]
+    told = replace(platform(), attitude=averaged(FAST.attitude, k, 0.01))
+    middle = told.attitude.delay + 0.5 * told.attitude.averaging
+    moments = replace(told, attitude=replace(told.attitude, averaging=0.0, delay=middle))
+    assert left_of(few, told) < 1e-6
+    assert left_of(few, moments) > 20 * left_of(few, told)
 
 
 @pytest.mark.parametrize(("speed", "k"), [(5.0, 4), (1.0, 16), (0.5, 32), (20.0, 1)])
@@ -146,7 +144,7 @@ def test_noise_found_in_means_is_brought_back_to_rows():
 
 
 def test_the_start_is_given_the_rows_before_the_first_gap():
-    """Half a second is no gap for a swing, 6 s are; a fiftieth of the record would be too little."""
+    """Half a second is no gap for a swing, 6 s are; a fiftieth of the record is too little."""
     t = np.concatenate([np.arange(0, 3, 0.1), np.arange(9, 80, 0.1), np.arange(80.5, 90, 0.1),
                         np.arange(96, 200, 0.1)])  # fmt: skip
     record = Recording(Samples(t, np.tile([1.0, 0, 0, 0], (len(t), 1))))
@@ -155,5 +153,20 @@ def test_the_start_is_given_the_rows_before_the_first_gap():
     assert first_gap(whole, platform()) == pytest.approx(89.9)
 
 
-def test_a_search_gone_astray_is_an_outcome():
-    """Information without an inverse: the survey says that nothing settled."""
+def astray(record, testbed):
+    """A fit that began with a rate of 3 rad/s where there is a hundredth of that."""
+    problem, good = problem_of(record, testbed, Params()), fit(record, testbed, Params())
+    point = replace(good.point, w0=good.point.w0 + [0.0, 0.0, 3.0])
+    return settle(problem, point, None, 3)
+
+
+def test_a_search_gone_astray_is_an_outcome(monkeypatch):
+    """Its information has no inverse: nothing settled, and nothing is told about the record."""
+    record, testbed = noisy(recording(60.0, move_at(20.0, 60.0)), 0), platform(3e-4)
+    lost = astray(record, testbed)
+    with pytest.raises(np.linalg.LinAlgError):
+        looked_into(replace(survey(record, testbed, Params(), lost), cuts=cut_times(record)))
+    monkeypatch.setattr(reference, "fit", lambda *_: lost)
+    estimate = reference.estimate(record, testbed, Params())
+    assert not estimate.outcome.usable
+    assert "did not settle" in estimate.outcome.sentence
