@@ -37,7 +37,7 @@ MOSTLY = 95  # % of the rows between which it turns by less
 SLACK = 0.1  # of a mean's length, chosen: by which missing rows may make it longer
 WHOLE = 0.9  # chosen: share of the rows that must be part of some mean
 DENSEST = 4  # rows, below which no row is the mean of others
-FINE = 1e-3  # chosen: half an hour of such errors in a row stays below the noise
+FINE = 1e-2  # chosen: lines are off for parts of a second, to either side
 Turn = Callable[[Samples, int], float]
 Sensor = TypeVar("Sensor", AttitudeSensor, Gyro)
 
@@ -88,14 +88,18 @@ def averaged(sensor: Sensor, k: int, period: float) -> Sensor:
     return replace(sensor, rate=sensor.rate / k, noise=noise, averaging=averaging, delay=delay)
 
 
-def longest_mean(recording: Recording, testbed: Testbed) -> float:
-    """Return how long (s) a mean may be for the fastest swing, and for events to be found."""
+def swing_of(recording: Recording, testbed: Testbed) -> float:
+    """Return the fastest swing (rad/s) that there can be, with the masses as far out as they go."""
     aside, masses = 0.0, recording.masses
     if masses is not None and len(masses):
         heavy = np.array([mass.mass for mass in testbed.masses])
         aside = float(np.abs(masses.values).max(axis=0) @ heavy) / testbed.body.mass
-    swing = TURNED / quickest_swing(testbed, aside)
-    return min(swing, finest_spacing(recording) / ROWS)
+    return quickest_swing(testbed, aside)
+
+
+def longest_mean(recording: Recording, testbed: Testbed) -> float:
+    """Return how long (s) a mean may be for the fastest swing, and for events to be found."""
+    return min(TURNED / swing_of(recording, testbed), finest_spacing(recording) / ROWS)
 
 
 def turned(attitude: Samples, k: int) -> float:
@@ -121,20 +125,21 @@ def most_rows(channel: Samples | None, longest: float, turn: Turn) -> int:
     return k if k * len(first_rows(channel.t, k)) >= WHOLE * len(channel) else 1
 
 
-def with_few_bends(recording: Recording, testbed: Testbed, within: float) -> Recording:
-    """Return the recording with displacements as few straight lines; ``within`` is T, s.
+def with_few_bends(recording: Recording, testbed: Testbed) -> Recording:
+    """Return the recording with displacements as few straight lines.
 
-    What they are off by, weight times lever, turns the platform within T by less than ``FINE`` of
-    a row's noise. Unchanged where that would hide a stop.
+    What these are off by, d, would make the platform lean by m g d / (J W^2), W being its fastest
+    swing: less than ``FINE`` of a row's noise. Unchanged where it would hide a stop.
     """
     masses, sensors = recording.masses, (testbed.attitude, testbed.gyro)
     if masses is None or len(masses) < DENSEST:
         return recording
-    scale = (1.0, within)  # a rate that is off turns the platform within T
-    noise = min(s.noise * x for s, x in zip(sensors, scale, strict=True) if s is not None)
+    swing = swing_of(recording, testbed)
+    units = (1.0, 1.0 / swing)  # a rate that is off turns the platform meanwhile
+    noise = min(s.noise * x for s, x in zip(sensors, units, strict=True) if s is not None)
     moment = float(np.linalg.eigvalsh(testbed.body.inertia_P)[0])
     heavy = np.array([mass.mass for mass in testbed.masses]) * testbed.gravity
-    tolerance = FINE * noise * moment / (heavy * within**2)
+    tolerance = FINE * noise * moment * swing**2 / heavy
     few = Samples(*straight_pieces(masses.t, masses.values, tolerance))
     found = replace(recording, masses=few)
     same = stops_of(found, testbed).names == stops_of(recording, testbed).names
@@ -159,4 +164,4 @@ def condensed(recording: Recording, testbed: Testbed) -> Condensed | None:
         rate = mean_rows(rate, k_w)
     few = replace(recording, attitude=attitude, rate=rate, attitude_norm=None)
     seen = replace(testbed, attitude=camera, gyro=gyro)
-    return Condensed(with_few_bends(few, seen, longest), seen, k_q, k_w)
+    return Condensed(with_few_bends(few, seen), seen, k_q, k_w)
