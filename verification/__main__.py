@@ -22,6 +22,7 @@ from verification import (
     drift,
     efficiency,
     independent_truth,
+    long_record,
     mujoco_platforms,
     real_record,
     tracker_honesty,
@@ -51,6 +52,7 @@ CHECKS = {
     "defective_logs": Check(defective_logs.measure, 200),
     "balanced": Check(balanced.measure, 200),
     "drift": Check(drift.measure, 20),
+    "long_record": Check(long_record.measure, 5),
     "real_record": Check(real_record.measure, 1),
 }
 

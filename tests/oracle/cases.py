@@ -4,6 +4,7 @@
     case_g   the same body, camera 50 Hz and 0.05 deg, gyro 1e-4 rad/s, soft servos:
              the masses lag their command by 25 ms and sag by 1.5 mm
     case_i   as case_s, with a gyro of 10 Hz and 2e-3 rad/s
+    dense    the same body and servos for as long as wanted, camera and gyro at 100 Hz
     spinner  60 s, 2.7 kg, com 20 mm below P along body -y, 105 deg/s, camera 10 Hz, drag, no masses
 
 One seed gives platform, noise, first guess and defects, each from a stream of its own: with other
@@ -150,6 +151,14 @@ def case_g(seed: int, kinds: tuple[str, ...] = (), defects: Defects | None = Non
     camera = AttitudeSensor(50.0, np.deg2rad(0.05))
     gyro = Gyro(50.0, 1e-4, np.deg2rad(1.0))
     return logged(_fourteen_case(seed, SOFT, camera, gyro), seed, kinds, defects)
+
+
+def dense(seed: int, duration: float) -> Logged:
+    """Return the body of Case G, all at 100 Hz, without defects; ``duration`` in s."""
+    camera = AttitudeSensor(100.0, np.deg2rad(0.05))
+    gyro = Gyro(100.0, 1e-4, np.deg2rad(1.0))
+    case = replace(_fourteen_case(seed, SOFT, camera, gyro), duration=duration)
+    return logged(case, seed, (), None)
 
 
 def spinner(

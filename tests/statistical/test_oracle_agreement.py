@@ -4,7 +4,8 @@ import pytest
 
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
-from verification import independent_truth, mujoco_platforms
+from tests.oracle import cases
+from verification import independent_truth, long_record, mujoco_platforms
 
 
 def test_propagator_agrees_with_mujoco() -> None:
@@ -15,3 +16,13 @@ def test_propagator_agrees_with_mujoco() -> None:
 def test_errors_on_mujoco_records_are_as_large_as_stated() -> None:
     """Five platforms, camera alone and camera with gyro; the band is that of 45 errors each."""
     assert mujoco_platforms.measure(range(5)).missed == ()
+
+
+def test_a_dense_record_is_identified_as_well_as_stated() -> None:
+    """Four minutes at 100 Hz, with a camera alone; time and memory are not judged here."""
+    logged = cases.dense(1, 240.0)
+    task = long_record.Task(logged.recording, logged.testbed, logged.truth)
+    found = long_record.identified(long_record.by_camera(task))
+    assert found.rows == 24_001
+    assert found.fine
+    assert abs(found.z).max() < long_record.WORST

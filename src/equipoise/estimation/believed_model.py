@@ -52,6 +52,7 @@ class Believed:
     events: tuple[Happening, ...]
     fitted: Fitted
     stated: Testbed  # with the noise as it was told
+    coloured: float = 1.0  # times an interval is as wide as rows say that err independently
 
     @property
     def wanders(self) -> bool:

@@ -21,6 +21,7 @@ from equipoise.model.recording import Recording
 
 SURE = 4.0  # sd of a statistic before it counts as more than chance
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
+UNSETTLED = Outcome(False, "The fit did not settle; its numbers mean nothing.")
 CORE = slice(JP.start, R.stop)  # inertia and centre of mass
 
 
@@ -88,7 +89,7 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
 def sentence_of(fitted: Fitted, residual: Residual, view: Visibility, factor: float) -> Outcome:
     """Return whether the numbers may be used, and why."""
     if not fitted.converged:
-        return Outcome(False, "The fit did not settle; its numbers mean nothing.")
+        return UNSETTLED
     left = (
         f"{np.degrees(residual.attitude_rms):.3g} deg"
         if residual.attitude_rms is not None
@@ -156,10 +157,11 @@ def without_scale(view: Visibility, layout: Layout) -> Visibility:
     return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True)
 
 
-def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
+def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float = 1.0) -> Estimate:
     """Return the estimate. Units are SI; ``com_end`` is with the masses as they stand at the end.
 
-    The sd of the first attitude (a rotation vector) is that of a small turn in body axes.
+    Intervals are at least ``coloured`` times as wide as rows say that err independently. The sd of
+    the first attitude (a rotation vector) is that of a small turn in body axes.
     """
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
@@ -171,7 +173,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
         view = without_scale(view, layout)
     after = smooth_at(fitted) if fitted.problem.jumps else None
     residual = residual_of(fitted, freedom(fitted, after) if after else 0.0)
-    factor = widening(residual)
+    factor = max(widening(residual), coloured)
     parameters, covariance = parameters_of(fitted, view, factor, after)
     return Estimate(
         method,

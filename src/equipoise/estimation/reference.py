@@ -12,7 +12,9 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.believed_model import Believed, refitted
-from equipoise.estimation.conclusion import conclude
+from equipoise.estimation.conclusion import UNSETTLED, conclude
+from equipoise.estimation.condensed import condensed
+from equipoise.estimation.dense_record import surveyed_densely
 from equipoise.estimation.event_spread import with_moments
 from equipoise.estimation.fitted import Fitted, settle
 from equipoise.estimation.jumps import carried
@@ -111,6 +113,9 @@ def event_sentences(concluded: Estimate) -> list[str]:
 
 def surveyed(recording: Recording, testbed: Testbed, params: Params) -> Believed:
     """Return the model that a record supports, from the plain fit."""
+    few = condensed(recording, testbed)
+    if few is not None:
+        return surveyed_densely(few, recording, testbed, params)
     return survey(recording, testbed, params, fit(recording, testbed, params))
 
 
@@ -122,9 +127,17 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
         outcome = Outcome(False, f"Only {rows} rows: nothing can be estimated.")
         return Estimate(METHOD, outcome, (), np.zeros((0, 0)))
     belief = surveyed(recording, testbed, params)
-    concluded = conclude(belief.fitted, METHOD, recording)
+    concluded = conclude(belief.fitted, METHOD, recording, belief.coloured)
     if not np.isfinite(belief.fitted.at.cost):
         return concluded
+    try:
+        return with_survey(belief, params, concluded)
+    except np.linalg.LinAlgError:  # see ``survey``
+        return replace(concluded, outcome=UNSETTLED)
+
+
+def with_survey(belief: Believed, params: Params, concluded: Estimate) -> Estimate:
+    """Return the estimate with what the survey found, and what the held-out part says."""
     concluded = with_moments(concluded, belief)
     concluded = replace(concluded, events=told(belief), unexplained=open_sentences(belief))
     assert concluded.residual is not None

@@ -51,13 +51,19 @@ ROUNDS = 3
 Refused = set[tuple[str, ...]]
 
 
+def finest_spacing(recording: Recording) -> float:
+    """Return the least time between cuts, s, however dense the rows."""
+    start, end = recording.span
+    return max(FINEST, (end - start) / MOST_CUTS)
+
+
 def cut_times(recording: Recording) -> Series1:
     """Return where to look for events: evenly, a few rows apart."""
     start, end = recording.span
     rows = recording.attitude or recording.rate
     assert rows is not None
     usual = ROWS * float(np.median(np.diff(rows.t)))
-    spacing = max(usual, FINEST, (end - start) / MOST_CUTS)
+    spacing = max(usual, finest_spacing(recording))
     return np.arange(start + EDGE * spacing, end - (EDGE - 0.5) * spacing, spacing)
 
 
@@ -162,15 +168,23 @@ def calm(belief: Believed) -> Believed:
 
 
 def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Believed:
-    """Return the model that the record supports, and the fit in it.
-
-    First without process noise, which could hide a term that explains all; of two models that do
-    not, the likelier.
-    """
+    """Return the model that the record supports, and the fit in it; unsettled if it went astray."""
     cuts = cut_times(recording)
     belief = Believed(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
     if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
         return replace(belief, cuts=np.zeros(0))
+    try:
+        return looked_into(belief)
+    except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
+        return replace(belief, cuts=np.zeros(0), fitted=replace(fitted, converged=False))
+
+
+def looked_into(belief: Believed) -> Believed:
+    """Return the likeliest model from the plain one.
+
+    First without process noise, which could hide a term that explains all; of two models that do
+    not, the likelier.
+    """
     simple = calm(belief)
     models = [simple] if is_calm(simple) else [simple, driven(belief)]
     return doubted(likeliest(models))

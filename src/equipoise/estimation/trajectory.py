@@ -28,6 +28,7 @@ from equipoise.estimation.trajectory_problem import (
     Problem,
     changes,
     evaluate,
+    longest_step,
     pose,
     prior_of,
     stops_of,
@@ -44,6 +45,8 @@ CAPTURE = 0.5  # rad rms, chosen: beyond this the first guess is not followed to
 LOST = 3.0  # chosen: chi-square a degree of freedom beyond which another start is tried
 HUBER = 3.0  # sd of a residual vector; 97 % of clean ones are shorter
 SHORTEST = 0.02  # of the record, the least part to begin with
+FEW_SWINGS = 1 / 32  # of a long record, chosen: 56 s of half an hour
+FEW_ROWS = 50  # chosen: fewer are no motion
 GUIDED = 0.1  # natural sizes of torques, on the way
 COARSE = 0.01  # rad, rad/s, chosen: half a degree
 
@@ -58,6 +61,7 @@ class Params:
     use_prior: bool = False  # the testbed's inertia and centre of mass, with their sd
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     robust: bool = False  # Huber's loss
+    fineness: float = 1.0  # by which integration steps are shorter than estimates need
     hold_out: float = 0.25  # share of the record to predict instead of fit, for the residual
 
 
@@ -104,8 +108,9 @@ def problem_of(
     hold = held_names(recording, testbed, params)
     prior = prior_of(testbed, stops, layout, params.use_prior, hold, torque_anchor)
     limit = HUBER if params.robust else 0.0
-    fastest = fastest_rate(recording)
-    return pose(recording, testbed, layout, stops, prior, fastest, limit, scale_open, params.jumps)
+    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
+    longest = longest_step(testbed, fastest_rate(recording), rows) / params.fineness
+    return pose(recording, testbed, layout, stops, prior, longest, limit, scale_open, params.jumps)
 
 
 def misfit(problem: Problem, point: Unknowns) -> float:
@@ -116,8 +121,16 @@ def misfit(problem: Problem, point: Unknowns) -> float:
     return float(np.sqrt(np.mean(square)))
 
 
-def approach(recording: Recording, testbed: Testbed, params: Params, point: Unknowns) -> Unknowns:
+def approach(
+    recording: Recording,
+    testbed: Testbed,
+    params: Params,
+    point: Unknowns,
+    most: float = 1.0,
+) -> Unknowns:
     """Return a point from which the whole record can be fitted: fit a growing first part.
+
+    The first is of the share ``most`` of the record, or as short as the point can be followed.
 
     On the way the testbed's inertia counts as prior, torques are kept small and the camera counts
     as coarse, so that a part too short to show them, or a model that does not hold, cannot drive
@@ -133,13 +146,23 @@ def approach(recording: Recording, testbed: Testbed, params: Params, point: Unkn
         problem = problem_of(part(share), coarse, guided, GUIDED)
         return problem, at_rest(problem, point)
 
-    share = 1.0
+    share = most
     while share > SHORTEST and misfit(*posed(share)) > CAPTURE:
         share /= 2
     while share <= 1.0:
         point = replace(settle(*posed(share)).point, error=point.error)
         share *= 2
     return point
+
+
+def few_swings(recording: Recording) -> float:
+    """Return the first share of a long record to fit: ``FEW_SWINGS``, or more if it is sparse."""
+    start_t, end_t = recording.span
+    channels = [c.t for c in (recording.attitude, recording.rate) if c is not None]
+    share, rows = FEW_SWINGS, np.concatenate(channels)
+    while np.sum(rows < start_t + share * (end_t - start_t)) < FEW_ROWS:
+        share *= 2
+    return share
 
 
 def coarsened(testbed: Testbed) -> Testbed:
@@ -158,17 +181,25 @@ def at_rest(problem: Problem, point: Unknowns) -> Unknowns:
 
 
 def fit(
-    recording: Recording, testbed: Testbed, params: Params, guess: Unknowns | None = None
+    recording: Recording,
+    testbed: Testbed,
+    params: Params,
+    guess: Unknowns | None = None,
+    early: Recording | None = None,
 ) -> Fitted:
-    """Return the optimum for a record, from a given point or from the linear methods."""
+    """Return the optimum for a record, from a given point or from the linear methods.
+
+    A record so long that a point is lost by whole swings gives these only a first part, ``early``.
+    """
     recording = arranged(recording, testbed.mass_names)
     problem = problem_of(recording, testbed, params)
     if guess is None:
         first = float(problem.line.t[0])
-        point = start(
-            recording, testbed, problem.layout, first, held_names(recording, testbed, params)
-        )
-        if params.terms or misfit(problem, point) > CAPTURE:
+        hold = held_names(recording, testbed, params)
+        point = start(early or recording, testbed, problem.layout, first, hold)
+        if early is not None:
+            point = approach(recording, testbed, params, point, few_swings(recording))
+        elif params.terms or misfit(problem, point) > CAPTURE:
             point = approach(recording, testbed, params, point)
     else:
         point = guess

@@ -143,6 +143,17 @@ def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
     return weight
 
 
+def quickest_swing(testbed: Testbed, aside: float = 0.0) -> float:
+    """Return the fastest swing (rad/s) as a pendulum that the testbed's description allows.
+
+    With the centre of mass another ``aside`` metres off, by the masses.
+    """
+    body = testbed.body
+    lever = float(np.linalg.norm(body.com) + 2 * np.max(testbed.com_sd)) + aside
+    stiffness = body.mass * testbed.gravity * lever / float(np.linalg.eigvalsh(body.inertia_P)[0])
+    return float(np.sqrt(stiffness))
+
+
 def longest_step(testbed: Testbed, fastest: float, rows: int) -> float:
     """Return the integration step (s).
 
@@ -151,13 +162,10 @@ def longest_step(testbed: Testbed, fastest: float, rows: int) -> float:
     Runge-Kutta's phase error over a record grows as turn^4; a tenth of a radian makes it some
     2e-6 rad in a swing of 0.1 rad. Sensors that together see less than COARSE get shorter steps.
     """
-    body = testbed.body
-    lever = float(np.linalg.norm(body.com) + 2 * np.max(testbed.com_sd))
-    stiffness = body.mass * testbed.gravity * lever / float(np.linalg.eigvalsh(body.inertia_P)[0])
     sharpest = min(s.noise for s in (testbed.attitude, testbed.gyro) if s is not None)
     turn = TURN_PER_STEP * (sharpest / np.sqrt(rows) / COARSE) ** 0.25
     turn = float(np.clip(turn, FINEST, TURN_PER_STEP))
-    return min(LONGEST_STEP, turn / max(fastest, np.sqrt(stiffness)))
+    return min(LONGEST_STEP, turn / max(fastest, quickest_swing(testbed)))
 
 
 def forward_of(up: Vector3) -> tuple[float, float, float]:
@@ -177,12 +185,12 @@ def pose(
     layout: Layout,
     stops: StopErrors,
     prior: Prior,
-    fastest: float,
+    longest: float,
     limit: float,
     scale_open: bool,
     jumps: tuple[Jump, ...] = UNCUT,
 ) -> Problem:
-    """Return the problem of a recording; ``fastest`` (rad/s) sets the integration step."""
+    """Return the problem of a recording, integrated in steps of ``longest`` seconds at most."""
     attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
     jumps = inside(jumps, *recording.span)
     line = timeline(
@@ -190,7 +198,7 @@ def pose(
         seen_at(rate.t, testbed.gyro),
         recording.masses,
         len(testbed.masses),
-        longest_step(testbed, fastest, len(attitude) + len(rate)),
+        longest,
         recording.momentum,
         recording.torque,
         stops.felt,
