@@ -19,7 +19,7 @@ from builders import (
 )
 
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.actuators.stops import stop_errors
+from equipoise.actuators.mass_errors import mass_errors
 from equipoise.dynamics.propagation import NO_COLUMNS, Columns, body_of, propagate
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
@@ -134,7 +134,7 @@ TIMES = np.linspace(0, 20, 41)
 
 def felt_line():
     """A timeline whose four stops have an unknown error each, the first from the start."""
-    errors = stop_errors(MOVE, SKEWED)
+    errors = mass_errors(MOVE, SKEWED)
     return timeline(TIMES, np.zeros(0), MOVE, 3, 0.05, WHEEL, PUSH, errors.felt, errors.owner)
 
 
@@ -143,8 +143,8 @@ def moved_by(line, torque, kind, k, change):
     point = {n: np.zeros(size) for n, size in KINDS.items()}
     point[kind][k] = change
     known = line.known.copy()
-    for j, owner in enumerate(line.error_mass):
-        known[:, KNOWN_D + owner] += point[ERROR][j] * known[:, KNOWN_D + 3 + j]
+    for j, (owner, unknown) in enumerate(line.owners):
+        known[:, KNOWN_D + owner] += point[ERROR][unknown] * known[:, KNOWN_D + 3 + j]
     inertia, moment = INERTIA + point[INERTIA_KIND], MASS * COM + point[MOMENT]
     rigid = body_of(MASS, GRAVITY, inertia, moment, torque + point[TORQUE])
     q0 = multiply(ATTITUDE, exponential(point[TURN]))

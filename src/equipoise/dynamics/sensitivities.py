@@ -132,7 +132,7 @@ def error_column(
     w: Triple,
     g: Triple,
 ) -> tuple[Triple, Triple]:
-    """Return f and b of one displacement error, felt as the known input ``column`` says."""
+    """Return f and b of an error as one mass feels it, as the known input ``column`` says."""
     a, b, k = known[i], known[i + 1], KNOWN_D + owner
     felt, rate = between(a[column], b[column], share), (b[column] - a[column]) / (t[i + 1] - t[i])
     d, m = between(a[k], b[k], share), maps[owner]
@@ -182,10 +182,15 @@ def forcing(
     for c in range(n):
         kind, k, at = kinds[c], indices[c], place(c)
         if kind == ERROR:
-            felt = KNOWN_D + maps.shape[0] + k
-            f, b = error_column(maps, t, known, i, share, int(owners[k]), felt, w, g)
-            for j in range(3):
-                fb[at + j * LANES], fb[at + (3 + j) * LANES] = f[j], b[j]
+            for j in range(6):
+                fb[at + j * LANES] = 0.0
+            for e in range(owners.shape[0]):
+                if owners[e, 1] == k:
+                    felt = KNOWN_D + maps.shape[0] + e
+                    f, b = error_column(maps, t, known, i, share, int(owners[e, 0]), felt, w, g)
+                    for j in range(3):
+                        fb[at + j * LANES] += f[j]
+                        fb[at + (3 + j) * LANES] += b[j]
         elif kind >= INERTIA:
             first = at if kind == INERTIA else at + 3 * LANES
             source = k + regressor_block(kind)

@@ -78,10 +78,10 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
     com = fitted.point.com if after is None else unknowns_of(after.points[-1]).com
     rows, actual = np.zeros((3, layout.size)), d.copy()
     rows[:, R] = np.eye(3)
-    for j, owner in enumerate(problem.stops.owner):
-        actual[owner] += felt[j] * fitted.point.error[j]
-        column = FIXED + len(layout.terms) + j
-        rows[:, column] = felt[j] * problem.maps.first_moment[owner] / problem.mass
+    for j, (owner, error) in enumerate(problem.errors.owner):
+        actual[owner] += felt[j] * fitted.point.error[error]
+        column = FIXED + len(layout.terms) + error
+        rows[:, column] += felt[j] * problem.maps.first_moment[owner] / problem.mass
     for j, column in drifts:
         rows[j, column] = seconds
     moved = seconds * fitted.point.torque[DRIFT : DRIFT + 3]

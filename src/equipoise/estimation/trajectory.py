@@ -27,10 +27,10 @@ from equipoise.estimation.trajectory_problem import (
     ANCHOR,
     Problem,
     changes,
+    errors_of,
     evaluate,
     pose,
     prior_of,
-    stops_of,
 )
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.model.arrays import Floats
@@ -63,7 +63,7 @@ class Params:
 
 def layout_of(recording: Recording, testbed: Testbed, params: Params) -> Layout:
     """Return the unknowns of a record; InputError if a held name is not among them."""
-    errors = stops_of(recording, testbed).names
+    errors = errors_of(recording, testbed).names
     layout = Layout(params.terms, errors, recording.rate is not None, params.sensor)
     for name in params.hold:
         if name not in layout.names[6:15]:
@@ -99,13 +99,13 @@ def problem_of(
     recording: Recording, testbed: Testbed, params: Params, torque_anchor: float = ANCHOR
 ) -> Problem:
     """Return the least-squares problem of a record."""
-    layout, stops = layout_of(recording, testbed, params), stops_of(recording, testbed)
+    layout, errors = layout_of(recording, testbed, params), errors_of(recording, testbed)
     scale_open = is_scale_open(recording, params)
     hold = held_names(recording, testbed, params)
-    prior = prior_of(testbed, stops, layout, params.use_prior, hold, torque_anchor)
+    prior = prior_of(testbed, errors, layout, params.use_prior, hold, torque_anchor)
     limit = HUBER if params.robust else 0.0
     fastest = fastest_rate(recording)
-    return pose(recording, testbed, layout, stops, prior, fastest, limit, scale_open, params.jumps)
+    return pose(recording, testbed, layout, errors, prior, fastest, limit, scale_open, params.jumps)
 
 
 def misfit(problem: Problem, point: Unknowns) -> float:
