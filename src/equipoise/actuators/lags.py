@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.stops import MassError, is_travelling
-from equipoise.model.arrays import Bools, Series1
+from equipoise.model.arrays import Bools, Floats, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
@@ -69,6 +69,14 @@ def slowness(t: Series1, way: Way, rows: Series1) -> Series1:
     """Return minus the speed of a way at ``t``, m/s."""
     ahead, behind = (np.interp(t + s, rows, way.gone) for s in (way.sd, -way.sd))
     return (behind - ahead) / (2 * way.sd)
+
+
+def sags(track: Samples, masses: tuple[SlidingMass, ...]) -> Floats:
+    """Return one sd of how far each mass hangs below its command, m; none where nothing travels."""
+    told = [not is_measured(d, is_travelling(track.t, d, mass.speed))
+            for d, mass in zip(track.values.T, masses, strict=True)]  # fmt: skip
+    travels = len(ways(track, masses)) > 0
+    return np.array([mass.sag_sd * (travels and yes) for mass, yes in zip(masses, told, strict=True)])
 
 
 def lag_errors(t: Series1, track: Samples, masses: tuple[SlidingMass, ...]) -> list[MassError]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.lags import lag_errors, lag_times
+from equipoise.actuators.lags import lag_errors, lag_times, sags
 from equipoise.actuators.stops import stop_errors
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
@@ -25,12 +25,13 @@ class MassErrors:
     owner: Ints  # (f, 2) index of the mass that feels it, and of the unknown
     sd: Floats  # (e,) m of a stop, s of a lag
     names: tuple[str, ...]
+    sag: Floats  # (k,) m, one sd of how far a mass hangs below a command along an upright rail
 
 
 def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassErrors:
     """Return the unknowns of a recording: an error for each stop, a lag for each kind of drive."""
     if track is None or not len(track):
-        return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), ())
+        return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), (), np.zeros(0))
     t = lag_times(track, masses)
     found = [*stop_errors(t, track, masses), *lag_errors(t, track, masses)]
     columns: list[Series1] = [column for each in found for _, column in each.felt]
@@ -40,4 +41,5 @@ def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassE
         np.array(pairs, dtype=np.int64).reshape(-1, 2),
         np.array([each.sd for each in found]),
         tuple(each.name for each in found),
+        sags(track, masses),
     )
