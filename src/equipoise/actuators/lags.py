@@ -15,12 +15,10 @@ taken as it is. Masses with one ``lag_sd`` have drives of one kind and share one
 Cannot see that drives of one kind lag differently.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from equipoise.actuators.stops import MassError, is_travelling
-from equipoise.model.arrays import Bools, Floats, Series1
+from equipoise.model.arrays import Floats, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
@@ -28,63 +26,62 @@ LAG = "mass_lag"
 CREEPS = 0.5  # share of the steps at rest, chosen: a command changes in none but a ramp's ends
 
 
-class Way(NamedTuple):
-    """What a mass was told, without what it does at rest."""
-
-    mass: int
-    sd: float  # s, of the lag
-    gone: Series1  # (n,) m since the first row
+def is_command(t: Series1, d: Series1, mass: SlidingMass) -> bool:
+    """Say whether a column tells what a mass was told: in one step at rest of two, no change."""
+    at_rest = np.diff(d)[~is_travelling(t, d, mass.speed)]
+    return np.count_nonzero(at_rest) <= CREEPS * len(at_rest)
 
 
-def is_measured(d: Series1, travelling: Bools) -> bool:
-    """Say whether a column changes while its mass stands."""
-    still = np.diff(d)[~travelling]
-    return len(still) > 0 and np.count_nonzero(still) > CREEPS * len(still)
+def told(track: Samples, masses: tuple[SlidingMass, ...]) -> list[int]:
+    """Return the masses whose columns are commands to travel."""
+    t, values = track.t, track.values
+    return [
+        i
+        for i, (d, mass) in enumerate(zip(values.T, masses, strict=True))
+        if is_command(t, d, mass) and is_travelling(t, d, mass.speed).any()
+    ]
 
 
-def ways(track: Samples, masses: tuple[SlidingMass, ...]) -> list[Way]:
-    """Return the ways of all masses that were told to travel."""
-    found: list[Way] = []
-    for i, mass in enumerate(masses):
-        d = track.values[:, i]
-        travelling = is_travelling(track.t, d, mass.speed)
-        if mass.lag_sd > 0 and travelling.any() and not is_measured(d, travelling):
-            steps = np.where(travelling, np.diff(d), 0.0)
-            found.append(Way(i, mass.lag_sd, np.append(0.0, np.cumsum(steps))))
-    return found
+def kinds_of(track: Samples, masses: tuple[SlidingMass, ...]) -> dict[float, list[int]]:
+    """Return the masses that follow a command late, by the sd of their lag (s)."""
+    late = [i for i in told(track, masses) if masses[i].lag_sd > 0]
+    return {
+        sd: [i for i in late if masses[i].lag_sd == sd]
+        for sd in sorted({masses[i].lag_sd for i in late})
+    }
 
 
 def lag_times(track: Samples, masses: tuple[SlidingMass, ...]) -> Series1:
     """Return the record's times, and those at which the speed of a sparse record bends."""
-    t = track.t
-    gaps = np.diff(t)
-    times = [t]
-    for sd in {way.sd for way in ways(track, masses)}:
+    t, gaps, times = track.t, np.diff(track.t), [track.t]
+    for sd in kinds_of(track, masses):
         sparse = np.append(gaps > sd, False) | np.append(False, gaps > sd)
         times += [t[sparse] - sd, t[sparse] + sd]
     return np.unique(np.concatenate(times))
 
 
-def slowness(t: Series1, way: Way, rows: Series1) -> Series1:
-    """Return minus the speed of a way at ``t``, m/s."""
-    ahead, behind = (np.interp(t + s, rows, way.gone) for s in (way.sd, -way.sd))
-    return (behind - ahead) / (2 * way.sd)
-
-
-def sags(track: Samples, masses: tuple[SlidingMass, ...]) -> Floats:
-    """Return one sd of how far each mass hangs below its command, m; none where nothing travels."""
-    told = [not is_measured(d, is_travelling(track.t, d, mass.speed))
-            for d, mass in zip(track.values.T, masses, strict=True)]  # fmt: skip
-    travels = len(ways(track, masses)) > 0
-    return np.array([mass.sag_sd * (travels and yes) for mass, yes in zip(masses, told, strict=True)])
+def slowness(t: Series1, track: Samples, mass: int, reach: float) -> Series1:
+    """Return minus the speed of a mass over [t - reach, t + reach], m/s."""
+    d = track.values[:, mass]
+    ahead, behind = (np.interp(t + s, track.t, d) for s in (reach, -reach))
+    return (behind - ahead) / (2 * reach)
 
 
 def lag_errors(t: Series1, track: Samples, masses: tuple[SlidingMass, ...]) -> list[MassError]:
-    """Return one unknown lag for each kind of drive."""
-    told = ways(track, masses)
-    kinds = sorted({way.sd for way in told})
+    """Return one unknown lag for each kind of drive, felt at the times ``t``."""
     return [
-        MassError(f"{LAG}_{k + 1}", sd,
-                  [(way.mass, slowness(t, way, track.t)) for way in told if way.sd == sd])
-        for k, sd in enumerate(kinds)
-    ]  # fmt: skip
+        MassError(f"{LAG}_{k + 1}", sd, [(i, slowness(t, track, i, sd)) for i in kind])
+        for k, (sd, kind) in enumerate(kinds_of(track, masses).items())
+    ]
+
+
+def sags(track: Samples, masses: tuple[SlidingMass, ...]) -> Floats:
+    """Return one sd of how far each mass hangs below its command, m; none where nothing travels.
+
+    Then home is where the masses hang.
+    """
+    travels, t = len(told(track, masses)) > 0, track.t
+    return np.array([
+        mass.sag_sd * (travels and is_command(t, d, mass))
+        for d, mass in zip(track.values.T, masses, strict=True)
+    ])  # fmt: skip
