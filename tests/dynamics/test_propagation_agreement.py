@@ -126,14 +126,14 @@ def test_integrator_earns_order_four(track):
 
 # --- Sensitivities ----------------------------------------------------------------------------
 
-KINDS = {TURN: 3, RATE_KIND: 3, INERTIA_KIND: 6, MOMENT: 3, TORQUE: 16, ERROR: 4}
+KINDS = {TURN: 3, RATE_KIND: 3, INERTIA_KIND: 6, MOMENT: 3, TORQUE: 16, ERROR: 5}
 PAIRS = np.array([(kind, k) for kind, n in KINDS.items() for k in range(n)])
 COLUMNS = Columns(PAIRS[:, 0].copy(), PAIRS[:, 1].copy())
 TIMES = np.linspace(0, 20, 41)
 
 
 def felt_line():
-    """A timeline whose four stops have an unknown error each, the first from the start."""
+    """A timeline with an unknown error of each of four stops, the first from the start, and a lag."""
     errors = mass_errors(MOVE, SKEWED)
     return timeline(TIMES, np.zeros(0), MOVE, 3, 0.05, WHEEL, PUSH, errors.felt, errors.owner)
 
