@@ -11,7 +11,7 @@ from equipoise.actuators.stops import felt, travels
 from equipoise.model.recording import Samples
 
 SPEED, SD = 0.01, 3e-4
-X, Y, Z = (replace(m, lag_sd=0.0) for m in sliding_masses(accuracy=SD))
+X, Y, Z = sliding_masses(accuracy=SD)
 
 
 def track(*columns) -> Samples:

@@ -34,7 +34,8 @@ from equipoise.model.recording import Samples
 
 FAST = np.array([0.3, -0.2, 0.5])  # rad/s: RK4 errors stand far above rounding
 SKEWED = tuple(  # rails at odd angles, so that every entry of J changes
-    replace(m, axis=normalise(m.axis + [0.3, -0.2, 0.4])) for m in sliding_masses(accuracy=1e-3)
+    replace(m, axis=normalise(m.axis + [0.3, -0.2, 0.4]), lag_sd=0.1)
+    for m in sliding_masses(accuracy=1e-3)
 )
 FROM_HOME = move_at(5.0, 20.0)
 MOVE = Samples(FROM_HOME.t, FROM_HOME.values + [0.02, 0, 0])  # x stands 20 mm out to begin with
