@@ -7,6 +7,7 @@ import pytest
 from builders import sliding_masses
 
 from equipoise.actuators.lags import is_command, slowness, told
+from equipoise.actuators.stops import is_travelling
 from equipoise.actuators.mass_errors import mass_errors
 from equipoise.model.recording import Samples
 
@@ -85,9 +86,8 @@ def test_a_column_that_creeps_at_rest_is_a_measurement():
     t = np.arange(0, 20, 0.02)
     d = 0.010 * smooth(t, 5, 2)
     read = d + 1e-6 * np.random.default_rng(0).normal(size=len(t))
-    assert is_command(t, d, X)
-    assert not is_command(t, read, X)
-    assert is_command(t, np.round(d, 4), X)
+    for column, wanted in ((d, True), (read, False), (np.round(d, 4), True)):
+        assert is_command(column, is_travelling(t, column, X.speed)) == wanted
 
 
 def test_measured_and_standing_masses_have_no_lag():
@@ -96,7 +96,7 @@ def test_measured_and_standing_masses_have_no_lag():
     d = 0.010 * smooth(t, 5, 2)
     read = d + 1e-6 * np.random.default_rng(0).normal(size=len(t))
     record = Samples(t, np.column_stack([read, 0 * d, d]))
-    assert told(record, (X, Y, Z)) == [2]
+    assert told(record, (X, Y, Z)) == ([1], [2])
     found = mass_errors(record, (X, Y, Z))
     assert found.owner.tolist() == [[2, 0]]
     assert found.sag.tolist() == [0, SAG, SAG]

@@ -15,10 +15,13 @@ taken as it is. Masses with one ``lag_sd`` have drives of one kind and share one
 Cannot see that drives of one kind lag differently.
 """
 
+from collections.abc import Collection
+from typing import NamedTuple
+
 import numpy as np
 
 from equipoise.actuators.stops import MassError, is_travelling
-from equipoise.model.arrays import Floats, Series1
+from equipoise.model.arrays import Bools, Floats, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
@@ -26,38 +29,48 @@ LAG = "mass_lag"
 CREEPS = 0.5  # share of the steps at rest, chosen: a command changes in none but a ramp's ends
 
 
-def is_command(t: Series1, d: Series1, mass: SlidingMass) -> bool:
+class Told(NamedTuple):
+    """Which columns of a record are commands."""
+
+    standing: list[int]  # masses that were told to stay where they are
+    travelling: list[int]
+
+
+def is_command(d: Series1, travelling: Bools) -> bool:
     """Say whether a column tells what a mass was told: in one step at rest of two, no change."""
-    at_rest = np.diff(d)[~is_travelling(t, d, mass.speed)]
+    at_rest = np.diff(d)[~travelling]
     return np.count_nonzero(at_rest) <= CREEPS * len(at_rest)
 
 
-def told(track: Samples, masses: tuple[SlidingMass, ...]) -> list[int]:
-    """Return the masses whose columns are commands to travel."""
-    t, values = track.t, track.values
-    return [
-        i
-        for i, (d, mass) in enumerate(zip(values.T, masses, strict=True))
-        if is_command(t, d, mass) and is_travelling(t, d, mass.speed).any()
-    ]
+def told(track: Samples, masses: tuple[SlidingMass, ...]) -> Told:
+    """Return which masses, of those that may not do as they are told, have commands as columns."""
+    found = Told([], [])
+    for i, mass in enumerate(masses):
+        if mass.lag_sd > 0 or mass.sag_sd > 0:
+            d = track.values[:, i]
+            travelling = is_travelling(track.t, d, mass.speed)
+            if is_command(d, travelling):
+                (found.travelling if travelling.any() else found.standing).append(i)
+    return found
 
 
-def kinds_of(track: Samples, masses: tuple[SlidingMass, ...]) -> dict[float, list[int]]:
+def kinds_of(commands: Told, masses: tuple[SlidingMass, ...]) -> dict[float, list[int]]:
     """Return the masses that follow a command late, by the sd of their lag (s)."""
-    late = [i for i in told(track, masses) if masses[i].lag_sd > 0]
+    late = [i for i in commands.travelling if masses[i].lag_sd > 0]
     return {
         sd: [i for i in late if masses[i].lag_sd == sd]
         for sd in sorted({masses[i].lag_sd for i in late})
     }
 
 
-def lag_times(track: Samples, masses: tuple[SlidingMass, ...]) -> Series1:
-    """Return the record's times, and those at which the speed of a sparse record bends."""
-    t, gaps, times = track.t, np.diff(track.t), [track.t]
-    for sd in kinds_of(track, masses):
-        sparse = np.append(gaps > sd, False) | np.append(False, gaps > sd)
-        times += [t[sparse] - sd, t[sparse] + sd]
-    return np.unique(np.concatenate(times))
+def lag_times(track: Samples, reaches: Collection[float]) -> Series1:
+    """Return the record's times, and those at which the speed over such reaches (s) bends."""
+    t, gaps = track.t, np.diff(track.t)
+    more: list[Series1] = []
+    for reach in reaches:
+        sparse = np.append(gaps > reach, False) | np.append(False, gaps > reach)
+        more += [t[sparse] - reach, t[sparse] + reach]
+    return np.unique(np.concatenate([t, *more])) if any(map(len, more)) else t
 
 
 def slowness(t: Series1, track: Samples, mass: int, reach: float) -> Series1:
@@ -67,21 +80,20 @@ def slowness(t: Series1, track: Samples, mass: int, reach: float) -> Series1:
     return (behind - ahead) / (2 * reach)
 
 
-def lag_errors(t: Series1, track: Samples, masses: tuple[SlidingMass, ...]) -> list[MassError]:
+def lag_errors(t: Series1, track: Samples, kinds: dict[float, list[int]]) -> list[MassError]:
     """Return one unknown lag for each kind of drive, felt at the times ``t``."""
     return [
         MassError(f"{LAG}_{k + 1}", sd, [(i, slowness(t, track, i, sd)) for i in kind])
-        for k, (sd, kind) in enumerate(kinds_of(track, masses).items())
+        for k, (sd, kind) in enumerate(kinds.items())
     ]
 
 
-def sags(track: Samples, masses: tuple[SlidingMass, ...]) -> Floats:
-    """Return one sd of how far each mass hangs below its command, m; none where nothing travels.
+def sags(commands: Told, masses: tuple[SlidingMass, ...]) -> Floats:
+    """Return one sd of how far each mass hangs below its command, m.
 
-    Then home is where the masses hang.
+    None where nothing travels: then home is where the masses hang.
     """
-    travels, t = len(told(track, masses)) > 0, track.t
-    return np.array([
-        mass.sag_sd * (travels and is_command(t, d, mass))
-        for d, mass in zip(track.values.T, masses, strict=True)
-    ])  # fmt: skip
+    found = np.zeros(len(masses))
+    for i in (*commands.standing, *commands.travelling) if commands.travelling else ():
+        found[i] = masses[i].sag_sd
+    return found

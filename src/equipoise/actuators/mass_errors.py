@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.lags import lag_errors, lag_times, sags
+from equipoise.actuators.lags import kinds_of, lag_errors, lag_times, sags, told
 from equipoise.actuators.stops import stop_errors
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
@@ -32,8 +32,10 @@ def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassE
     """Return the unknowns of a recording: an error for each stop, a lag for each kind of drive."""
     if track is None or not len(track):
         return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), (), np.zeros(0))
-    t = lag_times(track, masses)
-    found = [*stop_errors(t, track, masses), *lag_errors(t, track, masses)]
+    commands = told(track, masses)
+    kinds = kinds_of(commands, masses)
+    t = lag_times(track, kinds)
+    found = [*stop_errors(t, track, masses), *lag_errors(t, track, kinds)]
     columns: list[Series1] = [column for each in found for _, column in each.felt]
     pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.felt]
     return MassErrors(
@@ -41,5 +43,5 @@ def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassE
         np.array(pairs, dtype=np.int64).reshape(-1, 2),
         np.array([each.sd for each in found]),
         tuple(each.name for each in found),
-        sags(track, masses),
+        sags(commands, masses),
     )
