@@ -116,3 +116,10 @@ def test_at_once_and_stiff():
     found = mass_errors(track(ONCE), (replace(X, lag_sd=0.0, sag_sd=0.0),))
     assert found.names == ()
     assert found.sag.tolist() == [0]
+
+
+def test_a_kind_keeps_its_name_when_the_other_stands():
+    """Only y travels: its lag is still the second."""
+    found = mass_errors(track(HOME, ONCE), (X, replace(Y, lag_sd=2 * LAG)))
+    assert found.names == ("mass_lag_2",)
+    assert found.owner.tolist() == [[1, 0]]

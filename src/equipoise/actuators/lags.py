@@ -55,11 +55,10 @@ def told(track: Samples, masses: tuple[SlidingMass, ...]) -> Told:
 
 
 def kinds_of(commands: Told, masses: tuple[SlidingMass, ...]) -> dict[float, list[int]]:
-    """Return the masses that follow a command late, by the sd of their lag (s)."""
-    late = [i for i in commands.travelling if masses[i].lag_sd > 0]
+    """Return the masses that follow a command late, by the sd of their lag (s), for every kind."""
     return {
-        sd: [i for i in late if masses[i].lag_sd == sd]
-        for sd in sorted({masses[i].lag_sd for i in late})
+        sd: [i for i in commands.travelling if masses[i].lag_sd == sd]
+        for sd in sorted({mass.lag_sd for mass in masses if mass.lag_sd > 0})
     }
 
 
@@ -81,10 +80,14 @@ def slowness(t: Series1, track: Samples, mass: int, reach: float) -> Series1:
 
 
 def lag_errors(t: Series1, track: Samples, kinds: dict[float, list[int]]) -> list[MassError]:
-    """Return one unknown lag for each kind of drive, felt at the times ``t``."""
+    """Return one unknown lag for each kind of drive that travels, felt at the times ``t``.
+
+    Its name tells the kind, whichever of them travel in this part of a record.
+    """
     return [
         MassError(f"{LAG}_{k + 1}", sd, [(i, slowness(t, track, i, sd)) for i in kind])
         for k, (sd, kind) in enumerate(kinds.items())
+        if kind
     ]
 
 

@@ -34,7 +34,7 @@ def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassE
         return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), (), np.zeros(0))
     commands = told(track, masses)
     kinds = kinds_of(commands, masses)
-    t = lag_times(track, kinds)
+    t = lag_times(track, [sd for sd, kind in kinds.items() if kind])
     found = [*stop_errors(t, track, masses), *lag_errors(t, track, kinds)]
     columns: list[Series1] = [column for each in found for _, column in each.felt]
     pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.felt]

@@ -16,9 +16,8 @@ sought by its own name. The part with tau damps the motion (it is where a damper
 
     tau_B = m s tau g (u.(w x n)) u x n = -m s tau g (n x u)(n x u)^T w
 
-b(s) has the inertia and the momentum of masses that hang, as rails of their own beside the true
-ones, and this damping. The products of s and displacement are left out: 2 B d s beside A s, a
-quarter at 50 mm on a lever of 200 mm.
+b(s) has the inertia and the momentum of masses that hang, and this damping; their first moment is
+taken back by rails beside theirs that have nothing else.
 
 All masses are taken to hang alike, each in proportion to its ``sag_sd``.
 """
@@ -54,14 +53,13 @@ def downward(fitted: Fitted) -> Series3:
     return np.column_stack([np.interp(line.t, t, component) for component in down.T])
 
 
-def with_rails_beside(problem: Problem, hanging: Floats) -> Problem:
-    """Return the problem with masses that stand at ``hanging`` (m, (n, k)) beside the true ones."""
+def without_moment(problem: Problem, hanging: Floats) -> Problem:
+    """Return the problem of masses displaced by ``hanging`` (m, (n, k)) but for first moments."""
     maps, line = problem.maps, problem.line
-    none = np.zeros_like(maps.first_moment)
-    beside = MassMaps(none, maps.inertia_1, maps.inertia_2, maps.momentum)
+    beside = MassMaps(maps.first_moment, *(np.zeros_like(m) for m in maps[1:]))
     both = MassMaps(*(np.vstack(pair) for pair in zip(maps, beside, strict=True)))
-    k = KNOWN_D + len(maps.momentum)
-    known = np.hstack([line.known[:, :k], hanging, line.known[:, k:]])
+    first, d, felt = np.split(line.known, [KNOWN_D, KNOWN_D + len(maps.momentum)], axis=1)
+    known = np.hstack([first, d + hanging, -hanging, felt])
     return replace(problem, maps=both, line=line._replace(known=known))
 
 
@@ -93,7 +91,7 @@ def by_sag(fitted: Fitted, covariance: Square) -> Square:
     axes = moment / np.linalg.norm(moment, axis=1, keepdims=True)
     torque = fitted.point.torque.copy()
     torque[VISCOUS] += damping(problem, n.mean(axis=0), sag, lateness(fitted, covariance))
-    hung = with_rails_beside(problem, n @ axes.T * sag)
+    hung = without_moment(problem, n @ axes.T * sag)
     there = evaluate(hung, replace(fitted.point, torque=torque), fitted.jumps)
     shift = covariance @ (there.descent - fitted.at.descent)
     return np.outer(shift, shift)
