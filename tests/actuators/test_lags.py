@@ -7,8 +7,8 @@ import pytest
 from builders import sliding_masses
 
 from equipoise.actuators.lags import is_command, slowness, told
-from equipoise.actuators.stops import is_travelling
 from equipoise.actuators.mass_errors import mass_errors
+from equipoise.actuators.stops import is_travelling
 from equipoise.model.recording import Samples
 
 LAG, SAG = 0.1, 2e-3  # s, m

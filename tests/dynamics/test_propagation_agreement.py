@@ -18,8 +18,8 @@ from builders import (
     sliding_masses,
 )
 
-from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.actuators.mass_errors import mass_errors
+from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import NO_COLUMNS, Columns, body_of, propagate
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
@@ -134,7 +134,7 @@ TIMES = np.linspace(0, 20, 41)
 
 
 def felt_line():
-    """A timeline with an unknown error of each of four stops, the first from the start, and a lag."""
+    """A timeline whose four stops have an unknown error each, the first from the start; a lag."""
     errors = mass_errors(MOVE, SKEWED)
     return timeline(TIMES, np.zeros(0), MOVE, 3, 0.05, WHEEL, PUSH, errors.felt, errors.owner)
 

@@ -8,7 +8,6 @@ from builders import GRAVITY, line_of, move_at, platform, recording, sliding_mas
 
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.hanging_masses import by_sag, damping, downward, lateness
-from equipoise.estimation.observability import natural_sizes
 from equipoise.estimation.trajectory import Params, fit
 from equipoise.estimation.unknowns import physical
 from equipoise.maths.attitude import to_matrix

@@ -39,7 +39,7 @@ class Told(NamedTuple):
 def is_command(d: Series1, travelling: Bools) -> bool:
     """Say whether a column tells what a mass was told: in one step at rest of two, no change."""
     at_rest = np.diff(d)[~travelling]
-    return np.count_nonzero(at_rest) <= CREEPS * len(at_rest)
+    return bool(np.count_nonzero(at_rest) <= CREEPS * len(at_rest))
 
 
 def told(track: Samples, masses: tuple[SlidingMass, ...]) -> Told:

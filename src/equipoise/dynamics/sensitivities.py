@@ -149,6 +149,31 @@ def error_column(
 
 
 @part
+def write_error(
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    i: int,
+    share: float,
+    owners: Ints,
+    error: int,
+    w: Triple,
+    g: Triple,
+    fb: Floats,
+) -> None:
+    """Write f and b of an error, summed over the masses that feel it, from row 0 of ``fb`` on."""
+    for j in range(6):
+        fb[j * LANES] = 0.0
+    for c in range(owners.shape[0]):
+        if owners[c, 1] == error:
+            felt = KNOWN_D + maps.shape[0] + c
+            f, b = error_column(maps, t, known, i, share, int(owners[c, 0]), felt, w, g)
+            for j in range(3):
+                fb[j * LANES] += f[j]
+                fb[(3 + j) * LANES] += b[j]
+
+
+@part
 def regressor_block(kind: int) -> int:
     """Return the first column of a kind in the regressor."""
     if kind == INERTIA:
@@ -182,15 +207,7 @@ def forcing(
     for c in range(n):
         kind, k, at = kinds[c], indices[c], place(c)
         if kind == ERROR:
-            for j in range(6):
-                fb[at + j * LANES] = 0.0
-            for e in range(owners.shape[0]):
-                if owners[e, 1] == k:
-                    felt = KNOWN_D + maps.shape[0] + e
-                    f, b = error_column(maps, t, known, i, share, int(owners[e, 0]), felt, w, g)
-                    for j in range(3):
-                        fb[at + j * LANES] += f[j]
-                        fb[at + (3 + j) * LANES] += b[j]
+            write_error(maps, t, known, i, share, owners, int(k), w, g, fb[at:])
         elif kind >= INERTIA:
             first = at if kind == INERTIA else at + 3 * LANES
             source = k + regressor_block(kind)

@@ -50,7 +50,8 @@ def downward(fitted: Fitted) -> Series3:
     step = np.append(np.diff(line.t), 0.0)
     t: Series1 = line.t[seen.attitude_node] + seen.attitude_share * step[seen.attitude_node]
     down = -to_matrix(seen.attitude)[:, 2, :]
-    return np.column_stack([np.interp(line.t, t, component) for component in down.T])
+    columns: list[Series1] = [np.interp(line.t, t, component) for component in down.T]
+    return np.column_stack(columns)
 
 
 def without_moment(problem: Problem, hanging: Floats) -> Problem:

@@ -59,9 +59,9 @@ def run(
         recording.momentum, recording.torque, errors.felt, errors.owner,
     )  # fmt: skip
     first = KNOWN_D + len(testbed.masses)
+    off = [late.get(name, 0.0) for name in errors.names]
     for j, (owner, error) in enumerate(errors.owner):
-        off = late.get(errors.names[error], 0.0)
-        line.known[:, KNOWN_D + owner] += off * line.known[:, first + j]
+        line.known[:, KNOWN_D + owner] += off[error] * line.known[:, first + j]
     rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment,
                     torque)  # fmt: skip
     motion = propagate(rigid, mass_maps(testbed.masses), line, q0, w0)

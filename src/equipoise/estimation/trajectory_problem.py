@@ -111,7 +111,7 @@ def prior_of(
     hold: tuple[str, ...],
     torque_anchor: float = ANCHOR,
 ) -> Prior:
-    """Return what is known beforehand: errors of masses and bias always, mass properties when asked."""
+    """Return what is known beforehand: masses' errors and bias always, the body when asked."""
     names = layout.names
     mean, sd = np.zeros(layout.size), np.full(layout.size, np.inf)
     mean[JP], mean[R] = pack_symmetric(testbed.body.inertia_P), testbed.body.com
