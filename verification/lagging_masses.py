@@ -100,16 +100,19 @@ def square_band(found: Sequence[Found]) -> tuple[float, float]:
     return min(low, SQUARE[0]), max(high, SQUARE[1])
 
 
-def honest_rows(label: str, found: Sequence[Found]) -> list[Row]:
-    """Return the rows about errors of com and inertia, and what is left."""
+def honest_rows(label: str, found: Sequence[Found], cautious: bool = False) -> list[Row]:
+    """Return the rows about errors of com and inertia, and what is left; ``cautious`` intervals
+    may be too wide."""
     z = np.array([each.z for each in found])
     cover = float(np.mean(np.abs(z) < NORMAL_95))
     band = COVER if len(found) >= STATED else (0.7, 1.0)  # few and correlated
     off = CHI / np.sqrt(len(found))
     chi = float(np.mean([each.chi_square for each in found]))
+    least, most = square_band(found)
+    square = (0.0 if cautious else least, most)
     return [
         between(f"{label}: share of 95 % intervals that hold the truth", cover, band, ".3f"),
-        between(f"{label}: mean square of error / sd", float(np.mean(z**2)), square_band(found)),
+        between(f"{label}: mean square of error / sd", float(np.mean(z**2)), square),
         between(f"{label}: chi-square a degree of freedom, mean", chi, (1 - off, 1 + off), ".4f"),
         at_most(f"{label}: not usable", sum(not each.usable for each in found), 0, "d"),
     ]
@@ -141,7 +144,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         rows += [*lag_rows(label, found, LATE), cost_row(case, label, found, known)]
     early = spread(told_early, seeds)
     label = f"Case G, told {1e3 * EARLY:.0f} ms early"
-    rows += [*honest_rows(label, early), *lag_rows(label, early, LATE + EARLY)]
+    rows += [*honest_rows(label, early, cautious=True), *lag_rows(label, early, LATE + EARLY)]
     naive = spread(taken_at_their_word, seeds)
     rms = float(np.sqrt(np.mean(np.array([each.z for each in naive]) ** 2)))
     chi = float(np.mean([each.chi_square for each in naive]))
@@ -155,4 +158,8 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         f"with a chi-square of {chi:.3f} a degree of freedom; {sum(e.usable for e in naive)} of "
         f"{len(naive)} are called usable."
     )
-    return Result("lagging_masses", claim, tuple(rows), (note,))
+    wide = (
+        "Of a log that is stamped early all of the lag counts as the drives', whose dampers would "
+        "take energy with it: what is carried for sag is then too much, and intervals are too wide."
+    )
+    return Result("lagging_masses", claim, tuple(rows), (note, wide))
