@@ -19,8 +19,8 @@ sought by its own name. The part with tau damps the motion (it is where a damper
 b(s) has the inertia and the momentum of masses that hang, and this damping; their first moment is
 taken back by rails beside theirs that have nothing else.
 
-All masses are taken to hang alike, each in proportion to its ``sag_sd``. Cannot see which part of a
-lag is the log's and not the drive's; all counts here, so intervals are then too wide, not too short.
+All masses are taken to hang alike, each in proportion to its ``sag_sd``. Cannot see which part of
+a lag is the log's and not the drive's: all of it counts, and intervals are then too wide.
 """
 
 from dataclasses import replace
