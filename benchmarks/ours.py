@@ -32,7 +32,7 @@ def testbed_of(problem: Problem) -> Testbed:
     body = MassProperties(problem.mass, start.com, unpack_symmetric(start.inertia))
     masses = tuple(
         SlidingMass(f"m{k}", float(problem.slide_mass[k]), problem.slide_home[k],
-                    problem.slide_axis[k], (-0.05, 0.05), 0.0, 0.0, 0.0, 0.01)
+                    problem.slide_axis[k], (-0.05, 0.05), 0.0, 0.0, 0.0, 0.01, 0.0, 0.0)
         for k in range(len(problem.slide_mass))
     )  # fmt: skip
     rate = 1.0 / float(np.median(np.diff(problem.t)))

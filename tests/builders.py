@@ -27,10 +27,12 @@ EVERY_TORQUE = np.array(
 
 
 def sliding_masses(accuracy: float = 0.0, resolution: float = 1e-3) -> tuple[SlidingMass, ...]:
-    """Three masses of 15.6 g along x, y and z, +-50 mm, 10 mm/s."""
+    """Three masses of 15.6 g along x, y and z, +-50 mm, 10 mm/s; stiff, and at once where told."""
     homes = np.array([[0.2, 0, 0.05], [0, 0.2, 0.05], [0, 0, 0.25]])
     return tuple(
-        SlidingMass(name, 0.0156, home, axis, (-0.05, 0.05), resolution, accuracy, 0.0, 0.01)
+        SlidingMass(
+            name, 0.0156, home, axis, (-0.05, 0.05), resolution, accuracy, 0.0, 0.01, 0.0, 0.0
+        )
         for name, home, axis in zip("xyz", homes, np.eye(3), strict=True)
     )
 

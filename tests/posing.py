@@ -19,7 +19,7 @@ def noded(problem: Problem, record: Recording) -> Problem:
     cut = np.array([jump.t for jump in problem.jumps])
     line = timeline(
         record.attitude.t, record.rate.t, record.masses, len(problem.maps.momentum), 1.0,
-        record.momentum, record.torque, problem.stops.felt, problem.stops.owner, cut=cut,
+        record.momentum, record.torque, problem.errors.felt, problem.errors.owner, cut=cut,
     )  # fmt: skip
     seen = problem.seen._replace(
         attitude_node=line.attitude_node,
@@ -31,10 +31,10 @@ def noded(problem: Problem, record: Recording) -> Problem:
 
 
 def with_errors(problem: Problem, error: np.ndarray) -> np.ndarray:
-    """Return the known inputs with the masses where they really stop."""
+    """Return the known inputs with the masses where they really are."""
     known, k = problem.line.known.copy(), len(problem.maps.momentum)
-    for j, owner in enumerate(problem.stops.owner):
-        known[:, KNOWN_D + owner] += error[j] * known[:, KNOWN_D + k + j]
+    for j, (owner, unknown) in enumerate(problem.errors.owner):
+        known[:, KNOWN_D + owner] += error[unknown] * known[:, KNOWN_D + k + j]
     return known
 
 

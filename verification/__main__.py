@@ -22,6 +22,7 @@ from verification import (
     drift,
     efficiency,
     independent_truth,
+    lagging_masses,
     long_record,
     mujoco_platforms,
     real_record,
@@ -46,6 +47,7 @@ class Check:
 CHECKS = {
     "independent_truth": Check(independent_truth.measure, 10),
     "mujoco_platforms": Check(mujoco_platforms.measure, 20),
+    "lagging_masses": Check(lagging_masses.measure, 40),
     "efficiency": Check(efficiency.measure, 2000),
     "tracker_honesty": Check(tracker_honesty.measure, 200),
     "tracker_knows": Check(tracker_knows.measure, 200),

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from builders import sliding_masses
 
-from equipoise.actuators.stops import felt, stop_errors, travels
+from equipoise.actuators.mass_errors import mass_errors
+from equipoise.actuators.stops import felt, travels
 from equipoise.model.recording import Samples
 
 SPEED, SD = 0.01, 3e-4
@@ -58,9 +59,9 @@ def test_felt_from_the_first_row_and_to_the_last():
 
 def test_home_has_no_error():
     """Starting at home, one move: one unknown, felt after the travel, none for x at home."""
-    found = stop_errors(track(ONCE, HOME, HOME), (X, Y, Z))
+    found = mass_errors(track(ONCE, HOME, HOME), (X, Y, Z))
     assert found.names == ("error_x_1",)
-    assert found.owner.tolist() == [0]
+    assert found.owner.tolist() == [[0, 0]]
     assert found.sd.tolist() == [SD]
     assert found.felt is not None
     assert found.felt.values[:, 0].tolist() == [0, 0, 1, 1, 1, 1]
@@ -68,7 +69,7 @@ def test_home_has_no_error():
 
 def test_off_home_start_has_an_error_of_its_own():
     """A mass already 20 mm out stands there with an error, until it leaves."""
-    found = stop_errors(track([20, 20, 30, 30, 30, 30]), (X,))
+    found = mass_errors(track([20, 20, 30, 30, 30, 30]), (X,))
     assert found.names == ("error_x_1", "error_x_2")
     assert found.felt is not None
     assert found.felt.values.T.tolist() == [[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 1, 1]]
@@ -76,9 +77,9 @@ def test_off_home_start_has_an_error_of_its_own():
 
 def test_two_moves_hand_the_error_over():
     """Each stop has its own error; during travel the first goes as the second comes."""
-    found = stop_errors(track(TWICE, HOME, ONCE), (X, Y, Z))
+    found = mass_errors(track(TWICE, HOME, ONCE), (X, Y, Z))
     assert found.names == ("error_x_1", "error_x_2", "error_z_1")
-    assert found.owner.tolist() == [0, 0, 2]
+    assert found.owner.tolist() == [[0, 0], [0, 1], [2, 2]]
     assert found.felt is not None
     first, second, _ = found.felt.values.T
     assert first.tolist() == [0, 0, 1, 1, 0, 0]
@@ -87,7 +88,7 @@ def test_two_moves_hand_the_error_over():
 
 def test_off_home_and_never_moved():
     """Standing 20 mm out for the whole record: one error, always felt."""
-    found = stop_errors(track([20] * 6), (X,))
+    found = mass_errors(track([20] * 6), (X,))
     assert found.felt is not None
     assert found.felt.values[:, 0].tolist() == [1] * 6
 
@@ -95,15 +96,16 @@ def test_off_home_and_never_moved():
 @pytest.mark.parametrize("masses", [(replace(X, accuracy=0.0),), ()])
 def test_exact_masses_have_no_errors(masses):
     """Accuracy 0, or no masses: nothing unknown."""
-    found = stop_errors(track(TWICE) if masses else None, masses)
+    found = mass_errors(track(TWICE) if masses else None, masses)
     assert found.felt is None
     assert found.names == ()
-    assert found.owner.shape == found.sd.shape == (0,)
+    assert found.owner.shape == (0, 2)
+    assert found.sd.shape == (0,)
 
 
 def test_each_mass_keeps_its_own_accuracy():
     """x exact, y to 0.3 mm, z to 1 mm."""
     masses = (replace(X, accuracy=0.0), Y, replace(Z, accuracy=1e-3))
-    found = stop_errors(track(ONCE, ONCE, ONCE), masses)
-    assert found.owner.tolist() == [1, 2]
+    found = mass_errors(track(ONCE, ONCE, ONCE), masses)
+    assert found.owner.tolist() == [[1, 0], [2, 1]]
     assert found.sd.tolist() == [SD, 1e-3]

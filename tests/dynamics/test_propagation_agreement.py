@@ -18,8 +18,8 @@ from builders import (
     sliding_masses,
 )
 
+from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.actuators.stops import stop_errors
 from equipoise.dynamics.propagation import NO_COLUMNS, Columns, body_of, propagate
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
@@ -34,7 +34,8 @@ from equipoise.model.recording import Samples
 
 FAST = np.array([0.3, -0.2, 0.5])  # rad/s: RK4 errors stand far above rounding
 SKEWED = tuple(  # rails at odd angles, so that every entry of J changes
-    replace(m, axis=normalise(m.axis + [0.3, -0.2, 0.4])) for m in sliding_masses(accuracy=1e-3)
+    replace(m, axis=normalise(m.axis + [0.3, -0.2, 0.4]), lag_sd=0.1)
+    for m in sliding_masses(accuracy=1e-3)
 )
 FROM_HOME = move_at(5.0, 20.0)
 MOVE = Samples(FROM_HOME.t, FROM_HOME.values + [0.02, 0, 0])  # x stands 20 mm out to begin with
@@ -126,15 +127,15 @@ def test_integrator_earns_order_four(track):
 
 # --- Sensitivities ----------------------------------------------------------------------------
 
-KINDS = {TURN: 3, RATE_KIND: 3, INERTIA_KIND: 6, MOMENT: 3, TORQUE: 16, ERROR: 4}
+KINDS = {TURN: 3, RATE_KIND: 3, INERTIA_KIND: 6, MOMENT: 3, TORQUE: 16, ERROR: 5}
 PAIRS = np.array([(kind, k) for kind, n in KINDS.items() for k in range(n)])
 COLUMNS = Columns(PAIRS[:, 0].copy(), PAIRS[:, 1].copy())
 TIMES = np.linspace(0, 20, 41)
 
 
 def felt_line():
-    """A timeline whose four stops have an unknown error each, the first from the start."""
-    errors = stop_errors(MOVE, SKEWED)
+    """A timeline whose four stops have an unknown error each, the first from the start; a lag."""
+    errors = mass_errors(MOVE, SKEWED)
     return timeline(TIMES, np.zeros(0), MOVE, 3, 0.05, WHEEL, PUSH, errors.felt, errors.owner)
 
 
@@ -143,8 +144,8 @@ def moved_by(line, torque, kind, k, change):
     point = {n: np.zeros(size) for n, size in KINDS.items()}
     point[kind][k] = change
     known = line.known.copy()
-    for j, owner in enumerate(line.error_mass):
-        known[:, KNOWN_D + owner] += point[ERROR][j] * known[:, KNOWN_D + 3 + j]
+    for j, (owner, unknown) in enumerate(line.owners):
+        known[:, KNOWN_D + owner] += point[ERROR][unknown] * known[:, KNOWN_D + 3 + j]
     inertia, moment = INERTIA + point[INERTIA_KIND], MASS * COM + point[MOMENT]
     rigid = body_of(MASS, GRAVITY, inertia, moment, torque + point[TORQUE])
     q0 = multiply(ATTITUDE, exponential(point[TURN]))

@@ -5,7 +5,7 @@ import pytest
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
 from tests.oracle import cases
-from verification import independent_truth, long_record, mujoco_platforms
+from verification import independent_truth, lagging_masses, long_record, mujoco_platforms
 
 
 def test_propagator_agrees_with_mujoco() -> None:
@@ -26,3 +26,8 @@ def test_a_dense_record_is_identified_as_well_as_stated() -> None:
     assert found.rows == 24_001
     assert found.fine
     assert abs(found.z).max() < long_record.WORST
+
+
+def test_lag_of_servos_is_found_and_their_sag_carried() -> None:
+    """Four platforms, by their commands: the bands are as wide as that costs."""
+    assert lagging_masses.measure(range(4)).missed == ()

@@ -5,31 +5,33 @@ the error passes over with the travel. At home the error is zero by definition: 
 mass properties are stated.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Ints, Series1
+from equipoise.model.arrays import Bools, Floats, Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
 STILL = 0.05  # of the mass's speed, chosen: slower than this is standing still
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class StopErrors:
-    """One unknown displacement for each stop away from the first home."""
+class MassError(NamedTuple):
+    """One unknown, and by which masses it is felt."""
 
-    felt: Samples | None  # (n, e), 0 to 1, straight between rows
-    owner: Ints  # (e,) index of the mass
-    sd: Floats  # (e,) m
-    names: tuple[str, ...]
+    name: str
+    sd: float  # m of a stop, s of a lag
+    felt: list[tuple[int, Series1]]  # index of the mass; displacement by unknown
+
+
+def is_travelling(t: Series1, d: Series1, speed: float) -> Bools:
+    """Say of each step between rows whether one mass travels in it."""
+    return np.abs(np.diff(d)) > STILL * speed * np.diff(t)
 
 
 def travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]]:
     """Return first and last row of every travel of one mass."""
-    moving = np.abs(np.diff(d)) > STILL * speed * np.diff(t)
-    edges = np.diff(np.concatenate([[0], moving.astype(int), [0]]))
+    edges = np.diff(np.concatenate([[0], is_travelling(t, d, speed).astype(int), [0]]))
     first, last = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     return [(int(a), int(b)) for a, b in zip(first, last, strict=True)]
 
@@ -50,18 +52,14 @@ def stops_of(t: Series1, d: Series1, mass: SlidingMass) -> list[Floats]:
     return stands if abs(d[0]) > mass.accuracy else stands[1:]
 
 
-def stop_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> StopErrors:
-    """Return the unknown displacements of a recording whose masses stop with their accuracy."""
-    columns: list[Floats] = []
-    owner: list[int] = []
-    names: list[str] = []
-    for i, mass in enumerate(masses):
-        if track is None or mass.accuracy <= 0:
-            continue
-        stands = stops_of(track.t, track.values[:, i], mass)
-        columns += stands
-        owner += [i] * len(stands)
-        names += [f"error_{mass.name}_{k + 1}" for k in range(len(stands))]
-    table = Samples(track.t, np.column_stack(columns)) if track is not None and columns else None
-    sd = np.array([masses[i].accuracy for i in owner])
-    return StopErrors(table, np.array(owner, dtype=np.int64), sd, tuple(names))
+def stop_errors(t: Series1, track: Samples, masses: tuple[SlidingMass, ...]) -> list[MassError]:
+    """Return an unknown displacement for each stop of a mass that stops with an accuracy.
+
+    Felt at the times ``t``, among which are the track's.
+    """
+    return [
+        MassError(f"error_{mass.name}_{k + 1}", mass.accuracy, [(i, np.interp(t, track.t, stand))])
+        for i, mass in enumerate(masses)
+        if mass.accuracy > 0
+        for k, stand in enumerate(stops_of(track.t, track.values[:, i], mass))
+    ]

@@ -27,10 +27,13 @@ SHOWN = {
     "1/(kg m)": Unit("um/(kg m2)", UM),
 }
 TRAVEL = Unit("mm", MM)
+LATE = Unit("ms", 1e3)
 
 
 def unit_for(name: str, si: str) -> Unit:
-    """Return the unit in which to show a parameter; where masses stop is told in mm."""
+    """Return the unit in which to show a parameter; where masses stop in mm, their lag in ms."""
     if si == "m" and name.startswith("error_"):
         return TRAVEL
+    if si == "s" and name.startswith("mass_lag"):
+        return LATE
     return SHOWN.get(si, Unit(si, 1.0))

@@ -340,5 +340,5 @@ def propagate(
     """Return the motion at every node, with its sensitivities to ``columns``."""
     n, c = len(line.t), len(columns.kinds)
     out = Motion(*[np.zeros((n, *s)) for s in ((4,), (3,), (3,), (3, c), (3, c))])
-    _run(body, stacked(maps), line.t, line.known, line.error_mass, columns, q0, w0, *out)
+    _run(body, stacked(maps), line.t, line.known, line.owners, columns, q0, w0, *out)
     return out

@@ -132,7 +132,7 @@ def error_column(
     w: Triple,
     g: Triple,
 ) -> tuple[Triple, Triple]:
-    """Return f and b of one displacement error, felt as the known input ``column`` says."""
+    """Return f and b of an error as one mass feels it, as the known input ``column`` says."""
     a, b, k = known[i], known[i + 1], KNOWN_D + owner
     felt, rate = between(a[column], b[column], share), (b[column] - a[column]) / (t[i + 1] - t[i])
     d, m = between(a[k], b[k], share), maps[owner]
@@ -146,6 +146,31 @@ def error_column(
         felt * v[2] + rate * m[HM + 2],
     )
     return f, (felt * u[0], felt * u[1], felt * u[2])
+
+
+@part
+def write_error(
+    maps: Floats,
+    t: Floats,
+    known: Floats,
+    i: int,
+    share: float,
+    owners: Ints,
+    error: int,
+    w: Triple,
+    g: Triple,
+    fb: Floats,
+) -> None:
+    """Write f and b of an error, summed over the masses that feel it, from row 0 of ``fb`` on."""
+    for j in range(6):
+        fb[j * LANES] = 0.0
+    for c in range(owners.shape[0]):
+        if owners[c, 1] == error:
+            felt = KNOWN_D + maps.shape[0] + c
+            f, b = error_column(maps, t, known, i, share, int(owners[c, 0]), felt, w, g)
+            for j in range(3):
+                fb[j * LANES] += f[j]
+                fb[(3 + j) * LANES] += b[j]
 
 
 @part
@@ -182,10 +207,7 @@ def forcing(
     for c in range(n):
         kind, k, at = kinds[c], indices[c], place(c)
         if kind == ERROR:
-            felt = KNOWN_D + maps.shape[0] + k
-            f, b = error_column(maps, t, known, i, share, int(owners[k]), felt, w, g)
-            for j in range(3):
-                fb[at + j * LANES], fb[at + (3 + j) * LANES] = f[j], b[j]
+            write_error(maps, t, known, i, share, owners, int(k), w, g, fb[at:])
         elif kind >= INERTIA:
             first = at if kind == INERTIA else at + 3 * LANES
             source = k + regressor_block(kind)

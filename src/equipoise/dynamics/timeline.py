@@ -21,9 +21,9 @@ class Timeline(NamedTuple):
     """Grid of n + 1 nodes; a step leads from each node to the next."""
 
     t: Floats  # (n+1,) s
-    known: Floats  # (n+1, 6 + k + e): wheel momentum N m s, torque N m, displacements m, and how
-    # far each displacement error is felt, 0 to 1
-    error_mass: Ints  # (e,) the mass that each error belongs to
+    known: Floats  # (n+1, 6 + k + f): wheel momentum N m s, torque N m, displacements m, and how
+    # far masses feel the unknown errors
+    owners: Ints  # (f, 2) the mass that feels each of these columns, and the unknown
     attitude_node: Ints  # (n_q,) where the attitude was seen: this node
     attitude_share: Floats  # (n_q,) and this share of the step that leaves it
     rate_node: Ints  # (n_w,) the same for the rate
@@ -77,7 +77,7 @@ def timeline(
     momentum: Samples | None = None,
     torque: Samples | None = None,
     errors: Samples | None = None,
-    error_mass: Ints | None = None,
+    owners: Ints | None = None,
     at_nodes: bool = True,
     cut: Series1 | None = None,
 ) -> Timeline:
@@ -88,7 +88,7 @@ def timeline(
     firm = seen if at_nodes else np.array([start, end])
     inner = np.zeros(0) if cut is None else cut
     t = fill(distinct(np.concatenate([firm, inner, *knots])), longest)
-    owners = np.zeros(0, dtype=np.int64) if error_mass is None else error_mass
+    owners = np.zeros((0, 2), dtype=np.int64) if owners is None else owners
     inputs = ((momentum, 3), (torque, 3), (masses, n_masses), (errors, len(owners)))
     return Timeline(
         t,

@@ -1,5 +1,7 @@
 """From an optimum to an estimate: covariance, intervals, what was not seen, and a sentence."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from equipoise import __version__
@@ -7,6 +9,7 @@ from equipoise.actuators.sliding_masses import com_shift
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.fitted import Fitted, freedom, smooth_at
+from equipoise.estimation.hanging_masses import by_sag
 from equipoise.estimation.observability import OPEN, Visibility, examine, natural_sizes, scale_of
 from equipoise.estimation.ratios import ratios_of
 from equipoise.estimation.smoothing import Smoothed
@@ -76,10 +79,10 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
     com = fitted.point.com if after is None else unknowns_of(after.points[-1]).com
     rows, actual = np.zeros((3, layout.size)), d.copy()
     rows[:, R] = np.eye(3)
-    for j, owner in enumerate(problem.stops.owner):
-        actual[owner] += felt[j] * fitted.point.error[j]
-        column = FIXED + len(layout.terms) + j
-        rows[:, column] = felt[j] * problem.maps.first_moment[owner] / problem.mass
+    for j, (owner, error) in enumerate(problem.errors.owner):
+        actual[owner] += felt[j] * fitted.point.error[error]
+        column = FIXED + len(layout.terms) + error
+        rows[:, column] += felt[j] * problem.maps.first_moment[owner] / problem.mass
     for j, column in drifts:
         rows[j, column] = seconds
     moved = seconds * fitted.point.torque[DRIFT : DRIFT + 3]
@@ -169,6 +172,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
     anchor = np.where(problem.prior.held, 0.0, problem.prior.anchor)
     information = fitted.at.normal - np.diag(anchor)
     view = examine(information, scale_of(values, size), size, layout.names)
+    view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
     if problem.scale_open:
         view = without_scale(view, layout)
     after = smooth_at(fitted) if fitted.problem.jumps else None

@@ -24,7 +24,7 @@ from typing import TypeVar
 import numpy as np
 
 from equipoise.estimation.survey import ROWS, finest_spacing
-from equipoise.estimation.trajectory_problem import quickest_swing, stops_of
+from equipoise.estimation.trajectory_problem import errors_of, quickest_swing
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.straight_pieces import straight_pieces
 from equipoise.model.arrays import Ints, Series1
@@ -142,7 +142,7 @@ def with_few_bends(recording: Recording, testbed: Testbed) -> Recording:
     tolerance = FINE * noise * moment * swing**2 / heavy
     few = Samples(*straight_pieces(masses.t, masses.values, tolerance))
     found = replace(recording, masses=few)
-    same = stops_of(found, testbed).names == stops_of(recording, testbed).names
+    same = errors_of(found, testbed).names == errors_of(recording, testbed).names
     return found if same else recording
 
 

@@ -88,13 +88,14 @@ class Ended(NamedTuple):
 
 @part
 def stop_where_told(posed: Posed, point: Floats, out: Floats) -> None:
-    """Write the known inputs with the masses where they really stop."""
+    """Write the known inputs with the masses where they really are."""
     first = KNOWN_D + posed.maps.shape[0]
     for i in range(out.shape[0] if posed.owners.shape[0] else 0):
         for c in range(KNOWN_D, first):
             out[i, c] = posed.known[i, c]
         for j in range(posed.owners.shape[0]):
-            out[i, KNOWN_D + posed.owners[j]] += point[ERROR + j] * posed.known[i, first + j]
+            mass, error = posed.owners[j, 0], posed.owners[j, 1]
+            out[i, KNOWN_D + mass] += point[ERROR + error] * posed.known[i, first + j]
 
 
 @part

@@ -1,8 +1,8 @@
 """The momentum integral as an estimator: least squares on the rows of ``momentum_integral``.
 
 One factory for both axes. The noise is taken from the residual, widened for the correlation of
-neighbouring rows; a stop that is off by its accuracy is carried over by solving again with each
-stop off by one sd.
+neighbouring rows; errors of the masses are carried over by solving again with each of them one sd
+off.
 
 Cannot see the common scale of J and mu without a known move or stored momentum; and its sd does
 not know that noise in the rates biases J towards zero, which the outcome says.
@@ -13,7 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise import __version__
-from equipoise.actuators.stops import stop_errors
+from equipoise.actuators.mass_errors import mass_errors
+from equipoise.dynamics.timeline import straight_lines
 from equipoise.estimation.momentum_integral import Axes, Balance, balance
 from equipoise.estimation.observability import OPEN
 from equipoise.estimation.ratios import ratios_of
@@ -49,7 +50,7 @@ def solve(rows: Balance, trace: float | None) -> tuple[Floats, Square, Floats]:
     return found, fixed, rows.known - rows.regressor @ found
 
 
-def stop_spread(
+def error_spread(
     recording: Recording,
     testbed: Testbed,
     layout: Layout,
@@ -57,15 +58,16 @@ def stop_spread(
     axes: Axes,
     best: Floats,
 ) -> Square:
-    """Return the covariance that the accuracy of the stops adds."""
+    """Return the covariance that the accuracy of the stops and the lag of the masses add."""
     added = np.zeros((len(best), len(best)))
-    errors = stop_errors(recording.masses, testbed.masses)
-    for j, owner in enumerate(errors.owner):
-        assert recording.masses is not None
+    errors = mass_errors(recording.masses, testbed.masses)
+    for k, sd in enumerate(errors.sd):
         assert errors.felt is not None
-        moved = recording.masses.values.copy()
-        moved[:, owner] += errors.sd[j] * errors.felt.values[:, j]
-        off = replace(recording, masses=Samples(recording.masses.t, moved))
+        t, felt = errors.felt.t, errors.felt.values
+        moved = straight_lines(recording.masses, t, len(testbed.masses))
+        for j in np.flatnonzero(errors.owner[:, 1] == k):
+            moved[:, errors.owner[j, 0]] += sd * felt[:, j]
+        off = replace(recording, masses=Samples(t, moved))
         change = solve(balance(off, testbed, layout, *motion, axes), None)[0] - best
         added += np.outer(change, change)
     return added
@@ -118,7 +120,7 @@ def estimate(
     noise = float(left @ left) / (len(left) - len(best)) * (1 + correlation) / (1 - correlation)
     covariance = noise * inverse_spd(normal)
     if not scale_open:
-        covariance = covariance + stop_spread(recording, testbed, layout, motion, axes, best)
+        covariance = covariance + error_spread(recording, testbed, layout, motion, axes, best)
     n = 9 + len(terms)
     per = np.append(np.ones(6), [1 / mass] * 3 + [1.0] * len(terms))
     values, covariance = best[:n] * per, covariance[:n, :n] * per[:, None] * per

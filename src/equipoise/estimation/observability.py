@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from equipoise.actuators.lags import LAG
 from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unknowns, term_sizes
 from equipoise.maths.linalg import symmetrise
 from equipoise.model.arrays import Floats, Square
@@ -42,10 +43,15 @@ def natural_sizes(point: Unknowns, mass: float, layout: Layout) -> Floats:
     size[TURN], size[RATE], size[JP], size[R] = 1.0, 0.1, inertia, distance
     n = len(layout.terms)
     size[FIXED : FIXED + n] = term_sizes(layout.terms, inertia, 9.81 * mass)
-    size[FIXED + n : FIXED + n + len(layout.errors)] = 1e-3
+    size[FIXED + n : FIXED + n + len(layout.errors)] = error_sizes(layout.errors)
     if layout.bias:
         size[-3:] = 0.1
     return size
+
+
+def error_sizes(names: tuple[str, ...]) -> Floats:
+    """Return a size for each error of the masses: 1 mm of a stop, 1 s of a lag."""
+    return np.array([1.0 if name.startswith(LAG) else 1e-3 for name in names])
 
 
 def scale_of(values: Floats, size: Floats) -> Floats:

@@ -5,8 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.actuators.lags import LAG
+from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.actuators.stops import stop_errors
 from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.dynamics.rigid_body import KNOWN_D
@@ -44,22 +45,23 @@ def run(
     torque: Floats,
     late: Mapping[str, float],
 ) -> Prediction:
-    """Return the motion of a body through the record's moves; ``late`` are displacement errors."""
+    """Return the motion of a body through the record's moves; ``late`` are errors of masses."""
     recording = arranged(recording, testbed.mass_names)
     rows, sensor = recording.attitude, testbed.attitude
     if rows is None or not len(rows):
         rows, sensor = recording.rate, testbed.gyro
     assert rows is not None
     t = seen_at(rows.t, sensor)
-    stops = stop_errors(recording.masses, testbed.masses)
+    errors = mass_errors(recording.masses, testbed.masses)
     line = timeline(
         t, np.zeros(0), recording.masses, len(testbed.masses),
         min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
-        recording.momentum, recording.torque, stops.felt, stops.owner,
+        recording.momentum, recording.torque, errors.felt, errors.owner,
     )  # fmt: skip
     first = KNOWN_D + len(testbed.masses)
-    for j, (name, owner) in enumerate(zip(stops.names, stops.owner, strict=True)):
-        line.known[:, KNOWN_D + owner] += late.get(name, 0.0) * line.known[:, first + j]
+    off = [late.get(name, 0.0) for name in errors.names]
+    for j, (owner, error) in enumerate(errors.owner):
+        line.known[:, KNOWN_D + owner] += off[error] * line.known[:, first + j]
     rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment,
                     torque)  # fmt: skip
     motion = propagate(rigid, mass_maps(testbed.masses), line, q0, w0)
@@ -72,7 +74,7 @@ def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Predi
     torque = np.array([estimate.values((t,))[0] if estimate.has(t) else 0.0 for t in TERMS])
     body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
     q0 = exponential(estimate.values(ATTITUDE))
-    late = {p.name: p.value for p in estimate.parameters if p.name.startswith("error_")}
+    late = {p.name: p.value for p in estimate.parameters if p.name.startswith(("error_", LAG))}
     return run(recording, testbed, body, q0, estimate.values(RATE), torque, late)
 
 

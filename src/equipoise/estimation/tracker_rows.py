@@ -65,7 +65,7 @@ def rows_of(recording: Recording, testbed: Testbed, fed: bool, since: float, spe
     )  # fmt: skip
     stops, added = stop_covariances(recording if masses else Recording(), testbed, line, since)
     return Rows(
-        line.t, line.known, line.error_mass,
+        line.t, line.known, line.owners,
         np.ascontiguousarray(attitude.values[new_q]), line.attitude_node[1:],
         np.ascontiguousarray(rate.values[new_w]), line.rate_node, stops, added,
     )  # fmt: skip

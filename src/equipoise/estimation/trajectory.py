@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.actuators.mass_errors import MassErrors
 from equipoise.estimation.fitted import Fitted, settle
 from equipoise.estimation.jumps import UNCUT, Jump
 from equipoise.estimation.shooting import shot
@@ -27,11 +28,11 @@ from equipoise.estimation.trajectory_problem import (
     ANCHOR,
     Problem,
     changes,
+    errors_of,
     evaluate,
     longest_step,
     pose,
     prior_of,
-    stops_of,
 )
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.model.arrays import Floats
@@ -67,8 +68,12 @@ class Params:
 
 def layout_of(recording: Recording, testbed: Testbed, params: Params) -> Layout:
     """Return the unknowns of a record; InputError if a held name is not among them."""
-    errors = stops_of(recording, testbed).names
-    layout = Layout(params.terms, errors, recording.rate is not None, params.sensor)
+    return layout_with(errors_of(recording, testbed), recording, params)
+
+
+def layout_with(errors: MassErrors, recording: Recording, params: Params) -> Layout:
+    """Return the unknowns of a record whose masses may be off in this way."""
+    layout = Layout(params.terms, errors.names, recording.rate is not None, params.sensor)
     for name in params.hold:
         if name not in layout.names[6:15]:
             wanted = nearest(name, list(layout.names[6:15]))
@@ -103,14 +108,15 @@ def problem_of(
     recording: Recording, testbed: Testbed, params: Params, torque_anchor: float = ANCHOR
 ) -> Problem:
     """Return the least-squares problem of a record."""
-    layout, stops = layout_of(recording, testbed, params), stops_of(recording, testbed)
+    errors = errors_of(recording, testbed)
+    layout = layout_with(errors, recording, params)
     scale_open = is_scale_open(recording, params)
     hold = held_names(recording, testbed, params)
-    prior = prior_of(testbed, stops, layout, params.use_prior, hold, torque_anchor)
+    prior = prior_of(testbed, errors, layout, params.use_prior, hold, torque_anchor)
     limit = HUBER if params.robust else 0.0
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     longest = longest_step(testbed, fastest_rate(recording), rows) / params.fineness
-    return pose(recording, testbed, layout, stops, prior, longest, limit, scale_open, params.jumps)
+    return pose(recording, testbed, layout, errors, prior, longest, limit, scale_open, params.jumps)
 
 
 def misfit(problem: Problem, point: Unknowns) -> float:

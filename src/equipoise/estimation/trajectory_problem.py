@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from equipoise.actuators.mass_errors import MassErrors, mass_errors
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
-from equipoise.actuators.stops import StopErrors, stop_errors
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.propagation import Columns, stacked
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
@@ -60,7 +60,7 @@ class Problem:
     mass: float
     gravity: float
     maps: MassMaps
-    stops: StopErrors
+    errors: MassErrors
     line: Timeline
     seen: Seen
     layout: Layout
@@ -105,13 +105,13 @@ def columns_of(layout: Layout) -> Columns:
 
 def prior_of(
     testbed: Testbed,
-    stops: StopErrors,
+    errors: MassErrors,
     layout: Layout,
     inertia_and_com: bool,
     hold: tuple[str, ...],
     torque_anchor: float = ANCHOR,
 ) -> Prior:
-    """Return what is known beforehand: stops and bias always, mass properties when asked."""
+    """Return what is known beforehand: masses' errors and bias always, the body when asked."""
     names = layout.names
     mean, sd = np.zeros(layout.size), np.full(layout.size, np.inf)
     mean[JP], mean[R] = pack_symmetric(testbed.body.inertia_P), testbed.body.com
@@ -119,7 +119,7 @@ def prior_of(
         sd[JP] = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
         sd[R] = testbed.com_sd
     for k, name in enumerate(layout.errors):
-        sd[names.index(name)] = stops.sd[k]
+        sd[names.index(name)] = errors.sd[k]
     first = FIXED + len(layout.terms) + len(layout.errors)
     sd[first : first + len(layout.sensor)] = sensor_sizes(layout.sensor)
     if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
@@ -183,7 +183,7 @@ def pose(
     recording: Recording,
     testbed: Testbed,
     layout: Layout,
-    stops: StopErrors,
+    errors: MassErrors,
     prior: Prior,
     longest: float,
     limit: float,
@@ -201,8 +201,8 @@ def pose(
         longest,
         recording.momentum,
         recording.torque,
-        stops.felt,
-        stops.owner,
+        errors.felt,
+        errors.owner,
         at_nodes=False,
         cut=np.array([jump.t for jump in jumps]),
     )
@@ -222,7 +222,7 @@ def pose(
     )
     maps = mass_maps(testbed.masses)
     columns = columns_of(layout)
-    return Problem(testbed.body.mass, testbed.gravity, maps, stops, line, seen, layout, columns,
+    return Problem(testbed.body.mass, testbed.gravity, maps, errors, line, seen, layout, columns,
                    prior, limit, scale_open, jumps)  # fmt: skip
 
 
@@ -230,7 +230,7 @@ def posed(problem: Problem) -> Posed:
     """Return the problem as the kernel sees it."""
     line, prior = problem.line, problem.prior
     return Posed(problem.mass, problem.gravity, stacked(problem.maps), line.t, line.known,
-                 line.error_mass, problem.columns, problem.seen, problem.limit, prior.mean,
+                 line.owners, problem.columns, problem.seen, problem.limit, prior.mean,
                  prior.weight, prior.held, problem.layout.slots,
                  cuts_of(problem.jumps, line.t, problem.layout))  # fmt: skip
 
@@ -262,6 +262,6 @@ def changes(recording: Recording) -> bool:
     return moved or any(c is not None and bool(np.any(c.values)) for c in others)
 
 
-def stops_of(recording: Recording, testbed: Testbed) -> StopErrors:
-    """Return the displacement errors that this recording can have."""
-    return stop_errors(recording.masses, testbed.masses)
+def errors_of(recording: Recording, testbed: Testbed) -> MassErrors:
+    """Return the errors of displacement that this recording can have."""
+    return mass_errors(recording.masses, testbed.masses)

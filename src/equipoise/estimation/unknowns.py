@@ -3,7 +3,7 @@
 Physical coordinates, in which information and covariance are stated:
 
     [ turn of the first attitude (3) | first rate (3) | J_P xx yy zz xy xz yz | com (3)
-      | torque coefficients | displacement errors | sensor coefficients | gyro bias (3) ]
+      | torque coefficients | errors of the masses | sensor coefficients | gyro bias (3) ]
 
 The inertia itself is kept as the six numbers of ``maths.pseudo_inertia``, so every point is a body
 that can exist. What a step does to a point is in ``point_steps``.
@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.actuators.lags import LAG
 from equipoise.estimation import point_steps
 from equipoise.maths import pseudo_inertia
 from equipoise.model import sensor_terms, torque_terms
@@ -50,7 +51,8 @@ class Layout:
         """Return their units."""
         first = ("rad",) * 3 + ("rad/s",) * 3 + ("kg m2",) * 6 + ("m",) * 3
         terms = tuple(torque_terms.unit_of(term) for term in self.terms)
-        errors, bias = ("m",) * len(self.errors), ("rad/s",) * (3 * self.bias)
+        errors = tuple("s" if name.startswith(LAG) else "m" for name in self.errors)
+        bias = ("rad/s",) * (3 * self.bias)
         return first + terms + errors + self.sensor_units + bias
 
     @property
@@ -93,7 +95,7 @@ class Unknowns:
     com: Vector3  # m, masses at home
     torque: Floats  # (16,)
     sensor: Floats  # (24,)
-    error: Floats  # (e,) m
+    error: Floats  # (e,) m, s
     bias: Vector3  # rad/s
 
     @property

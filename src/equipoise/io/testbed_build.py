@@ -14,7 +14,7 @@ from equipoise.model.mass_properties import MassProperties, from_centre
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
 from equipoise.model.torque_terms import expand
 
-UM, MM, GRAM, PERCENT, DEG = 1e-6, 1e-3, 1e-3, 1e-2, math.pi / 180
+UM, MM, MS, GRAM, PERCENT, DEG = 1e-6, 1e-3, 1e-3, 1e-3, 1e-2, math.pi / 180
 AXIS_FLOOR = 1e-6  # chosen: a shorter axis has no direction one could mean
 HANGS = 1e-3  # m: a centre of mass guessed this far off P hangs there on purpose (chosen)
 STANDS_OUT = 10.0  # times the other components, for its axis to be the vertical one (chosen)
@@ -103,6 +103,8 @@ def _mass(mass: schema.SlidingMass, where: str) -> SlidingMass:
         accuracy=mass.accuracy_mm * MM,
         backlash=mass.backlash_mm * MM,
         speed=mass.speed_mm_s * MM,
+        lag_sd=mass.lag_sd_ms * MS,
+        sag_sd=mass.sag_sd_mm * MM,
     )
 
 

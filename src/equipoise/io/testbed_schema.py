@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from equipoise.model.testbed import LAG_SD, SAG_SD
+
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 Five = Annotated[list[float], Field(min_length=5, max_length=5)]
@@ -55,6 +57,16 @@ class SlidingMass(Table):
     accuracy_mm: NotNegative = Field(0.1, description="one sd, chosen: a lead screw's")
     backlash_mm: NotNegative = 0.0
     speed_mm_s: Positive = Field(10.0, description="chosen: a small stepper on a lead screw")
+    lag_sd_ms: NotNegative = Field(
+        1e3 * LAG_SD,
+        description="one sd of how late it follows a recorded command, chosen: a soft servo's; "
+        "masses with one value share one lag; 0: at once, or the log is a measurement",
+    )
+    sag_sd_mm: NotNegative = Field(
+        1e3 * SAG_SD,
+        description="one sd of how far it hangs below a command on an upright rail, chosen: a "
+        "soft servo's; 0: a stiff drive, a lead screw's",
+    )
 
 
 class Attitude(Table):

@@ -7,7 +7,8 @@ from equipoise.io.toml_text import Value, number, numbers, table
 from equipoise.io.truth_text import text_of_truth
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
 
-PER_UM, PER_MM, PER_GRAM, PER_PERCENT, PER_DEG = 1e6, 1e3, 1e3, 1e2, 180 / math.pi
+PER_UM, PER_MM, PER_MS, PER_GRAM = 1e6, 1e3, 1e3, 1e3
+PER_PERCENT, PER_DEG = 1e2, 180 / math.pi
 
 
 def text_of_testbed(testbed: Testbed) -> str:
@@ -50,6 +51,8 @@ def _mass(mass: SlidingMass) -> dict[str, Value]:
         "accuracy_mm": number(mass.accuracy, PER_MM),
         "backlash_mm": number(mass.backlash, PER_MM),
         "speed_mm_s": number(mass.speed, PER_MM),
+        "lag_sd_ms": number(mass.lag_sd, PER_MS),
+        "sag_sd_mm": number(mass.sag_sd, PER_MM),
     }
 
 

@@ -10,6 +10,9 @@ from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
 from equipoise.model.mass_properties import MassProperties
 
+SAG_SD = 0.001  # m, chosen: g / w^2 of a servo of w = 100 rad/s
+LAG_SD = 0.03  # s, chosen: a soft servo's 25 ms, or a row of a log at 50 Hz
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SlidingMass:
@@ -24,6 +27,8 @@ class SlidingMass:
     accuracy: float  # m, one sd of where it really stops
     backlash: float  # m, lost motion when the direction changes
     speed: float  # m/s
+    lag_sd: float = LAG_SD  # s, one sd of how late it follows a recorded command; 0: at once
+    sag_sd: float = SAG_SD  # m, one sd of how far it hangs below a command, rail upright; 0: stiff
 
 
 @dataclass(frozen=True, slots=True, eq=False)

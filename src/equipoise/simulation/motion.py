@@ -23,7 +23,7 @@ from equipoise.model.mass_properties import MassProperties
 TURN = 0.0125  # rad, chosen: energy then drifts by less than 1e-9 in ten minutes
 LONGEST = 0.25  # s, chosen
 
-NO_OWNERS = np.zeros(0, dtype=np.int64)
+NO_OWNERS = np.zeros((0, 2), dtype=np.int64)
 
 
 class Path(NamedTuple):

@@ -1,0 +1,102 @@
+"""How late masses follow a recorded command.
+
+A servo that pulls as a spring and a damper follows a slow command late by the same time throughout
+(2 / w when critically damped), and a log may be stamped early. With a lag tau
+
+    d(t) = d_log(t - tau) = d_log(t) - tau d_log'(t) + ...
+
+so a lag is felt as minus the speed, and the momentum of the travel changes with -tau d_log''. The
+speed is that over [t - s, t + s] with s one sd of the lag: what it leaves out of a constant speed's
+begin and end is of second order, tau^2, and cancels between them.
+
+A command stands still exactly; a column that creeps while the mass stands is a measurement, and is
+taken as it is. Masses with one ``lag_sd`` have drives of one kind and share one lag.
+
+Cannot see that drives of one kind lag differently.
+"""
+
+from collections.abc import Collection
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.stops import MassError, is_travelling
+from equipoise.model.arrays import Bools, Floats, Series1
+from equipoise.model.recording import Samples
+from equipoise.model.testbed import SlidingMass
+
+LAG = "mass_lag"
+CREEPS = 0.5  # share of the steps at rest, chosen: a command changes in none but a ramp's ends
+
+
+class Told(NamedTuple):
+    """Which columns of a record are commands."""
+
+    standing: list[int]  # masses that were told to stay where they are
+    travelling: list[int]
+
+
+def is_command(d: Series1, travelling: Bools) -> bool:
+    """Say whether a column tells what a mass was told: in one step at rest of two, no change."""
+    at_rest = np.diff(d)[~travelling]
+    return bool(np.count_nonzero(at_rest) <= CREEPS * len(at_rest))
+
+
+def told(track: Samples, masses: tuple[SlidingMass, ...]) -> Told:
+    """Return which masses, of those that may not do as they are told, have commands as columns."""
+    found = Told([], [])
+    for i, mass in enumerate(masses):
+        if mass.lag_sd > 0 or mass.sag_sd > 0:
+            d = track.values[:, i]
+            travelling = is_travelling(track.t, d, mass.speed)
+            if is_command(d, travelling):
+                (found.travelling if travelling.any() else found.standing).append(i)
+    return found
+
+
+def kinds_of(commands: Told, masses: tuple[SlidingMass, ...]) -> dict[float, list[int]]:
+    """Return the masses that follow a command late, by the sd of their lag (s), for every kind."""
+    return {
+        sd: [i for i in commands.travelling if masses[i].lag_sd == sd]
+        for sd in sorted({mass.lag_sd for mass in masses if mass.lag_sd > 0})
+    }
+
+
+def lag_times(track: Samples, reaches: Collection[float]) -> Series1:
+    """Return the record's times, and those at which the speed over such reaches (s) bends."""
+    t, gaps = track.t, np.diff(track.t)
+    more: list[Series1] = []
+    for reach in reaches:
+        sparse = np.append(gaps > reach, False) | np.append(False, gaps > reach)
+        more += [t[sparse] - reach, t[sparse] + reach]
+    return np.unique(np.concatenate([t, *more])) if any(map(len, more)) else t
+
+
+def slowness(t: Series1, track: Samples, mass: int, reach: float) -> Series1:
+    """Return minus the speed of a mass over [t - reach, t + reach], m/s."""
+    d = track.values[:, mass]
+    ahead, behind = (np.interp(t + s, track.t, d) for s in (reach, -reach))
+    return (behind - ahead) / (2 * reach)
+
+
+def lag_errors(t: Series1, track: Samples, kinds: dict[float, list[int]]) -> list[MassError]:
+    """Return one unknown lag for each kind of drive that travels, felt at the times ``t``.
+
+    Its name tells the kind, whichever of them travel in this part of a record.
+    """
+    return [
+        MassError(f"{LAG}_{k + 1}", sd, [(i, slowness(t, track, i, sd)) for i in kind])
+        for k, (sd, kind) in enumerate(kinds.items())
+        if kind
+    ]
+
+
+def sags(commands: Told, masses: tuple[SlidingMass, ...]) -> Floats:
+    """Return one sd of how far each mass hangs below its command, m.
+
+    None where nothing travels: then home is where the masses hang.
+    """
+    found = np.zeros(len(masses))
+    for i in (*commands.standing, *commands.travelling) if commands.travelling else ():
+        found[i] = masses[i].sag_sd
+    return found

@@ -1,0 +1,47 @@
+"""How far masses may be from where the record says they are, as unknowns with a prior.
+
+    d_i(t) = d_i,log(t) + sum_j felt_ij(t) x_j
+
+One unknown x_j may be felt by one mass (where it stopped: ``stops``) or by several (how late they
+follow what they were told: ``lags``).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.actuators.lags import kinds_of, lag_errors, lag_times, sags, told
+from equipoise.actuators.stops import stop_errors
+from equipoise.model.arrays import Floats, Ints, Series1
+from equipoise.model.recording import Samples
+from equipoise.model.testbed import SlidingMass
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MassErrors:
+    """The unknowns, and where each of them is felt."""
+
+    felt: Samples | None  # (n, f) displacement by unknown, straight between rows
+    owner: Ints  # (f, 2) index of the mass that feels it, and of the unknown
+    sd: Floats  # (e,) m of a stop, s of a lag
+    names: tuple[str, ...]
+    sag: Floats  # (k,) m, one sd of how far a mass hangs below a command along an upright rail
+
+
+def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassErrors:
+    """Return the unknowns of a recording: an error for each stop, a lag for each kind of drive."""
+    if track is None or not len(track):
+        return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), (), np.zeros(0))
+    commands = told(track, masses)
+    kinds = kinds_of(commands, masses)
+    t = lag_times(track, [sd for sd, kind in kinds.items() if kind])
+    found = [*stop_errors(t, track, masses), *lag_errors(t, track, kinds)]
+    columns: list[Series1] = [column for each in found for _, column in each.felt]
+    pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.felt]
+    return MassErrors(
+        Samples(t, np.column_stack(columns)) if columns else None,
+        np.array(pairs, dtype=np.int64).reshape(-1, 2),
+        np.array([each.sd for each in found]),
+        tuple(each.name for each in found),
+        sags(commands, masses),
+    )
