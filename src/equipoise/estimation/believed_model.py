@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.estimation.fitted import MOST, Fitted, settle, smooth_at
+from equipoise.estimation.fitted import MOST, Fitted, smooth_at
 from equipoise.estimation.jumps import RATE, Jump, carried, inside, walk
 from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.stretches import count_free
-from equipoise.estimation.trajectory import Params, problem_of
+from equipoise.estimation.trajectory import Params, problem_of, settle_pinned
 from equipoise.estimation.trajectory_problem import posed
 from equipoise.model.arrays import Floats, Series1, Square, Vector3
 from equipoise.model.estimate import COM
@@ -81,7 +81,7 @@ def fitted_in(belief: Believed, cuts: Series1, most: int = MOST) -> Fitted:
     problem = problem_of(belief.recording, belief.testbed, params)
     before = belief.fitted
     first = carried(before.problem.jumps, before.jumps, problem.jumps)
-    return settle(problem, before.point, first, most)
+    return settle_pinned(problem, before.point, first, most)
 
 
 def refitted(belief: Believed) -> Believed:

@@ -169,6 +169,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
     anchor = np.where(problem.prior.held, 0.0, problem.prior.anchor)
     information = fitted.at.normal - np.diag(anchor)
     view = examine(information, scale_of(values, size), size, layout.names)
+    unseen = view.hidden[CORE]
     if problem.scale_open:
         view = without_scale(view, layout)
     after = smooth_at(fitted) if fitted.problem.jumps else None
@@ -182,7 +183,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
         covariance,
         residual,
         view.sentences,
-        ratios_of(values[CORE], view.covariance[CORE, CORE]) if view.scale_open else (),
+        ratios_of(values[CORE], view.covariance[CORE, CORE], unseen) if view.scale_open else (),
         True,
         provenance={
             "version": __version__,

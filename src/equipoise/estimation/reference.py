@@ -25,15 +25,28 @@ from equipoise.estimation.telling import (
     walk_sentences,
 )
 from equipoise.estimation.told_events import told
-from equipoise.estimation.trajectory import METHOD, Params, at_rest, fit, problem_of
+from equipoise.estimation.torque_colour import coloured
+from equipoise.estimation.trajectory import (
+    CAPTURE,
+    METHOD,
+    Params,
+    at_rest,
+    explains,
+    fit,
+    misfit,
+    problem_of,
+)
 from equipoise.estimation.trajectory_problem import evaluate
+from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats
+from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Residual
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
 FEWEST = 4  # rows
+DAMPING = torque_terms.GROUPS["viscous"]
 
 
 def predicted_left(recording: Recording, fitted: Fitted, left: Fitted, cut: float) -> Floats:
@@ -108,21 +121,64 @@ def event_sentences(concluded: Estimate) -> list[str]:
     return [f"It steps over {len(concluded.events)} events, at {times} s."]
 
 
+def plainly(recording: Recording, testbed: Testbed, params: Params) -> tuple[Params, Fitted]:
+    """Return the plain fit, or one with damping where that alone explains the record.
+
+    Over some turns drag takes the heading so far away that no step leads back: only a search that
+    has the term from the start finds it. Every bearing damps a little.
+    """
+    plain = fit(recording, testbed, params)
+    missing = tuple(t for t in DAMPING if t not in params.terms)
+    if not missing or explains(plain):
+        return params, plain
+    terms = tuple(t for t in torque_terms.TERMS if t in (*params.terms, *missing))
+    richer = replace(params, terms=terms)
+    damped = fit(recording, testbed, richer)
+    better = explains(damped) or (is_near(damped) and not is_near(plain))
+    return (richer, damped) if better else (params, plain)
+
+
+def is_near(fitted: Fitted) -> bool:
+    """Say whether a fit follows the motion, however roughly."""
+    return bool(np.isfinite(fitted.at.cost)) and misfit(fitted.problem, fitted.point) < CAPTURE
+
+
 def surveyed(recording: Recording, testbed: Testbed, params: Params) -> Believed:
-    """Return the model that a record supports, from the plain fit."""
-    return survey(recording, testbed, params, fit(recording, testbed, params))
+    """Return the model that a record supports, from the plain fit.
+
+    A survey that goes astray in a record that no model explains leaves the plain fit.
+    """
+    richer, fitted = plainly(recording, testbed, params)
+    try:
+        return coloured(survey(recording, testbed, richer, fitted))
+    except np.linalg.LinAlgError:
+        return Believed(
+            recording, testbed, richer, np.zeros(0), np.zeros(3), (), fitted, testbed
+        )
+
+
+def check_sensors(recording: Recording, testbed: Testbed) -> None:
+    """Raise InputError if the recording has rows of a sensor that the testbed does not have."""
+    for name, rows, sensor in (
+        ("attitude", recording.attitude, testbed.attitude),
+        ("gyro", recording.rate, testbed.gyro),
+    ):
+        if rows is not None and len(rows) and sensor is None:
+            where = f"{testbed.source or testbed.name}: sensor.{name}"
+            raise InputError(where, f"none, but {len(rows)} rows of it", "its noise")
 
 
 def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
     """Return the estimate of a record, with its residual on a part that was held out."""
     recording = arranged(recording, testbed.mass_names)
+    check_sensors(recording, testbed)
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     if rows < FEWEST:
         outcome = Outcome(False, f"Only {rows} rows: nothing can be estimated.")
         return Estimate(METHOD, outcome, (), np.zeros((0, 0)))
     belief = surveyed(recording, testbed, params)
     concluded = conclude(belief.fitted, METHOD, recording)
-    if not np.isfinite(belief.fitted.at.cost):
+    if not np.isfinite(belief.fitted.at.cost) or not (len(belief.cuts) or concluded.outcome.usable):
         return concluded
     fit, after = smoothed(belief)
     concluded = replace(concluded, events=told(belief, fit, after),

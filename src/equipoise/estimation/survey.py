@@ -134,13 +134,16 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     """Return the model that the record supports, and the fit in it.
 
     First without process noise, which could hide a term that explains all; of two models that do
-    not, the likelier.
+    not, the likelier. So many events as the search allows explain anything, such as a motor's push:
+    they are not believed without process noise having had its chance.
     """
     cuts = cut_times(recording)
     belief = Believed(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
     if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
         return replace(belief, cuts=np.zeros(0))
     simple = settled(searched(belief, FEW_EVENTS))
+    if len(simple.events) >= FEW_EVENTS:
+        return driven(belief)
     if is_calm(simple):
         return simple
     other = driven(belief)
