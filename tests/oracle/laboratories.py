@@ -43,6 +43,10 @@ class Record:
         """What is to be found: masses at home."""
         return MassProperties(self.platform.mass, self.platform.com, self.platform.inertia_P)
 
+    def unstated(self) -> "Record":
+        """Return the record of a laboratory whose testbed says nothing of its sensors."""
+        return replace(self, testbed=replace(self.testbed, attitude=None, gyro=None))
+
     def knowing(self, *moments: int) -> "Record":
         """Return the record of a laboratory that knows these moments of inertia (0, 1, 2)."""
         body = self.testbed.body

@@ -155,7 +155,7 @@ def without_scale(view: Visibility, layout: Layout) -> Visibility:
     """Return the view of a fit in which one moment of inertia was held only for the search."""
     hidden = view.hidden.copy()
     hidden[JP.start : FIXED + len(layout.terms)] = True
-    return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True)
+    return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True, view.unseen)
 
 
 def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
@@ -169,7 +169,6 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
     anchor = np.where(problem.prior.held, 0.0, problem.prior.anchor)
     information = fitted.at.normal - np.diag(anchor)
     view = examine(information, scale_of(values, size), size, layout.names)
-    unseen = view.hidden[CORE]
     if problem.scale_open:
         view = without_scale(view, layout)
     after = smooth_at(fitted) if fitted.problem.jumps else None
@@ -183,7 +182,9 @@ def conclude(fitted: Fitted, method: str, recording: Recording) -> Estimate:
         covariance,
         residual,
         view.sentences,
-        ratios_of(values[CORE], view.covariance[CORE, CORE], unseen) if view.scale_open else (),
+        ratios_of(values[CORE], view.covariance[CORE, CORE], view.unseen[CORE])
+        if view.scale_open
+        else (),
         True,
         provenance={
             "version": __version__,

@@ -1,35 +1,47 @@
 """Ratios: what free motion shows of inertia and centre of mass when their scale is open.
 
-    J_ij / J_top and r_k / J_top, with J_top the largest moment of inertia seen
+    J_ij / J_top and r_k / J_top, with J_top the largest moment of inertia that is seen
     sd(a / b) = sd(a - (a / b) b) / b       to first order
 
-Cannot see the scale itself: see ``observability.OPEN``.
+Cannot see the scale itself: see ``observability.OPEN``. A ratio that changes along a direction
+which is not seen, and is not the scale, is not seen either.
 """
 
 import numpy as np
 
-from equipoise.model.arrays import Bools, Floats, Square
+from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import COM, INERTIA, Parameter
 
 NAMES = (*INERTIA, *COM)
 ORDER = (6, 7, 8, 0, 1, 2, 3, 4, 5)  # of report: centre of mass first
 
 
-def ratios_of(values: Floats, covariance: Square, hidden: Bools) -> tuple[Parameter, ...]:
-    """Return com and J over the largest moment of inertia that is seen, from J xx yy zz xy xz yz, com.
+PART = 1e-3  # chosen: a smaller part in an unseen direction is rounding, as in ``observability``
 
-    ``hidden`` are those that the data do not see even when one moment is held; their ratios are
-    not seen either.
+
+def largest_seen(values: Floats, unseen: Floats) -> int:
+    """Return the largest moment of inertia without part in unseen directions, if there is one."""
+    moments = values[:3] * ~np.any(np.abs(unseen[:3]) > PART * values[:3, None], axis=1)
+    return int(np.argmax(moments if moments.any() else values[:3]))
+
+
+def ratios_of(values: Floats, covariance: Square, unseen: Floats) -> tuple[Parameter, ...]:
+    """Return com and J over the largest moment of inertia, from J xx yy zz xy xz yz, com.
+
+    ``unseen`` are the directions (9, u) that the data do not see, but for the scale, of natural
+    size.
     """
-    top = int(np.argmax(np.where(hidden[:3], 0.0, values[:3]) if not hidden[:3].all() else values[:3]))
+    top = largest_seen(values, unseen)
+    size = np.append(np.full(6, values[top]), np.full(3, np.linalg.norm(values[6:])))
     found: list[Parameter] = []
     for k in ORDER:
         if k == top:
             continue
         ratio, gradient = float(values[k] / values[top]), np.zeros(len(values))
         gradient[k], gradient[top] = 1.0, -ratio
-        seen = not (hidden[k] or hidden[top])
-        square = float(gradient @ covariance @ gradient) if seen else np.inf
-        sd, unit = float(np.sqrt(square)) / float(values[top]), "1/(kg m)" if k > 5 else "-"
-        found.append(Parameter(f"{NAMES[k]}/{NAMES[top]}", unit, ratio, sd, seen))
+        sd = float(np.sqrt(gradient @ covariance @ gradient)) / float(values[top])
+        seen = not np.any(np.abs(gradient @ unseen) > PART * size[k])
+        unit = "1/(kg m)" if k > 5 else "-"
+        name = f"{NAMES[k]}/{NAMES[top]}"
+        found.append(Parameter(name, unit, ratio, sd if seen else np.inf, bool(seen)))
     return tuple(found)

@@ -152,9 +152,7 @@ def surveyed(recording: Recording, testbed: Testbed, params: Params) -> Believed
     try:
         return coloured(survey(recording, testbed, richer, fitted))
     except np.linalg.LinAlgError:
-        return Believed(
-            recording, testbed, richer, np.zeros(0), np.zeros(3), (), fitted, testbed
-        )
+        return Believed(recording, testbed, richer, np.zeros(0), np.zeros(3), (), fitted, testbed)
 
 
 def check_sensors(recording: Recording, testbed: Testbed) -> None:

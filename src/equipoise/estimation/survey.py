@@ -22,6 +22,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from equipoise.estimation import telling
 from equipoise.estimation.believed_model import (
     Believed,
     Happening,
@@ -125,8 +126,8 @@ def driven(belief: Believed) -> Believed:
         if turn > 0 and belief.events == before:
             break
         belief = weighed(settled(belief))
-        if not belief.wanders:
-            break
+        if not belief.wanders or telling.driven(belief) > telling.DRIVEN:
+            break  # a torque that drowns gravity is not to be told apart any further
     return belief
 
 
