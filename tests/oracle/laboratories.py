@@ -106,7 +106,7 @@ def spun(
     return Record(platform, _seen(run, noise, FAST), bed)
 
 
-def _swinging(
+def _swinging(  # noqa: PLR0913, PLR0917 - each is a choice of a laboratory
     seed: int,
     tilt_deg: float,
     rates_deg_s: Array | None = None,
@@ -133,7 +133,7 @@ def tilted(seed: int, tilt_deg: float = 20.0, **how: object) -> Record:
     return _swinging(seed, tilt_deg, **how)  # pyright: ignore[reportArgumentType]
 
 
-def tumbling(
+def tumbling(  # noqa: PLR0913, PLR0917 - each is a number of the gyro or of the motion
     seed: int,
     duration: float = 300.0,
     noise: float = NOISE,

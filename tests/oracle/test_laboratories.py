@@ -95,7 +95,7 @@ def test_what_no_model_explains_is_not_usable_and_fails_nothing() -> None:
 
 def test_a_sensor_that_the_testbed_lacks_is_named() -> None:
     record = labs.tilted(0, 5.0, duration=20.0, moved=False)
-    with pytest.raises(InputError, match=r"sensor.attitude: none, but 101 rows"):
+    with pytest.raises(InputError, match=r"sensor.attitude: found none, but 101 rows"):
         reference.estimate(record.recording, replace(record.testbed, attitude=None), Params())
 
 

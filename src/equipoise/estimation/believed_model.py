@@ -123,7 +123,9 @@ def evidence(fit: Fitted, after: Smoothed) -> float:
 
 
 def log_det(matrix: Square) -> float:
-    """Return ln det of a positive definite matrix in any units."""
+    """Return ln det of a positive definite matrix in any units; LinAlgError if it is not one."""
+    if not np.all(np.diag(matrix) > 0):
+        raise np.linalg.LinAlgError("the matrix is not positive definite")
     unit = 1 / np.sqrt(np.diag(matrix))
     scaled = matrix * np.outer(unit, unit)
     return float(np.linalg.slogdet(scaled)[1] - 2 * np.sum(np.log(unit)))

@@ -212,7 +212,7 @@ def settle_pinned(
     for _ in range(0 if problem.scale_open else REPINNED):
         there = found.point.body(problem.mass)
         packed = np.append(pack_symmetric(there.inertia_P), there.com)
-        held, mean = (x[JP.start : R.stop] for x in (problem.prior.held, problem.prior.mean))
+        held, mean = problem.prior.held[JP.start : R.stop], problem.prior.mean[JP.start : R.stop]
         if np.allclose(packed[held], mean[held], rtol=PINNED, atol=0.0):
             break
         found = settle(problem, pinned(problem, found.point), found.jumps, most)
