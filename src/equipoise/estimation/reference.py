@@ -46,6 +46,7 @@ from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
 FEWEST = 4  # rows
+FAR = 0.5  # chosen: of a moment, by which the guess may be off and its anchor biases nothing
 DAMPING = torque_terms.GROUPS["viscous"]
 
 
@@ -143,12 +144,29 @@ def is_near(fitted: Fitted) -> bool:
     return bool(np.isfinite(fitted.at.cost)) and misfit(fitted.problem, fitted.point) < CAPTURE
 
 
+def anchored(
+    recording: Recording, testbed: Testbed, params: Params, fitted: Fitted
+) -> tuple[Testbed, Fitted]:
+    """Return the testbed with the body that was found, and the fit, where the guess was far off.
+
+    What the data leave open is kept near the guess (``Prior``), within sizes taken from it: those
+    of a body ten times too small would pull at what the data do tell.
+    """
+    found, guess = fitted.point.body(testbed.body.mass), testbed.body
+    moved = np.diag(found.inertia_P - guess.inertia_P) / (np.trace(guess.inertia_P) / 3)
+    if params.use_prior or not is_near(fitted) or float(np.abs(moved).max()) < FAR:
+        return testbed, fitted
+    nearer = replace(testbed, body=found)
+    return nearer, fit(recording, nearer, params, fitted.point)
+
+
 def surveyed(recording: Recording, testbed: Testbed, params: Params) -> Believed:
     """Return the model that a record supports, from the plain fit.
 
     A survey that goes astray in a record that no model explains leaves the plain fit.
     """
     richer, fitted = plainly(recording, testbed, params)
+    testbed, fitted = anchored(recording, testbed, richer, fitted)
     try:
         return coloured(survey(recording, testbed, richer, fitted))
     except np.linalg.LinAlgError:
