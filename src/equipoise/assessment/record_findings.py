@@ -12,6 +12,7 @@ from equipoise.assessment.motion_range import motion_findings
 from equipoise.assessment.odd_rows import odd_row_findings
 from equipoise.assessment.rate_quality import rate_findings
 from equipoise.assessment.row_averaging import averaging_findings
+from equipoise.assessment.shown_sensors import unstated_findings
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -31,6 +32,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *rate_findings(recording.rate),
         *agreement_findings(recording.attitude, recording.rate),
         *offset_findings(recording.attitude, recording.rate, *sensors),
+        *unstated_findings(recording, testbed),
         # Gaps are named in the notes too; here they are findings of their own, with their span.
         *(Finding("mended", note) for note in recording.notes if " gap" not in note),
     )

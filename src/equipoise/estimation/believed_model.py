@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.estimation.fitted import MOST, Fitted, settle, smooth_at
+from equipoise.estimation.fitted import MOST, Fitted, smooth_at
 from equipoise.estimation.jumps import RATE, Jump, carried, inside, walk
 from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.stretches import count_free
-from equipoise.estimation.trajectory import Params, problem_of
+from equipoise.estimation.trajectory import Params, problem_of, settle_pinned
 from equipoise.estimation.trajectory_problem import posed
 from equipoise.model.arrays import Floats, Series1, Square, Vector3
 from equipoise.model.estimate import COM
@@ -92,7 +92,7 @@ def fitted_in(
     now = {old.t: event.t for old, event in zip(moved, belief.events, strict=bool(moved))}
     old = tuple(replace(jump, t=now.get(jump.t, jump.t)) for jump in before.problem.jumps)
     first = carried(old, before.jumps, problem.jumps)
-    return settle(problem, before.point, first, most)
+    return settle_pinned(problem, before.point, first, most)
 
 
 def refitted(belief: Believed, moved: tuple[Happening, ...] = ()) -> Believed:
@@ -152,7 +152,9 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
 
 
 def log_det(matrix: Square) -> float:
-    """Return ln det of a positive definite matrix in any units."""
+    """Return ln det of a positive definite matrix in any units; LinAlgError if it is not one."""
+    if not np.all(np.diag(matrix) > 0):
+        raise np.linalg.LinAlgError("the matrix is not positive definite")
     unit = 1 / np.sqrt(np.diag(matrix))
     scaled = matrix * np.outer(unit, unit)
     return float(np.linalg.slogdet(scaled)[1] - 2 * np.sum(np.log(unit)))

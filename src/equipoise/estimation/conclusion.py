@@ -157,7 +157,7 @@ def without_scale(view: Visibility, layout: Layout) -> Visibility:
     """Return the view of a fit in which one moment of inertia was held only for the search."""
     hidden = view.hidden.copy()
     hidden[JP.start : FIXED + len(layout.terms)] = True
-    return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True)
+    return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True, view.unseen)
 
 
 def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float = 1.0) -> Estimate:
@@ -186,7 +186,9 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
         covariance,
         residual,
         view.sentences,
-        ratios_of(values[CORE], view.covariance[CORE, CORE]) if view.scale_open else (),
+        ratios_of(values[CORE], view.covariance[CORE, CORE], view.unseen[CORE])
+        if view.scale_open
+        else (),
         True,
         provenance={
             "version": __version__,

@@ -132,7 +132,7 @@ def estimate(
         covariance[np.ix_(order_of(n), order_of(n))],
         Residual(None, None, float(len(left)), len(left) - len(best), correlation),
         (OPEN,) if scale_open else (),
-        ratios_of(values[:9], covariance[:9, :9]) if scale_open else (),
+        ratios_of(values[:9], covariance[:9, :9], np.zeros((9, 0))) if scale_open else (),
         outcome.usable,
         {"version": __version__, "source": recording.source, "sha256": recording.sha256},
     )

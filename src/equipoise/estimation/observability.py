@@ -33,6 +33,7 @@ class Visibility:
     hidden: NDArray[np.bool_]
     sentences: tuple[str, ...]
     scale_open: bool
+    unseen: Floats  # (n, u) directions of natural size, the scale not among them
 
 
 def natural_sizes(point: Unknowns, mass: float, layout: Layout) -> Floats:
@@ -79,10 +80,13 @@ def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, 
     hidden = np.any(np.abs(vectors[:, unseen]) > PART, axis=1)
     scale_open = False
     sentences: list[str] = []
+    others: list[Floats] = []
     for direction in vectors[:, unseen].T:
         if abs(float(direction @ scale)) > ALONG:
             scale_open = True
             sentences.append(OPEN)
         else:
             sentences.append(describe(direction, names))
-    return Visibility(covariance, hidden, tuple(sentences), scale_open)
+            others.append(direction * size)
+    lost: Floats = np.array(others).reshape(-1, len(size)).T
+    return Visibility(covariance, hidden, tuple(sentences), scale_open, lost)

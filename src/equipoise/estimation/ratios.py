@@ -1,9 +1,10 @@
 """Ratios: what free motion shows of inertia and centre of mass when their scale is open.
 
-    J_ij / J_top and r_k / J_top, with J_top the largest moment of inertia
+    J_ij / J_top and r_k / J_top, with J_top the largest moment of inertia that is seen
     sd(a / b) = sd(a - (a / b) b) / b       to first order
 
-Cannot see the scale itself: see ``observability.OPEN``.
+Cannot see the scale itself: see ``observability.OPEN``. A ratio that changes along a direction
+which is not seen, and is not the scale, is not seen either.
 """
 
 import numpy as np
@@ -15,9 +16,23 @@ NAMES = (*INERTIA, *COM)
 ORDER = (6, 7, 8, 0, 1, 2, 3, 4, 5)  # of report: centre of mass first
 
 
-def ratios_of(values: Floats, covariance: Square) -> tuple[Parameter, ...]:
-    """Return com and J over the largest moment of inertia, from J xx yy zz xy xz yz, com."""
-    top = int(np.argmax(values[:3]))
+PART = 1e-3  # chosen: a smaller part in an unseen direction is rounding, as in ``observability``
+
+
+def largest_seen(values: Floats, unseen: Floats) -> int:
+    """Return the largest moment of inertia without part in unseen directions, if there is one."""
+    moments = values[:3] * ~np.any(np.abs(unseen[:3]) > PART * values[:3, None], axis=1)
+    return int(np.argmax(moments if moments.any() else values[:3]))
+
+
+def ratios_of(values: Floats, covariance: Square, unseen: Floats) -> tuple[Parameter, ...]:
+    """Return com and J over the largest moment of inertia, from J xx yy zz xy xz yz, com.
+
+    ``unseen`` are the directions (9, u) that the data do not see, but for the scale, of natural
+    size.
+    """
+    top = largest_seen(values, unseen)
+    size = np.append(np.full(6, values[top]), np.full(3, np.linalg.norm(values[6:])))
     found: list[Parameter] = []
     for k in ORDER:
         if k == top:
@@ -25,6 +40,8 @@ def ratios_of(values: Floats, covariance: Square) -> tuple[Parameter, ...]:
         ratio, gradient = float(values[k] / values[top]), np.zeros(len(values))
         gradient[k], gradient[top] = 1.0, -ratio
         sd = float(np.sqrt(gradient @ covariance @ gradient)) / float(values[top])
+        seen = not np.any(np.abs(gradient @ unseen) > PART * size[k])
         unit = "1/(kg m)" if k > 5 else "-"
-        found.append(Parameter(f"{NAMES[k]}/{NAMES[top]}", unit, ratio, sd))
+        name = f"{NAMES[k]}/{NAMES[top]}"
+        found.append(Parameter(name, unit, ratio, sd if seen else np.inf, bool(seen)))
     return tuple(found)

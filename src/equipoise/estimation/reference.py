@@ -18,6 +18,7 @@ from equipoise.estimation.dense_record import surveyed_densely
 from equipoise.estimation.event_spread import with_moments
 from equipoise.estimation.fitted import Fitted, settle
 from equipoise.estimation.jumps import carried
+from equipoise.estimation.plain_model import anchored, plainly
 from equipoise.estimation.survey import MOST_EVENTS, survey
 from equipoise.estimation.telling import (
     DRIVEN,
@@ -28,9 +29,10 @@ from equipoise.estimation.telling import (
     walk_sentences,
 )
 from equipoise.estimation.told_events import told
-from equipoise.estimation.trajectory import METHOD, Params, at_rest, fit, problem_of
+from equipoise.estimation.trajectory import METHOD, Params, at_rest, problem_of
 from equipoise.estimation.trajectory_problem import evaluate
 from equipoise.model.arrays import Floats
+from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Residual
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, arranged, window
@@ -116,19 +118,33 @@ def surveyed(recording: Recording, testbed: Testbed, params: Params) -> Believed
     few = condensed(recording, testbed)
     if few is not None:
         return surveyed_densely(few, recording, testbed, params)
-    return survey(recording, testbed, params, fit(recording, testbed, params))
+    richer, fitted = plainly(recording, testbed, params)
+    testbed, fitted = anchored(recording, testbed, richer, fitted)
+    return survey(recording, testbed, richer, fitted)
+
+
+def check_sensors(recording: Recording, testbed: Testbed) -> None:
+    """Raise InputError if the recording has rows of a sensor that the testbed does not have."""
+    for name, rows, sensor in (
+        ("attitude", recording.attitude, testbed.attitude),
+        ("gyro", recording.rate, testbed.gyro),
+    ):
+        if rows is not None and len(rows) and sensor is None:
+            where = f"{testbed.source or testbed.name}: sensor.{name}"
+            raise InputError(where, f"none, but {len(rows)} rows of it", "its noise")
 
 
 def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
     """Return the estimate of a record, with its residual on a part that was held out."""
     recording = arranged(recording, testbed.mass_names)
+    check_sensors(recording, testbed)
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     if rows < FEWEST:
         outcome = Outcome(False, f"Only {rows} rows: nothing can be estimated.")
         return Estimate(METHOD, outcome, (), np.zeros((0, 0)))
     belief = surveyed(recording, testbed, params)
     concluded = conclude(belief.fitted, METHOD, recording, belief.coloured)
-    if not np.isfinite(belief.fitted.at.cost):
+    if not np.isfinite(belief.fitted.at.cost) or not (len(belief.cuts) or concluded.outcome.usable):
         return concluded
     try:
         return with_survey(belief, params, concluded)

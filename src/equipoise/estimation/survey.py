@@ -22,6 +22,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from equipoise.estimation import telling
 from equipoise.estimation.believed_model import (
     Believed,
     Happening,
@@ -35,6 +36,7 @@ from equipoise.estimation.held_out_rows import predicts_better
 from equipoise.estimation.model_choice import best_group, with_group
 from equipoise.estimation.survey_events import doubted, of_either_kind, settled
 from equipoise.estimation.survey_noise import calibrated, excesses, first_walk, quiet, weighed
+from equipoise.estimation.torque_colour import coloured
 from equipoise.estimation.trajectory import Params
 from equipoise.maths.whiteness import portmanteau
 from equipoise.model.arrays import Floats, Series1
@@ -126,8 +128,8 @@ def driven(belief: Believed) -> Believed:
         if turn > 0 and belief.events == before:
             break
         belief = weighed(settled(belief))
-        if not belief.wanders:
-            break
+        if not belief.wanders or telling.driven(belief) > telling.DRIVEN:
+            break  # a torque that drowns gravity is not to be told apart any further
     return belief
 
 
@@ -174,17 +176,20 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
         return replace(belief, cuts=np.zeros(0))
     try:
-        return looked_into(belief)
+        return coloured(looked_into(belief))
     except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
-        return replace(belief, cuts=np.zeros(0), fitted=replace(fitted, converged=False))
+        return replace(belief, cuts=np.zeros(0))
 
 
 def looked_into(belief: Believed) -> Believed:
     """Return the likeliest model from the plain one.
 
     First without process noise, which could hide a term that explains all; of two models that do
-    not, the likelier.
+    not, the likelier. So many events as the search allows explain anything, such as a motor's push:
+    they are not believed without process noise having had its chance.
     """
     simple = calm(belief)
+    if len(simple.events) >= FEW_EVENTS:
+        return doubted(driven(belief))
     models = [simple] if is_calm(simple) else [simple, driven(belief)]
     return doubted(likeliest(models))

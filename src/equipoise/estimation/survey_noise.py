@@ -104,7 +104,7 @@ def calibrated(belief: Believed) -> tuple[Believed, dict[str, Floats], Fitted]:
         far = quiet(belief, np.array([jump.t for jump in fit.problem.jumps]))
         surprise, excess = surprises(far, after), excesses(after, far)
         factors = noise_factors(belief, fit, after)
-        steady = not belief.wanders or bool(np.all(np.abs(np.log(excess)) < CALM))
+        steady = not belief.wanders or bool(np.all(np.abs(np.log(np.maximum(excess, 1e-9))) < CALM))
         camera, gyro = (len(rows) for rows in (fit.at.left_q, fit.at.left_w))
         known = is_known(factors[0], camera) and is_known(factors[1], gyro)
         if (steady and known) or calibration >= CALIBRATIONS:

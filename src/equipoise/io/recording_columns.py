@@ -22,6 +22,7 @@ TORQUE = ("torque_x_N_m", "torque_y_N_m", "torque_z_N_m")
 MASS = re.compile(r"mass_(.+)_mm")
 OURS = re.compile(r"(time|q|omega|mass|h|torque)_.*")  # a name that means to be one of ours
 PER_MM, MM = 1e3, 1e-3
+NAMED = 5  # columns that are told by name; chosen: a screen
 
 
 def is_native(names: tuple[str, ...]) -> bool:
@@ -44,7 +45,19 @@ def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
         momentum=_group(names, MOMENTUM, source),
         torque=_group(names, TORQUE, source),
         native=True,
+        notes=_left_aside(names, masses),
     )
+
+
+def _left_aside(names: tuple[str, ...], masses: list[re.Match[str]]) -> tuple[str, ...]:
+    """Say which columns mean nothing here, such as a motor's command that nothing accounts for."""
+    known = {TIME, *ATTITUDE, *RATE, *MOMENTUM, *TORQUE, *(match[0] for match in masses)}
+    unknown = [name for name in names if name and name not in known]
+    if not unknown:
+        return ()
+    more = f" and {len(unknown) - NAMED} more" if len(unknown) > NAMED else ""
+    told = ", ".join(f"'{name}'" for name in unknown[:NAMED])
+    return (f"Columns that are not known were left aside: {told}{more}.",)
 
 
 def native_columns(recording: Recording) -> dict[str, Series1]:

@@ -35,8 +35,14 @@ def symmetrise(matrix: Square) -> Square:
 
 
 def inverse_spd(matrix: Square) -> Square:
-    """Return the inverse of a positive definite matrix, scaled to unit diagonal beforehand."""
-    scale = 1.0 / np.sqrt(np.diag(matrix))
+    """Return the inverse of a positive definite matrix, scaled to unit diagonal beforehand.
+
+    LinAlgError when an element of the diagonal is not positive, or no number.
+    """
+    diagonal = np.diag(matrix)
+    if not np.all(diagonal > 0):
+        raise np.linalg.LinAlgError("the matrix is not positive definite")
+    scale = 1.0 / np.sqrt(diagonal)
     unit = matrix * np.outer(scale, scale)
     inverse: Square = np.linalg.inv(unit).astype(np.float64, copy=False)
     return symmetrise(inverse) * np.outer(scale, scale)

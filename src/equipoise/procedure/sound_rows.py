@@ -1,14 +1,16 @@
-"""A recording without the rows that stand out, and the camera as its rows show it.
+"""A recording without the rows that stand out, and the sensors as its rows show them.
 
 Rows that lie off the motion of their neighbours, or repeat the one before, say nothing about the
 platform. Rows that are means of several frames are predicted as means, when the testbed does not
-say how long they are.
+say how long they are. What is rounded is noisier than stated, and a sensor that the testbed does
+not have is as noisy as its rows.
 """
 
 from dataclasses import replace
 
 from equipoise.assessment.odd_rows import OddRows, odd_attitudes, odd_rates
 from equipoise.assessment.row_averaging import row_averaging, with_window
+from equipoise.assessment.shown_sensors import shown_camera, shown_gyro
 from equipoise.model.arrays import Bools
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
@@ -36,7 +38,8 @@ def sound(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:
         attitude = kept(attitude, mask)
     if rate is not None and len(rate) >= FEWEST:
         rate = kept(rate, odd_rates(rate).mask)
-    camera = testbed.attitude
+    camera, gyro = shown_camera(attitude, testbed.attitude), shown_gyro(rate, testbed.gyro)
     if told is not None and camera is not None and camera.averaging == 0:
         camera = with_window(camera, told)
-    return replace(recording, attitude=attitude, rate=rate), replace(testbed, attitude=camera)
+    seen = replace(testbed, attitude=camera, gyro=gyro)
+    return replace(recording, attitude=attitude, rate=rate), seen

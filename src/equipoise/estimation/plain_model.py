@@ -1,0 +1,56 @@
+"""The fit that a survey begins with: plain, or with the little that it cannot begin without.
+
+Over some turns drag takes the heading so far away that no step leads back, and a guess that is far
+off pulls at what the data tell; both are put right before anything else is looked for.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.estimation.fitted import Fitted
+from equipoise.estimation.trajectory import CAPTURE, Params, explains, fit, misfit
+from equipoise.model import torque_terms
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+DAMPING = torque_terms.GROUPS["viscous"]
+FAR = 0.5  # chosen: of a moment, by which the guess may be off and its anchor biases nothing
+
+
+def plainly(recording: Recording, testbed: Testbed, params: Params) -> tuple[Params, Fitted]:
+    """Return the plain fit, or one with damping where that alone explains the record.
+
+    Over some turns drag takes the heading so far away that no step leads back: only a search that
+    has the term from the start finds it. Every bearing damps a little.
+    """
+    plain = fit(recording, testbed, params)
+    missing = tuple(t for t in DAMPING if t not in params.terms)
+    if not missing or explains(plain):
+        return params, plain
+    terms = tuple(t for t in torque_terms.TERMS if t in (*params.terms, *missing))
+    richer = replace(params, terms=terms)
+    damped = fit(recording, testbed, richer)
+    better = explains(damped) or (is_near(damped) and not is_near(plain))
+    return (richer, damped) if better else (params, plain)
+
+
+def is_near(fitted: Fitted) -> bool:
+    """Say whether a fit follows the motion, however roughly."""
+    return bool(np.isfinite(fitted.at.cost)) and misfit(fitted.problem, fitted.point) < CAPTURE
+
+
+def anchored(
+    recording: Recording, testbed: Testbed, params: Params, fitted: Fitted
+) -> tuple[Testbed, Fitted]:
+    """Return the testbed with the body that was found, and the fit, where the guess was far off.
+
+    What the data leave open is kept near the guess (``Prior``), within sizes taken from it: those
+    of a body ten times too small would pull at what the data do tell.
+    """
+    found, guess = fitted.point.body(testbed.body.mass), testbed.body
+    moved = np.diag(found.inertia_P - guess.inertia_P) / (np.trace(guess.inertia_P) / 3)
+    if params.use_prior or not is_near(fitted) or float(np.abs(moved).max()) < FAR:
+        return testbed, fitted
+    nearer = replace(testbed, body=found)
+    return nearer, fit(recording, nearer, params, fitted.point)
