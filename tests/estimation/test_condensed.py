@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from builders import move_at, noisy, platform, recording
 
-from equipoise.estimation import reference
+from equipoise.estimation import plain_model, reference
 from equipoise.estimation.condensed import (
     DENSE,
     averaged,
@@ -191,7 +191,7 @@ def test_a_search_gone_astray_is_an_outcome(monkeypatch):
     lost = astray(record, testbed)
     with pytest.raises(np.linalg.LinAlgError):
         looked_into(replace(survey(record, testbed, Params(), lost), cuts=cut_times(record)))
-    monkeypatch.setattr(reference, "fit", lambda *_: lost)
+    monkeypatch.setattr(plain_model, "fit", lambda *_: lost)
     estimate = reference.estimate(record, testbed, Params())
     assert not estimate.outcome.usable
     assert "did not settle" in estimate.outcome.sentence

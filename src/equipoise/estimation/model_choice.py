@@ -17,6 +17,7 @@ import numpy as np
 
 from equipoise.estimation.believed_model import Believed
 from equipoise.estimation.held_out_rows import posed_in
+from equipoise.estimation.trajectory import Params
 from equipoise.estimation.trajectory_problem import changes, evaluate
 from equipoise.estimation.unknowns import sensor_sizes, term_sizes
 from equipoise.model import sensor_terms, torque_terms
@@ -26,6 +27,7 @@ HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # o
 CAMERA = (sensor_terms.GROUPS["plumb"], HEADING)
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
 DELAY = sensor_terms.GROUPS["camera_delay"]
+GROUPS = (*CAMERA, DELAY, *GYRO, *torque_terms.GROUPS.values())
 SURE = 6.0  # 2 ln ratio
 
 
@@ -53,6 +55,33 @@ def with_group(belief: Believed, group: tuple[str, ...]) -> Believed:
     wanted = {*params.terms, *group}
     terms = tuple(term for term in torque_terms.TERMS if term in wanted)
     return replace(belief, params=replace(params, terms=terms))
+
+
+def added_groups(belief: Believed, asked: Params) -> list[tuple[str, ...]]:
+    """Return the groups of terms, or what of them, that were not asked for."""
+    here, told = ({*p.sensor, *p.terms} for p in (belief.params, asked))
+    groups = (tuple(t for t in group if t in here and t not in told) for group in GROUPS)
+    return [group for group in groups if group]
+
+
+def without_group(belief: Believed, group: tuple[str, ...]) -> Believed:
+    """Return the model without a group of terms, whose coefficients are zero then."""
+    params = belief.params
+    sensor, terms = (
+        tuple(term for term in terms if term not in group)
+        for terms in (params.sensor, params.terms)
+    )
+    fitted, point = belief.fitted, belief.fitted.point
+    bare = replace(
+        point,
+        torque=np.where(np.isin(torque_terms.TERMS, group), 0.0, point.torque),
+        sensor=np.where(np.isin(sensor_terms.TERMS, group), 0.0, point.sensor),
+    )
+    return replace(
+        belief,
+        params=replace(params, sensor=sensor, terms=terms),
+        fitted=replace(fitted, point=bare),
+    )
 
 
 def plausible(belief: Believed, group: tuple[str, ...]) -> Floats:

@@ -17,6 +17,7 @@ from equipoise.model.arrays import Floats, Square
 
 SEEN = 4.0  # 1 / (half a natural size)^2
 PART = 1e-3  # chosen: a smaller component of an unseen direction is rounding
+LOST = 0.1  # natural sizes, chosen: by so much an unseen direction must move what it hides
 DISTANCE = 1e-5  # m, a centre of mass that is not worth calling an offset
 ALONG = 0.9  # chosen: cosine beyond which an unseen direction is the scale
 OPEN = (
@@ -29,7 +30,7 @@ OPEN = (
 class Visibility:
     """Covariance of what is seen, and which parameters have a part in what is not."""
 
-    covariance: Square  # over the seen directions alone
+    covariance: Square  # of what is not hidden
     hidden: NDArray[np.bool_]
     sentences: tuple[str, ...]
     scale_open: bool
@@ -76,8 +77,12 @@ def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, 
     values, vectors = np.linalg.eigh(symmetrise(information * size[:, None] * size))
     unseen = values < SEEN
     good = vectors[:, ~unseen]
-    covariance = (good / values[~unseen]) @ good.T * size[:, None] * size
-    hidden = np.any(np.abs(vectors[:, unseen]) > PART, axis=1)
+    weak, told = vectors[:, unseen], np.maximum(values[unseen], 1e-30)
+    part = np.where(np.abs(weak) > PART, weak, 0.0)
+    hidden = np.any(np.abs(part) / np.sqrt(told) > LOST, axis=1)
+    slight = np.where(hidden[:, None], 0.0, part)
+    natural = (good / values[~unseen]) @ good.T + (slight / told) @ slight.T
+    covariance = natural * size[:, None] * size
     scale_open = False
     sentences: list[str] = []
     others: list[Floats] = []

@@ -33,8 +33,13 @@ from equipoise.estimation.believed_model import (
 from equipoise.estimation.event_price import threshold
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.held_out_rows import predicts_better
-from equipoise.estimation.model_choice import best_group, with_group
-from equipoise.estimation.survey_events import doubted, of_either_kind, settled
+from equipoise.estimation.model_choice import (
+    added_groups,
+    best_group,
+    with_group,
+    without_group,
+)
+from equipoise.estimation.survey_events import colour_of, doubted, of_either_kind, pruned, settled
 from equipoise.estimation.survey_noise import calibrated, excesses, first_walk, quiet, weighed
 from equipoise.estimation.torque_colour import coloured
 from equipoise.estimation.trajectory import Params
@@ -123,11 +128,10 @@ def driven(belief: Believed) -> Believed:
     """Return the belief of a platform that something unknown drives: with process noise."""
     belief = replace(belief, walk=np.full(3, first_walk(belief)))
     for turn in range(ROUNDS):
-        before = belief.events
-        belief = searched(belief, MOST_EVENTS)
-        if turn > 0 and belief.events == before:
+        wider = searched(belief, MOST_EVENTS)
+        if turn > 0 and contents(wider) == contents(belief):
             break
-        belief = weighed(settled(belief))
+        belief = weighed(settled(wider))
         if not belief.wanders or telling.driven(belief) > telling.DRIVEN:
             break  # a torque that drowns gravity is not to be told apart any further
     return belief
@@ -163,10 +167,17 @@ def calm(belief: Believed) -> Believed:
         belief.params.terms,
         belief.params.sensor,
     )
-    if plain or (not greedy.events and is_calm(greedy)):
-        return greedy
-    events_first = repeated(belief, FEW_EVENTS, terms=False)
-    return likeliest([greedy, repeated(events_first, FEW_EVENTS)])
+    if not (plain or (not greedy.events and is_calm(greedy))):
+        events_first = repeated(belief, FEW_EVENTS, terms=False)
+        greedy = likeliest([greedy, repeated(events_first, FEW_EVENTS)])
+    return bared(greedy, belief.params)
+
+
+def bared(belief: Believed, asked: Params) -> Believed:
+    """Return the belief without the terms that what was found after them has made needless."""
+    for group in added_groups(belief, asked):
+        belief = likeliest([refitted(without_group(belief, group)), belief])
+    return belief
 
 
 def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Believed:
@@ -186,10 +197,14 @@ def looked_into(belief: Believed) -> Believed:
 
     First without process noise, which could hide a term that explains all; of two models that do
     not, the likelier. So many events as the search allows explain anything, such as a motor's push:
-    they are not believed without process noise having had its chance.
+    they are not believed without process noise having had its chance. How much of it there is
+    depends on which events are believed in: it is sought from none and from all.
     """
-    simple = calm(belief)
-    if len(simple.events) >= FEW_EVENTS:
-        return doubted(driven(belief))
-    models = [simple] if is_calm(simple) else [simple, driven(belief)]
+    greedy = calm(belief)
+    simple = pruned(greedy, colour_of(greedy))
+    if is_calm(simple) and len(simple.events) < FEW_EVENTS:
+        return doubted(simple)
+    models = [driven(belief)]
+    models += [driven(greedy)] if greedy.events else []
+    models += [simple] if len(simple.events) < FEW_EVENTS else []
     return doubted(likeliest(models))

@@ -89,13 +89,8 @@ def surprises_of(belief: Believed) -> Floats:
     return np.einsum("ka,ka->k", jump, np.linalg.solve(spread, jump[..., None])[..., 0])
 
 
-def colour(belief: Believed) -> float:
-    """Return the peak of the spectral density of what is left, over its mean.
-
-    Process noise takes up what is slow, as events are; with it what is left has no say.
-    """
-    if belief.wanders:
-        return 1.0
+def colour_of(belief: Believed) -> float:
+    """Return the peak of the spectral density of what is left, over its mean."""
     at = belief.fitted.at
     return max(spectral_peak(left) for left in (at.left_q, at.left_w))
 
@@ -106,15 +101,15 @@ def without(belief: Believed, k: int) -> Believed:
     return timed(refitted(replace(belief, events=events)))
 
 
-def pruned(belief: Believed) -> Believed:
+def pruned(belief: Believed, colour: float = 1.0) -> Believed:
     """Return the belief without the events that do not earn their place.
 
     An event may owe its surprise to another at a wrong moment: those of doubt are judged by what is
     lost without them when all others have moved. Where what is left is not white, a surprise by
-    chance is greater, at most by the peak of its spectral density.
+    chance is greater: at most by its ``colour``, the peak of its spectral density.
     """
+    price = threshold(belief.spacing) * colour
     while belief.events:
-        price = threshold(belief.spacing) * colour(belief)
         worth = surprises_of(belief)
         doubtful = [k for k in np.argsort(worth) if worth[k] < DOUBTFUL * price]
         trials = (without(belief, k) for k in doubtful)

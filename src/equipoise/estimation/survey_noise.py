@@ -25,7 +25,7 @@ from equipoise.model.arrays import Bools, Floats, Series1, Vector3
 from equipoise.model.testbed import Testbed
 
 MEDIAN, MEDIAN_1 = float(chi2.median(3)), float(chi2.median(1))
-CALM, CHANCE = 0.1, 3.0  # chosen: noise known to 10 % is known; 3 / sqrt(rows), five sd of a median
+CALM, CHANCE = 0.1, 1.0  # chosen: noise known to 10 % is known; 1 / sqrt(rows), 1.7 sd of a median
 CALIBRATIONS = 12
 BEST = 0.02  # chosen: no sensor is fifty times better than stated
 BOLDEST = 5.0  # factor by which a noise is changed at once
