@@ -39,7 +39,14 @@ from equipoise.estimation.model_choice import (
     with_group,
     without_group,
 )
-from equipoise.estimation.survey_events import colour_of, doubted, of_either_kind, pruned, settled
+from equipoise.estimation.survey_events import (
+    CLEAR,
+    colour_of,
+    doubted,
+    of_either_kind,
+    pruned,
+    settled,
+)
 from equipoise.estimation.survey_noise import calibrated, excesses, first_walk, quiet, weighed
 from equipoise.estimation.torque_colour import coloured
 from equipoise.estimation.trajectory import Params
@@ -99,10 +106,7 @@ def likeliest(models: list[Believed]) -> Believed:
 
 
 def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
-    """Return the belief with all terms that the record supports and the events that surprise.
-
-    Of a term and an event that both promise, the one goes first in which the record is likelier.
-    """
+    """Return the belief with all terms that the record supports and the events that surprise."""
     refused: Refused = set()
     while len(belief.events) < most:
         belief, surprise, fit = calibrated(belief)
@@ -111,9 +115,22 @@ def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
         if promise <= 0 and shaken is None:
             break
         richer = extended(belief, group, refused) if promise > 0 else belief
-        models = [m for m in (richer, shaken) if m is not None and m is not belief]
-        belief = likeliest(models) if models else belief
+        if shaken is None or (richer is not belief and is_lawful(richer, shaken, group)):
+            belief = richer
+        else:
+            belief = shaken
     return belief
+
+
+def is_lawful(richer: Believed, shaken: Believed, group: tuple[str, ...]) -> bool:
+    """Say whether a term explains about as much as an event that promises, too.
+
+    Each unknown counts as much as one of an event. Where both do, the term is taken: it leaves
+    open more than an event, which has come and gone.
+    """
+    price = threshold(richer.spacing)
+    ahead = 2 * (richer.fitted.at.cost - shaken.fitted.at.cost)
+    return ahead + price * (len(group) / 3 - 1) < CLEAR
 
 
 def is_calm(belief: Believed) -> bool:

@@ -128,7 +128,7 @@ def relocated(belief: Believed, k: int) -> Believed:
     """
     row = np.arange(len(belief.events)) == k
     trials = [later(belief, share * slowest(belief) * row) for share in FAR]
-    best = timed(min(trials, key=lambda trial: trial.fitted.at.cost), k)
+    best = timed(min(trials, key=lambda trial: trial.fitted.at.cost))
     return min(belief, best, key=lambda model: model.fitted.at.cost)
 
 
