@@ -14,6 +14,7 @@ is nothing unusual. Runs of more than three odd rows are not seen as such.
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -51,12 +52,20 @@ NEAR = 51  # rows over which the scale is taken near by (chosen: a scatter to 10
 TOUCH = 0.1  # of the platform's rate: at an edge no touch makes a greater jump (0.05 was seen)
 PUSH = 0.5  # of the platform's rate: inside the record no touch makes a greater jump (chosen), ...
 HAND = math.radians(10)  # rad/s: ... but a hand may push a platform that hardly turns (chosen)
+PIECE, BESIDE = 20_000, 200  # rows looked at together, and looked at beside them (chosen)
 PASSES = 20  # chosen: each finds one odd row in every stretch
 UNSURE = 2.0  # times the scale by which a jump between two rows may come out too large (chosen)
 HALF = 0.5  # of the step of coarse values: the least scale, so that a flip by one step is nothing
 REPEATS = 0.1  # share of rows as the one before, from which an attitude is coarse (chosen)
 EXACT = 1e-9  # rad, rad/s: below this rows are computed, not measured
 ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
+
+
+class Platform(NamedTuple):
+    """What a touch of the platform may look like."""
+
+    speed: float  # rad/s, at which it mostly turns
+    attitude: bool  # its rows are attitudes, not rates
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,26 +103,36 @@ def _median(speed: Series1) -> float:
 def _outlying(
     t: Series1, vectors: Vectors, least: Vector3, speed: float, attitude: bool
 ) -> OutlyingRows:
-    """Return the outlying rows; the scale is ``least`` or more."""
+    """Return the outlying rows; the scale is ``least`` or more.
+
+    A long record is looked at piece by piece, so that memory does not grow with it.
+    """
     n = len(t)
-    keep, off, scale = np.arange(n), np.zeros((n, 3)), 0.0
-    rough = np.full((n, 3), np.nan)
-    some = keep[max(0, (n - SAMPLE) // 2) :][:SAMPLE]
+    off, rough, scales = np.zeros((n, 3)), np.full((n, 3), np.nan), list[float]()
+    every = np.arange(n)
+    some = every[max(0, (n - SAMPLE) // 2) :][:SAMPLE]
     span = min(SPANS, key=lambda span: _reach(local_fit(t, some, vectors, span), span))
-    for _ in range(PASSES):
-        fit = local_fit(t, keep, vectors, span)
-        if not len(fit.rows):
-            break
-        rough[fit.own] = fit.left_own
-        sd = np.maximum(_scale(fit), least)
-        scale = scale or float(np.sqrt(np.mean(np.median(sd, axis=0) ** 2)))
-        odd = _odd_rows(t, fit, sd, speed, attitude)
-        for row, vector in odd.items():
-            off[row] = rough[row] = vector
-        if not odd:
-            break
-        keep = np.setdiff1d(keep, np.array(list(odd), np.int64))
-    return OutlyingRows(np.any(off != 0, axis=1).reshape(n), off, scale, rough)
+    for first in range(0, max(n, 1), PIECE):
+        keep = every[max(0, first - BESIDE) : first + PIECE + BESIDE]
+        inside = (every >= first) & (every < first + PIECE)
+        scale = 0.0
+        for _ in range(PASSES):
+            fit = local_fit(t, keep, vectors, span)
+            if not len(fit.rows):
+                break
+            mine = inside[fit.own]
+            rough[fit.own[mine]] = fit.left_own[mine]
+            sd = np.maximum(_scale(fit), least)
+            scale = scale or float(np.sqrt(np.mean(np.median(sd, axis=0) ** 2)))
+            odd = _odd_rows(t, fit, sd, Platform(speed, attitude), len(keep) / n)
+            for row, vector in odd.items():
+                if inside[row]:
+                    off[row] = rough[row] = vector
+            if not odd:
+                break
+            keep = np.setdiff1d(keep, np.array(list(odd), np.int64))
+        scales.append(scale)
+    return OutlyingRows(np.any(off != 0, axis=1).reshape(n), off, float(np.median(scales)), rough)
 
 
 def _reach(fit: LocalFit, span: Span) -> float:
@@ -159,11 +178,14 @@ def _scale(fit: LocalFit) -> Floats:
 
 
 def _odd_rows(
-    t: Series1, fit: LocalFit, sd: Floats, speed: float, attitude: bool
+    t: Series1, fit: LocalFit, sd: Floats, platform: Platform, share: float
 ) -> dict[int, Vector3]:
-    """Return outlying rows with how far they are off, at most one window of each stretch."""
+    """Return outlying rows with how far they are off, at most one window of each stretch.
+
+    The windows are those of a ``share`` of the record.
+    """
     unlikely = np.sum((fit.left_own / sd) ** 2, axis=1)
-    limit = float(chi2.isf(ALARMS / len(fit.rows), 3))
+    limit = float(chi2.isf(ALARMS * share / len(fit.rows), 3))
     suspects = np.flatnonzero(unlikely > limit)
     found: dict[int, Vector3] = {}
     taken = np.zeros(len(t), bool)
@@ -172,7 +194,7 @@ def _odd_rows(
             continue
         window = Window(t[fit.rows[k]], fit.basis[k], fit.y[k], sd[k])
         odd = odd_rows(window, _judged(fit, k), limit)
-        if odd and _no_touch(window, odd, limit, speed, attitude):
+        if odd and _no_touch(window, odd, limit, platform):
             found |= dict(zip(fit.rows[k][list(odd)].tolist(), away(window, odd), strict=True))
             taken[fit.rows[k]] = True
     return found
@@ -195,13 +217,11 @@ def _alone(fit: LocalFit, k: int, side: int) -> bool:
     return bool(fit.rows[other, end] == fit.rows[k, end])
 
 
-def _no_touch(
-    window: Window, odd: tuple[int, ...], limit: float, speed: float, attitude: bool
-) -> bool:
+def _no_touch(window: Window, odd: tuple[int, ...], limit: float, platform: Platform) -> bool:
     """Say that no touch explains the window; each leaves far more than the odd rows do."""
     left = misfit(window, out(window, odd))
     inside = min(odd) >= ASIDE and max(odd) < len(window.t) - ASIDE
-    interval = float(np.min(np.diff(window.t))) if attitude else 1.0
+    interval = float(np.min(np.diff(window.t))) if platform.attitude else 1.0
     vague = UNSURE * float(np.linalg.norm(window.sd)) / interval
-    most = max(PUSH * speed, HAND) + vague if inside else TOUCH * speed
-    return touch_misfit(window, most, attitude) - left > limit
+    most = max(PUSH * platform.speed, HAND) + vague if inside else TOUCH * platform.speed
+    return touch_misfit(window, most, platform.attitude) - left > limit
