@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
 from equipoise.app.cli import run
-from equipoise.estimation import reference
+from equipoise.estimation import plain_model, reference
 from equipoise.estimation.trajectory import Params, fit
 from equipoise.io.recording_file import write_recording
 from equipoise.io.testbed_text import text_of_testbed
@@ -70,8 +70,8 @@ def test_drag_over_many_turns_is_found() -> None:
     """Without the term from the start nothing is found: the heading runs away by radians."""
     record = labs.spun(1)
     plain = fit(record.recording, record.testbed, Params())
-    assert not reference.is_near(plain)
-    params, damped = reference.plainly(record.recording, record.testbed, Params())
+    assert not plain_model.is_near(plain)
+    params, damped = plain_model.plainly(record.recording, record.testbed, Params())
     assert params.terms == ("viscous_x", "viscous_y", "viscous_z")
     rows = 3 * len(record.recording.attitude)
     assert 2 * damped.at.cost == pytest.approx(rows, rel=0.1)

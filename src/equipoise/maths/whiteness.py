@@ -20,7 +20,8 @@ from equipoise.model.arrays import Floats, Series
 LAGS = 10  # chosen: a few rows more than neighbours that share a cause
 FEWEST = 30  # rows
 WHITE = 1e-3  # probability below which a series is not white, chosen
-BINS = 5  # of the periodogram, chosen: the mean of three columns is then known to a quarter
+BINS = 5  # of the periodogram at least, chosen: the mean of three columns is known to a quarter
+BANDS = 30  # at most, chosen: among more the greatest by chance is much above the rest
 
 
 def portmanteau(residual: Series) -> float:
@@ -41,11 +42,13 @@ def portmanteau(residual: Series) -> float:
 def spectral_peak(residual: Series) -> float:
     """Return the peak of the spectral density over its mean, at least 1; 1 for white noise.
 
-    Rows count as evenly spaced; the periodogram is smoothed over ``BINS`` frequencies and columns.
+    Rows count as evenly spaced; the periodogram is smoothed over columns and a band of frequencies,
+    so that a line much narrower than a band counts as wide as that.
     """
     if portmanteau(residual) > WHITE:
         return 1.0
     centred: Floats = residual - np.mean(residual, axis=0)
     power: Floats = np.sum(np.abs(np.fft.rfft(centred, axis=0)[1:]) ** 2, axis=1)
-    smooth: Floats = np.convolve(power, np.full(BINS, 1 / BINS), mode="valid")
+    width = max(BINS, len(power) // BANDS)
+    smooth: Floats = np.convolve(power, np.full(width, 1 / width), mode="valid")
     return max(float(smooth.max() / power.mean()), 1.0)
