@@ -1,9 +1,10 @@
 """Known defects in records made by MuJoCo: what of them is noticed, and honest fits despite them.
 
-The floor of an event is stated, not chosen afterwards: with its moment known, the record tells its
-size with a covariance C, and u^T C^-1 u is the square of its size u in sd. An event must exceed the
-threshold of the test, itself a number of sd, by three more (``FLOOR``); those below are not put
-into the record. (With the threshold alone every second one is seen, at three sd hardly one.)
+The floor of an event is stated, not chosen afterwards. Its size in sd is the root of what twice the
+cost rises by without it, from a fit that knows all moments and kinds, when all others move to where
+they are then best. It must exceed the threshold of the test, itself a number of sd, by three more
+(``FLOOR``); events below are not put into the record. (With the threshold alone every second one is
+seen, at three sd hardly one; of two that are near, one that moves a little may stand for both.)
 """
 
 from collections.abc import Sequence
@@ -15,12 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.estimation import reference
-from equipoise.estimation.believed_model import Happening
+from equipoise.estimation.believed_model import Believed, Happening, refitted
 from equipoise.estimation.event_price import threshold
-from equipoise.estimation.fitted import Fitted, smooth_at
+from equipoise.estimation.survey import cut_times
+from equipoise.estimation.survey_events import without
 from equipoise.estimation.trajectory import Params, fit
-from equipoise.estimation.unknowns import unknowns_of
-from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.estimate import COM, INERTIA, NORMAL_95
 from equipoise.model.event import Event
@@ -92,29 +92,22 @@ def with_lengths(logged: cases.Logged) -> Recording:
 
 
 def sizes(logged: cases.Logged) -> list[tuple[Happened, float]]:
-    """Return each event with its size in sd, all moments and kinds being known."""
-    events = (*logged.defects.contacts, *logged.defects.com_steps)
-    if not events:
+    """Return each event with its size in sd."""
+    true = sorted((*logged.defects.contacts, *logged.defects.com_steps), key=middle)
+    if not true:
         return []
-    kinds = ("impulse" if isinstance(event, Contact) else "com_step" for event in events)
-    jumps = [Happening(middle(e), kind).jump for e, kind in zip(events, kinds, strict=True)]
-    params = Params(jumps=tuple(sorted(jumps, key=lambda jump: jump.t)))
     recording, testbed = sound(with_lengths(logged), logged.testbed)
-    found = fit(recording, testbed, params)
-    return [(event, size_of(event, logged, found)) for event in events]
-
-
-def size_of(event: Happened, logged: cases.Logged, found: Fitted) -> float:
-    """Return the size of one event in sd."""
-    after = smooth_at(found)
-    k = int(np.argmin([abs(jump.t - middle(event)) for jump in found.problem.jumps]))
-    if isinstance(event, Contact):
-        R = to_matrix(unknowns_of(after.points[k + 1]).q0)
-        jump = np.linalg.solve(logged.truth.inertia_P, R.T @ event.impulse)
-    else:
-        jump = event.shift
-    C = after.jump_covariance[k, :3, :3]
-    return float(np.sqrt(jump @ np.linalg.solve(C, jump)))
+    kinds = ("impulse" if isinstance(event, Contact) else "com_step" for event in true)
+    events = tuple(Happening(middle(e), kind) for e, kind in zip(true, kinds, strict=True))
+    params, cuts = Params(), cut_times(recording)
+    known = replace(params, jumps=tuple(event.jump for event in events))
+    first = fit(recording, testbed, known)
+    belief = refitted(
+        Believed(recording, testbed, params, cuts, np.zeros(3), events, first, testbed)
+    )
+    costs = [without(belief, k).fitted.at.cost for k in range(len(events))]
+    rises = 2 * np.maximum(np.array(costs) - belief.fitted.at.cost, 0.0)
+    return list(zip(true, np.sqrt(rises).tolist(), strict=True))
 
 
 def above_floor(seed: int, kinds: tuple[str, ...], with_gyro: bool) -> cases.Logged:
@@ -125,10 +118,10 @@ def above_floor(seed: int, kinds: tuple[str, ...], with_gyro: bool) -> cases.Log
         weak = [event for event, size in sizes(logged) if size < FLOOR]
         if not weak:
             return logged
-        logged = make(seed, (), without(logged.defects, weak))
+        logged = make(seed, (), cleared(logged.defects, weak))
 
 
-def without(defects: Defects, weak: Sequence[Happened]) -> Defects:
+def cleared(defects: Defects, weak: Sequence[Happened]) -> Defects:
     """Return the defects without some events."""
     return replace(
         defects,

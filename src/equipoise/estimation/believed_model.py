@@ -30,6 +30,7 @@ class Happening:
     t: float  # s
     kind: str  # of NAMES
     unclear: bool = False  # it may as well be of another kind: both may jump
+    aside: float = 0.0  # s, by which the moment of the other kind differs
 
     @property
     def jump(self) -> Jump:

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.fitted import Fitted
-from equipoise.estimation.trajectory import CAPTURE, Params, explains, fit, misfit
+from equipoise.estimation.trajectory import CAPTURE, Params, fit, misfit
 from equipoise.model import torque_terms
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -19,20 +19,20 @@ FAR = 0.5  # chosen: of a moment, by which the guess may be off and its anchor b
 
 
 def plainly(recording: Recording, testbed: Testbed, params: Params) -> tuple[Params, Fitted]:
-    """Return the plain fit, or one with damping where that alone explains the record.
+    """Return the plain fit, or one with damping where only that follows the motion.
 
     Over some turns drag takes the heading so far away that no step leads back: only a search that
-    has the term from the start finds it. Every bearing damps a little.
+    has the term from the start finds it. Where the plain fit follows, however badly, the survey
+    finds out what is missing: damping may stand for touches, too.
     """
     plain = fit(recording, testbed, params)
     missing = tuple(t for t in DAMPING if t not in params.terms)
-    if not missing or explains(plain):
+    if not missing or is_near(plain):
         return params, plain
     terms = tuple(t for t in torque_terms.TERMS if t in (*params.terms, *missing))
     richer = replace(params, terms=terms)
     damped = fit(recording, testbed, richer)
-    better = explains(damped) or (is_near(damped) and not is_near(plain))
-    return (richer, damped) if better else (params, plain)
+    return (richer, damped) if is_near(damped) else (params, plain)
 
 
 def is_near(fitted: Fitted) -> bool:

@@ -19,7 +19,7 @@ from equipoise.model.arrays import Floats
 NEAR = 1.6  # spacings, chosen: with process noise, events nearer than this may be one
 CLEAR = 9.0  # chosen: 2 ln of how much likelier one kind is than another, to be told apart
 FAR = (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)  # of the time within which a swing turns by a radian
-SWINGS = 2.0  # of the same time, chosen: without process noise, events nearer than this may be one
+SWINGS = 3.0  # of the same time, chosen: without process noise, events nearer than this may be one
 DOUBTFUL = 4.0  # thresholds, chosen: an event so sure is not put to the test
 
 
@@ -44,9 +44,9 @@ def doubted(belief: Believed) -> Believed:
     for k, event in enumerate(belief.events):
         others = [other for other in KINDS if other != event.kind]
         models = [timed(with_kind(belief, k, other), k) for other in others]
-        lost = min(model.fitted.at.cost for model in models) - belief.fitted.at.cost
-        if 2 * lost < CLEAR:
-            open_to = replace(event, unclear=True)
+        nearest = min(models, key=lambda model: model.fitted.at.cost)
+        if 2 * (nearest.fitted.at.cost - belief.fitted.at.cost) < CLEAR:
+            open_to = replace(event, unclear=True, aside=nearest.events[k].t - event.t)
             events = (*belief.events[:k], open_to, *belief.events[k + 1 :])
             belief = replace(belief, events=events)
     return refitted(belief)
@@ -58,8 +58,9 @@ def joined(belief: Believed, k: int) -> Believed:
     models: list[Believed] = []
     for t in (one.t, 0.5 * (one.t + two.t), two.t):
         events = (*belief.events[:k], replace(one, t=t), *belief.events[k + 2 :])
-        models += [with_kind(replace(belief, events=events), k, kind) for kind in KINDS]
-    return timed(min(models, key=lambda model: model.fitted.at.cost), k)
+        either = [with_kind(replace(belief, events=events), k, kind) for kind in KINDS]
+        models.append(timed(min(either, key=lambda model: model.fitted.at.cost), k))
+    return timed(min(models, key=lambda model: model.fitted.at.cost))
 
 
 def merged(belief: Believed) -> Believed:

@@ -42,7 +42,10 @@ def told(belief: Believed) -> tuple[Event, ...]:
     single = refitted(replace(belief, events=clear))
     fit, after = single.fitted, smooth_at(single.fitted)
     rows = zip(order, rows_of(fit, clear), moment_errors(single)[1], strict=True)
-    return tuple(told_one(belief, event, fit, after, k, float(s)) for event, k, s in rows)
+    return tuple(
+        told_one(belief, event, fit, after, k, float(np.hypot(s, event.aside)))
+        for event, k, s in rows
+    )
 
 
 def told_one(
