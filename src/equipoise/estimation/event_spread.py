@@ -32,9 +32,10 @@ def wider(found: tuple[Parameter, ...], columns: Floats) -> tuple[Parameter, ...
 def columns_of(
     found: tuple[Parameter, ...], shifted: list[tuple[Parameter, ...]], rise: Floats
 ) -> Floats:
-    """Return c of every event, (parameters, k)."""
-    values = np.array([[p.value for p in one] for one in (found, *shifted)])
-    return (values[1:] - values[0]).T / np.sqrt(np.maximum(rise, 1.0))
+    """Return c of every event, (parameters, k); 0 for what only one of the two estimates has."""
+    tables = [{p.name: p.value for p in one} for one in shifted]
+    moved = np.array([[table.get(p.name, p.value) - p.value for table in tables] for p in found])
+    return moved.reshape(len(found), len(shifted)) / np.sqrt(np.maximum(rise, 1.0))
 
 
 def with_moments(concluded: Estimate, belief: Believed) -> Estimate:

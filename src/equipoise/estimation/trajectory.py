@@ -243,17 +243,25 @@ def settle_pinned(
     """Return the optimum with held values held.
 
     A search that touches the boundary of the possible bodies is put back inside, and takes what is
-    held along; from where it ends it is put right and goes the little way again.
+    held along; from where it ends it is put right and goes the little way again. One that never
+    stays is left where it is put right, not settled.
     """
     found = settle(problem, pinned(problem, point), jumps, most)
-    for _ in range(0 if problem.scale_open else REPINNED):
-        there = found.point.body(problem.mass)
-        packed = np.append(pack_symmetric(there.inertia_P), there.com)
-        held, mean = problem.prior.held[JP.start : R.stop], problem.prior.mean[JP.start : R.stop]
-        if np.allclose(packed[held], mean[held], rtol=PINNED, atol=0.0):
-            break
+    for _ in range(REPINNED):
+        if is_pinned(problem, found.point):
+            return found
         found = settle(problem, pinned(problem, found.point), found.jumps, most)
-    return found
+    if is_pinned(problem, found.point):
+        return found
+    return settle(problem, pinned(problem, found.point), found.jumps, 1)
+
+
+def is_pinned(problem: Problem, point: Unknowns) -> bool:
+    """Say whether held moments and centre of mass are where they are held."""
+    body, prior = point.body(problem.mass), problem.prior
+    packed = np.append(pack_symmetric(body.inertia_P), body.com)
+    held, mean = prior.held[JP.start : R.stop], prior.mean[JP.start : R.stop]
+    return problem.scale_open or np.allclose(packed[held], mean[held], rtol=PINNED, atol=0.0)
 
 
 def explains(fit: Fitted) -> bool:
