@@ -159,7 +159,7 @@ def repeated(belief: Believed, most: int, terms: bool = True) -> Believed:
     for _ in range(ROUNDS):
         before = contents(belief)
         belief = searched(belief, most, terms)
-        if contents(belief) == before:
+        if contents(belief) == before or len(belief.events) >= most:
             break
         belief = settled(belief)
         if contents(belief) == before:
@@ -180,6 +180,8 @@ def calm(belief: Believed) -> Believed:
     found, or neither is enough, all is sought once more, events first; the likelier is taken.
     """
     greedy = repeated(belief, FEW_EVENTS)
+    if len(greedy.events) >= FEW_EVENTS:
+        return greedy
     plain = (greedy.params.terms, greedy.params.sensor) == (
         belief.params.terms,
         belief.params.sensor,
@@ -218,10 +220,10 @@ def looked_into(belief: Believed) -> Believed:
     depends on which events are believed in: it is sought from none and from all.
     """
     greedy = calm(belief)
+    if len(greedy.events) >= FEW_EVENTS:
+        return doubted(driven(belief))
     simple = pruned(greedy, colour_of(greedy))
-    if is_calm(simple) and len(simple.events) < FEW_EVENTS:
+    if is_calm(simple):
         return doubted(simple)
-    models = [driven(belief)]
-    models += [driven(greedy)] if greedy.events else []
-    models += [simple] if len(simple.events) < FEW_EVENTS else []
-    return doubted(likeliest(models))
+    wandering = [driven(belief)] + ([driven(greedy)] if greedy.events else [])
+    return doubted(likeliest([simple, *wandering]))
