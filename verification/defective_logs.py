@@ -1,10 +1,11 @@
 """Known defects in records made by MuJoCo: what of them is noticed, and honest fits despite them.
 
 The floor of an event is stated, not chosen afterwards. Its size in sd is the root of what twice the
-cost rises by without it, from a fit that knows all moments and kinds, when all others move to where
-they are then best. It must exceed the threshold of the test, itself a number of sd, by three more
-(``FLOOR``); events below are not put into the record. (With the threshold alone every second one is
-seen, at three sd hardly one; of two that are near, one that moves a little may stand for both.)
+cost rises by without it, from a fit that knows all moments, kinds and terms of the sensors, when
+all others move to where they are then best. It must exceed the threshold of the test, itself a
+number of sd, by three more (``FLOOR``); events below are not put into the record. (With the
+threshold alone every second one is seen, at three sd hardly one; of two that are near, one that
+moves a little may stand for both.)
 """
 
 from collections.abc import Sequence
@@ -22,6 +23,7 @@ from equipoise.estimation.survey import cut_times
 from equipoise.estimation.survey_events import without
 from equipoise.estimation.trajectory import Params, fit
 from equipoise.maths.linalg import pack_symmetric
+from equipoise.model import sensor_terms
 from equipoise.model.estimate import COM, INERTIA, NORMAL_95
 from equipoise.model.event import Event
 from equipoise.model.recording import Recording, Samples
@@ -91,6 +93,16 @@ def with_lengths(logged: cases.Logged) -> Recording:
     return replace(logged.recording, attitude_norm=lengths)
 
 
+def sensor_terms_of(defects: Defects) -> tuple[str, ...]:
+    """Return the terms of the sensors without which no fit is right."""
+    groups = [f"heading{harmonic.order}" for harmonic in defects.heading]
+    groups += ["plumb"] if defects.plumb.any() else []
+    groups += ["camera_delay"] if defects.camera_delay else []
+    groups += ["gyro_scale", "gyro_cross"] if defects.gyro_matrix.any() else []
+    wanted = {term for group in groups for term in sensor_terms.GROUPS[group]}
+    return tuple(term for term in sensor_terms.TERMS if term in wanted)
+
+
 def sizes(logged: cases.Logged) -> list[tuple[Happened, float]]:
     """Return each event with its size in sd."""
     true = sorted((*logged.defects.contacts, *logged.defects.com_steps), key=middle)
@@ -99,7 +111,7 @@ def sizes(logged: cases.Logged) -> list[tuple[Happened, float]]:
     recording, testbed = sound(with_lengths(logged), logged.testbed)
     kinds = ("impulse" if isinstance(event, Contact) else "com_step" for event in true)
     events = tuple(Happening(middle(e), kind) for e, kind in zip(true, kinds, strict=True))
-    params, cuts = Params(), cut_times(recording)
+    params, cuts = Params(sensor=sensor_terms_of(logged.defects)), cut_times(recording)
     known = replace(params, jumps=tuple(event.jump for event in events))
     first = fit(recording, testbed, known)
     belief = refitted(

@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.believed_model import Believed
+from equipoise.estimation.believed_model import Believed, refitted
 from equipoise.estimation.held_out_rows import posed_in
 from equipoise.estimation.trajectory import Params
 from equipoise.estimation.trajectory_problem import changes, evaluate
@@ -23,8 +23,9 @@ from equipoise.estimation.unknowns import sensor_sizes, term_sizes
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats
 
+PLUMB = sensor_terms.GROUPS["plumb"]
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
-CAMERA = (sensor_terms.GROUPS["plumb"], HEADING)
+CAMERA = (PLUMB, HEADING)
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
 DELAY = sensor_terms.GROUPS["camera_delay"]
 GROUPS = (*CAMERA, DELAY, *GYRO, *torque_terms.GROUPS.values())
@@ -35,7 +36,7 @@ def candidates(belief: Believed) -> list[tuple[str, ...]]:
     """Return the groups of terms that this record could show and that are not sought yet."""
     recording, params = belief.recording, belief.params
     camera, gyro = (c is not None and len(c) > 0 for c in (recording.attitude, recording.rate))
-    found: list[tuple[str, ...]] = [*CAMERA] if camera else []
+    found: list[tuple[str, ...]] = [HEADING] if camera else []
     if camera and (gyro or changes(recording)):
         found.append(DELAY)
     if camera and gyro:
@@ -43,6 +44,18 @@ def candidates(belief: Believed) -> list[tuple[str, ...]]:
     found += list(torque_terms.GROUPS.values())
     sought = {*params.sensor, *params.terms}
     return [group for group in found if not sought.issuperset(group)]
+
+
+def levelled(belief: Believed) -> Believed:
+    """Return the model with the camera's vertical free, as far as the testbed says it may lean.
+
+    Not a term to be chosen: no camera is level to what a record shows of it, and com is far off
+    long before the record asks for the term.
+    """
+    camera, rows = belief.testbed.attitude, belief.recording.attitude
+    if camera is None or rows is None or not len(rows) or camera.plumb_sd == 0:
+        return belief
+    return refitted(with_group(belief, PLUMB))
 
 
 def with_group(belief: Believed, group: tuple[str, ...]) -> Believed:
@@ -87,7 +100,7 @@ def without_group(belief: Believed, group: tuple[str, ...]) -> Believed:
 def plausible(belief: Believed, group: tuple[str, ...]) -> Floats:
     """Return how large the coefficients of a group may well be, one sd."""
     if set(group) <= set(sensor_terms.TERMS):
-        return sensor_sizes(group)
+        return sensor_sizes(group, belief.testbed.attitude)
     body = belief.testbed.body
     moment = float(np.trace(body.inertia_P)) / 3
     return term_sizes(group, moment, body.mass * belief.testbed.gravity)

@@ -23,24 +23,11 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation import telling
-from equipoise.estimation.believed_model import (
-    Believed,
-    Happening,
-    evidence,
-    refitted,
-    smoothed,
-)
+from equipoise.estimation.believed_model import Believed, Happening, smoothed
 from equipoise.estimation.event_price import threshold
 from equipoise.estimation.fitted import Fitted
-from equipoise.estimation.held_out_rows import predicts_better
-from equipoise.estimation.model_choice import (
-    added_groups,
-    best_group,
-    with_group,
-    without_group,
-)
+from equipoise.estimation.model_choice import best_group, levelled
 from equipoise.estimation.survey_events import (
-    CLEAR,
     colour_of,
     doubted,
     of_either_kind,
@@ -48,6 +35,14 @@ from equipoise.estimation.survey_events import (
     settled,
 )
 from equipoise.estimation.survey_noise import calibrated, excesses, first_walk, quiet, weighed
+from equipoise.estimation.survey_terms import (
+    Refused,
+    bared,
+    exchanged,
+    extended,
+    is_lawful,
+    likeliest,
+)
 from equipoise.estimation.torque_colour import coloured
 from equipoise.estimation.trajectory import Params
 from equipoise.maths.whiteness import portmanteau
@@ -62,7 +57,6 @@ WRONG = 1.8  # chosen: root of the median surprise over its due; by chance it is
 WHITE = 1e-3  # probability
 MOST_EVENTS, FEW_EVENTS = 40, 8  # with and without process noise, chosen
 ROUNDS = 3
-Refused = set[tuple[str, ...]]
 
 
 def finest_spacing(recording: Recording) -> float:
@@ -91,20 +85,6 @@ def touched(belief: Believed, surprise: dict[str, Floats], fit: Fitted) -> Belie
     return of_either_kind(replace(belief, events=(*belief.events, event)), len(belief.events))
 
 
-def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Believed:
-    """Return the belief with a group of terms, if that predicts better; refuse it otherwise."""
-    richer = refitted(with_group(belief, group))
-    if richer.fitted.converged and predicts_better(belief, richer):
-        return richer
-    refused.add(group)
-    return belief
-
-
-def likeliest(models: list[Believed]) -> Believed:
-    """Return the model in which the record is most probable."""
-    return min(models, key=lambda model: evidence(*smoothed(model), threshold(model.spacing)))
-
-
 def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
     """Return the belief with all terms that the record supports and the events that surprise."""
     refused: Refused = set()
@@ -120,17 +100,6 @@ def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
         else:
             belief = shaken
     return belief
-
-
-def is_lawful(richer: Believed, shaken: Believed, group: tuple[str, ...]) -> bool:
-    """Say whether a term explains about as much as an event that promises, too.
-
-    Each unknown counts as much as one of an event. Where both do, the term is taken: it leaves
-    open more than an event, which has come and gone.
-    """
-    price = threshold(richer.spacing)
-    ahead = 2 * (richer.fitted.at.cost - shaken.fitted.at.cost)
-    return ahead + price * (len(group) / 3 - 1) < CLEAR
 
 
 def is_calm(belief: Believed) -> bool:
@@ -187,15 +156,18 @@ def calm(belief: Believed) -> Believed:
         belief.params.sensor,
     )
     if not (plain or (not greedy.events and is_calm(greedy))):
-        events_first = repeated(belief, FEW_EVENTS, terms=False)
-        greedy = likeliest([greedy, repeated(events_first, FEW_EVENTS)])
-    return bared(greedy, belief.params)
+        events_first = repeated(repeated(belief, FEW_EVENTS, terms=False), FEW_EVENTS)
+        greedy = likeliest([bared(one, belief.params) for one in (greedy, events_first)])
+    return traded(greedy, belief.params)
 
 
-def bared(belief: Believed, asked: Params) -> Believed:
-    """Return the belief without the terms that what was found after them has made needless."""
-    for group in added_groups(belief, asked):
-        belief = likeliest([refitted(without_group(belief, group)), belief])
+def traded(belief: Believed, asked: Params) -> Believed:
+    """Return the belief with terms for events, and then what else they show, while that helps."""
+    for _ in range(ROUNDS):
+        better = exchanged(belief, asked)
+        if better is belief:
+            break
+        belief = bared(repeated(better, FEW_EVENTS), asked)
     return belief
 
 
@@ -206,7 +178,7 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
     if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
         return replace(belief, cuts=np.zeros(0))
     try:
-        return coloured(looked_into(belief))
+        return coloured(looked_into(levelled(belief)))
     except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
         return replace(belief, cuts=np.zeros(0))
 

@@ -5,7 +5,7 @@ import numpy as np
 from equipoise.estimation.believed_model import Believed, slowest
 from equipoise.estimation.conclusion import CORE
 from equipoise.estimation.held_out_rows import posed_in
-from equipoise.estimation.model_choice import candidates, with_group
+from equipoise.estimation.model_choice import PLUMB, candidates, with_group
 from equipoise.estimation.trajectory import Params
 from equipoise.estimation.trajectory_problem import evaluate
 from equipoise.maths.linalg import inverse_spd
@@ -35,7 +35,7 @@ def noise_sentences(belief: Believed) -> list[str]:
 
 def added(belief: Believed, asked: Params) -> tuple[str, ...]:
     """Return the terms that the record asked for by itself."""
-    have = {*asked.sensor, *asked.terms}
+    have = {*asked.sensor, *asked.terms, *PLUMB}
     return tuple(t for t in (*belief.params.sensor, *belief.params.terms) if t not in have)
 
 

@@ -121,7 +121,7 @@ def prior_of(
     for k, name in enumerate(layout.errors):
         sd[names.index(name)] = errors.sd[k]
     first = FIXED + len(layout.terms) + len(layout.errors)
-    sd[first : first + len(layout.sensor)] = sensor_sizes(layout.sensor)
+    sd[first : first + len(layout.sensor)] = sensor_sizes(layout.sensor, testbed.attitude)
     if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
         sd[-3:] = testbed.gyro.bias_sd
     anchor = anchors(testbed, layout, torque_anchor)

@@ -20,6 +20,7 @@ from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats, Ints, Quaternion, Vector3, Vector6
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, from_centre
+from equipoise.model.testbed import PLUMB_SD, AttitudeSensor
 
 TURN, RATE, JP, R = slice(0, 3), slice(3, 6), slice(6, 12), slice(12, 15)
 FIXED = point_steps.BEHIND  # coordinates before torques, errors and bias
@@ -126,12 +127,13 @@ def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:
     return np.array([by_group.get(term.split("_")[0], 1e-5 * weight) for term in terms])
 
 
-def sensor_sizes(terms: tuple[str, ...]) -> Floats:
+def sensor_sizes(terms: tuple[str, ...], camera: AttitudeSensor | None) -> Floats:
     """Return how large each sensor coefficient may well be, one sd, chosen.
 
-    A camera's vertical 0.3 deg off, a heading error of 0.1 deg, 30 ms, a gyro 2 % off.
+    A camera's vertical as far off as stated, a heading error of 0.1 deg, 30 ms, a gyro 2 % off.
     """
-    by_group = {"plumb": 5e-3, "heading2": 2e-3, "heading3": 2e-3, "camera": 0.03, "gyro": 0.02}
+    plumb = camera.plumb_sd if camera and camera.plumb_sd else PLUMB_SD
+    by_group = {"plumb": plumb, "heading2": 2e-3, "heading3": 2e-3, "camera": 0.03, "gyro": 0.02}
     return np.array([by_group[term.split("_")[0]] for term in terms])
 
 

@@ -113,7 +113,10 @@ def _attitude(sensor: schema.Attitude | None) -> AttitudeSensor | None:
         return None
     noise = sensor.noise_deg * DEG
     quantum = sensor.quantum_deg * DEG
-    return AttitudeSensor(sensor.rate_hz, noise, sensor.delay_s, sensor.averaging_s, quantum)
+    plumb_sd = sensor.plumb_sd_deg * DEG
+    return AttitudeSensor(
+        sensor.rate_hz, noise, sensor.delay_s, sensor.averaging_s, quantum, plumb_sd
+    )
 
 
 def _gyro(sensor: schema.Gyro | None, where: str) -> Gyro | None:

@@ -3,11 +3,12 @@
 A unit is part of its key. Nothing is converted here; ``testbed_build`` does that once.
 """
 
+import math
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from equipoise.model.testbed import LAG_SD, SAG_SD
+from equipoise.model.testbed import LAG_SD, PLUMB_SD, SAG_SD
 
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
@@ -77,6 +78,11 @@ class Attitude(Table):
     delay_s: NotNegative = 0.0
     averaging_s: NotNegative = 0.0
     quantum_deg: NotNegative = Field(0.0, description="last digit of roll, pitch, yaw (3-2-1)")
+    plumb_sd_deg: NotNegative = Field(
+        math.degrees(PLUMB_SD),
+        description="one sd of how far its vertical may lean from gravity's, chosen: levelled by "
+        "eye; 0: it does not lean",
+    )
 
 
 class Gyro(Table):

@@ -65,6 +65,7 @@ def _attitude(sensor: AttitudeSensor | None) -> dict[str, Value]:
         "delay_s": number(sensor.delay),
         "averaging_s": number(sensor.averaging),
         "quantum_deg": number(sensor.quantum, PER_DEG),
+        "plumb_sd_deg": number(sensor.plumb_sd, PER_DEG),
     }
 
 

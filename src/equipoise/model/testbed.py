@@ -3,6 +3,7 @@
 ``Truth`` is read by the simulator alone.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -11,6 +12,7 @@ from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErr
 from equipoise.model.mass_properties import MassProperties
 
 SAG_SD = 0.001  # m, chosen: g / w^2 of a servo of w = 100 rad/s
+PLUMB_SD = math.radians(0.3)  # chosen: a camera levelled by eye, or a floor for the vertical
 LAG_SD = 0.03  # s, chosen: a soft servo's 25 ms, or a row of a log at 50 Hz
 
 
@@ -40,6 +42,7 @@ class AttitudeSensor:
     delay: float = 0.0  # s
     averaging: float = 0.0  # s
     quantum: float = 0.0  # rad, roll, pitch and yaw come in multiples of it; 0: as they are
+    plumb_sd: float = PLUMB_SD  # rad, how far its vertical may lean from gravity's; 0: it does not
 
 
 @dataclass(frozen=True, slots=True, eq=False)
