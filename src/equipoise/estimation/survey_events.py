@@ -123,12 +123,14 @@ def pruned(belief: Believed, colour: float = 1.0) -> Believed:
 
 
 def relocated(belief: Believed, k: int) -> Believed:
-    """Return the belief with one event within a swing of where it is, where it explains most.
+    """Return the belief with one event within a swing of where it is, as what explains most.
 
-    What explains it best may lie at several moments of a swing; Newton steps find the nearest.
+    What explains it best may lie at several moments of a swing; Newton steps find the nearest. A
+    part that shifts bends the swing behind it as a touch half a swing before or later would.
     """
     row = np.arange(len(belief.events)) == k
-    trials = [later(belief, share * slowest(belief) * row) for share in FAR]
+    moved = [later(belief, share * slowest(belief) * row) for share in FAR]
+    trials = [with_kind(one, k, kind) for one in moved for kind in KINDS]
     best = timed(min(trials, key=lambda trial: trial.fitted.at.cost))
     return min(belief, best, key=lambda model: model.fitted.at.cost)
 
