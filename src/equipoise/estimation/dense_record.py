@@ -37,7 +37,7 @@ def first_gap(recording: Recording, testbed: Testbed) -> float:
     for channel in (recording.attitude, recording.rate):
         if channel is not None and len(channel) > 1:
             apart = np.diff(channel.t)
-            long = max(TURNED / quickest_swing(testbed), WIDE * float(np.median(apart)))
+            long = max(TURNED / quickest_swing(testbed), WIDE * channel.period)
             stops = channel.t[:-1][(apart > long) & (channel.t[:-1] > least)]
             found = min(found, float(stops[0])) if len(stops) else found
     return found
