@@ -21,8 +21,7 @@ from equipoise.estimation.event_price import threshold
 from equipoise.estimation.survey import cut_times
 from equipoise.estimation.survey_events import without
 from equipoise.estimation.trajectory import Params, fit
-from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.estimate import COM, INERTIA, NORMAL_95
+from equipoise.model.estimate import NORMAL_95
 from equipoise.model.event import Event
 from equipoise.model.recording import Recording, Samples
 from equipoise.procedure.sound_rows import sound
@@ -44,6 +43,7 @@ from tests.oracle.defects import (
 )
 from verification.chance import fewest, share_band
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn
+from verification.stated_errors import stated_errors
 
 COVER = (0.90, 0.99)  # share of 95 % intervals that hold the truth
 DETECTED = 0.95
@@ -135,14 +135,12 @@ def identified(kinds: tuple[str, ...], with_gyro: bool, seed: int) -> Log:
     logged = above_floor(seed, kinds, with_gyro)
     recording, testbed = sound(with_lengths(logged), logged.testbed)
     estimate = reference.estimate(recording, testbed, Params())
-    truth = np.concatenate([logged.truth.com, pack_symmetric(logged.truth.inertia_P)])
-    sd = np.array([estimate.parameters[estimate.index(name)].sd for name in COM + INERTIA])
     kept = recording.attitude
     assert kept is not None
     bad = np.array([row.time for row in logged.defects.bad_rows])
     known = np.isin(np.round(kept.t, 6), np.round(bad, 6))
     return Log(
-        (estimate.values(COM + INERTIA) - truth) / sd,
+        stated_errors(estimate, logged.truth),
         (*logged.defects.contacts, *logged.defects.com_steps), estimate.events,
         len(bad), int(known.sum()), estimate.outcome.usable,
         logged.case.duration,
