@@ -22,9 +22,8 @@ from equipoise.estimation.event_price import threshold
 from equipoise.estimation.survey import cut_times
 from equipoise.estimation.survey_events import without
 from equipoise.estimation.trajectory import Params, fit
-from equipoise.maths.linalg import pack_symmetric
 from equipoise.model import sensor_terms
-from equipoise.model.estimate import COM, INERTIA, NORMAL_95
+from equipoise.model.estimate import NORMAL_95
 from equipoise.model.event import Event
 from equipoise.model.recording import Recording, Samples
 from equipoise.procedure.sound_rows import sound
@@ -46,6 +45,7 @@ from tests.oracle.defects import (
 )
 from verification.chance import fewest, share_band
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn
+from verification.stated_errors import stated_errors
 
 COVER = (0.90, 0.99)  # share of 95 % intervals that hold the truth
 DETECTED = 0.95
@@ -95,12 +95,10 @@ def with_lengths(logged: cases.Logged) -> Recording:
 
 def sensor_terms_of(defects: Defects) -> tuple[str, ...]:
     """Return the terms of the sensors without which no fit is right."""
-    groups = [f"heading{harmonic.order}" for harmonic in defects.heading]
-    groups += ["plumb"] if defects.plumb.any() else []
+    groups = ["plumb", *(f"heading{harmonic.order}" for harmonic in defects.heading)]
     groups += ["camera_delay"] if defects.camera_delay else []
     groups += ["gyro_scale", "gyro_cross"] if defects.gyro_matrix.any() else []
-    wanted = {term for group in groups for term in sensor_terms.GROUPS[group]}
-    return tuple(term for term in sensor_terms.TERMS if term in wanted)
+    return sensor_terms.among(term for group in groups for term in sensor_terms.GROUPS[group])
 
 
 def sizes(logged: cases.Logged) -> list[tuple[Happened, float]]:
@@ -147,14 +145,12 @@ def identified(kinds: tuple[str, ...], with_gyro: bool, seed: int) -> Log:
     logged = above_floor(seed, kinds, with_gyro)
     recording, testbed = sound(with_lengths(logged), logged.testbed)
     estimate = reference.estimate(recording, testbed, Params())
-    truth = np.concatenate([logged.truth.com, pack_symmetric(logged.truth.inertia_P)])
-    sd = np.array([estimate.parameters[estimate.index(name)].sd for name in COM + INERTIA])
     kept = recording.attitude
     assert kept is not None
     bad = np.array([row.time for row in logged.defects.bad_rows])
     known = np.isin(np.round(kept.t, 6), np.round(bad, 6))
     return Log(
-        (estimate.values(COM + INERTIA) - truth) / sd,
+        stated_errors(estimate, logged.truth),
         (*logged.defects.contacts, *logged.defects.com_steps), estimate.events,
         len(bad), int(known.sum()), estimate.outcome.usable,
         logged.case.duration,
@@ -176,9 +172,7 @@ def found_shares(logs: Sequence[Log]) -> tuple[float, float, float]:
     pairs = [(true, log) for log in logs for true in log.true]
     near = [[event for event in log.found if is_near(event, true)] for true, log in pairs]
     named = [
-        any(
-            event.unclear or (event.kind == "impulse") == isinstance(true, Contact) for event in one
-        )
+        any(is_named(event, true) for event in one)
         for (true, _), one in zip(pairs, near, strict=True)
         if one
     ]

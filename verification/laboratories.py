@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.estimate import COM, INERTIA, NORMAL_95, Estimate
+from equipoise.model.estimate import NORMAL_95, Estimate
 from equipoise.procedure.identify import IdentifyOptions, identify
 from tests.oracle import laboratories as labs
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
+from verification.stated_errors import NAMES, true_values
 
 WORST = 4.0  # sd
 COVER = 0.90  # of the 95 % intervals, over all records
@@ -81,8 +81,7 @@ class Found(NamedTuple):
 
 def stated(estimate: Estimate, record: labs.Record, held: tuple[str, ...]) -> tuple[float, ...]:
     """Return the errors of all numbers with a finite sd, in that sd."""
-    names, body = (*COM, *INERTIA), record.truth
-    true = dict(zip(names, [*body.com, *pack_symmetric(body.inertia_P)], strict=True))
+    true = dict(zip(NAMES, true_values(record.truth), strict=True))
     for ratio in estimate.ratios:
         above, below = ratio.name.split("/")
         true[ratio.name] = true[above] / true[below]

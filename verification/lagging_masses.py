@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from equipoise.estimation.reference import estimate
 from equipoise.estimation.trajectory import Params
-from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.estimate import COM, INERTIA, NORMAL_95
+from equipoise.model.estimate import NORMAL_95
 from equipoise.model.recording import Recording, Samples
 from tests.oracle import cases
 from verification.chance import mean_square_band
 from verification.result import Result, Row, Spread, at_most, between, in_turn
+from verification.stated_errors import stated_correlation, stated_errors, stated_sd
 
 STATED = 40  # platforms for which the claim is stated
 COVER = (0.90, 0.99)  # share of 95 % intervals that hold the truth
@@ -57,14 +57,11 @@ def stamped_early(logged: cases.Logged) -> cases.Logged:
 def identified(logged: cases.Logged, recording: Recording) -> Found:
     """Identify one record."""
     found = estimate(recording, logged.testbed, Params())
-    true = np.concatenate([logged.truth.com, pack_symmetric(logged.truth.inertia_P)])
-    sd = np.array([found.parameters[found.index(name)].sd for name in COM + INERTIA])
-    correlation = found.covariance_of(COM + INERTIA) / np.outer(sd, sd)
     late = [(p.value, p.sd) for p in found.parameters if p.name == "mass_lag_1"]
-    z = (found.values(COM + INERTIA) - true) / sd
+    z, sd = stated_errors(found, logged.truth), stated_sd(found)
     assert found.residual is not None
     chi = found.residual.reduced_chi_square
-    return Found(z, sd, correlation, late[0] if late else (np.nan, np.nan), chi,
+    return Found(z, sd, stated_correlation(found), late[0] if late else (np.nan, np.nan), chi,
                  found.outcome.usable)  # fmt: skip
 
 

@@ -11,14 +11,13 @@ from numpy.typing import NDArray
 
 from equipoise.estimation import reference
 from equipoise.estimation.trajectory import Params
-from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import Testbed
 from tests.oracle import cases
 from verification.chance import mean_square_band
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn
+from verification.stated_errors import stated_correlation, stated_errors
 
 MINUTES = (7.5, 15.0, 30.0)
 LONGEST = 60.0 * MINUTES[-1]  # s
@@ -85,10 +84,7 @@ def identified(task: Task) -> Found:
     estimate = reference.estimate(recording, testbed, Params())
     seconds = time.process_time() - began
     held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9
-    true = np.concatenate([truth.com, pack_symmetric(truth.inertia_P)])
-    sd = np.array([estimate.parameters[estimate.index(name)].sd for name in COM + INERTIA])
-    z = (estimate.values(COM + INERTIA) - true) / sd
-    correlation = estimate.covariance_of(COM + INERTIA) / np.outer(sd, sd)
+    z, correlation = stated_errors(estimate, truth), stated_correlation(estimate)
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     fine = estimate.outcome.usable and not estimate.events
     return Found(rows, seconds, held, z, correlation, fine)

@@ -7,14 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from equipoise.procedure.identify import IdentifyOptions, identify
 from tests.oracle import mujoco_bench as oracle
 from verification.chance import mean_square_band
 from verification.result import Result, Row, Spread, at_most, between, in_turn
+from verification.stated_errors import stated_correlation, stated_errors
 
 STATED = 20  # platforms for which the claim is stated
 SQUARE = (0.7, 1.4)
@@ -51,10 +50,7 @@ def identified(case: str, seed: int) -> Found:
     platform, recording, testbed = logged(case, seed)
     *_, last = identify(recording, testbed, IdentifyOptions("trajectory"))
     estimate = last.estimate
-    true = np.concatenate([platform.com, pack_symmetric(platform.inertia_P)])
-    sd = np.array([estimate.parameters[estimate.index(name)].sd for name in COM + INERTIA])
-    correlation = estimate.covariance_of(COM + INERTIA) / np.outer(sd, sd)
-    z = (estimate.values(COM + INERTIA) - true) / sd
+    z, correlation = stated_errors(estimate, platform), stated_correlation(estimate)
     return Found(z, correlation, estimate.outcome.usable)
 
 

@@ -12,14 +12,13 @@ import numpy as np
 
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.trajectory import Params, fit
-from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Vector3
-from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.identify import IdentifyOptions, identify
 from tests.oracle import cases
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
+from verification.stated_errors import stated_errors
 
 SAME = 1.0  # chosen: in chi-square, of some 1800
 HALF = 0.5  # of each moment
@@ -79,9 +78,7 @@ def ended(item: tuple[str, int]) -> Ended:
     *_, last = identify(logged.recording, bed, IdentifyOptions("trajectory"))
     estimate = last.estimate
     assert estimate is not None
-    truth = np.append(logged.truth.com, pack_symmetric(logged.truth.inertia_P))
-    sd = [estimate.parameters[estimate.index(name)].sd for name in (*COM, *INERTIA)]
-    worst = float(np.abs((estimate.values((*COM, *INERTIA)) - truth) / sd).max())
+    worst = float(np.abs(stated_errors(estimate, logged.truth)).max())
     return Ended(same, worst, estimate.outcome.usable)
 
 

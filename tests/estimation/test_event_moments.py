@@ -16,6 +16,7 @@ from equipoise.estimation.fitted import settle
 from equipoise.estimation.survey_events import doubted, merged, pruned
 from equipoise.estimation.trajectory import METHOD, Params, problem_of
 from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.recording import window
 
 every_kind = pytest.mark.parametrize("kind", KINDS)
 CUTS = np.arange(1.0, 39.0, 0.5)  # s
@@ -132,22 +133,23 @@ def test_an_event_that_explains_nothing_is_taken_back():
 
 
 @every_kind
-def test_a_plain_event_is_of_one_kind_and_a_doubtful_one_of_both(kind):
-    """Thirty times the size is plain; at the end of a record nothing tells them apart."""
+def test_a_plain_event_is_of_one_kind(kind):
+    """Thirty times the size, with noise."""
     plain = timed(believed(noisy(with_event(kind, 30.0), 8), (EVENT, kind)))
     assert [event.unclear for event in doubted(plain).events] == [False]
-    record = noisy(with_event(kind, 30.0), 8)
-    until = EVENT + 1.0
-    short = replace(
-        record,
-        attitude=replace_samples(record.attitude, until),
-        rate=replace_samples(record.rate, until),
-    )
-    late = doubted(timed(believed(short, (EVENT, kind))))
-    assert len(late.events[0].jump.names) == (6 if late.events[0].unclear else 3)
 
 
-def replace_samples(channel, until):
-    """Rows up to a time."""
-    keep = channel.t <= until
-    return type(channel)(channel.t[keep], channel.values[keep])
+@pytest.mark.parametrize(("kind", "share"), [("impulse", 1.0), ("com_step", 2.0)])
+def test_an_event_may_be_of_either_kind_until_its_swing_tells(kind, share):
+    """The same one, without noise: half a second behind it do not tell, eighteen do.
+
+    Then nothing but its own kind may jump in the fit; before, the other as well.
+    """
+    record = with_event(kind, share)
+    records = (window(record, 0.0, EVENT + 0.5), record)
+    early, whole = (doubted(timed(believed(seen, (EVENT, kind)))) for seen in records)
+    own, both = KINDS[kind][0], sorted(name for names, *_ in KINDS.values() for name in names)
+    assert [event.unclear for event in (*early.events, *whole.events)] == [True, False]
+    assert [event.kind for event in (*early.events, *whole.events)] == [kind, kind]
+    assert [sorted(jump.names) for jump in early.fitted.problem.jumps] == [both]
+    assert [jump.names for jump in whole.fitted.problem.jumps] == [own]

@@ -28,6 +28,13 @@ def ten_seconds() -> Recording:
     )
 
 
+def test_period_is_of_most_rows():
+    """Half a second between most, a row missing and a gap of ten seconds among them."""
+    t = np.array([1.0, 1.5, 2.0, 3.0, 3.5, 13.5, 14.0])
+    assert ramp(t, 3).period == 0.5
+    assert ramp(t[2:4], 3).period == 1.0
+
+
 def test_span_covers_every_sensor():
     both = Recording(attitude=attitude(np.array([1.0, 4.0])), rate=ramp(np.array([0.2, 3.0]), 3))
     assert both.span == (0.2, 4.0)

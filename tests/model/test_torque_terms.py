@@ -1,7 +1,7 @@
 import pytest
 
 from equipoise.model.errors import InputError
-from equipoise.model.torque_terms import GROUPS, TERMS, expand, unit_of
+from equipoise.model.torque_terms import GROUPS, TERMS, among, expand, unit_of
 
 
 def test_group_expands_to_its_terms():
@@ -19,6 +19,12 @@ def test_asking_twice_is_asking_once():
 
 def test_nothing_asked_nothing_given():
     assert expand(()) == ()
+
+
+def test_terms_are_picked_from_names_of_any_kind():
+    """No group is a term but one that has its name; what a sensor may have wrong is no torque."""
+    names = ("swirl", "gyro_xx", "sag_xz", "viscous", "viscous_y", "swirl")
+    assert among(names) == ("viscous_y", "swirl", "sag_xz")
 
 
 def test_all_groups_are_all_terms():

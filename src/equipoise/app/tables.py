@@ -10,10 +10,10 @@ from equipoise.app.change import HEADS, Change, rows
 from equipoise.app.numbers import fixed, interval, with_sd
 from equipoise.app.units import PER_DEG, unit_for
 from equipoise.assessment.finding import Finding
+from equipoise.maths.whiteness import WHITE
 from equipoise.model.estimate import COM, Estimate, Parameter, Residual
 from equipoise.model.step import Step
 
-NOT_WHITE = 1e-3  # probability
 MARKS = {"content": "  ", "motion": "  ", "problem": "! ", "mended": "~ "}
 FINDING_STYLE = {"content": "", "motion": "", "problem": "bold yellow", "mended": "dim"}
 STEP_STYLE = {"look": "dim", "estimate": "", "move": "cyan", "verify": "bold", "stop": "bold"}
@@ -108,8 +108,8 @@ def residual_line(residual: Residual) -> str:
 
 def _white(residual: Residual) -> str:
     """Say whether what is left is white noise, by the portmanteau test."""
-    if residual.whiteness < NOT_WHITE:
-        return f"not white noise (p < {NOT_WHITE:g})"
+    if residual.whiteness < WHITE:
+        return f"not white noise (p < {WHITE:g})"
     return f"white noise as far as rows tell (p = {residual.whiteness:.2g})"
 
 

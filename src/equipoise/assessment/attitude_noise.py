@@ -33,7 +33,7 @@ def attitude_noise(attitude: Samples) -> float | None:
     if len(attitude) < FEWEST + max(ORDERS):
         return None
     duration, turn = steps(attitude)
-    even = np.abs(duration / np.median(duration) - 1) < EVEN
+    even = np.abs(duration / attitude.period - 1) < EVEN
     turn = np.where(even[:, None], turn, np.nan)  # a difference across a gap is no difference
     found = [_scatter(turn, order) for order in ORDERS]
     told = [noise for noise in found if noise is not None]

@@ -18,6 +18,6 @@ def steps(attitude: Samples, lag: int = 1) -> tuple[Series1, Series3]:
 def even_steps(attitude: Samples) -> tuple[Series1, Series3]:
     """Return the times (s) and turn rates (rad/s) of steps as long as most are."""
     duration, turn = steps(attitude)
-    even = np.abs(duration / np.median(duration) - 1) < EVEN
+    even = np.abs(duration / attitude.period - 1) < EVEN
     middle = 0.5 * (attitude.t[1:] + attitude.t[:-1])
     return middle[even], turn[even] / duration[even, None]

@@ -3,7 +3,6 @@
 import numpy as np
 
 from equipoise.assessment.finding import Finding
-from equipoise.model.arrays import Series1
 from equipoise.model.recording import Recording, Samples
 
 GAP = 3.0  # median intervals; chosen: one missed row makes 2, two make 3
@@ -26,7 +25,7 @@ def content_findings(recording: Recording) -> list[Finding]:
     content = [_content(name, channel, recording.mass_names) for name, channel in present]
     content += [Finding("content", f"No {name} was recorded.") for name in absent]
     sensors = [(name, c) for name, c in present if name in ("attitude", "rate")]
-    return content + [gap for name, c in sensors for gap in _timing(name, c.t)]
+    return content + [gap for name, c in sensors for gap in _timing(name, c)]
 
 
 def _content(name: str, channel: Samples, masses: tuple[str, ...]) -> Finding:
@@ -34,20 +33,20 @@ def _content(name: str, channel: Samples, masses: tuple[str, ...]) -> Finding:
     of = f" of {', '.join(masses)}" if name == "masses" else ""
     text = f"{name}{of}: {len(channel)} rows from {first:.6g} to {last:.6g} s"
     if len(channel) > 1:
-        text += f", {1 / np.median(np.diff(channel.t)):.4g} Hz"
+        text += f", {1 / channel.period:.4g} Hz"
     return Finding("content", f"{text}.", (first, last))
 
 
-def _timing(name: str, t: Series1) -> list[Finding]:
-    if len(t) < 2:
+def _timing(name: str, channel: Samples) -> list[Finding]:
+    if len(channel) < 2:
         return []
-    return _gaps(name, t) + _unevenness(name, t)
+    return _gaps(name, channel) + _unevenness(name, channel)
 
 
-def _gaps(name: str, t: Series1) -> list[Finding]:
+def _gaps(name: str, channel: Samples) -> list[Finding]:
     """Return the longest gaps in order of time, and how many more there are."""
-    steps = np.diff(t)
-    where = np.flatnonzero(steps > GAP * np.median(steps))
+    t, steps = channel.t, np.diff(channel.t)
+    where = np.flatnonzero(steps > GAP * channel.period)
     longest = np.sort(where[np.argsort(-steps[where], kind="stable")][:NAMED])
     found = [
         Finding(
@@ -63,10 +62,9 @@ def _gaps(name: str, t: Series1) -> list[Finding]:
     return found
 
 
-def _unevenness(name: str, t: Series1) -> list[Finding]:
-    steps = np.diff(t)
-    middle = float(np.median(steps))
-    scatter = ROBUST_SD * float(np.median(np.abs(steps - middle)))
+def _unevenness(name: str, channel: Samples) -> list[Finding]:
+    middle = channel.period
+    scatter = ROBUST_SD * float(np.median(np.abs(np.diff(channel.t) - middle)))
     if scatter < UNEVEN * middle:
         return []
     text = f"{name}: intervals scatter by {scatter:.2g} s about {middle:.3g} s."

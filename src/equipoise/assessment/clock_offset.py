@@ -100,7 +100,7 @@ class _Pairs:
         end = start + duration
         use = (start - FARTHEST >= rate.t[0]) & (end + FARTHEST <= rate.t[-1])
         use &= duration < GAP * np.median(duration)
-        use &= ~across_gap(rate.t, start - FARTHEST, end + FARTHEST)
+        use &= ~across_gap(rate, start - FARTHEST, end + FARTHEST)
         return _Pairs(start[use], end[use], (turn / duration[:, None])[use])
 
 

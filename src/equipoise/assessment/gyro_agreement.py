@@ -48,7 +48,7 @@ def rate_pairs(attitude: Samples, rate: Samples) -> tuple[Series3, Series3]:
     start, end = attitude.t[:-lag], attitude.t[lag:]
     covered = (start >= rate.t[0]) & (end <= rate.t[-1])
     covered &= duration < GAP * np.median(duration)
-    covered &= ~across_gap(rate.t, start, end)
+    covered &= ~across_gap(rate, start, end)
     felt = (integral(rate, end) - integral(rate, start)) / duration[:, None]
     return (turn / duration[:, None])[covered], felt[covered]
 
@@ -62,10 +62,9 @@ def correlation(felt: Series3, seen: Series3) -> Matrix3:
 
 def lag_of(attitude: Samples) -> int:
     """Return how many rows apart attitudes are compared."""
-    duration, turn = steps(attitude)
-    interval = float(np.median(duration))
+    _, turn = steps(attitude)
     size = float(np.median(np.linalg.norm(turn, axis=1)))
-    most = min(LONGEST / interval, SMALL / max(size, 1e-12), len(attitude) / 4)
+    most = min(LONGEST / attitude.period, SMALL / max(size, 1e-12), len(attitude) / 4)
     return max(1, int(most))
 
 
@@ -82,9 +81,10 @@ def integral(rate: Samples, at: Floats) -> Series3:
     return turned + np.multiply.outer(at - rate.t[0], mean)
 
 
-def across_gap(t: Floats, start: Floats, end: Floats) -> NDArray[np.bool_]:
+def across_gap(rate: Samples, start: Floats, end: Floats) -> NDArray[np.bool_]:
     """Say for each span whether it touches an interval in which the gyro was silent."""
-    silent = np.append(False, np.diff(t) > GAP * np.median(np.diff(t)))
+    t = rate.t
+    silent = np.append(False, np.diff(t) > GAP * rate.period)
     before = np.cumsum(silent)
     first = np.maximum(np.searchsorted(t, start, side="right") - 1, 0)
     last = np.minimum(np.searchsorted(t, end, side="left"), len(t) - 1)

@@ -63,6 +63,6 @@ def _spin(attitude: Samples) -> Finding:
     _, vertical = heading_rate(attitude)
     n = max(1, int(SHARE * len(vertical)))
     first, last = (math.degrees(float(np.median(part))) for part in (vertical[:n], vertical[-n:]))
-    limit = 180 / float(np.median(np.diff(attitude.t)))
+    limit = 180 / attitude.period
     text = f"spin about the vertical: {first:.4g} deg/s at first, {last:.4g} deg/s at last"
     return Finding("motion", f"{text} (up to {limit:.4g} deg/s can be told at this rate).")

@@ -40,7 +40,7 @@ from equipoise.assessment.window_misfit import (
     out,
     touch_misfit,
 )
-from equipoise.model.arrays import Floats, Series1, Series3, Vector3
+from equipoise.model.arrays import Floats, Ints, Series1, Series3, Vector3
 from equipoise.model.recording import Samples
 
 ALARMS = 0.1  # records without an odd row in which one is named; chosen: one in ten
@@ -68,6 +68,16 @@ class Platform(NamedTuple):
     attitude: bool  # its rows are attitudes, not rates
 
 
+class _Sensor(NamedTuple):
+    """Rows of a sensor, and how they are looked at."""
+
+    t: Series1  # s
+    vectors: Vectors
+    span: Span
+    least: Vector3  # rad or rad/s, of the scale
+    platform: Platform
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class OutlyingRows:
     """Which rows are outlying, and by how much."""
@@ -86,23 +96,23 @@ def outlying_attitudes(attitude: Samples) -> OutlyingRows:
     coarse = bool(size.any()) and np.count_nonzero(size == 0) > REPEATS * len(size)
     least = HALF * float(size[size > 0].min()) if coarse else 0.0
     vectors = attitude_vectors(attitude.t, attitude.values)
-    return _outlying(attitude.t, vectors, np.full(3, least), _median(speed), attitude=True)
+    platform = Platform(_median(speed), attitude=True)
+    return _outlying(attitude.t, vectors, np.full(3, least), platform)
 
 
 def outlying_rates(rate: Samples) -> OutlyingRows:
     """Return the outlying rows of a gyro."""
     speed = np.linalg.norm(rate.values, axis=1)
     least = HALF * np.array([step_of(axis) or 0.0 for axis in rate.values.T])
-    return _outlying(rate.t, rate_vectors(rate.values), least, _median(speed), attitude=False)
+    platform = Platform(_median(speed), attitude=False)
+    return _outlying(rate.t, rate_vectors(rate.values), least, platform)
 
 
 def _median(speed: Series1) -> float:
     return float(np.median(speed)) if len(speed) else 0.0
 
 
-def _outlying(
-    t: Series1, vectors: Vectors, least: Vector3, speed: float, attitude: bool
-) -> OutlyingRows:
+def _outlying(t: Series1, vectors: Vectors, least: Vector3, platform: Platform) -> OutlyingRows:
     """Return the outlying rows; the scale is ``least`` or more.
 
     A long record is looked at piece by piece, so that memory does not grow with it.
@@ -112,27 +122,39 @@ def _outlying(
     every = np.arange(n)
     some = every[max(0, (n - SAMPLE) // 2) :][:SAMPLE]
     span = min(SPANS, key=lambda span: _reach(local_fit(t, some, vectors, span), span))
+    sensor = _Sensor(t, vectors, span, least, platform)
     for first in range(0, max(n, 1), PIECE):
         keep = every[max(0, first - BESIDE) : first + PIECE + BESIDE]
         inside = (every >= first) & (every < first + PIECE)
-        scale = 0.0
-        for _ in range(PASSES):
-            fit = local_fit(t, keep, vectors, span)
-            if not len(fit.rows):
-                break
-            mine = inside[fit.own]
-            rough[fit.own[mine]] = fit.left_own[mine]
-            sd = np.maximum(_scale(fit), least)
-            scale = scale or float(np.sqrt(np.mean(np.median(sd, axis=0) ** 2)))
-            odd = _odd_rows(t, fit, sd, Platform(speed, attitude), len(keep) / n)
-            for row, vector in odd.items():
-                if inside[row]:
-                    off[row] = rough[row] = vector
-            if not odd:
-                break
-            keep = np.setdiff1d(keep, np.array(list(odd), np.int64))
-        scales.append(scale)
+        scales.append(_look_at_piece(sensor, keep, inside, off, rough))
     return OutlyingRows(np.any(off != 0, axis=1).reshape(n), off, float(np.median(scales)), rough)
+
+
+def _look_at_piece(
+    sensor: _Sensor, keep: Ints, inside: NDArray[np.bool_], off: Series3, rough: Series3
+) -> float:
+    """Write how far off the odd rows inside a piece are and what is left of all; return the scale.
+
+    ``keep``: the piece and the rows beside it. Each pass goes without the rows found before.
+    """
+    t, vectors, span, least, platform = sensor
+    scale = 0.0
+    for _ in range(PASSES):
+        fit = local_fit(t, keep, vectors, span)
+        if not len(fit.rows):
+            break
+        mine = inside[fit.own]
+        rough[fit.own[mine]] = fit.left_own[mine]
+        sd = np.maximum(_scale(fit), least)
+        scale = scale or float(np.sqrt(np.mean(np.median(sd, axis=0) ** 2)))
+        odd = _odd_rows(t, fit, sd, platform, len(keep) / len(t))
+        if not odd:
+            break
+        for row, vector in odd.items():
+            if inside[row]:
+                off[row] = rough[row] = vector
+        keep = np.setdiff1d(keep, np.array(list(odd), np.int64))
+    return scale
 
 
 def _reach(fit: LocalFit, span: Span) -> float:

@@ -10,8 +10,6 @@ yaw count as rounded about the body axes, which they are near level.
 import math
 from dataclasses import replace
 
-import numpy as np
-
 from equipoise.assessment.attitude_noise import attitude_noise
 from equipoise.assessment.finding import Finding
 from equipoise.assessment.quantisation import step_of
@@ -31,7 +29,7 @@ def shown_camera(rows: Samples | None, stated: AttitudeSensor | None) -> Attitud
         return stated
     if stated is None:
         noise = attitude_noise(rows)
-        return AttitudeSensor(_frequency(rows), max(USUAL if noise is None else noise, EXACT))
+        return AttitudeSensor(1.0 / rows.period, max(USUAL if noise is None else noise, EXACT))
     return replace(stated, noise=math.hypot(stated.noise, stated.quantum / ROUNDED))
 
 
@@ -42,7 +40,7 @@ def shown_gyro(rows: Samples | None, stated: Gyro | None) -> Gyro | None:
     step = max([step_of(axis) or 0.0 for axis in rows.values.T])
     if stated is None:
         noise = max(rate_noise(rows), step / ROUNDED, EXACT)
-        return Gyro(_frequency(rows), noise, BIAS)
+        return Gyro(1.0 / rows.period, noise, BIAS)
     return replace(stated, noise=math.hypot(stated.noise, max(step, stated.quantum) / ROUNDED))
 
 
@@ -63,7 +61,3 @@ def unstated_findings(recording: Recording, testbed: Testbed | None) -> list[Fin
 def _taken(name: str, noise: float, unit: str) -> Finding:
     text = f"the testbed has no sensor.{name}: its noise is taken as {noise:.2g} {unit} a row."
     return Finding("mended", text)
-
-
-def _frequency(rows: Samples) -> float:
-    return 1.0 / float(np.median(np.diff(rows.t)))

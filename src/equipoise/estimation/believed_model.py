@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.estimation.fitted import MOST, Fitted, smooth_at
+from equipoise.estimation.held_values import settle_pinned
 from equipoise.estimation.jumps import RATE, Jump, carried, inside, walk
 from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.stretches import count_free
-from equipoise.estimation.trajectory import Params, problem_of, settle_pinned
+from equipoise.estimation.trajectory import Params, problem_of
 from equipoise.estimation.trajectory_problem import posed
 from equipoise.model.arrays import Floats, Series1, Square, Vector3
 from equipoise.model.estimate import COM

@@ -27,7 +27,7 @@ from equipoise.estimation.survey import ROWS, finest_spacing
 from equipoise.estimation.trajectory_problem import errors_of, quickest_swing
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.straight_pieces import straight_pieces
-from equipoise.model.arrays import Ints, Series1
+from equipoise.model.arrays import Ints
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 
@@ -52,9 +52,9 @@ class Condensed:
     rate_rows: int
 
 
-def first_rows(t: Series1, k: int) -> Ints:
+def first_rows(channel: Samples, k: int) -> Ints:
     """Return where means of k rows begin that follow each other without a gap."""
-    longest = (k - 1) * float(np.median(np.diff(t))) * (1 + SLACK)
+    t, longest = channel.t, (k - 1) * channel.period * (1 + SLACK)
     found: list[int] = []
     first = 0
     while first + k <= len(t):
@@ -68,13 +68,13 @@ def first_rows(t: Series1, k: int) -> Ints:
 
 def mean_rows(channel: Samples, k: int) -> Samples:
     """Return the means of k rows at their mean times."""
-    rows = first_rows(channel.t, k)[:, None] + np.arange(k)
+    rows = first_rows(channel, k)[:, None] + np.arange(k)
     return Samples(channel.t[rows].mean(axis=1), channel.values[rows].mean(axis=1))
 
 
 def mean_attitudes(attitude: Samples, k: int) -> Samples:
     """Return the means of k attitudes: of their turns (body axes) from the one in the middle."""
-    rows = first_rows(attitude.t, k)[:, None] + np.arange(k)
+    rows = first_rows(attitude, k)[:, None] + np.arange(k)
     middle = attitude.values[rows[:, k // 2]]
     turns = difference(attitude.values[rows], middle[:, None])
     return Samples(attitude.t[rows].mean(axis=1), multiply(middle, exponential(turns.mean(axis=1))))
@@ -111,7 +111,7 @@ def turned(attitude: Samples, k: int) -> float:
 def swept(rate: Samples, k: int) -> float:
     """Return by how much (rad) the platform turns within k rows of the gyro, mostly."""
     speed = np.percentile(np.linalg.norm(rate.values, axis=1), MOSTLY)
-    return k * float(speed * np.median(np.diff(rate.t)))
+    return k * float(speed * rate.period)
 
 
 def most_rows(channel: Samples | None, longest: float, turn: Turn) -> int:
@@ -119,10 +119,10 @@ def most_rows(channel: Samples | None, longest: float, turn: Turn) -> int:
     k = 1
     if channel is None or len(channel) < DENSEST:
         return k
-    period = float(np.median(np.diff(channel.t)))
+    period = channel.period
     while 2 * k * period <= longest and turn(channel, 2 * k) <= TURNED:
         k *= 2
-    return k if k * len(first_rows(channel.t, k)) >= WHOLE * len(channel) else 1
+    return k if k * len(first_rows(channel, k)) >= WHOLE * len(channel) else 1
 
 
 def with_few_bends(recording: Recording, testbed: Testbed) -> Recording:
@@ -157,10 +157,10 @@ def condensed(recording: Recording, testbed: Testbed) -> Condensed | None:
         return None
     camera, gyro = testbed.attitude, testbed.gyro
     if attitude is not None and camera is not None and k_q > 1:
-        camera = averaged(camera, k_q, float(np.median(np.diff(attitude.t))))
+        camera = averaged(camera, k_q, attitude.period)
         attitude = mean_attitudes(attitude, k_q)
     if rate is not None and gyro is not None and k_w > 1:
-        gyro = averaged(gyro, k_w, float(np.median(np.diff(rate.t))))
+        gyro = averaged(gyro, k_w, rate.period)
         rate = mean_rows(rate, k_w)
     few = replace(recording, attitude=attitude, rate=rate, attitude_norm=None)
     seen = replace(testbed, attitude=camera, gyro=gyro)

@@ -5,7 +5,8 @@ the descent on all rows begins at their optimum, a few evaluations from its own.
 and intervals are those of all rows.
 
 A row's noise is that of a mean times sqrt(k) if rows err independently. Where it is less, they err
-together, and an interval is as much wider as means scatter more than their rows say (``coloured``).
+together, and an interval is as much wider as means scatter more than their rows say
+(``Believed.coloured``).
 
 The linear start integrates the motion, which a gap stops: it is given the rows before the first.
 """
@@ -37,7 +38,7 @@ def first_gap(recording: Recording, testbed: Testbed) -> float:
     for channel in (recording.attitude, recording.rate):
         if channel is not None and len(channel) > 1:
             apart = np.diff(channel.t)
-            long = max(TURNED / quickest_swing(testbed), WIDE * float(np.median(apart)))
+            long = max(TURNED / quickest_swing(testbed), WIDE * channel.period)
             stops = channel.t[:-1][(apart > long) & (channel.t[:-1] > least)]
             found = min(found, float(stops[0])) if len(stops) else found
     return found
@@ -80,7 +81,7 @@ def with_all_rows(
     )
 
 
-def coloured(belief: Believed) -> Believed:
+def with_rows_own_noise(belief: Believed) -> Believed:
     """Return the belief with the rows' own noise, if that is not what their means say."""
     factors = noise_factors(belief, *smoothed(belief))
     rows = (len(belief.fitted.at.left_q), len(belief.fitted.at.left_w))
@@ -99,4 +100,4 @@ def surveyed_densely(
     if not belief.fitted.converged:
         return replace(whole, fitted=fitted_in(whole, active(whole), 1))
     whole = refitted(whole)
-    return coloured(whole) if whole.fitted.converged else whole
+    return with_rows_own_noise(whole) if whole.fitted.converged else whole

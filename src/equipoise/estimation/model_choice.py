@@ -62,11 +62,9 @@ def with_group(belief: Believed, group: tuple[str, ...]) -> Believed:
     """Return the model with a group of terms more."""
     params = belief.params
     if set(group) <= set(sensor_terms.TERMS):
-        wanted = {*params.sensor, *group}
-        sensor = tuple(term for term in sensor_terms.TERMS if term in wanted)
+        sensor = sensor_terms.among((*params.sensor, *group))
         return replace(belief, params=replace(params, sensor=sensor))
-    wanted = {*params.terms, *group}
-    terms = tuple(term for term in torque_terms.TERMS if term in wanted)
+    terms = torque_terms.among((*params.terms, *group))
     return replace(belief, params=replace(params, terms=terms))
 
 

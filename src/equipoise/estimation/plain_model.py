@@ -26,11 +26,9 @@ def plainly(recording: Recording, testbed: Testbed, params: Params) -> tuple[Par
     finds out what is missing: damping may stand for touches, too.
     """
     plain = fit(recording, testbed, params)
-    missing = tuple(t for t in DAMPING if t not in params.terms)
-    if not missing or is_near(plain):
+    if set(DAMPING) <= set(params.terms) or is_near(plain):
         return params, plain
-    terms = tuple(t for t in torque_terms.TERMS if t in (*params.terms, *missing))
-    richer = replace(params, terms=terms)
+    richer = replace(params, terms=torque_terms.among((*params.terms, *DAMPING)))
     damped = fit(recording, testbed, richer)
     return (richer, damped) if is_near(damped) else (params, plain)
 

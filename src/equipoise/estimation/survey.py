@@ -45,7 +45,7 @@ from equipoise.estimation.survey_terms import (
 )
 from equipoise.estimation.torque_colour import coloured
 from equipoise.estimation.trajectory import Params
-from equipoise.maths.whiteness import portmanteau
+from equipoise.maths.whiteness import WHITE, portmanteau
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -54,7 +54,6 @@ FINEST, MOST_CUTS = 0.1, 2000  # s, -; chosen: shorter than a touch, and what me
 ROWS, EDGE = 2, 2  # camera rows between cuts, and cuts' spacings left alone at either end
 FEWEST = 8  # cuts, chosen: below this a median says nothing
 WRONG = 1.8  # chosen: root of the median surprise over its due; by chance it is below 1.6
-WHITE = 1e-3  # probability
 MOST_EVENTS, FEW_EVENTS = 40, 8  # with and without process noise, chosen
 ROUNDS = 3
 
@@ -70,8 +69,7 @@ def cut_times(recording: Recording) -> Series1:
     start, end = recording.span
     rows = recording.attitude or recording.rate
     assert rows is not None
-    usual = ROWS * float(np.median(np.diff(rows.t)))
-    spacing = max(usual, finest_spacing(recording))
+    spacing = max(ROWS * rows.period, finest_spacing(recording))
     return np.arange(start + EDGE * spacing, end - (EDGE - 0.5) * spacing, spacing)
 
 

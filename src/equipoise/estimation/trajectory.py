@@ -20,7 +20,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.actuators.mass_errors import MassErrors
-from equipoise.estimation.fitted import MOST, Fitted, settle
+from equipoise.estimation.fitted import Fitted, settle
+from equipoise.estimation.held_values import settle_pinned
 from equipoise.estimation.jumps import UNCUT, Jump
 from equipoise.estimation.shooting import shot
 from equipoise.estimation.start import start
@@ -34,13 +35,10 @@ from equipoise.estimation.trajectory_problem import (
     pose,
     prior_of,
 )
-from equipoise.estimation.unknowns import JP, Layout, R, Unknowns
-from equipoise.maths import pseudo_inertia
-from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import INERTIA
-from equipoise.model.mass_properties import parallel_axis
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
@@ -53,7 +51,6 @@ FEW_SWINGS = 1 / 32  # of a long record, chosen: 56 s of half an hour
 FEW_ROWS = 50  # chosen: fewer are no motion
 GUIDED = 0.1  # natural sizes of torques, on the way
 COARSE = 0.01  # rad, rad/s, chosen: half a degree
-PINNED, REPINNED = 1e-9, 3  # relative; times that a held value is put back, chosen
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -218,50 +215,6 @@ def fit(
         return found
     shot_at = shoot(recording, testbed, params, point)
     return min(found, settle_pinned(problem, shot_at), key=cost_of)
-
-
-def pinned(problem: Problem, point: Unknowns) -> Unknowns:
-    """Return the point with held moments and centre of mass exactly where they are held.
-
-    What is held only because the scale is open may have any value.
-    """
-    if problem.scale_open:
-        return point
-    body, prior = point.body(problem.mass), problem.prior
-    packed = pack_symmetric(body.inertia_P)
-    six: Floats = np.where(prior.held[JP], prior.mean[JP], packed)
-    com: Floats = np.where(prior.held[R], prior.mean[R], point.com)
-    if np.array_equal(six, packed) and np.array_equal(com, point.com):
-        return point
-    inertia_C = unpack_symmetric(six) - parallel_axis(problem.mass, com)
-    return replace(point, six=pseudo_inertia.from_inertia(inertia_C), com=com)
-
-
-def settle_pinned(
-    problem: Problem, point: Unknowns, jumps: Floats | None = None, most: int = MOST
-) -> Fitted:
-    """Return the optimum with held values held.
-
-    A search that touches the boundary of the possible bodies is put back inside, and takes what is
-    held along; from where it ends it is put right and goes the little way again. One that never
-    stays is left where it is put right, not settled.
-    """
-    found = settle(problem, pinned(problem, point), jumps, most)
-    for _ in range(REPINNED):
-        if is_pinned(problem, found.point):
-            return found
-        found = settle(problem, pinned(problem, found.point), found.jumps, most)
-    if is_pinned(problem, found.point):
-        return found
-    return settle(problem, pinned(problem, found.point), found.jumps, 1)
-
-
-def is_pinned(problem: Problem, point: Unknowns) -> bool:
-    """Say whether held moments and centre of mass are where they are held."""
-    body, prior = point.body(problem.mass), problem.prior
-    packed = np.append(pack_symmetric(body.inertia_P), body.com)
-    held, mean = prior.held[JP.start : R.stop], prior.mean[JP.start : R.stop]
-    return problem.scale_open or np.allclose(packed[held], mean[held], rtol=PINNED, atol=0.0)
 
 
 def explains(fit: Fitted) -> bool:

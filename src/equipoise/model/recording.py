@@ -23,6 +23,14 @@ class Samples:
         """Return the number of rows."""
         return len(self.t)
 
+    @property
+    def period(self) -> float:
+        """Return the median time from a row to the next, s; there must be two rows.
+
+        A few gaps and missing rows do not change it.
+        """
+        return float(np.median(np.diff(self.t)))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recording:

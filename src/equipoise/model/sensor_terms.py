@@ -4,6 +4,8 @@ Each is one coefficient that a fit may seek beside the torques (``sensors.camera
 ``sensors.gyro`` have the equations). Groups are what a person asks for by name.
 """
 
+from collections.abc import Iterable
+
 GROUPS: dict[str, tuple[str, ...]] = {
     "plumb": ("plumb_x", "plumb_y"),
     "heading2": tuple(f"heading2_{wave}_{axis}" for wave in ("cos", "sin") for axis in "xyz"),
@@ -16,6 +18,12 @@ TERMS: tuple[str, ...] = tuple(term for group in GROUPS.values() for term in gro
 UNITS: dict[str, str] = {
     "plumb": "rad", "heading2": "rad", "heading3": "rad", "camera": "s", "gyro": "1",
 }  # fmt: skip
+
+
+def among(names: Iterable[str]) -> tuple[str, ...]:
+    """Return the sensors' terms among some names, each once, in the package's order."""
+    wanted = set(names)
+    return tuple(term for term in TERMS if term in wanted)
 
 
 def unit_of(term: str) -> str:

@@ -4,6 +4,8 @@ Each is one coefficient times one column of the regressor (``dynamics.torques`` 
 Groups are what a testbed file asks for under ``[disturbance]``.
 """
 
+from collections.abc import Iterable
+
 from equipoise.model.errors import InputError, nearest
 
 GROUPS: dict[str, tuple[str, ...]] = {
@@ -32,6 +34,12 @@ def expand(names: tuple[str, ...], where: str = "disturbance") -> tuple[str, ...
         if name not in GROUPS and name not in TERMS:
             raise InputError(where, f"'{name}'", nearest(name, [*GROUPS, *TERMS]))
         wanted.update(GROUPS.get(name, (name,)))
+    return among(wanted)
+
+
+def among(names: Iterable[str]) -> tuple[str, ...]:
+    """Return the torques' terms among some names, each once, in the package's order."""
+    wanted = set(names)
     return tuple(term for term in TERMS if term in wanted)
 
 

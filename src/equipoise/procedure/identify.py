@@ -45,8 +45,7 @@ def terms_of(testbed: Testbed, options: IdentifyOptions) -> tuple[str, ...]:
 
 def split(terms: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the torques and the sensors' terms among these, each in the package's order."""
-    torques = tuple(term for term in torque_terms.TERMS if term in terms)
-    return torques, tuple(term for term in sensor_terms.TERMS if term in terms)
+    return torque_terms.among(terms), sensor_terms.among(terms)
 
 
 def by_trajectory(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Estimate:
