@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.estimation import reference
-from equipoise.estimation.believed_model import Believed, Happening, refitted
+from equipoise.estimation.believed_model import Believed, Happening, farther, refitted
 from equipoise.estimation.event_price import threshold
 from equipoise.estimation.survey import cut_times
 from equipoise.estimation.survey_events import without
@@ -115,8 +115,7 @@ def sizes(logged: cases.Logged) -> list[tuple[Happened, float]]:
     belief = refitted(
         Believed(recording, testbed, params, cuts, np.zeros(3), events, first, testbed)
     )
-    costs = [without(belief, k).fitted.at.cost for k in range(len(events))]
-    rises = 2 * np.maximum(np.array(costs) - belief.fitted.at.cost, 0.0)
+    rises = [max(farther(without(belief, k), belief), 0.0) for k in range(len(events))]
     return list(zip(true, np.sqrt(rises).tolist(), strict=True))
 
 

@@ -4,6 +4,7 @@ Process noise is a torque that wanders, as white noise of density ``walk`` about
 axis; over a stretch of length dt it jumps the rate by walk_i sqrt(dt) / J_ii.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -111,6 +112,16 @@ def smoothed(belief: Believed) -> tuple[Fitted, Smoothed]:
     """Return the fit with every cut in it, and what is known of every stretch."""
     fit = fitted_in(belief, belief.cuts, 1)
     return fit, smooth_at(fit)
+
+
+def nearest(models: Iterable[Believed]) -> Believed:
+    """Return the model that explains the record best, whatever it took."""
+    return min(models, key=lambda model: model.fitted.at.cost)
+
+
+def farther(model: Believed, other: Believed) -> float:
+    """Return the chi-square by which a model is farther from the record than another."""
+    return 2.0 * (model.fitted.at.cost - other.fitted.at.cost)
 
 
 def slowest(belief: Believed) -> float:

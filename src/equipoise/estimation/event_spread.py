@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.believed_model import Believed
+from equipoise.estimation.believed_model import Believed, farther
 from equipoise.estimation.conclusion import conclude
 from equipoise.estimation.event_moments import later, moment_errors
 from equipoise.estimation.trajectory import METHOD
@@ -45,7 +45,7 @@ def with_moments(concluded: Estimate, belief: Believed) -> Estimate:
     _, sd = moment_errors(belief)
     models = [later(belief, row) for row in np.diag(sd)]
     shifted = [conclude(model.fitted, METHOD, belief.recording) for model in models]
-    rise = np.array([2 * (m.fitted.at.cost - belief.fitted.at.cost) for m in models])
+    rise = np.array([farther(model, belief) for model in models])
     columns = columns_of(concluded.parameters, [one.parameters for one in shifted], rise)
     ratios = columns_of(concluded.ratios, [one.ratios for one in shifted], rise)
     return replace(

@@ -27,6 +27,11 @@ class Jump:
     sd: tuple[float, ...]
     is_event: bool = False  # something that happened, not process noise
 
+    @property
+    def is_noise(self) -> bool:
+        """Say whether this is process noise; a cut at which nothing may jump is none."""
+        return bool(self.names) and not self.is_event
+
 
 UNCUT: tuple[Jump, ...] = ()
 

@@ -23,6 +23,7 @@ from equipoise.estimation.survey import MOST_EVENTS, survey
 from equipoise.estimation.telling import (
     DRIVEN,
     driven,
+    lean_sentences,
     noise_sentences,
     open_sentences,
     term_sentences,
@@ -92,7 +93,8 @@ def outcome_of(belief: Believed, asked: Params, concluded: Estimate) -> Outcome:
     base, share = concluded.outcome, driven(belief)
     if not base.usable:
         return base
-    found = [*noise_sentences(belief), *term_sentences(belief, asked), *walk_sentences(belief)]
+    found = [*noise_sentences(belief), *lean_sentences(belief, concluded)]
+    found += [*term_sentences(belief, asked), *walk_sentences(belief)]
     text = " ".join([base.sentence, *event_sentences(concluded), *found])
     if share > DRIVEN:
         return Outcome(

@@ -7,6 +7,8 @@ import numpy as np
 from equipoise.estimation.believed_model import (
     Believed,
     Happening,
+    farther,
+    nearest,
     refitted,
     slowest,
 )
@@ -32,7 +34,7 @@ def with_kind(belief: Believed, k: int, kind: str) -> Believed:
 def of_either_kind(belief: Believed, k: int) -> Believed:
     """Return the belief with one event of the kind, and at the moment, that explain most."""
     models = [timed(with_kind(belief, k, kind), k) for kind in KINDS]
-    return min(models, key=lambda model: model.fitted.at.cost)
+    return nearest(models)
 
 
 def doubted(belief: Believed) -> Believed:
@@ -44,12 +46,12 @@ def doubted(belief: Believed) -> Believed:
     for k, event in enumerate(belief.events):
         others = [other for other in KINDS if other != event.kind]
         models = [timed(with_kind(belief, k, other), k) for other in others]
-        nearest = min(models, key=lambda model: model.fitted.at.cost)
-        if 2 * (nearest.fitted.at.cost - belief.fitted.at.cost) < CLEAR:
-            open_to = replace(event, unclear=True, aside=nearest.events[k].t - event.t)
+        likest = nearest(models)
+        if farther(likest, belief) < CLEAR:
+            open_to = replace(event, unclear=True, aside=likest.events[k].t - event.t)
             events = (*belief.events[:k], open_to, *belief.events[k + 1 :])
             belief = replace(belief, events=events)
-    return refitted(belief)
+    return refitted(belief) if any(event.unclear for event in belief.events) else belief
 
 
 def joined(belief: Believed, k: int) -> Believed:
@@ -59,8 +61,8 @@ def joined(belief: Believed, k: int) -> Believed:
     for t in (one.t, 0.5 * (one.t + two.t), two.t):
         events = (*belief.events[:k], replace(one, t=t), *belief.events[k + 2 :])
         either = [with_kind(replace(belief, events=events), k, kind) for kind in KINDS]
-        models.append(timed(min(either, key=lambda model: model.fitted.at.cost), k))
-    return timed(min(models, key=lambda model: model.fitted.at.cost))
+        models.append(timed(nearest(either), k))
+    return timed(nearest(models))
 
 
 def merged(belief: Believed) -> Believed:
@@ -75,7 +77,7 @@ def merged(belief: Believed) -> Believed:
     while k + 1 < len(belief.events):
         if belief.events[k + 1].t - belief.events[k].t < reach:
             one = joined(belief, k)
-            if 2 * (one.fitted.at.cost - belief.fitted.at.cost) < threshold(belief.spacing):
+            if farther(one, belief) < threshold(belief.spacing):
                 belief, k = one, max(k - 1, 0)
                 continue
         k += 1
@@ -114,7 +116,7 @@ def pruned(belief: Believed, colour: float = 1.0) -> Believed:
         worth = surprises_of(belief)
         doubtful = [k for k in np.argsort(worth) if worth[k] < DOUBTFUL * price]
         trials = (without(belief, k) for k in doubtful)
-        lost = (t for t in trials if 2 * (t.fitted.at.cost - belief.fitted.at.cost) < price)
+        lost = (t for t in trials if farther(t, belief) < price)
         simpler = next(lost, None)
         if simpler is None:
             break
@@ -131,8 +133,8 @@ def relocated(belief: Believed, k: int) -> Believed:
     row = np.arange(len(belief.events)) == k
     moved = [later(belief, share * slowest(belief) * row) for share in FAR]
     trials = [with_kind(one, k, kind) for one in moved for kind in KINDS]
-    best = timed(min(trials, key=lambda trial: trial.fitted.at.cost))
-    return min(belief, best, key=lambda model: model.fitted.at.cost)
+    best = timed(nearest(trials))
+    return nearest([belief, best])
 
 
 def settled(belief: Believed) -> Believed:

@@ -123,7 +123,7 @@ def likelier(belief: Believed) -> Believed:
     fixed point of restricted maximum likelihood; MacKay 1992, Helmert 1924).
     """
     fit, after = smoothed(belief)
-    noise = [bool(jump.names) and not jump.is_event for jump in fit.problem.jumps]
+    noise = [jump.is_noise for jump in fit.problem.jumps]
     if not any(noise):
         return belief
     sd = np.array([jump.sd for jump, one in zip(fit.problem.jumps, noise, strict=True) if one])

@@ -8,7 +8,7 @@ needless (``exchanged``), and left out where what came later has made it needles
 
 from collections.abc import Sequence
 
-from equipoise.estimation.believed_model import Believed, evidence, refitted, smoothed
+from equipoise.estimation.believed_model import Believed, evidence, farther, refitted, smoothed
 from equipoise.estimation.event_price import threshold
 from equipoise.estimation.held_out_rows import predicts_better
 from equipoise.estimation.model_choice import (
@@ -44,7 +44,7 @@ def is_lawful(richer: Believed, shaken: Believed, group: tuple[str, ...]) -> boo
     open more than an event, which has come and gone.
     """
     price = threshold(richer.spacing)
-    ahead = 2 * (richer.fitted.at.cost - shaken.fitted.at.cost)
+    ahead = farther(richer, shaken)
     return ahead + price * (len(group) / 3 - 1) < CLEAR
 
 

@@ -10,9 +10,11 @@ from equipoise.estimation.trajectory import Params
 from equipoise.estimation.trajectory_problem import evaluate
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Square
+from equipoise.model.estimate import Estimate
 
 NOISY = 1.3  # chosen: a noise off by more is told
 OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, untold
+LEANS = 4.0  # sd, chosen: a smaller lean is corrected untold
 DRIVEN = 0.5  # chosen: wandering torque over that of gravity, beyond which gravity tells nothing
 
 
@@ -45,6 +47,17 @@ def term_sentences(belief: Believed, asked: Params) -> list[str]:
     if not groups:
         return []
     return [f"Terms that predict better on held-out rows were added: {', '.join(groups)}."]
+
+
+def lean_sentences(belief: Believed, concluded: Estimate) -> list[str]:
+    """Say how far the camera's vertical leans, where the record shows that it does."""
+    if not set(PLUMB) <= set(belief.params.sensor):
+        return []
+    lean, covariance = concluded.values(PLUMB), concluded.covariance_of(PLUMB)
+    if lean @ np.linalg.solve(covariance, lean) < LEANS**2:
+        return []
+    size = float(np.degrees(np.linalg.norm(lean)))
+    return [f"The camera's vertical leans {size:.2g} deg from gravity's; that is corrected."]
 
 
 def gravity_torque(belief: Believed) -> float:

@@ -37,9 +37,12 @@ def azimuth_of(impulse_N: Vector3, sd: float, R: Matrix3, up: Vector3) -> float 
 
 def told(belief: Believed) -> tuple[Event, ...]:
     """Return the events of a belief in order of time, each as if its kind were clear."""
+    if not belief.events:
+        return ()
     order = sorted(belief.events, key=lambda event: event.t)
     clear = tuple(replace(event, unclear=False) for event in order)
-    single = refitted(replace(belief, events=clear))
+    single = replace(belief, events=clear)
+    single = refitted(single) if any(event.unclear for event in order) else single
     fit, after = single.fitted, smooth_at(single.fitted)
     rows = zip(order, rows_of(fit, clear), moment_errors(single)[1], strict=True)
     return tuple(

@@ -49,7 +49,7 @@ def coloured(belief: Believed) -> Believed:
     if not belief.wanders:
         return belief
     jumps, values = belief.fitted.problem.jumps, belief.fitted.jumps
-    noise = [bool(jump.names) and not jump.is_event for jump in jumps]
+    noise = [jump.is_noise for jump in jumps]
     sd = np.array([jump.sd[:3] for jump, one in zip(jumps, noise, strict=True) if one])
     ratio = densest(values[noise, :3] / sd)
     if np.all(ratio == 1.0):
