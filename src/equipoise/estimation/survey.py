@@ -38,7 +38,6 @@ from equipoise.estimation.survey_noise import calibrated, excesses, first_walk, 
 from equipoise.estimation.survey_terms import (
     Refused,
     bared,
-    exchanged,
     extended,
     is_lawful,
     likeliest,
@@ -155,18 +154,8 @@ def calm(belief: Believed) -> Believed:
     )
     if not (plain or (not greedy.events and is_calm(greedy))):
         events_first = repeated(repeated(belief, FEW_EVENTS, terms=False), FEW_EVENTS)
-        greedy = likeliest([bared(one, belief.params) for one in (greedy, events_first)])
-    return traded(greedy, belief.params)
-
-
-def traded(belief: Believed, asked: Params) -> Believed:
-    """Return the belief with terms for events, and then what else they show, while that helps."""
-    for _ in range(ROUNDS):
-        better = exchanged(belief, asked)
-        if better is belief:
-            break
-        belief = bared(repeated(better, FEW_EVENTS), asked)
-    return belief
+        return likeliest([bared(one, belief.params) for one in (greedy, events_first)])
+    return bared(greedy, belief.params)
 
 
 def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Believed:

@@ -1,9 +1,8 @@
 """Which terms a survey takes beside its events, when either may stand for the other.
 
-An event that is not known yet may look like a term, and a term like events: a camera whose vertical
-leans bends every swing, as three parts that shift would. What was taken first is therefore put to
-the test again when all else is known: a term is taken in place of the events that it makes
-needless (``exchanged``), and left out where what came later has made it needless (``bared``).
+An event that is not known yet may look like a term, and a term like events. So a term that promises
+as much as an event is taken before it (``is_lawful``), and every term is put to the test again when
+all else is known (``bared``).
 """
 
 from collections.abc import Sequence
@@ -13,11 +12,10 @@ from equipoise.estimation.event_price import threshold
 from equipoise.estimation.held_out_rows import predicts_better
 from equipoise.estimation.model_choice import (
     added_groups,
-    candidates,
     with_group,
     without_group,
 )
-from equipoise.estimation.survey_events import CLEAR, pruned, settled
+from equipoise.estimation.survey_events import CLEAR
 from equipoise.estimation.trajectory import Params
 
 Refused = set[tuple[str, ...]]
@@ -53,23 +51,3 @@ def bared(belief: Believed, asked: Params) -> Believed:
     for group in added_groups(belief, asked):
         belief = likeliest([refitted(without_group(belief, group)), belief])
     return belief
-
-
-def instead(belief: Believed, group: tuple[str, ...], asked: Params) -> Believed:
-    """Return the belief with a group of terms instead of the events that it makes needless.
-
-    The same belief where it makes none needless, or does not predict what it has not seen.
-    """
-    richer = pruned(refitted(with_group(belief, group)))
-    if len(richer.events) >= len(belief.events):
-        return belief
-    richer = bared(settled(richer), asked)
-    poorer = refitted(without_group(richer, group))
-    return richer if richer.fitted.converged and predicts_better(poorer, richer) else belief
-
-
-def exchanged(belief: Believed, asked: Params) -> Believed:
-    """Return the likeliest of the belief and all with one group of terms instead of events."""
-    if not belief.events:
-        return belief
-    return likeliest([belief, *(instead(belief, g, asked) for g in candidates(belief))])
