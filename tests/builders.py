@@ -46,6 +46,11 @@ def platform(accuracy: float = 0.0, gyro: bool = False) -> Testbed:
     )  # fmt: skip
 
 
+def level(testbed: Testbed) -> Testbed:
+    """The same platform seen by a camera whose vertical is known to be gravity's."""
+    return replace(testbed, attitude=replace(testbed.attitude, plumb_sd=0.0))
+
+
 def guessed_wrong(testbed: Testbed) -> Testbed:
     """The same platform as a drawing might have it: moments 5 to 10 % off, no products, centred."""
     inertia = np.diag(INERTIA[:3] * [1.10, 1.05, 0.95])

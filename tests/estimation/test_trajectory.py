@@ -13,6 +13,7 @@ from builders import (
     MASS,
     RATE,
     guessed_wrong,
+    level,
     move_at,
     noisy,
     platform,
@@ -286,4 +287,6 @@ def test_residual_is_that_of_the_camera():
     assert residual.held_out_span == (90.0, 120.0)
     assert residual.reduced_chi_square == pytest.approx(1.0, abs=4 * np.sqrt(2 / 1788))
     assert abs(residual.lag_one) < 4 / np.sqrt(1800)
-    assert residual.degrees_of_freedom == 3 * 601 - unknowns.FIXED
+    assert residual.degrees_of_freedom == 3 * 601 - unknowns.FIXED - 2  # the camera's lean
+    assured = estimate(noisy(clean(), 5), level(guessed_wrong(platform())), Params()).residual
+    assert assured.degrees_of_freedom == 3 * 601 - unknowns.FIXED

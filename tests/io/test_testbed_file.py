@@ -199,7 +199,7 @@ def test_nothing_is_wrong_unless_told() -> None:
 def test_last_digits_of_sensors_are_read_and_written() -> None:
     """A quantum is known to whoever reads the sensor's data sheet."""
     text = MINIMAL + (
-        "[sensor.attitude]\nrate_hz = 5\nnoise_deg = 0.1\nquantum_deg = 0.5\n"
+        "[sensor.attitude]\nrate_hz = 5\nnoise_deg = 0.1\nquantum_deg = 0.5\nplumb_sd_deg = 0.02\n"
         "[sensor.gyro]\nrate_hz = 50\nnoise_deg_s = 0.1\nquantum_deg_s = 0.0625\n"
     )
     for testbed in (
@@ -209,6 +209,7 @@ def test_last_digits_of_sensors_are_read_and_written() -> None:
         assert testbed.attitude is not None
         assert testbed.gyro is not None
         assert testbed.attitude.quantum == pytest.approx(math.radians(0.5))
+        assert testbed.attitude.plumb_sd == pytest.approx(math.radians(0.02))
         assert testbed.gyro.quantum == pytest.approx(math.radians(1 / 16))
 
 
