@@ -8,6 +8,9 @@ from equipoise.assessment.finding import Finding
 from equipoise.model.estimate import Estimate
 from equipoise.model.event import Event
 
+NOT_SOUGHT = Finding(
+    "content", "touches and parts that shift were not looked for: that takes a testbed."
+)
 MILLI, MICRO = 1e3, 1e6
 UNCLEAR_TOUCH = "A part that shifted would explain it about as well: intervals allow for either."
 UNCLEAR_STEP = "A touch would explain it about as well: intervals allow for either."

@@ -44,13 +44,13 @@ def inspect(
     from equipoise.app.tables import finding_line
     from equipoise.app.views_json import dump, findings_json
     from equipoise.app.wiring import recording_of, testbed_of
+    from equipoise.assessment.event_findings import NOT_SOUGHT
     from equipoise.assessment.record_findings import findings
 
     bed = None if testbed is None else testbed_of(testbed)
     recording = recording_of(file, dialect, columns)
     found = [*findings(recording, bed)]
-    if bed is not None:
-        found += _happened(file, dialect, columns, bed)
+    found += [NOT_SOUGHT] if bed is None else _happened(file, dialect, columns, bed)
     if figure is not None:
         from equipoise.app.figures.record import draw
         from equipoise.app.outputs import write_figure
