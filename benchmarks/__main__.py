@@ -12,6 +12,7 @@ from rich.table import Table  # noqa: E402
 
 from benchmarks import fits, others  # noqa: E402
 
+CUT = 2.0  # s between cuts, chosen: a short record then has a few, a long one thousands
 console = Console(width=110)
 
 
@@ -39,11 +40,14 @@ def show_others() -> None:
         console.print(f"Simulator, sputnix, reads of {length:.0f} s: {times:,.0f} x real time "
                       "(wanted: at least 20 000).")  # fmt: skip
     table = Table(title="One pass over a record: residuals and normal equations")
-    for title in ("rows", "ms", "us a row", "peak MB of the process"):
+    for title in ("rows", "cut every", "ms", "us a row", "peak MB of the process"):
         table.add_column(title, justify="right")
-    for rows in (1_000, 10_000, 100_000, 1_000_000):
-        n, seconds, memory = others.length_row(rows)
-        table.add_row(f"{n:,}", f"{1e3 * seconds:.2f}", f"{1e6 * seconds / n:.3f}", f"{memory:.0f}")
+    for apart in (None, CUT):
+        for rows in (1_000, 10_000, 100_000, 1_000_000):
+            n, seconds, memory = others.length_row(rows, apart)
+            cut = "never" if apart is None else f"{apart:g} s"
+            cost = (f"{1e3 * seconds:.2f}", f"{1e6 * seconds / n:.3f}", f"{memory:.0f}")
+            table.add_row(f"{n:,}", cut, *cost)
     console.print(table)
     for given in (True, False):
         alone, together = others.throughput(given)

@@ -11,6 +11,7 @@ import numpy as np
 from benchmarks import ours
 from benchmarks.problem import make_problem
 from equipoise.estimation import tracker, trajectory
+from equipoise.estimation.jumps import RATE, walk
 from equipoise.estimation.trajectory_problem import evaluate
 from equipoise.io.presets import read_preset
 from equipoise.maths.attitude import exponential, multiply
@@ -55,10 +56,15 @@ def record_of(rows: int) -> tuple[Recording, ours.Testbed]:
     return join(first, simulated.read(seconds / 2)), bench
 
 
-def length_row(rows: int) -> tuple[int, float, float]:
-    """Return rows, seconds of one pass (residuals and normal equations), and peak memory (MB)."""
+def length_row(rows: int, apart: float | None = None) -> tuple[int, float, float]:
+    """Return rows, seconds of one pass (residuals and normal equations), and peak memory (MB).
+
+    ``apart``: time between cuts at which the rate may jump, s; None: an uncut trajectory.
+    """
     recording, testbed = record_of(rows)
-    problem = trajectory.problem_of(recording, testbed, trajectory.Params())
+    cuts = np.zeros(0) if apart is None else np.arange(apart, recording.span[1] - apart, apart)
+    params = trajectory.Params(jumps=walk(cuts, RATE, np.full(3, 1e-5)))
+    problem = trajectory.problem_of(recording, testbed, params)
     assert recording.attitude is not None
     point = ours.unknowns_of(make_problem(1), make_problem(1).start)
     point = replace(point, error=np.zeros(len(problem.layout.errors)))
