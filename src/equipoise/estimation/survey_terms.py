@@ -7,7 +7,7 @@ all else is known (``bared``).
 
 from collections.abc import Sequence
 
-from equipoise.estimation.believed_model import Believed, evidence, farther, refitted, smoothed
+from equipoise.estimation.believed_model import Believed, evidence, refitted, smoothed
 from equipoise.estimation.event_price import threshold
 from equipoise.estimation.held_out_rows import predicts_better
 from equipoise.estimation.model_choice import (
@@ -21,9 +21,14 @@ from equipoise.estimation.trajectory import Params
 Refused = set[tuple[str, ...]]
 
 
+def likelihood(model: Believed) -> float:
+    """Return -2 ln of how probable the record is in a model, but for a constant."""
+    return evidence(*smoothed(model), threshold(model.spacing))
+
+
 def likeliest(models: Sequence[Believed]) -> Believed:
     """Return the model in which the record is most probable."""
-    return min(models, key=lambda model: evidence(*smoothed(model), threshold(model.spacing)))
+    return min(models, key=likelihood)
 
 
 def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Believed:
@@ -35,15 +40,12 @@ def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Beli
     return belief
 
 
-def is_lawful(richer: Believed, shaken: Believed, group: tuple[str, ...]) -> bool:
-    """Say whether a term explains about as much as an event that promises, too.
+def is_lawful(richer: Believed, shaken: Believed) -> bool:
+    """Say whether a term makes the record about as likely as an event that promises, too.
 
-    Each unknown counts as much as one of an event. Where both do, the term is taken: it leaves
-    open more than an event, which has come and gone.
+    Where both do, the term is taken: it leaves open more than an event, which has come and gone.
     """
-    price = threshold(richer.spacing)
-    ahead = farther(richer, shaken)
-    return ahead + price * (len(group) / 3 - 1) < CLEAR
+    return likelihood(richer) - likelihood(shaken) < CLEAR
 
 
 def bared(belief: Believed, asked: Params) -> Believed:

@@ -130,10 +130,11 @@ def term_sizes(terms: tuple[str, ...], inertia: float, weight: float) -> Floats:
 def sensor_sizes(terms: tuple[str, ...], camera: AttitudeSensor | None) -> Floats:
     """Return how large each sensor coefficient may well be, one sd, chosen.
 
-    A camera's vertical as far off as stated, a heading error of 0.1 deg, 30 ms, a gyro 2 % off.
+    A camera's vertical as far off as stated, each part of a heading error 0.06 deg, 30 ms, a gyro
+    2 % off.
     """
     plumb = camera.plumb_sd if camera and camera.plumb_sd else PLUMB_SD
-    by_group = {"plumb": plumb, "heading2": 2e-3, "heading3": 2e-3, "camera": 0.03, "gyro": 0.02}
+    by_group = {"plumb": plumb, "heading2": 1e-3, "heading3": 1e-3, "camera": 0.03, "gyro": 0.02}
     return np.array([by_group[term.split("_")[0]] for term in terms])
 
 
