@@ -6,8 +6,9 @@ the present optimum and the group's coefficients having a plausible size each (W
     2 ln ratio = b^T (S + W)^-1 b - ln det(E + W^-1 S),     S = A_BB - A_BA A_AA^-1 A_AB
 
 (the Bayes factor in Laplace's approximation), and kept when it also predicts (``held_out_rows``): a
-term that merely bends to fit loses where it has not seen. No lead is asked of the Bayes factor: an
-error of the camera that is just as likely there as not moves com by several sd if it is left out.
+term that merely bends to fit loses where it has not seen. A torque needs a lead (``SURE``; Kass and
+Raftery 1995 call 6 strong), an error of a sensor none: where it is as likely there as not, leaving
+it out moves com by several sd.
 
 Cannot tell apart terms that do the same within the record: the first that predicts is kept.
 """
@@ -28,6 +29,7 @@ PLUMB = sensor_terms.GROUPS["plumb"]
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
 CAMERA = (PLUMB, HEADING)
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
+SURE = 6.0  # 2 ln ratio
 DELAY = sensor_terms.GROUPS["camera_delay"]
 GROUPS = (*CAMERA, DELAY, *GYRO, *torque_terms.GROUPS.values())
 
@@ -119,9 +121,14 @@ def surplus(belief: Believed, group: tuple[str, ...]) -> float:
     return float(b_B @ np.linalg.solve(seen, b_B) - np.linalg.slogdet(seen)[1])
 
 
+def lead(group: tuple[str, ...]) -> float:
+    """Return the 2 ln ratio that a group needs to be looked at."""
+    return 0.0 if set(group) <= set(sensor_terms.TERMS) else SURE
+
+
 def best_group(belief: Believed, refused: set[tuple[str, ...]]) -> tuple[tuple[str, ...], float]:
-    """Return the group that promises most, and its 2 ln ratio."""
+    """Return the group that promises most, and by how much beyond its lead."""
     open_to = [group for group in candidates(belief) if group not in refused]
-    found = [surplus(belief, group) for group in open_to]
+    found = [surplus(belief, group) - lead(group) for group in open_to]
     most = int(np.argmax(found)) if found else 0
     return (open_to[most], found[most]) if found else ((), -np.inf)
