@@ -6,7 +6,7 @@ seeds (the seeds here are fixed, so a test that passes goes on passing).
 
 import pytest
 
-from tests.oracle.defects import COM_STEPS, CONTACTS
+from tests.oracle.defects import COM_STEPS, CONTACTS, HEADING
 from verification import defective_logs, efficiency, real_record, tracker_honesty, tracker_knows
 
 
@@ -33,8 +33,13 @@ def test_real_record_is_explained_and_predicts() -> None:
 
 
 def test_known_defects_are_found_and_intervals_stay_honest() -> None:
-    """Three records each with contacts and with slips."""
-    kinds = {"contacts": (CONTACTS,), "steps": (COM_STEPS,)}
+    """Three records each with contacts, with slips, with heading errors, and with five at once."""
+    kinds = {
+        "contacts": (CONTACTS,),
+        "steps": (COM_STEPS,),
+        "heading errors": (HEADING,),
+        "together": defective_logs.TOGETHER,
+    }
     for what, names in kinds.items():
         logs = [defective_logs.identified(names, False, seed) for seed in range(3)]
         assert [row for row in defective_logs.rows_for(what, logs) if not row.ok] == []
