@@ -92,7 +92,7 @@ def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
         if promise <= 0 and shaken is None:
             break
         richer = extended(belief, group, refused) if promise > 0 else belief
-        if shaken is None or (richer is not belief and is_lawful(richer, shaken)):
+        if shaken is None or (richer is not belief and is_lawful(richer, shaken, group)):
             belief = richer
         else:
             belief = shaken

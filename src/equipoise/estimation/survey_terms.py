@@ -7,7 +7,7 @@ all else is known (``bared``).
 
 from collections.abc import Sequence
 
-from equipoise.estimation.believed_model import Believed, evidence, refitted, smoothed
+from equipoise.estimation.believed_model import Believed, evidence, farther, refitted, smoothed
 from equipoise.estimation.event_price import threshold
 from equipoise.estimation.held_out_rows import predicts_better
 from equipoise.estimation.model_choice import (
@@ -40,12 +40,16 @@ def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Beli
     return belief
 
 
-def is_lawful(richer: Believed, shaken: Believed) -> bool:
-    """Say whether a term makes the record about as likely as an event that promises, too.
+def is_lawful(richer: Believed, shaken: Believed, group: tuple[str, ...]) -> bool:
+    """Say whether a term explains about as much as an event that promises, too.
 
+    Each unknown counting as much as one of an event, or by how likely the record is with either:
+    coefficients far smaller than their plausible size do badly by the latter, many by the former.
     Where both do, the term is taken: it leaves open more than an event, which has come and gone.
     """
-    return likelihood(richer) - likelihood(shaken) < CLEAR
+    counted = threshold(richer.spacing) * (len(group) / 3 - 1)
+    ahead = min(farther(richer, shaken) + counted, likelihood(richer) - likelihood(shaken))
+    return ahead < CLEAR
 
 
 def bared(belief: Believed, asked: Params) -> Believed:
