@@ -153,6 +153,13 @@ def case_g(seed: int, kinds: tuple[str, ...] = (), defects: Defects | None = Non
     return logged(_fourteen_case(seed, SOFT, camera, gyro), seed, kinds, defects)
 
 
+def level(logged: Logged) -> Logged:
+    """Return a record whose camera is known not to lean."""
+    camera = replace(logged.testbed.attitude, plumb_sd=0.0)
+    testbed = replace(logged.testbed, attitude=camera)
+    return replace(logged, case=replace(logged.case, testbed=testbed))
+
+
 def dense(seed: int, duration: float) -> Logged:
     """Return the body of Case G, all at 100 Hz, without defects; ``duration`` in s."""
     camera = AttitudeSensor(100.0, np.deg2rad(0.05))

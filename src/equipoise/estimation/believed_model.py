@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.estimation.event_price import threshold
 from equipoise.estimation.fitted import MOST, Fitted, smooth_at
 from equipoise.estimation.held_values import settle_pinned
 from equipoise.estimation.jumps import RATE, Jump, carried, inside, walk
@@ -162,6 +163,11 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
         else:
             total -= float(np.sum(np.log(weight[:a])))
     return total
+
+
+def improbability(belief: Believed) -> float:
+    """Return -2 ln of how probable the record is in a model, its events at the usual price."""
+    return evidence(*smoothed(belief), threshold(belief.spacing))
 
 
 def log_det(matrix: Square) -> float:

@@ -27,11 +27,15 @@ from equipoise.model.arrays import Floats
 
 PLUMB = sensor_terms.GROUPS["plumb"]
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
-CAMERA = (PLUMB, HEADING)
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
-SURE = 6.0  # 2 ln ratio
 DELAY = sensor_terms.GROUPS["camera_delay"]
-GROUPS = (*CAMERA, DELAY, *GYRO, *torque_terms.GROUPS.values())
+SURE = 6.0  # 2 ln ratio
+GROUPS = (PLUMB, HEADING, DELAY, *GYRO, *torque_terms.GROUPS.values())
+
+
+def is_of_sensors(group: tuple[str, ...]) -> bool:
+    """Say whether a group is of errors of sensors, not of torques."""
+    return set(group) <= set(sensor_terms.TERMS)
 
 
 def candidates(belief: Believed) -> list[tuple[str, ...]]:
@@ -63,7 +67,7 @@ def levelled(belief: Believed) -> Believed:
 def with_group(belief: Believed, group: tuple[str, ...]) -> Believed:
     """Return the model with a group of terms more."""
     params = belief.params
-    if set(group) <= set(sensor_terms.TERMS):
+    if is_of_sensors(group):
         sensor = sensor_terms.among((*params.sensor, *group))
         return replace(belief, params=replace(params, sensor=sensor))
     terms = torque_terms.among((*params.terms, *group))
@@ -99,7 +103,7 @@ def without_group(belief: Believed, group: tuple[str, ...]) -> Believed:
 
 def plausible(belief: Believed, group: tuple[str, ...]) -> Floats:
     """Return how large the coefficients of a group may well be, one sd."""
-    if set(group) <= set(sensor_terms.TERMS):
+    if is_of_sensors(group):
         return sensor_sizes(group, belief.testbed.attitude)
     body = belief.testbed.body
     moment = float(np.trace(body.inertia_P)) / 3
@@ -123,7 +127,7 @@ def surplus(belief: Believed, group: tuple[str, ...]) -> float:
 
 def lead(group: tuple[str, ...]) -> float:
     """Return the 2 ln ratio that a group needs to be looked at."""
-    return 0.0 if set(group) <= set(sensor_terms.TERMS) else SURE
+    return 0.0 if is_of_sensors(group) else SURE
 
 
 def best_group(belief: Believed, refused: set[tuple[str, ...]]) -> tuple[tuple[str, ...], float]:

@@ -46,9 +46,9 @@ def doubted(belief: Believed) -> Believed:
     for k, event in enumerate(belief.events):
         others = [other for other in KINDS if other != event.kind]
         models = [timed(with_kind(belief, k, other), k) for other in others]
-        likest = nearest(models)
-        if farther(likest, belief) < CLEAR:
-            open_to = replace(event, unclear=True, aside=likest.events[k].t - event.t)
+        rival = nearest(models)
+        if farther(rival, belief) < CLEAR:
+            open_to = replace(event, unclear=True, aside=rival.events[k].t - event.t)
             events = (*belief.events[:k], open_to, *belief.events[k + 1 :])
             belief = replace(belief, events=events)
     return refitted(belief) if any(event.unclear for event in belief.events) else belief

@@ -15,9 +15,9 @@ from itertools import count
 import numpy as np
 from scipy.stats import chi2
 
-from equipoise.estimation.believed_model import Believed, evidence, misfits, refitted, smoothed
+from equipoise.estimation.believed_model import Believed, improbability, misfits, refitted, smoothed
 from equipoise.estimation.disturbances import disturbances
-from equipoise.estimation.event_price import KINDS, threshold
+from equipoise.estimation.event_price import KINDS
 from equipoise.estimation.fitted import Fitted, freedom
 from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.unknowns import RATE
@@ -154,7 +154,6 @@ def weighed(belief: Believed) -> Believed:
     for _ in range(3):
         fit, after = smoothed(bare)
         bare = refitted(replace(bare, testbed=noisier(bare, *noise_factors(bare, fit, after))))
-    price = threshold(belief.spacing)
-    worth = [evidence(*smoothed(model), price) for model in (belief, trial, bare)]
+    worth = [improbability(model) for model in (belief, trial, bare)]
     worth[2] -= PRICE
     return (belief, trial, bare)[int(np.argmin(worth))]

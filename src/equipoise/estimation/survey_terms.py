@@ -7,28 +7,19 @@ all else is known (``bared``).
 
 from collections.abc import Sequence
 
-from equipoise.estimation.believed_model import Believed, evidence, farther, refitted, smoothed
+from equipoise.estimation.believed_model import Believed, farther, improbability, refitted
 from equipoise.estimation.event_price import threshold
 from equipoise.estimation.held_out_rows import predicts_better
-from equipoise.estimation.model_choice import (
-    added_groups,
-    with_group,
-    without_group,
-)
+from equipoise.estimation.model_choice import added_groups, with_group, without_group
 from equipoise.estimation.survey_events import CLEAR
 from equipoise.estimation.trajectory import Params
 
 Refused = set[tuple[str, ...]]
 
 
-def likelihood(model: Believed) -> float:
-    """Return -2 ln of how probable the record is in a model, but for a constant."""
-    return evidence(*smoothed(model), threshold(model.spacing))
-
-
 def likeliest(models: Sequence[Believed]) -> Believed:
     """Return the model in which the record is most probable."""
-    return min(models, key=likelihood)
+    return min(models, key=improbability)
 
 
 def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Believed:
@@ -48,8 +39,9 @@ def is_lawful(richer: Believed, shaken: Believed, group: tuple[str, ...]) -> boo
     Where both do, the term is taken: it leaves open more than an event, which has come and gone.
     """
     counted = threshold(richer.spacing) * (len(group) / 3 - 1)
-    ahead = min(farther(richer, shaken) + counted, likelihood(richer) - likelihood(shaken))
-    return ahead < CLEAR
+    if farther(richer, shaken) + counted < CLEAR:
+        return True
+    return improbability(richer) - improbability(shaken) < CLEAR
 
 
 def bared(belief: Believed, asked: Params) -> Believed:
