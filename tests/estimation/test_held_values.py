@@ -60,6 +60,21 @@ def test_with_an_open_scale_any_value_is_as_good():
     assert pinned(problem, wrong) is wrong
 
 
+def test_zero_is_held_at_any_scale():
+    """A product held at zero: it is put there while the moments keep their open scale."""
+    testbed, wrong = platform(), body_at(WRONG)
+    inertia = unpack_symmetric(INERTIA * [1, 1, 1, 0, 1, 1])
+    testbed = replace(testbed, body=replace(testbed.body, inertia_P=inertia))
+    problem = problem_of(noisy(recording(40.0), 0), testbed, Params(hold=("inertia_P_xy",)))
+    assert problem.scale_open
+    assert not is_pinned(problem, wrong)
+    found = pinned(problem, wrong)
+    assert is_pinned(problem, found)
+    right = WRONG.copy()
+    right[3] = 0.0
+    np.testing.assert_allclose(values_at(found), right, rtol=1e-9, atol=1e-12)
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_a_search_settles_with_what_is_held(seed):
     """From a body so far off that the search meets the boundary of those that can exist."""

@@ -204,6 +204,25 @@ def test_a_held_value_fixes_the_scale():
         assert abs(parameter.value - true) < 4 * parameter.sd + 1e-5 * abs(true)
 
 
+def test_a_value_held_at_zero_leaves_the_scale_open():
+    """Zero is zero at any scale: ratios come out, com_y's as nothing, and no size does.
+
+    The true com_y is -0.1 um, less than the record shows.
+    """
+    testbed = platform()
+    body = replace(testbed.body, com=testbed.body.com * [1, 0, 1])
+    found = estimate(
+        noisy(clean(moved=False), 1), replace(testbed, body=body), Params(hold=("com_y",))
+    )
+    assert OPEN in found.outcome.sentence
+    assert np.isinf(found.parameters[found.index("inertia_P_zz")].sd)
+    true = dict(zip((*COM_NAMES, *INERTIA_NAMES), (*COM, *INERTIA), strict=True))
+    for ratio in found.ratios:
+        above, below = ratio.name.split("/")
+        wanted = 0.0 if above == "com_y" else true[above] / true[below]
+        assert abs(ratio.value - wanted) <= 4 * ratio.sd + 1e-12
+
+
 def test_a_held_value_that_is_wrong_stretches_the_rest():
     """Held 10 % high, com and the other moments come out 10 % high: the scale is what was held."""
     testbed = platform()

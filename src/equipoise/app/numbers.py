@@ -4,6 +4,7 @@ import math
 
 DIGITS = 2  # of the sd; the second keeps its rounding below 5 %
 EXACT = 1e-6  # chosen: an sd below this share of the value is none; the value was held
+FINEST = 1e-10  # chosen: an sd below this, in any unit that is shown, is none, at zero too
 FEW = 4  # significant digits of a number without an sd
 
 
@@ -21,7 +22,7 @@ def fixed(value: float, decimals: int) -> str:
 
 def is_known(value: float, sd: float) -> bool:
     """Say whether an sd is a number from which digits can be taken."""
-    return math.isfinite(sd) and sd > EXACT * abs(value) and sd > 0
+    return math.isfinite(sd) and sd > max(EXACT * abs(value), FINEST)
 
 
 def with_sd(value: float, sd: float) -> tuple[str, str]:

@@ -17,23 +17,25 @@ from equipoise.estimation.trajectory_problem import Problem
 from equipoise.estimation.unknowns import JP, R, Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Bools, Floats
 from equipoise.model.mass_properties import parallel_axis
 
 PINNED, REPINNED = 1e-9, 3  # relative; times that a held value is put back, chosen
+ROUNDING = 1e-13  # of a moment, for products held at zero, chosen
+
+
+def fixed(problem: Problem) -> Bools:
+    """Return which unknowns have one value; what an open scale is held by may have any."""
+    held, mean = problem.prior.held, problem.prior.mean
+    return held & (mean == 0.0) if problem.scale_open else held
 
 
 def pinned(problem: Problem, point: Unknowns) -> Unknowns:
-    """Return the point with held moments and centre of mass exactly where they are held.
-
-    What is held only because the scale is open may have any value.
-    """
-    if problem.scale_open:
-        return point
-    body, prior = point.body(problem.mass), problem.prior
+    """Return the point with held moments and centre of mass exactly where they are held."""
+    body, mean, held = point.body(problem.mass), problem.prior.mean, fixed(problem)
     packed = pack_symmetric(body.inertia_P)
-    six: Floats = np.where(prior.held[JP], prior.mean[JP], packed)
-    com: Floats = np.where(prior.held[R], prior.mean[R], point.com)
+    six: Floats = np.where(held[JP], mean[JP], packed)
+    com: Floats = np.where(held[R], mean[R], point.com)
     if np.array_equal(six, packed) and np.array_equal(com, point.com):
         return point
     inertia_C = unpack_symmetric(six) - parallel_axis(problem.mass, com)
@@ -61,7 +63,9 @@ def settle_pinned(
 
 def is_pinned(problem: Problem, point: Unknowns) -> bool:
     """Say whether held moments and centre of mass are where they are held."""
-    body, prior = point.body(problem.mass), problem.prior
+    body, both = point.body(problem.mass), slice(JP.start, R.stop)
+    rounding = np.append(np.full(6, ROUNDING * np.trace(body.inertia_P)), np.zeros(3))
     packed = np.append(pack_symmetric(body.inertia_P), body.com)
-    held, mean = prior.held[JP.start : R.stop], prior.mean[JP.start : R.stop]
-    return problem.scale_open or np.allclose(packed[held], mean[held], rtol=PINNED, atol=0.0)
+    mean, held = problem.prior.mean[both], fixed(problem)[both]
+    near = np.abs(packed - mean) <= PINNED * np.abs(mean) + rounding
+    return bool(np.all(near[held]))

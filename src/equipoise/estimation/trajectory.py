@@ -36,9 +36,10 @@ from equipoise.estimation.trajectory_problem import (
     prior_of,
 )
 from equipoise.estimation.unknowns import Layout, Unknowns
+from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.estimate import INERTIA
+from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
@@ -94,15 +95,23 @@ def fastest_rate(recording: Recording) -> float:
     return max(float(np.percentile(r, 95)) for r in rates)
 
 
-def is_scale_open(recording: Recording, params: Params) -> bool:
-    """Say whether nothing in the record or the options fixes the scale of J and com."""
-    return not (params.use_prior or params.hold or changes(recording))
+def is_scale_open(recording: Recording, testbed: Testbed, params: Params) -> bool:
+    """Say whether nothing in the record or the options fixes the scale of J and com.
+
+    A value that is held at zero does not: it is zero at any scale.
+    """
+    if params.use_prior or changes(recording):
+        return False
+    body = testbed.body
+    values = dict(zip((*INERTIA, *COM), (*pack_symmetric(body.inertia_P), *body.com), strict=True))
+    return not any(values[name] for name in params.hold)
 
 
 def held_names(recording: Recording, testbed: Testbed, params: Params) -> tuple[str, ...]:
-    """Return the parameters that do not move: the user's, or one moment for an open scale."""
+    """Return the parameters that do not move: the user's, and one moment for an open scale."""
     largest = INERTIA[int(np.argmax(np.diag(testbed.body.inertia_P)))]
-    return (largest,) if is_scale_open(recording, params) else params.hold
+    first = (largest,) if is_scale_open(recording, testbed, params) else ()
+    return (*first, *params.hold)
 
 
 def problem_of(
@@ -111,7 +120,7 @@ def problem_of(
     """Return the least-squares problem of a record."""
     errors = errors_of(recording, testbed)
     layout = layout_with(errors, recording, params)
-    scale_open = is_scale_open(recording, params)
+    scale_open = is_scale_open(recording, testbed, params)
     hold = held_names(recording, testbed, params)
     prior = prior_of(testbed, errors, layout, params.use_prior, hold, torque_anchor)
     limit = HUBER if params.robust else 0.0
