@@ -219,9 +219,9 @@ def measure(seeds: Sequence[int] = range(200), spread: Spread = in_turn) -> Resu
     together = f"{len(TOGETHER)} defects together ({', '.join(TOGETHER)})"
     rows += rows_for(together, spread(partial(identified, TOGETHER, False), seeds))
     return Result(
-        "Defects",
+        "defective_logs",
         f"{len(seeds)} records a defect, 120 s by MuJoCo with camera at 5 Hz and 0.2 deg (Case S), "
-        f"contacts of 0.2 to 2 mN m s and steps of 1 to 5 um at {FLOOR:.1f} sd and above, nothing "
-        "told to the estimator",
+        f"contacts of 0.2 to 2 mN m s and steps of com of 1 to 5 um, all of {FLOOR:.1f} sd and "
+        "above: with nothing told to the estimator, defects are found or do no harm.",
         tuple(rows),
     )
