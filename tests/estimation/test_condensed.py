@@ -184,9 +184,9 @@ def test_a_motion_found_in_means_is_taken_back_to_the_first_row():
 
 
 def astray(record, testbed):
-    """A fit that began with a rate of 3 rad/s where there is a hundredth of that."""
+    """A fit that began with a rate of 12 rad/s where there is a hundredth of that."""
     problem, good = problem_of(record, testbed, Params()), fit(record, testbed, Params())
-    point = replace(good.point, w0=good.point.w0 + [0.0, 0.0, 3.0])
+    point = replace(good.point, w0=good.point.w0 + [0.0, 0.0, 12.0])
     return settle(problem, point, None, 3)
 
 

@@ -15,6 +15,7 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
 DAMPING = torque_terms.GROUPS["viscous"]
+FAR_BETTER = 10.0  # chosen: times less is left; damping that stands for touches is no such help
 FAR = 0.5  # chosen: of a moment, by which the guess may be off and its anchor biases nothing
 
 
@@ -22,15 +23,30 @@ def plainly(recording: Recording, testbed: Testbed, params: Params) -> tuple[Par
     """Return the plain fit, or one with damping where only that follows the motion.
 
     Over some turns drag takes the heading so far away that no step leads back: only a search that
-    has the term from the start finds it. Where the plain fit follows, however badly, the survey
-    finds out what is missing: damping may stand for touches, too.
+    has the term from the start finds it. Behind a long gap the plain fit may even be a whole turn
+    off, and so near. Where the plain fit follows nearly as well, the survey finds out what is
+    missing: damping may stand for touches, too.
     """
     plain = fit(recording, testbed, params)
-    if set(DAMPING) <= set(params.terms) or is_near(plain):
+    if set(DAMPING) <= set(params.terms) or is_close(plain):
         return params, plain
     richer = replace(params, terms=torque_terms.among((*params.terms, *DAMPING)))
     damped = fit(recording, testbed, richer)
-    return (richer, damped) if is_near(damped) else (params, plain)
+    return (richer, damped) if follows(damped, plain) else (params, plain)
+
+
+def is_close(fitted: Fitted) -> bool:
+    """Say whether a fit leaves so little that nothing can be ``FAR_BETTER``."""
+    rows = 3 * (len(fitted.at.left_q) + len(fitted.at.left_w))
+    return 2 * fitted.at.cost < FAR_BETTER**2 * rows
+
+
+def follows(damped: Fitted, plain: Fitted) -> bool:
+    """Say whether damping follows the motion where the plain fit does not, or far better."""
+    if not is_near(damped):
+        return False
+    left, plain_left = (misfit(fitted.problem, fitted.point) for fitted in (damped, plain))
+    return not is_near(plain) or left < plain_left / FAR_BETTER
 
 
 def is_near(fitted: Fitted) -> bool:

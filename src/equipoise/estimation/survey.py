@@ -27,6 +27,7 @@ from equipoise.estimation.believed_model import Believed, Happening, smoothed
 from equipoise.estimation.event_price import threshold
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.model_choice import best_group, levelled
+from equipoise.estimation.plain_model import is_close
 from equipoise.estimation.survey_events import (
     colour_of,
     doubted,
@@ -54,6 +55,7 @@ ROWS, EDGE = 2, 2  # camera rows between cuts, and cuts' spacings left alone at 
 FEWEST = 8  # cuts, chosen: below this a median says nothing
 WRONG = 1.8  # chosen: root of the median surprise over its due; by chance it is below 1.6
 MOST_EVENTS, FEW_EVENTS = 40, 8  # with and without process noise, chosen
+MANY = 4  # events, chosen: so many may be a push that comes and goes
 ROUNDS = 3
 
 
@@ -87,6 +89,8 @@ def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
     refused: Refused = set()
     while len(belief.events) < most:
         belief, surprise, fit = calibrated(belief)
+        if is_drowned(belief):
+            break
         group, promise = best_group(belief, refused) if terms else ((), 0.0)
         shaken = touched(belief, surprise, fit)
         if promise <= 0 and shaken is None:
@@ -97,6 +101,16 @@ def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
         else:
             belief = shaken
     return belief
+
+
+def wandering_from(belief: Believed) -> Believed:
+    """Return the belief with as much process noise as leaves half of all cuts unsurprised."""
+    return calibrated(replace(belief, walk=np.full(3, first_walk(belief))))[0]
+
+
+def is_drowned(belief: Believed) -> bool:
+    """Say whether something drives the platform so that nothing is to be told any further."""
+    return belief.wanders and telling.driven(belief) > telling.DRIVEN
 
 
 def is_calm(belief: Believed) -> bool:
@@ -115,8 +129,8 @@ def driven(belief: Believed) -> Believed:
         if turn > 0 and contents(wider) == contents(belief):
             break
         belief = weighed(settled(wider))
-        if not belief.wanders or telling.driven(belief) > telling.DRIVEN:
-            break  # a torque that drowns gravity is not to be told apart any further
+        if not belief.wanders or is_drowned(belief):
+            break
     return belief
 
 
@@ -174,15 +188,23 @@ def looked_into(belief: Believed) -> Believed:
     """Return the likeliest model from the plain one.
 
     First without process noise, which could hide a term that explains all; of two models that do
-    not, the likelier. So many events as the search allows explain anything, such as a motor's push:
-    they are not believed without process noise having had its chance. How much of it there is
-    depends on which events are believed in: it is sought from none and from all.
+    not, the likelier. ``MANY`` events explain anything, such as a motor's push: they are not
+    believed without process noise having had its chance, and as many as the search allows not at
+    all. How much process noise there is depends on which events are believed in: it is sought from
+    none and from all. Of a platform that is driven by far more than gravity nothing is sought.
     """
+    if not is_close(belief.fitted):
+        wild = wandering_from(belief)
+        if is_drowned(wild):
+            return wild
     greedy = calm(belief)
     if len(greedy.events) >= FEW_EVENTS:
         return doubted(driven(belief))
     simple = pruned(greedy, colour_of(greedy))
-    if is_calm(simple):
+    explained = is_calm(simple)
+    if explained and len(simple.events) < MANY:
         return doubted(simple)
-    wandering = [driven(belief)] + ([driven(greedy)] if greedy.events else [])
+    wandering = [driven(belief)]
+    if greedy.events and not explained:
+        wandering.append(driven(greedy))
     return doubted(likeliest([simple, *wandering]))

@@ -46,7 +46,7 @@ def term_sentences(belief: Believed, asked: Params) -> list[str]:
     groups = dict.fromkeys(term.split("_")[0] for term in added(belief, asked))
     if not groups:
         return []
-    return [f"Terms that predict better on held-out rows were added: {', '.join(groups)}."]
+    return [f"Terms that the record supports were added: {', '.join(groups)}."]
 
 
 def lean_sentences(belief: Believed, concluded: Estimate) -> list[str]:
