@@ -13,7 +13,17 @@ from equipoise.estimation.hanging_masses import by_sag
 from equipoise.estimation.observability import OPEN, Visibility, examine, natural_sizes, scale_of
 from equipoise.estimation.ratios import ratios_of
 from equipoise.estimation.smoothing import Smoothed
-from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, physical, unknowns_of
+from equipoise.estimation.unknowns import (
+    CORE,
+    FIXED,
+    JP,
+    RATE,
+    TURN,
+    Layout,
+    R,
+    physical,
+    unknowns_of,
+)
 from equipoise.maths.attitude import logarithm
 from equipoise.maths.linalg import lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
@@ -25,7 +35,6 @@ from equipoise.model.recording import Recording
 SURE = 4.0  # sd of a statistic before it counts as more than chance
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
 UNSETTLED = Outcome(False, "The fit did not settle; its numbers mean nothing.")
-CORE = slice(JP.start, R.stop)  # inertia and centre of mass
 
 
 def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:

@@ -34,6 +34,11 @@ def settle(
     return Fitted(problem, found.point, found.at, found.converged, found.evaluations, found.jumps)
 
 
+def chi_square_share(fit: Fitted) -> float:
+    """Return twice the cost over the number of residuals."""
+    return 2 * fit.at.cost / (3 * (len(fit.at.left_q) + len(fit.at.left_w)))
+
+
 def smooth_at(fit: Fitted) -> Smoothed:
     """Return what is known of every stretch at an optimum, with the priors of the problem."""
     return smooth(posed(fit.problem), fit.point.flat, fit.jumps, inverse_spd(fit.at.normal))

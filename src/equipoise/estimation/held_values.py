@@ -14,7 +14,7 @@ import numpy as np
 
 from equipoise.estimation.fitted import MOST, Fitted, settle
 from equipoise.estimation.trajectory_problem import Problem
-from equipoise.estimation.unknowns import JP, R, Unknowns
+from equipoise.estimation.unknowns import CORE, JP, R, Unknowns, core_of
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Bools, Floats
@@ -63,9 +63,8 @@ def settle_pinned(
 
 def is_pinned(problem: Problem, point: Unknowns) -> bool:
     """Say whether held moments and centre of mass are where they are held."""
-    body, both = point.body(problem.mass), slice(JP.start, R.stop)
+    body = point.body(problem.mass)
     rounding = np.append(np.full(6, ROUNDING * np.trace(body.inertia_P)), np.zeros(3))
-    packed = np.append(pack_symmetric(body.inertia_P), body.com)
-    mean, held = problem.prior.mean[both], fixed(problem)[both]
-    near = np.abs(packed - mean) <= PINNED * np.abs(mean) + rounding
+    mean, held = problem.prior.mean[CORE], fixed(problem)[CORE]
+    near = np.abs(core_of(body) - mean) <= PINNED * np.abs(mean) + rounding
     return bool(np.all(near[held]))

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.fitted import Fitted
-from equipoise.estimation.trajectory import CAPTURE, Params, fit, misfit
+from equipoise.estimation.fitted import Fitted, chi_square_share
+from equipoise.estimation.trajectory import CAPTURE, Params, fit, misfit_at
 from equipoise.model import torque_terms
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -37,21 +37,20 @@ def plainly(recording: Recording, testbed: Testbed, params: Params) -> tuple[Par
 
 def is_close(fitted: Fitted) -> bool:
     """Say whether a fit leaves so little that nothing can be ``FAR_BETTER``."""
-    rows = 3 * (len(fitted.at.left_q) + len(fitted.at.left_w))
-    return 2 * fitted.at.cost < FAR_BETTER**2 * rows
+    return chi_square_share(fitted) < FAR_BETTER**2
 
 
 def follows(damped: Fitted, plain: Fitted) -> bool:
     """Say whether damping follows the motion where the plain fit does not, or far better."""
     if not is_near(damped):
         return False
-    left, plain_left = (misfit(fitted.problem, fitted.point) for fitted in (damped, plain))
+    left, plain_left = (misfit_at(fitted.problem, fitted.at) for fitted in (damped, plain))
     return not is_near(plain) or left < plain_left / FAR_BETTER
 
 
 def is_near(fitted: Fitted) -> bool:
     """Say whether a fit follows the motion, however roughly."""
-    return bool(np.isfinite(fitted.at.cost)) and misfit(fitted.problem, fitted.point) < CAPTURE
+    return bool(np.isfinite(fitted.at.cost)) and misfit_at(fitted.problem, fitted.at) < CAPTURE
 
 
 def anchored(

@@ -103,9 +103,9 @@ def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
     return belief
 
 
-def wandering_from(belief: Believed) -> Believed:
-    """Return the belief with as much process noise as leaves half of all cuts unsurprised."""
-    return calibrated(replace(belief, walk=np.full(3, first_walk(belief))))[0]
+def wandering(belief: Believed) -> Believed:
+    """Return the belief with some process noise to begin with."""
+    return replace(belief, walk=np.full(3, first_walk(belief)))
 
 
 def is_drowned(belief: Believed) -> bool:
@@ -123,7 +123,7 @@ def is_calm(belief: Believed) -> bool:
 
 def driven(belief: Believed) -> Believed:
     """Return the belief of a platform that something unknown drives: with process noise."""
-    belief = replace(belief, walk=np.full(3, first_walk(belief)))
+    belief = wandering(belief)
     for turn in range(ROUNDS):
         wider = searched(belief, MOST_EVENTS)
         if turn > 0 and contents(wider) == contents(belief):
@@ -194,7 +194,7 @@ def looked_into(belief: Believed) -> Believed:
     none and from all. Of a platform that is driven by far more than gravity nothing is sought.
     """
     if not is_close(belief.fitted):
-        wild = wandering_from(belief)
+        wild, _, _ = calibrated(wandering(belief))
         if is_drowned(wild):
             return wild
     greedy = calm(belief)
@@ -204,7 +204,7 @@ def looked_into(belief: Believed) -> Believed:
     explained = is_calm(simple)
     if explained and len(simple.events) < MANY:
         return doubted(simple)
-    wandering = [driven(belief)]
+    models = [simple, driven(belief)]
     if greedy.events and not explained:
-        wandering.append(driven(greedy))
-    return doubted(likeliest([simple, *wandering]))
+        models.append(driven(greedy))
+    return doubted(likeliest(models))

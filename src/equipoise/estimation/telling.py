@@ -3,11 +3,11 @@
 import numpy as np
 
 from equipoise.estimation.believed_model import Believed, slowest
-from equipoise.estimation.conclusion import CORE
 from equipoise.estimation.held_out_rows import posed_in
 from equipoise.estimation.model_choice import PLUMB, candidates, with_group
 from equipoise.estimation.trajectory import Params
 from equipoise.estimation.trajectory_problem import evaluate
+from equipoise.estimation.unknowns import CORE
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate

@@ -20,13 +20,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.actuators.mass_errors import MassErrors
-from equipoise.estimation.fitted import Fitted, settle
+from equipoise.estimation.fitted import Fitted, chi_square_share, settle
 from equipoise.estimation.held_values import settle_pinned
 from equipoise.estimation.jumps import UNCUT, Jump
 from equipoise.estimation.shooting import shot
 from equipoise.estimation.start import start
 from equipoise.estimation.trajectory_problem import (
     ANCHOR,
+    Evaluation,
     Problem,
     changes,
     errors_of,
@@ -35,8 +36,7 @@ from equipoise.estimation.trajectory_problem import (
     pose,
     prior_of,
 )
-from equipoise.estimation.unknowns import Layout, Unknowns
-from equipoise.maths.linalg import pack_symmetric
+from equipoise.estimation.unknowns import Layout, Unknowns, core_of
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import COM, INERTIA
@@ -102,8 +102,7 @@ def is_scale_open(recording: Recording, testbed: Testbed, params: Params) -> boo
     """
     if params.use_prior or changes(recording):
         return False
-    body = testbed.body
-    values = dict(zip((*INERTIA, *COM), (*pack_symmetric(body.inertia_P), *body.com), strict=True))
+    values = dict(zip((*INERTIA, *COM), core_of(testbed.body), strict=True))
     return not any(values[name] for name in params.hold)
 
 
@@ -131,7 +130,11 @@ def problem_of(
 
 def misfit(problem: Problem, point: Unknowns) -> float:
     """Return the rms residual vector in rad (with a camera) or rad/s."""
-    at = evaluate(problem, point)
+    return misfit_at(problem, evaluate(problem, point))
+
+
+def misfit_at(problem: Problem, at: Evaluation) -> float:
+    """Return the same of residuals that are at hand."""
     left = at.left_q * problem.seen.attitude_sd if len(at.left_q) else at.left_w
     square: Floats = np.sum(left**2, axis=1)
     return float(np.sqrt(np.mean(square)))
@@ -228,8 +231,7 @@ def fit(
 
 def explains(fit: Fitted) -> bool:
     """Say whether a fit leaves so little that no other start need be tried."""
-    rows = 3 * (len(fit.at.left_q) + len(fit.at.left_w))
-    return fit.converged and 2 * fit.at.cost < LOST * rows
+    return fit.converged and chi_square_share(fit) < LOST
 
 
 def cost_of(fit: Fitted) -> float:

@@ -15,17 +15,19 @@ from equipoise.estimation.descent import Posed
 from equipoise.estimation.jumps import UNCUT, Jump, cuts_of, inside
 from equipoise.estimation.normal_equations import Seen
 from equipoise.estimation.unknowns import (
+    CORE,
     FIXED,
     JP,
     TURN,
     Layout,
     R,
     Unknowns,
+    core_of,
     sensor_sizes,
     term_sizes,
     unknowns_of,
 )
-from equipoise.maths.linalg import element_sizes, pack_symmetric
+from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats, Series, Square, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
@@ -114,7 +116,7 @@ def prior_of(
     """Return what is known beforehand: masses' errors and bias always, the body when asked."""
     names = layout.names
     mean, sd = np.zeros(layout.size), np.full(layout.size, np.inf)
-    mean[JP], mean[R] = pack_symmetric(testbed.body.inertia_P), testbed.body.com
+    mean[CORE] = core_of(testbed.body)
     if inertia_and_com:
         sd[JP] = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
         sd[R] = testbed.com_sd

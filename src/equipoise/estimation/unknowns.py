@@ -16,6 +16,7 @@ import numpy as np
 from equipoise.actuators.lags import LAG
 from equipoise.estimation import point_steps
 from equipoise.maths import pseudo_inertia
+from equipoise.maths.linalg import pack_symmetric
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats, Ints, Quaternion, Vector3, Vector6
 from equipoise.model.estimate import COM, INERTIA
@@ -23,7 +24,13 @@ from equipoise.model.mass_properties import MassProperties, from_centre
 from equipoise.model.testbed import PLUMB_SD, AttitudeSensor
 
 TURN, RATE, JP, R = slice(0, 3), slice(3, 6), slice(6, 12), slice(12, 15)
+CORE = slice(JP.start, R.stop)  # inertia and centre of mass
 FIXED = point_steps.BEHIND  # coordinates before torques, errors and bias
+
+
+def core_of(body: MassProperties) -> Floats:
+    """Return what a body has in ``CORE``: J_P (6) and com (3)."""
+    return np.append(pack_symmetric(body.inertia_P), body.com)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
