@@ -5,7 +5,10 @@ import pytest
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
 from equipoise.estimation.plain_model import DAMPING, plainly
+from equipoise.estimation.reference import surveyed
+from equipoise.estimation.survey import is_drowned
 from equipoise.estimation.trajectory import Params
+from equipoise.procedure.sound_rows import sound
 from verification import laboratories, starts
 from verification.workers import spread_over
 
@@ -33,3 +36,18 @@ def test_behind_a_long_gap_a_spin_is_followed_with_damping(seed: int) -> None:
     params, found = plainly(record.recording, record.testbed, Params())
     assert set(params.terms) == set(DAMPING)
     assert 2 * found.at.cost < 1.2 * 3 * len(found.at.left_q)
+
+
+def test_impulses_do_not_stand_for_a_motors_ramps() -> None:
+    """Five explain them down to noise, wrongly; with a torque that wanders it is likelier."""
+    run = laboratories.found(("motor 2 mN m, ramps", 4))
+    assert run.usable
+    assert max(abs(value) for value in run.z) < laboratories.WORST
+
+
+def test_of_a_platform_that_a_motor_drives_nothing_is_sought() -> None:
+    """50 mN m are a hundred times what gravity does."""
+    record = laboratories.KINDS["motor 50 mN m, bang-bang"].make(4)
+    belief = surveyed(*sound(record.recording, record.testbed), Params())
+    assert is_drowned(belief)
+    assert belief.events == () == belief.params.terms

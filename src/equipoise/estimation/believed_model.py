@@ -99,9 +99,9 @@ def fitted_in(
     return settle_pinned(problem, before.point, first, most)
 
 
-def refitted(belief: Believed, moved: tuple[Happening, ...] = ()) -> Believed:
+def refitted(belief: Believed, moved: tuple[Happening, ...] = (), most: int = MOST) -> Believed:
     """Return the belief at its optimum, with a cut only where something may jump."""
-    return replace(belief, fitted=fitted_in(belief, active(belief), moved=moved))
+    return replace(belief, fitted=fitted_in(belief, active(belief), most, moved))
 
 
 def active(belief: Believed) -> Series1:

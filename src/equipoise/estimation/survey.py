@@ -153,15 +153,12 @@ def contents(belief: Believed) -> tuple[object, ...]:
     return (belief.params.terms, belief.params.sensor, *kinds)
 
 
-def calm(belief: Believed) -> Believed:
-    """Return the belief without process noise.
+def calm(belief: Believed, greedy: Believed) -> Believed:
+    """Return the belief without process noise, from all that was found at first: ``greedy``.
 
     An event that is not known yet may look like a term, and a term like events. So where both are
     found, or neither is enough, all is sought once more, events first; the likelier is taken.
     """
-    greedy = repeated(belief, FEW_EVENTS)
-    if len(greedy.events) >= FEW_EVENTS:
-        return greedy
     plain = (greedy.params.terms, greedy.params.sensor) == (
         belief.params.terms,
         belief.params.sensor,
@@ -187,24 +184,36 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
 def looked_into(belief: Believed) -> Believed:
     """Return the likeliest model from the plain one.
 
-    First without process noise, which could hide a term that explains all; of two models that do
-    not, the likelier. ``MANY`` events explain anything, such as a motor's push: they are not
-    believed without process noise having had its chance, and as many as the search allows not at
-    all. How much process noise there is depends on which events are believed in: it is sought from
-    none and from all. Of a platform that is driven by far more than gravity nothing is sought.
+    First without process noise, which could hide a term that explains all. Of a platform that is
+    driven by far more than gravity nothing is sought.
     """
     if not is_close(belief.fitted):
         wild, _, _ = calibrated(wandering(belief))
         if is_drowned(wild):
             return wild
-    greedy = calm(belief)
+    greedy = repeated(belief, FEW_EVENTS)
+    if len(greedy.events) < MANY:
+        return doubted(compared(belief, calm(belief, greedy)))
+    pushed = driven(belief)
     if len(greedy.events) >= FEW_EVENTS:
-        return doubted(driven(belief))
+        return doubted(pushed)
+    if likeliest([greedy, pushed]) is greedy:
+        greedy = calm(belief, greedy)
+    return doubted(compared(belief, greedy, pushed))
+
+
+def compared(belief: Believed, greedy: Believed, pushed: Believed | None = None) -> Believed:
+    """Return the likeliest of a model without process noise, ``greedy``, and those with it.
+
+    One that explains all needs no rival, unless with ``MANY`` events: they explain anything, such
+    as a motor's push. How much process noise there is depends on which events are believed in: it
+    is sought from none (``pushed``, where that is at hand) and from all.
+    """
     simple = pruned(greedy, colour_of(greedy))
     explained = is_calm(simple)
     if explained and len(simple.events) < MANY:
-        return doubted(simple)
-    models = [simple, driven(belief)]
+        return simple
+    models = [simple, pushed or driven(belief)]
     if greedy.events and not explained:
         models.append(driven(greedy))
-    return doubted(likeliest(models))
+    return likeliest(models)
