@@ -23,7 +23,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation import telling
-from equipoise.estimation.believed_model import Believed, Happening, smoothed
+from equipoise.estimation.believed_model import Believed, Happening, improbability, smoothed
 from equipoise.estimation.event_price import threshold
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.model_choice import best_group, levelled
@@ -56,6 +56,7 @@ FEWEST = 8  # cuts, chosen: below this a median says nothing
 WRONG = 1.8  # chosen: root of the median surprise over its due; by chance it is below 1.6
 MOST_EVENTS, FEW_EVENTS = 40, 8  # with and without process noise, chosen
 MANY = 4  # events, chosen: so many may be a push that comes and goes
+LEAD = 50.0  # -2 ln probability, chosen: more than seeking all once more has gained
 ROUNDS = 3
 
 
@@ -197,7 +198,7 @@ def looked_into(belief: Believed) -> Believed:
     pushed = driven(belief)
     if len(greedy.events) >= FEW_EVENTS:
         return doubted(pushed)
-    if likeliest([greedy, pushed]) is greedy:
+    if improbability(greedy) - improbability(pushed) < LEAD:
         greedy = calm(belief, greedy)
     return doubted(compared(belief, greedy, pushed))
 
