@@ -4,6 +4,7 @@ Bands are computed in ``verification.chance``; a sound estimator leaves one once
 seeds (the seeds here are fixed, so a test that passes goes on passing).
 """
 
+import numpy as np
 import pytest
 
 from tests.oracle.defects import COM_STEPS, CONTACTS, HEADING
@@ -43,3 +44,10 @@ def test_known_defects_are_found_and_intervals_stay_honest() -> None:
     for what, names in kinds.items():
         logs = [defective_logs.identified(names, False, seed) for seed in range(3)]
         assert [row for row in defective_logs.rows_for(what, logs) if not row.ok] == []
+
+
+def test_four_touches_are_not_taken_for_a_torque_that_wanders() -> None:
+    """The first look at this record puts them elsewhere, and a torque explains it better so far."""
+    log = defective_logs.identified(defective_logs.TOGETHER, False, 69)
+    assert len(log.found) == len(log.true) == 4
+    assert np.abs(log.off).max() < 4.0
