@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.estimation.event_price import threshold
-from equipoise.estimation.fitted import MOST, Fitted, smooth_at
+from equipoise.estimation.fitted import Fitted, smooth_at
 from equipoise.estimation.held_values import settle_pinned
 from equipoise.estimation.jumps import RATE, Jump, carried, inside, walk
 from equipoise.estimation.smoothing import Smoothed
@@ -23,6 +23,7 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
 WIDE = {"impulse": 1.0, "com_step": 1e-3}  # rad/s, m: sd of an event, chosen: any
+EACH = 60  # evaluations, chosen: twice what a fit takes that settles
 NAMES = {"impulse": RATE, "com_step": COM}
 
 
@@ -83,7 +84,7 @@ def jumps_of(belief: Believed, cuts: Series1) -> tuple[Jump, ...]:
 
 
 def fitted_in(
-    belief: Believed, cuts: Series1, most: int = MOST, moved: tuple[Happening, ...] = ()
+    belief: Believed, cuts: Series1, most: int, moved: tuple[Happening, ...] = ()
 ) -> Fitted:
     """Return the optimum of a model with these cuts, from where the belief stands.
 
@@ -99,9 +100,9 @@ def fitted_in(
     return settle_pinned(problem, before.point, first, most)
 
 
-def refitted(belief: Believed, moved: tuple[Happening, ...] = (), most: int = MOST) -> Believed:
+def refitted(belief: Believed, moved: tuple[Happening, ...] = ()) -> Believed:
     """Return the belief at its optimum, with a cut only where something may jump."""
-    return replace(belief, fitted=fitted_in(belief, active(belief), most, moved))
+    return replace(belief, fitted=fitted_in(belief, active(belief), EACH, moved))
 
 
 def active(belief: Believed) -> Series1:

@@ -30,7 +30,6 @@ FARTHEST = {False: 8.0, True: 1.0}  # spacings a step, without and with process 
 STEPS = 12
 SHARES = (1.0, 0.3)  # of a step that are tried
 CLOSE = 0.1  # sd, chosen: a moment that is off by less is found
-EACH = 60  # evaluations a trial, chosen: twice what a fit takes that settles
 APART = 0.25  # spacings, chosen: two events are not told apart any nearer
 
 
@@ -76,7 +75,7 @@ def later(belief: Believed, shifts: Floats) -> Believed:
         free = all(abs(t - other) > APART * belief.spacing for other in others)
         if free and start + belief.spacing < t < end - belief.spacing:
             events[k] = replace(event, t=t)
-    return refitted(replace(belief, events=tuple(events)), belief.events, EACH)
+    return refitted(replace(belief, events=tuple(events)), belief.events)
 
 
 def timed(belief: Believed, only: int | None = None) -> Believed:
