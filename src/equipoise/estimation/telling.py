@@ -15,7 +15,9 @@ from equipoise.model.estimate import Estimate
 NOISY = 1.3  # chosen: a noise off by more is told
 OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, untold
 LEANS = 4.0  # sd, chosen: a smaller lean is corrected untold
-DRIVEN = 0.5  # chosen: wandering torque over that of gravity, beyond which gravity tells nothing
+DRIVEN = (
+    1 / 3
+)  # chosen: wandering torque over that of gravity, beyond which gravity tells too little
 
 
 def noise_sentences(belief: Believed) -> list[str]:
