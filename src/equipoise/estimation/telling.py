@@ -15,9 +15,7 @@ from equipoise.model.estimate import Estimate
 NOISY = 1.3  # chosen: a noise off by more is told
 OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, untold
 LEANS = 4.0  # sd, chosen: a smaller lean is corrected untold
-DRIVEN = (
-    1 / 3
-)  # chosen: wandering torque over that of gravity, beyond which gravity tells too little
+DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which that tells too little
 
 
 def noise_sentences(belief: Believed) -> list[str]:
