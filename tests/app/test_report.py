@@ -2,11 +2,13 @@
 
 import re
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 
 from equipoise import __version__
 
+README = Path(__file__).parents[2] / "README.md"
 VOID = {"meta", "img", "br"}
 
 
@@ -99,3 +101,19 @@ def test_the_same_seed_gives_the_same_record(equipoise, tmp_path):
         assert equipoise("simulate", "sputnix", *words).code == 0
     a, b, c = ((tmp_path / name).read_bytes() for name in ("a.csv", "b.csv", "c.csv"))
     assert a == b != c
+
+
+def test_readme_shows_what_the_demo_finds(folder):
+    """To a tenth of an sd: the last digits may differ from machine to machine."""
+    shown = re.findall(
+        r"^(com_[xyz]|inertia_P_\w\w) +(-?[\d.]+) +([\d.]+) ",
+        README.read_text("utf-8"),
+        re.MULTILINE,
+    )
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    row = r"<td>([a-z]+_\w+)</td><td>(-?[\d.]+)</td><td>([\d.]+)</td>"
+    found = {name: (float(value), float(sd)) for name, value, sd in re.findall(row, page)}
+    assert len(shown) >= 4
+    for name, value, sd in shown:
+        assert float(value) == pytest.approx(found[name][0], abs=0.1 * found[name][1])
+        assert float(sd) == pytest.approx(found[name][1], rel=0.1)
