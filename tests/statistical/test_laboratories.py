@@ -46,7 +46,7 @@ def test_impulses_do_not_stand_for_a_motors_ramps() -> None:
 
 
 def test_of_a_platform_that_a_motor_drives_nothing_is_sought() -> None:
-    """50 mN m are a hundred times what gravity does."""
+    """The torque that wanders is found to be twice what gravity does."""
     record = laboratories.KINDS["motor 50 mN m, bang-bang"].make(4)
     belief = surveyed(*sound(record.recording, record.testbed), Params())
     assert is_drowned(belief)

@@ -185,8 +185,10 @@ def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitte
 def looked_into(belief: Believed) -> Believed:
     """Return the likeliest model from the plain one.
 
-    First without process noise, which could hide a term that explains all. Of a platform that is
-    driven by far more than gravity nothing is sought.
+    First without process noise, which could hide a term that explains all. Where ``MANY`` events
+    turn up, a torque that wanders is tried before all is sought once more, which takes long with
+    so many, and spares that only with a great ``LEAD``: touches may first be found elsewhere than
+    they were. Of a platform that is driven by far more than gravity nothing is sought.
     """
     if not is_close(belief.fitted):
         wild, _, _ = calibrated(wandering(belief))
