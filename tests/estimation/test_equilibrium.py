@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from builders import MASS, platform
 
-from equipoise.estimation.equilibrium import estimate
+from equipoise.estimation.equilibrium import Rest, along, estimate, quiet_spans, solve
 from equipoise.maths.attitude import exponential
 from equipoise.model.recording import Recording, Samples
 
@@ -54,3 +55,50 @@ def test_one_rest_is_refused_with_a_sentence():
     assert not found.outcome.usable
     assert found.parameters == ()
     assert "two are needed: move a mass sideways" in found.outcome.sentence
+
+
+def test_masses_that_travel_together_end_one_stop():
+    """Two masses leave at 50 s and arrive 1 s apart: two stops, not a third between arrivals."""
+    t = np.array([0.0, 50.0, 51.0, 52.0, 100.0])
+    way = np.array([[0, 0, 0], [0, 0, 0], [0.01, 0.01, 0], [0.01, 0.02, 0], [0.01, 0.02, 0]])
+    record = replace(two_rests(), masses=Samples(t, way))
+    assert quiet_spans(record, platform()) == [(0.0, 50.0), (52.0, pytest.approx(99.8))]
+
+
+def test_a_stop_whose_lever_arm_the_masses_cancel_does_not_outweigh_the_others():
+    """Three rests of a com (3, -2, -60) um, one of them 2 um from the centre, 0.05 deg of noise.
+
+    Weighted by a lever arm that they tell themselves, the rows of that one would win.
+    """
+    com, rng = np.array([3e-6, -2e-6, -60e-6]), np.random.default_rng(1)
+    shifts = np.array([[0, 0, 0], [-3e-6, 0, 60e-6], [30e-6, 20e-6, 0]])
+    rests = []
+    for shift in shifts:
+        u = (com + shift) / np.linalg.norm(com + shift) + 1e-3 * rng.standard_normal(3)
+        rests.append(Rest(u / np.linalg.norm(u), 1e-3, shift, 0.0))
+    found, information, misfit = solve(rests)
+    off = found - com
+    assert off @ information @ off < 16.3  # 99.9 % of chi-square, 3 degrees of freedom
+    assert misfit < 16.3
+    assert np.sqrt(np.linalg.inv(information)[2, 2]) < 2e-6
+
+
+def test_information_is_that_of_the_directions_by_complex_step():
+    """du/dr = (E - u u^T) / |r + dr|, to rounding."""
+    lever = np.array([3e-6, -2e-6, -60e-6])
+    u, slope = along(lever)
+    steps = [lever + 1j * 1e-20 * e for e in np.eye(3)]
+    exact = np.array([np.imag(v / np.sqrt(v @ v)) / 1e-20 for v in steps]).T
+    np.testing.assert_allclose(slope, exact, rtol=1e-12, atol=1e-6)
+    np.testing.assert_allclose(u, lever / np.linalg.norm(lever), rtol=1e-15)
+
+
+def test_a_swing_is_no_rest():
+    """3 deg of swing about one axis, 1.5 deg rms of two: numbers, but a sentence against them."""
+    record = two_rests()
+    swing = np.radians(3.0) * np.sin(2 * np.pi * record.attitude.t / 7.0)
+    turns = np.where((record.attitude.t > LEAVES)[:, None], TURNED, LEVEL)
+    swung = exponential(turns + np.outer(swing, [1.0, 0, 0]))
+    found = estimate(replace(record, attitude=Samples(record.attitude.t, swung)), platform())
+    assert "swung by 1.5 deg rms" in found.outcome.sentence
+    assert "not trustworthy" in found.outcome.sentence
