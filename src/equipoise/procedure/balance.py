@@ -148,13 +148,14 @@ def worth_learning(
     """Say whether to go below the target: at first, and again while its height is not known.
 
     The masses stop as far off in a long move as in a short one, so long ones tell the scale best.
+    The last move is the way back: from where it is low already, a last one to trim is worth more.
     """
     up = testbed.up
     if left == options.max_moves:
         return left > 1
     low = float((knowledge.com - options.target) @ up) < -NOTABLE
     vague = float(np.sqrt(up @ knowledge.covariance @ up)) > KNOWN * float(options.tolerance @ up)
-    return left > 2 and vague and not low
+    return left > 1 and vague and not low
 
 
 def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:
