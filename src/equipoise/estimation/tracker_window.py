@@ -11,6 +11,10 @@ A contact bends the belief, so that it soon is far from the point, where the tes
 not to be trusted: then it is suspected only, and looked for again in a pass about the point where
 the belief came to rest. Where it is found the anchor follows, and the rest of the rows is passed.
 
+Behind a gap the motion may be foreseen well enough about the first point, and not about a better
+one: the attitude is then taken anew there in the pass, and the anchor follows, too. (Kept as it was
+on the first look, what the gap seemed to tell was up to 17 sd wrong.)
+
 Once the shape of the inertia (all but its scale) is known, the anchor follows, and the covariance
 is transported; with the inertia known, nothing is kept and the point follows the belief.
 """
@@ -123,13 +127,17 @@ def pass_again(
 ) -> tuple[Memory, Place, int]:
     """Return memory, place and node after passes of the rows up to a node.
 
-    They are as they were if that fails. Where a contact was suspected on the way, which may have
+    They are as they were if that fails; from a row on at which the attitude is taken anew, if it is
+    the rest that fails. Where a contact was suspected on the way, which may have
     been for want of linearity, it is looked for once more about the point that was found.
     """
     point, found = memory.point.copy(), here
     for _ in range(PASSES):
         point = nearer(point, found.belief[BODY])
         found, reached = passed(model, memory, point, node, False, written)
+        if written.done[REASON] == BROKEN:
+            memory = anchored(replace(memory, point=point), found, reached)
+            return pass_again(model, memory, here, node - reached, written)
         if reached < node or not np.all(np.isfinite(found.belief)):
             point, found = memory.point, here
             break
