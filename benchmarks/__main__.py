@@ -29,7 +29,7 @@ def show_fits(quick: bool) -> None:
         table.add_row(*fit, times, f"{row.apart:.4f}")
     console.print(table)
     for text in missing:
-        console.print(text)
+        console.print(text, markup=False)  # extras stand in brackets, as markup does
 
 
 def show_others() -> None:
