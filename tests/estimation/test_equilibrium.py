@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from builders import MASS, platform
+from scipy.stats import chi2
 
 from equipoise.estimation.equilibrium import Rest, along, estimate, quiet_spans, solve
 from equipoise.maths.attitude import exponential
@@ -65,22 +66,39 @@ def test_masses_that_travel_together_end_one_stop():
     assert quiet_spans(record, platform()) == [(0.0, 50.0), (52.0, pytest.approx(99.8))]
 
 
-def test_a_stop_whose_lever_arm_the_masses_cancel_does_not_outweigh_the_others():
-    """Three rests of a com (3, -2, -60) um, one of them 2 um from the centre, 0.05 deg of noise.
-
-    Weighted by a lever arm that they tell themselves, the rows of that one would win.
-    """
-    com, rng = np.array([3e-6, -2e-6, -60e-6]), np.random.default_rng(1)
-    shifts = np.array([[0, 0, 0], [-3e-6, 0, 60e-6], [30e-6, 20e-6, 0]])
-    rests = []
+def rests_of(com, shifts, sd: float, seed: int) -> list[Rest]:
+    """Rests whose directions err by ``sd`` (rad)."""
+    rng, rests = np.random.default_rng(seed), []
     for shift in shifts:
-        u = (com + shift) / np.linalg.norm(com + shift) + 1e-3 * rng.standard_normal(3)
-        rests.append(Rest(u / np.linalg.norm(u), 1e-3, shift, 0.0))
-    found, information, misfit = solve(rests)
+        u = (com + shift) / np.linalg.norm(com + shift) + sd * rng.standard_normal(3)
+        rests.append(Rest(u / np.linalg.norm(u), sd, shift, 0.0))
+    return rests
+
+
+def test_three_rests_with_noise():
+    """A com (3, -2, -60) um, one rest with 2 um of lever arm, 0.06 deg of noise."""
+    com = np.array([3e-6, -2e-6, -60e-6])
+    shifts = np.array([[0, 0, 0], [-3e-6, 0, 60e-6], [30e-6, 20e-6, 0]])
+    found, information, misfit = solve(rests_of(com, shifts, 1e-3, 1))
     off = found - com
     assert off @ information @ off < 16.3  # 99.9 % of chi-square, 3 degrees of freedom
     assert misfit < 16.3
     assert np.sqrt(np.linalg.inv(information)[2, 2]) < 2e-6
+
+
+def test_errors_are_as_large_as_stated_near_the_centre_too():
+    """One rest has 0.2 um of lever arm: mean NEES of 3 unknowns over 200 seeds, and its chi-square.
+
+    Linear rows, weighted by lever arms of 1 um at least, stated sd that were 1.7 times too large.
+    """
+    com = np.array([0.0, 0.0, -20e-6])
+    shifts = np.array([[0, 0, 0], [0.2e-6, 0, 19.9e-6], [10e-6, 0, 0]])
+    nees = []
+    for seed in range(200):
+        found, information, _ = solve(rests_of(com, shifts, 1e-3, seed))
+        nees.append((found - com) @ information @ (found - com))
+    low, high = chi2.ppf([1e-4, 1 - 1e-4], 3 * 200) / 200
+    assert low < np.mean(nees) < high
 
 
 def test_information_is_that_of_the_directions_by_complex_step():

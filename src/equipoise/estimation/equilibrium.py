@@ -6,7 +6,7 @@
 (Inertia is not needed.) Each stop of the masses in the record gives one n_i, the mean of
 gravity's direction over the later half of the stop, with an sd s_i of its direction that knows how
 long rows hang together (``long_run``). The linear rows only begin: their noise is |r + dr_i| s_i,
-and weighted by it they would have r = -dr_i, where there is no lever and no noise. Minimised is
+which r itself scales. Minimised is
 
     sum_i |u_i - n_i|^2 / s_i^2,        u_i = (r + dr_i) / |r + dr_i|
     du_i/dr = (E - u_i u_i^T) / |r + dr_i|
@@ -26,7 +26,7 @@ from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.actuators.stops import travels
 from equipoise.dynamics.timeline import straight_lines
 from equipoise.maths.attitude import to_matrix
-from equipoise.maths.linalg import skew
+from equipoise.maths.linalg import inverse_spd
 from equipoise.maths.long_run import long_run_covariance, memory
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.estimate import COM, Estimate, Parameter
@@ -96,18 +96,26 @@ def stops(recording: Recording, testbed: Testbed) -> list[Rest]:
     return found
 
 
+def across(n: Vector3) -> Matrix3:
+    """Return [n x]^T [n x] = E - n n^T of a unit vector: what is across it."""
+    return np.eye(3) - np.outer(n, n)
+
+
 def along(lever: Vector3) -> tuple[Vector3, Matrix3]:
     """Return the direction of a lever arm and how it turns with the arm, 1/m."""
     length = max(float(np.linalg.norm(lever)), SHORTEST)
     u: Vector3 = lever / length
-    return u, (np.eye(3) - np.outer(u, u)) / length
+    return u, across(u) / length
+
+
+def told(rests: list[Rest]) -> Matrix3:
+    """Return the normal matrix of the linear rows."""
+    return sum((across(rest.down) for rest in rests), np.zeros((3, 3)))
 
 
 def solve(rests: list[Rest]) -> tuple[Vector3, Matrix3, float]:
     """Return r, its information, and twice the cost there."""
-    across = [skew(rest.down) for rest in rests]
-    normal = sum((A.T @ A for A in across), np.zeros((3, 3)))
-    right = -sum((A.T @ A @ rest.shift for A, rest in zip(across, rests, strict=True)), np.zeros(3))
+    right = -sum((across(rest.down) @ rest.shift for rest in rests), np.zeros(3))
 
     def left(com: Floats) -> Floats:
         return np.concatenate([(along(com + s.shift)[0] - s.down) / s.sd for s in rests])
@@ -115,7 +123,8 @@ def solve(rests: list[Rest]) -> tuple[Vector3, Matrix3, float]:
     def slope(com: Floats) -> Floats:
         return np.concatenate([along(com + s.shift)[1] / s.sd for s in rests])
 
-    found = least_squares(left, np.linalg.solve(normal, right), slope, method="lm", x_scale=SIZE)
+    start = np.linalg.solve(told(rests), right)
+    found = least_squares(left, start, slope, method="lm", x_scale=SIZE)
     com = np.asarray(found.x, dtype=np.float64)
     return com, slope(com).T @ slope(com), float(np.sum(left(com) ** 2))
 
@@ -137,16 +146,15 @@ def estimate(recording: Recording, testbed: Testbed) -> Estimate:
     """Return the centre of mass with the masses at home."""
     recording = arranged(recording, testbed.mass_names)
     rests = stops(recording, testbed)
-    across = sum((skew(rest.down).T @ skew(rest.down) for rest in rests), np.zeros((3, 3)))
-    if len(rests) < 2 or np.linalg.eigvalsh(across)[0] < WEAKEST * len(rests):
+    if len(rests) < 2 or np.linalg.eigvalsh(told(rests))[0] < WEAKEST * len(rests):
         text = (
             f"{len(rests)} distinct rest positions found, two are needed: "
             "move a mass sideways and let the platform settle."
         )
         unseen = ("the data do not see how far the centre of mass is from the centre of rotation",)
         return Estimate(METHOD, Outcome(False, text), (), np.zeros((0, 0)), None, unseen)
-    com, normal, misfit = solve(rests)
-    covariance = np.linalg.inv(normal).astype(np.float64, copy=False)
+    com, information, misfit = solve(rests)
+    covariance = inverse_spd(information)
     sd = np.sqrt(np.diag(covariance))
     parameters = tuple(
         Parameter(name, "m", float(com[k]), float(sd[k])) for k, name in enumerate(COM)

@@ -127,9 +127,9 @@ def pass_again(
 ) -> tuple[Memory, Place, int]:
     """Return memory, place and node after passes of the rows up to a node.
 
-    They are as they were if that fails; from a row on at which the attitude is taken anew, if it is
-    the rest that fails. Where a contact was suspected on the way, which may have
-    been for want of linearity, it is looked for once more about the point that was found.
+    They are as they were if that fails; behind a row at which the attitude is taken anew, the
+    anchor follows to that row first. Where a contact was suspected on the way, which may have been
+    for want of linearity, it is looked for once more about the point that was found.
     """
     point, found = memory.point.copy(), here
     for _ in range(PASSES):

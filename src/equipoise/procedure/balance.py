@@ -150,12 +150,10 @@ def worth_learning(
     The masses stop as far off in a long move as in a short one, so long ones tell the scale best.
     The last move is the way back: from where it is low already, a last one to trim is worth more.
     """
-    up = testbed.up
-    if left == options.max_moves:
-        return left > 1
+    up, first = testbed.up, left == options.max_moves
     low = float((knowledge.com - options.target) @ up) < -NOTABLE
     vague = float(np.sqrt(up @ knowledge.covariance @ up)) > KNOWN * float(options.tolerance @ up)
-    return left > 1 and vague and not low
+    return left > 1 and (first or (vague and not low))
 
 
 def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:
