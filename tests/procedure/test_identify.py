@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from builders import COM, MASS, move_at, noisy, platform, recording
 
+from equipoise.estimation.methods.registry import METHODS
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import END, INERTIA
-from equipoise.procedure.identify import COARSE_TO_FINE, METHODS, IdentifyOptions, identify
+from equipoise.procedure.identify import COARSE_TO_FINE, IdentifyOptions, identify
 
 
 @pytest.fixture(scope="module")

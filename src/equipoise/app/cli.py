@@ -16,6 +16,7 @@ from equipoise.app.commands.balance import balance
 from equipoise.app.commands.demo import demo
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.inspect import inspect
+from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
@@ -33,7 +34,7 @@ app = App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for command in (demo, new, simulate, inspect, identify, balance):
+for command in (demo, new, simulate, inspect, identify, methods, balance):
     app.command(command)
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
+from equipoise.model.arrays import Floats, Matrix3, Series, Series1, Square, Vector3
 from equipoise.model.event import Event
 from equipoise.model.outcome import Outcome
 
@@ -58,6 +58,16 @@ class Residual:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """What was believed of some parameters along the record."""
+
+    names: tuple[str, ...]
+    t: Series1  # s
+    values: Series  # (n, k), SI
+    sd: Series  # (n, k)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Estimate:
     """What a method concluded. ``covariance`` is in the order of ``parameters``."""
 
@@ -72,6 +82,7 @@ class Estimate:
     provenance: Mapping[str, str] = field(default_factory=dict[str, str])
     events: tuple[Event, ...] = ()
     unexplained: tuple[str, ...] = ()  # sentences: what the model leaves open, and what it might do
+    course: Course | None = None  # of a method that goes along the record
 
     def index(self, name: str) -> int:
         """Return where a parameter stands; KeyError if it is not among them."""

@@ -41,7 +41,7 @@ def identify(
     testbed
         Testbed file, or a preset's name.
     method
-        auto, trajectory, momentum_body, momentum_laboratory, equilibrium or tracker.
+        auto, or one of those that `equipoise methods` lists.
     hold
         Parameter to keep at the testbed's value, such as inertia_P_zz. May be repeated.
     term
@@ -76,7 +76,8 @@ def identify(
         check_folder(out)
     recording = part_of(fitting_recording_of(file, dialect, columns, bed), from_s, to_s)
     with busy("identifying", announce=False):
-        from equipoise.procedure.identify import METHODS, IdentifyOptions
+        from equipoise.estimation.methods.registry import METHODS
+        from equipoise.procedure.identify import IdentifyOptions
 
     one_of("--method", method, ["auto", *METHODS])
     options = IdentifyOptions(method, terms, hold, prior, robust)

@@ -1,0 +1,28 @@
+"""`equipoise methods`: what there is to choose from."""
+
+from equipoise.app.commands.kinds import Flag
+from equipoise.app.terminal import stdout
+
+
+def methods(name: str | None = None, /, *, json: Flag = False) -> int:
+    """List the methods of `equipoise identify`, or tell all about one of them.
+
+    Parameters
+    ----------
+    name
+        Method to tell about. Left out: list them all.
+    json
+        Print one JSON document instead.
+    """
+    from equipoise.app.method_views import card_table, list_table, methods_json
+    from equipoise.app.options import one_of
+    from equipoise.app.views_json import dump
+    from equipoise.estimation.methods.registry import METHODS
+
+    chosen = list(METHODS) if name is None else [one_of("method", name, list(METHODS))]
+    cards = [METHODS[each].card for each in chosen]
+    if json:
+        print(dump(methods_json(cards)))
+        return 0
+    stdout().print(list_table(cards) if name is None else card_table(cards[0]))
+    return 0

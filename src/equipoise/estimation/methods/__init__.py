@@ -1,0 +1,1 @@
+"""One method, one file: a card and what it names."""

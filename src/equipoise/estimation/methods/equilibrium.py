@@ -1,0 +1,26 @@
+"""Rest positions under known shifts of the masses: see ``estimation.equilibrium``."""
+
+from equipoise.estimation import equilibrium
+from equipoise.estimation.method import Card, Method, Options
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+
+def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+    """Return the estimate."""
+    return equilibrium.estimate(recording, testbed)
+
+
+METHOD = Method(
+    Card(
+        "equilibrium",
+        "equilibrium points: com hangs under P at every rest of the masses",
+        "least squares on directions",
+        "da Silva 2021 section 3.1 (manual balancing); long known",
+        "a camera, and two moves to rests that are not in line",
+        "inertia; anything from a single rest; useless near balance, where nothing rests",
+        "rests",
+    ),
+    run,
+)

@@ -1,0 +1,17 @@
+"""The only list of methods: terminal, tests, studies and documents take it from here."""
+
+from equipoise.estimation.method import Method
+from equipoise.estimation.methods import (
+    equilibrium,
+    momentum_body,
+    momentum_laboratory,
+    tracker,
+    trajectory,
+)
+
+WHOLE = (trajectory, equilibrium, tracker)
+LINEAR = (momentum_body, momentum_laboratory)
+
+METHODS: dict[str, Method] = {
+    module.METHOD.card.name: module.METHOD for module in (*WHOLE, *LINEAR)
+}

@@ -1,0 +1,74 @@
+"""The tracker as an estimator: its belief after the last row, see ``estimation.tracker``.
+
+After a move the centre of mass is that of the masses as they stand: where they really stopped is
+part of it.
+"""
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.estimation import tracker
+from equipoise.estimation.method import Card, Method, Options, refused
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model.arrays import Vector3
+from equipoise.model.estimate import COM, END, INERTIA, Course, Estimate, Parameter
+from equipoise.model.outcome import Outcome
+from equipoise.model.recording import Recording, arranged
+from equipoise.model.testbed import Testbed
+
+SURPRISED = 1.5  # chosen: times the expected square of innovations, beyond which nothing is told
+
+
+def shift_at_end(recording: Recording, testbed: Testbed) -> Vector3:
+    """Return what the masses, as they stand at the end, do to the centre of mass (m)."""
+    if recording.masses is None:
+        return np.zeros(3)
+    last = recording.masses.values[-1]
+    return com_shift(mass_maps(testbed.masses), testbed.body.mass, last)
+
+
+def parameters_of(belief: tracker.Belief, shift: Vector3) -> tuple[Parameter, ...]:
+    """Return what is believed, com with the masses as they stand."""
+    values = [*(belief.com + shift), *pack_symmetric(belief.inertia_P)]
+    names = (*(END if shift.any() else COM), *INERTIA)
+    units = ["m"] * len(COM) + ["kg m2"] * len(INERTIA)
+    sds = np.sqrt(np.diag(belief.covariance))
+    return tuple(
+        Parameter(name, unit, float(value), float(sd))
+        for name, unit, value, sd in zip(names, units, values, sds, strict=True)
+    )
+
+
+def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+    """Return the belief after the last row, begun from what the testbed says."""
+    if recording.attitude is None or len(recording.attitude) < 2:
+        return refused(METHOD.card, "The tracker needs a camera: the record has no attitude.")
+    recording, first = arranged(recording, testbed.mass_names), recording.attitude
+    state = tracker.first_state(float(first.t[0]), first.values[0], testbed)
+    track = tracker.track(recording, testbed, tracker.Params(), state)
+    belief = track.end.belief
+    surprise = float(np.mean(track.surprise[len(track.t) // 4 :])) / 3
+    fits = surprise < SURPRISED
+    text = f"Tracked to the last row; innovations are {surprise:.2g} times what they should be"
+    ending = "." if fits else ": inertia, noise or model are wrong, do not trust the interval."
+    return Estimate(
+        METHOD.card.name,
+        Outcome(fits, text + ending),
+        parameters_of(belief, shift_at_end(recording, testbed)),
+        belief.covariance,
+        course=Course(COM, track.t, track.com, track.com_sd),
+    )
+
+
+METHOD = Method(
+    Card(
+        "tracker",
+        "motion of attitude, rate, J, com and gyro bias, contacts noticed",
+        "multiplicative extended Kalman filter",
+        "Ivanov 2021 section 5 with errata I7-I11; inertia in the state",
+        "a camera; a first guess of J and com with their sd",
+        "com along gravity until it has tilted; scale of J and com before a known change",
+        "moved",
+    ),
+    run,
+)

@@ -1,0 +1,46 @@
+"""Maximum likelihood in the model that the record supports: see ``estimation.reference``."""
+
+from equipoise.estimation import reference
+from equipoise.estimation.method import Card, Method, Options
+from equipoise.estimation.trajectory import Params
+from equipoise.model import sensor_terms, torque_terms
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+
+def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+    """Return the estimate."""
+    terms = terms_of(testbed, options)
+    return reference.estimate(
+        recording,
+        testbed,
+        Params(
+            torque_terms.among(terms),
+            sensor_terms.among(terms),
+            use_prior=options.use_prior,
+            hold=options.hold,
+            robust=options.robust,
+        ),
+    )
+
+
+def terms_of(testbed: Testbed, options: Options) -> tuple[str, ...]:
+    """Return the terms to estimate, the testbed's own first, each once."""
+    return tuple(dict.fromkeys((*testbed.disturbances, *options.terms)))
+
+
+METHOD = Method(
+    Card(
+        "trajectory",
+        "motion integrated from free first attitude and rate, J always possible",
+        "maximum likelihood, Levenberg-Marquardt",
+        "Ivanov 2021 section 3 with errata I1-I6, I15",
+        "a camera or a gyro",
+        "scale of J and com without a known change; com along gravity without tilt; J_zz and "
+        "products without spin about more than one axis; heading without a camera",
+        "moved",
+        ("term", "hold", "prior", "robust"),
+    ),
+    run,
+)

@@ -1,0 +1,1 @@
+"""How rows are solved for the unknowns."""
