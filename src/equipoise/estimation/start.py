@@ -8,14 +8,15 @@ without, because rates that are differences of attitudes bias a linear estimate 
 import numpy as np
 
 from equipoise.dynamics.regressor import N_TORQUES
-from equipoise.estimation.momentum_integral import balance, known_momentum
+from equipoise.estimation.formulations.columns import columns, known_momentum
+from equipoise.estimation.formulations.momentum import laboratory_balance
 from equipoise.estimation.sampled_motion import SampledMotion, sampled_motion
-from equipoise.estimation.unknowns import Layout, Unknowns
+from equipoise.estimation.unknowns import Layout, Unknowns, core_of
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.maths.scaled_solve import scaled_solve
-from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 from equipoise.model.recording import Recording
@@ -80,25 +81,35 @@ def first_rate(
     return np.linalg.solve(inertia, momentum).astype(np.float64, copy=False)
 
 
+def free_rows(
+    recording: Recording, testbed: Testbed, motion: SampledMotion
+) -> tuple[Floats, Floats]:
+    """Return regressor (3 n, 12) and known side (3 n,) by J, com and the first momentum."""
+    whole = np.zeros(len(motion.t), np.int64)
+    A, b = laboratory_balance(motion.t, whole, columns(recording, testbed, motion))
+    constants = -np.broadcast_to(np.eye(3), (len(b), 3, 3))
+    return np.concatenate([A, constants], axis=2).reshape(-1, 12), b.reshape(-1)
+
+
 def solve(
     recording: Recording, testbed: Testbed, motion: SampledMotion
 ) -> tuple[Matrix3, Vector3, Vector3]:
     """Return inertia, centre of mass, and the first momentum in laboratory axes."""
-    rows = balance(recording, testbed, Layout(), *motion, "laboratory")
+    regressor, known = free_rows(recording, testbed, motion)
     body = testbed.body
     sizes = element_sizes(body.inertia_P)
     trust = WITHOUT if recording.rate is None else WITH_GYRO
-    spread = np.concatenate([trust * sizes, body.mass * np.maximum(3 * testbed.com_sd, COM_TRUST)])
-    guess = np.concatenate([pack_symmetric(body.inertia_P), body.first_moment])
+    spread = np.concatenate([trust * sizes, np.maximum(3 * testbed.com_sd, COM_TRUST)])
+    guess = core_of(body)
     scale = np.append(spread, np.full(3, float(sizes.max()) * 0.1))
-    A = rows.regressor * scale
-    normal, right = A.T @ A, A.T @ rows.known
+    A = regressor * scale
+    normal, right = A.T @ A, A.T @ known
     # with the inertia as guessed, what misfit is left decides how much the priors weigh
     free = right[6:] - normal[6:, :6] @ (guess / spread)[:6]
     rest = scaled_solve(np.ascontiguousarray(normal[6:, 6:]), free, 1e-10)
-    left = rows.known - A @ np.concatenate([(guess / spread)[:6], rest])
+    left = known - A @ np.concatenate([(guess / spread)[:6], rest])
     noise = max(CORRELATED * float(np.sqrt(np.mean(left**2))), 1e-9)
     prior = np.append(np.ones(9), np.zeros(3))
     pull = np.append(guess / spread, np.zeros(3))
     best = scale * scaled_solve(normal / noise**2 + np.diag(prior), right / noise**2 + pull, 0.0)
-    return unpack_symmetric(best[:6]), best[6:9] / body.mass, best[9:12]
+    return unpack_symmetric(best[:6]), best[6:9], best[9:12]

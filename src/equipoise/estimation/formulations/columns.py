@@ -1,0 +1,76 @@
+"""What every row is made of, at every time: momentum by J, torque by com and terms, what is known.
+
+    H = W(w) p + k,        k = dJ(d) w + h
+    H' + w x H = m r x g_B + sum_k c_k T_k + known,        known = dmu(d) x g_B + tau
+
+k is momentum that is known once w is: masses off home, masses travelling, wheels. Formulations
+differ only in what they make of these.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
+from equipoise.dynamics.regressor import MOMENT, TORQUE, WIDTH, regressor
+from equipoise.dynamics.timeline import straight_lines
+from equipoise.maths.attitude import to_matrix
+from equipoise.maths.compiled import kernel
+from equipoise.maths.linalg import unpack_symmetric
+from equipoise.model import torque_terms
+from equipoise.model.arrays import Floats, Series1, Series3, Series4
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+
+
+class Columns(NamedTuple):
+    """At every time, in body axes."""
+
+    momentum: Floats  # (n, 3, 6) W(w), by J xx yy zz xy xz yz
+    torque: Floats  # (n, 3, 3 + terms) by com (m), then by the terms' coefficients
+    known_momentum: Series3  # k, N m s
+    known_torque: Series3  # N m
+    R: Floats  # (n, 3, 3) body to laboratory
+    g: Series3  # m/s^2
+
+
+@kernel
+def regressor_rows(
+    w: Floats, g: Floats, t: Floats, mass: float, gravity: float, out: Floats
+) -> None:
+    """Write the regressor of every sample, shape (n, 3, 25)."""
+    for i in range(t.shape[0]):
+        wi, gi = (w[i, 0], w[i, 1], w[i, 2]), (g[i, 0], g[i, 1], g[i, 2])
+        regressor(wi, gi, t[i] - t[0], mass, gravity, True, out[i])
+
+
+def known_momentum(
+    recording: Recording, testbed: Testbed, t: Series1, w: Series3
+) -> tuple[Series3, Series3]:
+    """Return k (N m s) and the known change of first moment dmu (kg m) at times t."""
+    maps = mass_maps(testbed.masses)
+    d = straight_lines(recording.masses, t, len(testbed.masses))
+    travel = Samples(t, np.gradient(d, t, axis=0)) if len(t) > 1 else Samples(t, 0 * d)
+    bend = unpack_symmetric(inertia_shift(maps, d).T)  # (3, 3, n)
+    k = np.einsum("ijn,nj->ni", bend, w) + travel.values @ maps.momentum
+    return k + straight_lines(recording.momentum, t, 3), d @ maps.first_moment
+
+
+def columns(
+    recording: Recording,
+    testbed: Testbed,
+    motion: tuple[Series1, Series4, Series3],
+    terms: tuple[str, ...] = (),
+) -> Columns:
+    """Return the columns for attitudes q and rates w (rad/s) at times t (s)."""
+    t, q, w = motion
+    R = to_matrix(q)
+    g = np.ascontiguousarray(-testbed.gravity * R[:, 2, :])
+    full = np.zeros((len(t), 3, WIDTH))
+    regressor_rows(w, g, t, testbed.body.mass, testbed.gravity, full)
+    wanted = [TORQUE + torque_terms.TERMS.index(term) for term in terms]
+    torque = full[:, :, [*range(MOMENT, TORQUE), *wanted]]
+    torque[:, :, :3] *= testbed.body.mass
+    k, dmu = known_momentum(recording, testbed, t, w)
+    push = np.cross(dmu, g) + straight_lines(recording.torque, t, 3)
+    return Columns(full[:, :, :MOMENT], torque, k, push, R, g)
