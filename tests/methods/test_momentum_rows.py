@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import COM, EVERY_TORQUE, INERTIA, MASS, body, move_at, platform, travel
+from builders import COM, EVERY_TORQUE, INERTIA, body, move_at, platform, travel
 
 from equipoise.dynamics.timeline import timeline
 from equipoise.estimation.formulations.columns import known_momentum
@@ -97,7 +97,7 @@ def test_centring_removes_the_momentum_at_the_start(moved, axes):
     record, t, motion = moved
     rows = centred(rows_of(record, t, motion, axes))
     left = rows.A @ np.concatenate([INERTIA, COM, EVERY_TORQUE]) - rows.b
-    assert np.sqrt(np.mean(left**2)) < 2e-8
+    assert np.sqrt(np.mean(left**2)) < 2e-7
     assert rows.piece is None
 
 

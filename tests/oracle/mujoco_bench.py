@@ -13,8 +13,9 @@ Three things that are easily got wrong, and are not here:
 The servos give way: a mass sags by at most g / SERVO^2 = 0.11 mm and lags the ramp by 7 ms. The
 run and its log hold where the masses *are*, not where they were told to be.
 
-A disturbing torque is a motor at the bearing whose axis belongs to the laboratory; viscous drag is
-the ball joint's damping, one coefficient per body axis.
+A disturbing torque is a motor at the bearing whose axis belongs to the laboratory, or, where
+thrusters are meant, to the body; viscous drag is the ball joint's damping, one coefficient per body
+axis.
 """
 
 # ruff: noqa: PT028 - testbed_for is no test, whatever its name suggests
@@ -233,14 +234,18 @@ def middles(duration: float, dt: float) -> Array:
     return (np.arange(round(duration / dt)) + 0.5) * dt
 
 
-def driven(platform: Platform, wanted: Array, torque: Array, dt: float = 1e-3) -> OracleRun:
+def driven(
+    platform: Platform, wanted: Array, torque: Array, dt: float = 1e-3, in_body: bool = False
+) -> OracleRun:
     """Run the platform under commands, one row for each step.
 
     ``wanted`` are displacements, m, (n, k), or (n, 0) to weld the masses at home; ``torque`` acts
-    on the platform, N m, (n, 3), in laboratory axes.
+    on the platform, N m, (n, 3), in laboratory axes, or in those of the body.
     """
     locked = not wanted.shape[1]
-    model = mujoco.MjModel.from_xml_string(model_text(platform, dt, locked))
+    text = model_text(platform, dt, locked)
+    text = text.replace("jointinparent=", "joint=") if in_body else text
+    model = mujoco.MjModel.from_xml_string(text)
     model.dof_damping[:3] = platform.viscous
     start = _start(platform, model, locked)
     control = np.hstack([wanted, torque])[None]

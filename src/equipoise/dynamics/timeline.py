@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
 
@@ -51,8 +52,7 @@ def straight_lines(channel: Samples | None, t: Series1, width: int) -> Floats:
     """Return a known input at times ``t``: straight between its rows, constant outside."""
     if channel is None or not len(channel):
         return np.zeros((len(t), width))
-    columns: list[Floats] = [np.interp(t, channel.t, column) for column in channel.values.T]
-    return np.column_stack(columns) if columns else np.zeros((len(t), width))
+    return read_at(t, channel.t, channel.values) if width else np.zeros((len(t), 0))
 
 
 def corners(channel: Samples | None, start: float, end: float) -> Series1:

@@ -22,6 +22,8 @@ import numpy as np
 
 from equipoise.estimation.sampled_motion import integrate_rate, sampled_motion
 from equipoise.maths.attitude import conjugate, exponential, level, logarithm, multiply, to_matrix
+from equipoise.maths.scaled_solve import scaled_solve
+from equipoise.maths.straight_lines import read_at
 from equipoise.maths.walk_smoother import smoothed_walk
 from equipoise.model.arrays import Bools, Floats, Ints, Series1, Series3, Series4, Vector3
 from equipoise.model.recording import Recording, Samples
@@ -30,7 +32,7 @@ from equipoise.sensors.timing import seen_at
 
 FEWEST = 5  # rows of a piece, and of a camera in it
 GAP, SHORTEST = 5.5, 0.25  # periods and s, chosen: a few missing rows are no gap
-PASSES = 3  # of the bias, whose first guess is off by what the camera's rates err
+PASSES = 2  # of the bias, whose first guess is off by what the camera's rates err
 STANDS_OFF = 6.0  # sd of a row against the rest, by the median, beyond which it is left out
 MOST = 12000  # rows, chosen: of more, means of neighbours say the same (0.15 s in half an hour)
 
@@ -42,7 +44,7 @@ class LedMotion(NamedTuple):
     q: Series4
     w: Series3  # rad/s, without bias where a camera shows it
     piece: Ints  # (n,) which piece a row belongs to, from 0
-    left_out: tuple[str, ...] = ()  # sentences: what of the record is not used
+    notes: tuple[str, ...] = ()  # sentences: what of the record is not used
 
 
 def pieces_of(t: Series1) -> Ints:
@@ -75,13 +77,13 @@ def taken(channel: Samples, mask: Bools) -> Samples:
     return Samples(channel.t[mask], channel.values[mask])
 
 
-def joined(parts: list[LedMotion], left_out: tuple[str, ...] = ()) -> LedMotion:
+def joined(parts: list[LedMotion], notes: tuple[str, ...] = ()) -> LedMotion:
     """Return pieces one after the other."""
     if not parts:
         return LedMotion(np.zeros(0), np.zeros((0, 4)), np.zeros((0, 3)), np.zeros(0, np.int64))
     piece = np.repeat(np.arange(len(parts)), [len(part.t) for part in parts])
     t, q, w = (np.concatenate([part[j] for part in parts]) for j in range(3))
-    return LedMotion(t, q, w, piece, left_out)
+    return LedMotion(t, q, w, piece, notes)
 
 
 def by_camera(recording: Recording, testbed: Testbed) -> LedMotion:
@@ -115,17 +117,21 @@ def led(rate: Samples, camera: Samples, testbed: Testbed) -> LedMotion | None:
         return None
     seen = taken(camera, inside)
     bias = first_bias(rate, seen)
+    base, off = followed(rate, seen, bias)
+    seen = taken(seen, ~stand_off(off - median_near(off)))
     for _ in range(PASSES):
-        base = integrate_rate(rate.t, rate.values - bias, seen.values[0])
-        _, bias = drift(rate.t, base, seen, bias)
-    base = integrate_rate(rate.t, rate.values - bias, seen.values[0])
-    off, _ = drift(rate.t, base, seen, bias)
-    good = ~stand_off(off - median_near(off))
-    density, noise = spread_of(testbed, rate)
-    slow = smoothed_walk(seen.t[good], off[good], density, noise)
-    turn = np.column_stack([np.interp(rate.t, seen.t[good], column) for column in slow.T])
-    q = multiply(exponential(turn), base)
+        bias = bias + bias_left(rate.t, base, seen.t, followed(rate, seen, bias)[1])
+        base, off = followed(rate, seen, bias)
+    slow = smoothed_walk(seen.t, off, *spread_of(testbed, rate))
+    q = multiply(exponential(read_at(rate.t, seen.t, slow)), base)
     return LedMotion(rate.t, q, rate.values - bias, np.zeros(len(rate.t), np.int64))
+
+
+def followed(rate: Samples, seen: Samples, bias: Vector3) -> tuple[Series4, Series3]:
+    """Return the attitudes that rates lead to, and by how much the camera is off (laboratory)."""
+    base = integrate_rate(rate.t, rate.values - bias, seen.values[0])
+    there = at_times(rate.t, base, seen.t)
+    return base, logarithm(multiply(seen.values, conjugate(there)))
 
 
 def first_bias(rate: Samples, seen: Samples) -> Vector3:
@@ -133,7 +139,7 @@ def first_bias(rate: Samples, seen: Samples) -> Vector3:
     turn = logarithm(multiply(conjugate(seen.values[:-1]), seen.values[1:]))
     camera: Floats = turn / np.diff(seen.t)[:, None]
     middle = 0.5 * (seen.t[1:] + seen.t[:-1])
-    gyro = np.column_stack([np.interp(middle, rate.t, column) for column in rate.values.T])
+    gyro = read_at(middle, rate.t, rate.values)
     return np.asarray(np.median(gyro - camera, axis=0), dtype=np.float64)
 
 
@@ -145,24 +151,15 @@ def at_times(t: Series1, base: Series4, seen: Series1) -> Series4:
     return multiply(base[i], exponential(share[:, None] * step))
 
 
-def drift(t: Series1, base: Series4, seen: Samples, bias: Vector3) -> tuple[Series3, Vector3]:
-    """Return by how much the camera is off an integrated attitude, and a better bias.
-
-    d_N = c - int R db: linear in a constant and the change of the bias.
-    """
-    first = multiply(seen.values[0], conjugate(at_times(t, base, seen.t[:1])[0]))
-    there = at_times(t, base, seen.t)
-    off = logarithm(multiply(multiply(seen.values, conjugate(there)), conjugate(first)))
-    steps = 0.5 * (to_matrix(base[1:]) + to_matrix(base[:-1])) * np.diff(t)[:, None, None]
-    grown = np.concatenate([np.zeros((1, 3, 3)), np.cumsum(steps, axis=0)]).reshape(-1, 9)
-    grown = np.column_stack([np.interp(seen.t, t, column) for column in grown.T])
-    columns = np.concatenate(
-        [np.broadcast_to(np.eye(3), (len(seen.t), 3, 3)), -grown.reshape(-1, 3, 3)], axis=2
-    )
-    keep = ~stand_off(off - median_near(off))
-    A, b = columns[keep].reshape(-1, 6), off[keep].reshape(-1)
-    found = np.linalg.lstsq(A, b, rcond=None)[0]
-    return logarithm(multiply(exponential(off), first)), bias + found[3:]
+def bias_left(t: Series1, base: Series4, seen: Series1, off: Series3) -> Vector3:
+    """Return what is left of the bias (rad/s), by least squares on off = c - int R db."""
+    R = to_matrix(base)
+    steps = 0.5 * (R[1:] + R[:-1]) * np.diff(t)[:, None, None]
+    grown = np.concatenate([np.zeros((1, 9)), np.cumsum(steps.reshape(-1, 9), axis=0)])
+    grown = read_at(seen, t, grown)
+    A = (grown.mean(axis=0) - grown).reshape(-1, 3)
+    right: Floats = A.T @ (off - off.mean(axis=0)).reshape(-1)
+    return scaled_solve(A.T @ A, right, 1e-9)
 
 
 def median_near(off: Series3) -> Series3:
@@ -200,4 +197,4 @@ def thinned(motion: LedMotion) -> LedMotion:
         middle = block[:, k // 2]
         parts.append(LedMotion(motion.t[block].mean(axis=1), motion.q[middle],
                                motion.w[block].mean(axis=1), np.zeros(n, np.int64)))  # fmt: skip
-    return joined(parts, motion.left_out)
+    return joined(parts, motion.notes)

@@ -1,10 +1,11 @@
 """What every row is made of, at every time: momentum by J, torque by com and terms, what is known.
 
     H = W(w) p + k,        k = dJ(d) w + h
-    H' + w x H = m r x g_B + sum_k c_k T_k + known,        known = dmu(d) x g_B + tau
+    H' + w x H = m r x g_B + sum_k c_k T_k + dmu(d) x g_B + tau
 
-k is momentum that is known once w is: masses off home, masses travelling, wheels. Formulations
-differ only in what they make of these.
+tau, which is told and may jump between two rows, is given as its exact integral. k is momentum
+that is known once w is: masses off home, masses travelling, wheels. Formulations differ only in
+what they make of these.
 """
 
 from typing import NamedTuple
@@ -17,9 +18,10 @@ from equipoise.dynamics.timeline import straight_lines
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.compiled import kernel
 from equipoise.maths.linalg import unpack_symmetric
+from equipoise.maths.straight_lines import integral_at
 from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats, Series1, Series3, Series4
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
 
@@ -29,7 +31,8 @@ class Columns(NamedTuple):
     momentum: Floats  # (n, 3, 6) W(w), by J xx yy zz xy xz yz
     torque: Floats  # (n, 3, 3 + terms) by com (m), then by the terms' coefficients
     known_momentum: Series3  # k, N m s
-    known_torque: Series3  # N m
+    shifted: Series3  # dmu x g_B, N m
+    impulse: Series3  # integral of tau from the first row on, N m s
     R: Floats  # (n, 3, 3) body to laboratory
     g: Series3  # m/s^2
 
@@ -48,12 +51,20 @@ def known_momentum(
     recording: Recording, testbed: Testbed, t: Series1, w: Series3
 ) -> tuple[Series3, Series3]:
     """Return k (N m s) and the known change of first moment dmu (kg m) at times t."""
+    bend, h, dmu = moved_masses(recording, testbed, t)
+    return np.einsum("nij,nj->ni", bend, w) + h, dmu
+
+
+def moved_masses(
+    recording: Recording, testbed: Testbed, t: Series1
+) -> tuple[Floats, Series3, Series3]:
+    """Return dJ (n, 3, 3) kg m^2, momentum h of what moves inside (N m s) and dmu (kg m)."""
     maps = mass_maps(testbed.masses)
     d = straight_lines(recording.masses, t, len(testbed.masses))
-    travel = Samples(t, np.gradient(d, t, axis=0)) if len(t) > 1 else Samples(t, 0 * d)
-    bend = unpack_symmetric(inertia_shift(maps, d).T)  # (3, 3, n)
-    k = np.einsum("ijn,nj->ni", bend, w) + travel.values @ maps.momentum
-    return k + straight_lines(recording.momentum, t, 3), d @ maps.first_moment
+    travel: Floats = np.gradient(d, t, axis=0) if len(t) > 1 else 0 * d
+    bend = np.moveaxis(unpack_symmetric(inertia_shift(maps, d).T), -1, 0)
+    h = travel @ maps.momentum + straight_lines(recording.momentum, t, 3)
+    return bend, h, d @ maps.first_moment
 
 
 def columns(
@@ -72,5 +83,6 @@ def columns(
     torque = full[:, :, [*range(MOMENT, TORQUE), *wanted]]
     torque[:, :, :3] *= testbed.body.mass
     k, dmu = known_momentum(recording, testbed, t, w)
-    push = np.cross(dmu, g) + straight_lines(recording.torque, t, 3)
-    return Columns(full[:, :, :MOMENT], torque, k, push, R, g)
+    told, shifted = recording.torque, np.cross(dmu, g)
+    impulse = integral_at(t, told.t, told.values) if told is not None and len(told) else 0 * k
+    return Columns(full[:, :, :MOMENT], torque, k, shifted, impulse, R, g)

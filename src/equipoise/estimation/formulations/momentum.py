@@ -2,11 +2,11 @@
 
 Body axes (da Silva 2021 Eqs. 16-21 with the t0 terms restored; Kim and Agrawal 2009; Lee Eq. 6):
 
-    W(w) p + int w x W(w) p - int m r x g_B - int T c - H0 = -k - int w x k + int known
+    W(w) p + int w x W(w) p - int m r x g_B - int T c - H0 = -k - int w x k + int (dmu x g_B + tau)
 
 Laboratory axes, where no gyroscopic term is left:
 
-    R W(w) p - int R (m r x g_B) - int R T c - H0_N = -R k + int R known
+    R W(w) p - int R (m r x g_B) - int R T c - H0_N = -R k + int R (dmu x g_B + tau)
 
 H0 is free in every piece: taking the first noisy rate for it would cost a factor 13 to 22 in sd.
 Restarted, pieces are cut, so that neither drift nor what is left of a gyro's bias adds up.
@@ -47,17 +47,24 @@ def by_piece(t: Series1, rate: Floats, piece: Ints) -> Floats:
 def body_balance(t: Series1, w: Series3, piece: Ints, at: Columns) -> tuple[Floats, Floats]:
     """Return A and b in body axes."""
     gyroscopic = np.cross(w[:, :, None], at.momentum, axis=1)
-    push = at.known_torque - np.cross(w, at.known_momentum)
+    push = at.shifted - np.cross(w, at.known_momentum)
     left = at.momentum + by_piece(t, gyroscopic, piece)
     A = np.concatenate([left, -by_piece(t, at.torque, piece)], axis=2)
-    return A, by_piece(t, push, piece) - at.known_momentum
+    return A, by_piece(t, push, piece) + at.impulse - at.known_momentum
 
 
 def laboratory_balance(t: Series1, piece: Ints, at: Columns) -> tuple[Floats, Floats]:
     """Return A and b in laboratory axes."""
-    k, push = (np.einsum("nij,nj->ni", at.R, x) for x in (at.known_momentum, at.known_torque))
+    k, push = (np.einsum("nij,nj->ni", at.R, x) for x in (at.known_momentum, at.shifted))
     A = np.concatenate([at.R @ at.momentum, -by_piece(t, at.R @ at.torque, piece)], axis=2)
-    return A, by_piece(t, push, piece) - k
+    return A, by_piece(t, push, piece) + told_in(at) - k
+
+
+def told_in(at: Columns) -> Series3:
+    """Return the integral of R tau (n, 3), N m s: R is even where tau may jump."""
+    middle, parts = 0.5 * (at.R[1:] + at.R[:-1]), np.diff(at.impulse, axis=0)
+    total = np.cumsum(np.einsum("nij,nj->ni", middle, parts), axis=0)
+    return np.concatenate([np.zeros((1, 3)), total])
 
 
 def body_axes(posed: Posed) -> Rows:
@@ -65,7 +72,7 @@ def body_axes(posed: Posed) -> Rows:
     motion = posed.motion
     at = columns(posed.recording, posed.testbed, motion[:3], posed.terms)
     A, b = body_balance(motion.t, motion.w, motion.piece, at)
-    return Rows(motion.t, A, b, (*BODY, *posed.terms), motion.piece, left_out=motion.left_out)
+    return Rows(motion.t, A, b, (*BODY, *posed.terms), motion.piece, notes=motion.notes)
 
 
 def laboratory_axes(posed: Posed) -> Rows:
@@ -73,7 +80,7 @@ def laboratory_axes(posed: Posed) -> Rows:
     motion = posed.motion
     at = columns(posed.recording, posed.testbed, motion[:3], posed.terms)
     A, b = laboratory_balance(motion.t, motion.piece, at)
-    return Rows(motion.t, A, b, (*BODY, *posed.terms), motion.piece, left_out=motion.left_out)
+    return Rows(motion.t, A, b, (*BODY, *posed.terms), motion.piece, notes=motion.notes)
 
 
 def segments(posed: Posed) -> Rows:

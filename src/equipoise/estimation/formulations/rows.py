@@ -32,7 +32,8 @@ class Rows:
     names: tuple[str, ...]  # (c,) of the unknowns
     piece: Ints | None = None  # (n,) with free constants; None: there are none
     instruments: Floats | None = None  # (n, m, c) like A, of noise that is not A's
-    left_out: tuple[str, ...] = ()  # sentences: what the formulation leaves out of the motion
+    omitted: Floats | None = None  # (n, m) of b: what is left out of the motion, as far as known
+    notes: tuple[str, ...] = ()  # sentences: what of the record is not used
 
 
 @dataclass(frozen=True, slots=True, eq=False)

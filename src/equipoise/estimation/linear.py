@@ -1,0 +1,178 @@
+"""A linear method: a formulation's rows, solved; with intervals that know what noise does to them.
+
+    x = solver( formulation( record ) )
+
+The covariance and the bias that noise in the regressor brings are found by drawing the stated
+errors anew (``replicates``). The same draws say what noise leaves of the rows at each frequency.
+Where the record leaves more than that, something acts that the model does not know, and no
+parameter errs by more than the root of the greatest ratio (Grenander and Szegoe 1958, as in
+``maths.whiteness``): by so much all intervals are wider.
+
+What is left is judged without the bias, and without what the formulation is known to leave out.
+A bias, and what a formulation leaves out of the motion (``Rows.omitted``), are errors that no
+repetition shows: they are told, and added to the sd as if they were chance.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy.stats import chi2
+from scipy.stats import t as student
+
+from equipoise.estimation.formulations.rows import Formulation, Posed, Rows, centred, held
+from equipoise.estimation.led_motion import led_motion
+from equipoise.estimation.linear_conclusion import Answer, conclude
+from equipoise.estimation.method import Card, Method, Options, refused
+from equipoise.estimation.replicates import PAIRS, pairs
+from equipoise.estimation.solvers.aid import Aid, Solver
+from equipoise.estimation.solvers.least_squares import least_squares
+from equipoise.model import torque_terms
+from equipoise.model.arrays import Floats, Series, Square
+from equipoise.model.estimate import INERTIA, NORMAL_95, Estimate
+from equipoise.model.recording import Recording, arranged
+from equipoise.model.testbed import Testbed
+
+FEWEST = 12  # times
+FOR_NOISE = 6  # pairs, chosen: the mean of dA^T dA over thousands of rows is known well from few
+SPARE = 12  # pairs beyond the number of unknowns
+FIRST_BAND, WIDER = 5, 1.6  # bins, and how much wider each band is than the one before, chosen
+SURE = 1e-4  # how often noise alone may look like more than noise
+
+
+@dataclass(frozen=True, slots=True)
+class Linear:
+    """What makes a linear method."""
+
+    formulation: Formulation
+    solver: Solver
+    knows_inertia: bool = False  # takes the testbed's inertia as it is
+    needs_noise: bool = False  # the solver uses what noise does to the regressor
+
+
+class Sums(NamedTuple):
+    """What the replicates add up to."""
+
+    covariance: Square  # (c, c)
+    bias: Floats  # (c,)
+    power: Floats  # (bins,) mean power of what noise leaves
+
+
+def method(card: Card, linear: Linear) -> Method:
+    """Return the method."""
+
+    def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+        return estimate(card, linear, arranged(recording, testbed.mass_names), testbed, options)
+
+    return Method(card, run)
+
+
+def estimate(
+    card: Card, linear: Linear, recording: Recording, testbed: Testbed, options: Options
+) -> Estimate:
+    """Return the estimate of a record."""
+    motion = led_motion(recording, testbed)
+    if len(motion.t) < FEWEST:
+        return refused(card, f"Only {len(motion.t)} rows without a gap: there is nothing to fit.")
+    terms = torque_terms.among((*testbed.disturbances, *options.terms))
+    posed = Posed(recording, testbed, motion, terms)
+    rows, hold = posed_rows(linear, posed, options.hold)
+    if rows.b.size <= len(rows.names) or len(rows.t) < FEWEST:
+        return refused(card, f"Only {len(rows.t)} rows without a gap: there is nothing to fit.")
+    try:
+        answer = answered(linear, posed, rows, hold)
+    except np.linalg.LinAlgError:
+        return refused(card, "The rows do not determine the unknowns: the platform hardly moved.")
+    return conclude(card, posed, rows, answer, tuple(n for n in hold if n not in options.hold))
+
+
+def posed_rows(linear: Linear, posed: Posed, hold: tuple[str, ...]) -> tuple[Rows, tuple[str, ...]]:
+    """Return the rows with what is held on the other side; one moment, if the scale is open."""
+    free = linear.formulation(posed)
+    rows = held(free, posed.testbed, hold)
+    if np.any(rows.b) or not set(rows.names) & set(INERTIA):
+        return rows, hold
+    largest = INERTIA[int(np.argmax(np.diag(posed.testbed.body.inertia_P)))]
+    hold = (largest, *hold)
+    return held(free, posed.testbed, hold), hold
+
+
+def answered(linear: Linear, posed: Posed, rows: Rows, hold: tuple[str, ...]) -> Answer:
+    """Return solution, covariance, bias and how much more than noise is left."""
+    aid = aid_for(linear, posed, hold, len(rows.names))
+    best = linear.solver(rows, aid)
+    count = max(PAIRS, len(rows.names) + SPARE)
+    sums = summed(linear, posed, hold, aid, best, count)
+    whole, omitted = rows, np.zeros(len(best))
+    if rows.omitted is not None:
+        omitted = least_squares(replace(rows, b=rows.omitted, omitted=None), aid)
+        whole = replace(rows, b=rows.b - rows.omitted, omitted=None)
+    left = remains(whole, best - sums.bias - omitted)
+    spread = (student.ppf(0.975, count) / NORMAL_95) ** 2 * sums.covariance
+    return Answer(best, spread, sums.bias, omitted, left, excess(left, sums.power))
+
+
+def aid_for(linear: Linear, posed: Posed, hold: tuple[str, ...], unknowns: int) -> Aid:
+    """Return what the solver may use: the noise of centred rows, from a few draws."""
+    gram, cross = np.zeros((unknowns, unknowns)), np.zeros(unknowns)
+    count = FOR_NOISE if linear.needs_noise else 0
+    for plus, minus in pairs(posed, linear.knows_inertia, count):
+        first, second = (centred(rows_again(linear, each, posed, hold)) for each in (plus, minus))
+        dA = 0.5 * (first.A - second.A).reshape(-1, unknowns)
+        db = 0.5 * (first.b - second.b).reshape(-1)
+        gram += dA.T @ dA / FOR_NOISE
+        cross += dA.T @ db / FOR_NOISE
+    return Aid(posed.testbed, gram, cross)
+
+
+def rows_again(linear: Linear, drawn: Posed, posed: Posed, hold: tuple[str, ...]) -> Rows:
+    """Return the rows of a replicate; what is held stays at the testbed's own value."""
+    return held(linear.formulation(drawn), posed.testbed, hold)
+
+
+def remains(rows: Rows, values: Floats) -> Series:
+    """Return what is left of the rows (n, m)."""
+    rows = centred(rows)
+    return rows.b - rows.A @ values
+
+
+def summed(
+    linear: Linear, posed: Posed, hold: tuple[str, ...], aid: Aid, best: Floats, count: int
+) -> Sums:
+    """Return what the replicates add up to."""
+    c = len(best)
+    covariance, bias, power = np.zeros((c, c)), np.zeros(c), np.zeros(1)
+    for pair in pairs(posed, linear.knows_inertia, count):
+        again = [rows_again(linear, each, posed, hold) for each in pair]
+        plus, minus = (linear.solver(each, aid) for each in again)
+        half = 0.5 * (plus - minus)
+        covariance += np.outer(half, half) / count
+        bias += (0.5 * (plus + minus) - best) / count
+        noise = 0.5 * (remains(again[0], plus) - remains(again[1], minus))
+        power = power + spectrum(noise) / count
+    return Sums(covariance, bias, power)
+
+
+def spectrum(left: Series) -> Floats:
+    """Return the power of rows at each frequency, summed over equations."""
+    return np.sum(np.abs(np.fft.rfft(left, axis=0)) ** 2, axis=1)
+
+
+def bands(bins: int) -> list[slice]:
+    """Return the bands over which powers are compared: narrow where motion is slow."""
+    found, first, width = list[slice](), 1, float(FIRST_BAND)
+    while first < bins:
+        found.append(slice(first, min(first + round(width), bins)))
+        first, width = found[-1].stop, width * WIDER
+    return found
+
+
+def excess(left: Series, expected: Floats) -> float:
+    """Return the greatest ratio of what is left to what noise leaves, 1 if chance explains it."""
+    found, equations, power = 1.0, left.shape[1], spectrum(left)
+    for band in bands(len(power)):
+        freedom = 2 * equations * (band.stop - band.start)
+        ratio = float(np.sum(power[band])) / max(float(np.sum(expected[band])), 1e-300)
+        if ratio > float(chi2.isf(SURE, freedom)) / freedom:
+            found = max(found, ratio)
+    return found

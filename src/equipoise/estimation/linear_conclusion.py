@@ -1,0 +1,175 @@
+"""What a linear solution is worth, in numbers and in a sentence."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise import __version__
+from equipoise.estimation.formulations.rows import BODY, Posed, Rows
+from equipoise.estimation.method import Card
+from equipoise.estimation.observability import DISTANCE, OPEN, Visibility, examine
+from equipoise.estimation.ratios import ratios_of
+from equipoise.estimation.unknowns import term_sizes
+from equipoise.maths.linalg import inverse_spd, lag_one, unpack_symmetric
+from equipoise.maths.whiteness import portmanteau
+from equipoise.model.arrays import Floats, Series, Square
+from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter, Residual
+from equipoise.model.mass_properties import MassProperties, is_possible
+from equipoise.model.outcome import Outcome
+from equipoise.model.torque_terms import TERMS, unit_of
+
+MATTERS = 0.5  # sd of noise: a bias beyond it makes 95 % less than 92 %
+DROWNED = 100.0  # chosen: ten times as far off as noise explains, nothing is known
+NO_TRUST = "the intervals are widened by it, but are not trustworthy"
+
+
+class Answer(NamedTuple):
+    """What a solver found, and how far off it may be."""
+
+    values: Floats  # (c,) in the order of the rows' names
+    covariance: Square  # of what noise does
+    bias: Floats  # what noise in the regressor has done to it
+    omitted: Floats  # what the formulation leaves out has done to it, as far as known
+    left: Series  # (n, m) of the rows
+    excess: float  # of its power over that of noise, where it is greatest
+
+
+def conclude(
+    card: Card, posed: Posed, rows: Rows, answer: Answer, pinned: tuple[str, ...]
+) -> Estimate:
+    """Return the estimate; ``pinned`` was held only because the scale is open."""
+    whole = total(answer)
+    view = examine(inverse_spd(whole + rounding(whole)), *scale_and_sizes(posed, rows, answer),
+                   rows.names)  # fmt: skip
+    names, values, covariance, hidden = reported(posed, rows, answer, view, whole, pinned)
+    open_scale = bool(pinned)
+    body = body_of(posed, rows, answer)
+    outcome = outcome_of(posed, rows, answer, open_scale, is_possible(body))
+    ratios = ratios_for(names, values, covariance) if open_scale else ()
+    return Estimate(
+        card.name,
+        outcome,
+        tuple(parameter(names[k], values[k], covariance[k, k], hidden[k] or open_scale)
+              for k in range(len(names))),
+        covariance,
+        residual_of(answer),
+        ((OPEN,) if open_scale else ()) + view.sentences,
+        ratios,
+        is_possible(body),
+        {"version": __version__, "source": posed.recording.source,
+         "sha256": posed.recording.sha256},
+    )  # fmt: skip
+
+
+def total(answer: Answer) -> Square:
+    """Return noise, widened, and the errors that no repetition shows."""
+    fixed = np.outer(answer.bias, answer.bias) + np.outer(answer.omitted, answer.omitted)
+    return max(answer.excess, 1.0) * answer.covariance + fixed
+
+
+def rounding(covariance: Square) -> Square:
+    """Return a diagonal that keeps the inverse of a covariance finite."""
+    return np.diag(1e-12 * np.diag(covariance) + 1e-60)
+
+
+def scale_and_sizes(posed: Posed, rows: Rows, answer: Answer) -> tuple[Floats, Floats]:
+    """Return the direction in which J and com grow alike, and sizes natural to each unknown."""
+    body = posed.testbed.body
+    inertia = float(np.trace(body.inertia_P)) / 3
+    com = [answer.values[k] for k, name in enumerate(rows.names) if name in COM]
+    distance = max(float(np.linalg.norm(com)), DISTANCE)
+    known = {**dict.fromkeys(INERTIA, inertia), **dict.fromkeys(COM, distance)}
+    weight = posed.testbed.gravity * body.mass
+    known |= dict(zip(TERMS, term_sizes(TERMS, inertia, weight), strict=True))
+    size = np.array([known[name] for name in rows.names])
+    stretched = np.where(np.isin(rows.names, BODY), answer.values / size, 0.0)
+    return stretched / max(float(np.linalg.norm(stretched)), 1e-300), size
+
+
+def reported(
+    posed: Posed, rows: Rows, answer: Answer, view: Visibility, whole: Square,
+    pinned: tuple[str, ...],
+) -> tuple[tuple[str, ...], Floats, Square, list[bool]]:  # fmt: skip
+    """Return names, values, covariance and what is hidden, in the order of report."""
+    found = dict(zip(rows.names, answer.values, strict=True))
+    if pinned:
+        top = INERTIA.index(pinned[0])
+        found[pinned[0]] = float(posed.testbed.body.inertia_P[top, top])
+    names = tuple(n for n in (*COM, *INERTIA, *posed.terms) if n in found)
+    where = {name: k for k, name in enumerate(rows.names)}
+    covariance = np.zeros((len(names), len(names)))
+    own = [k for k, name in enumerate(names) if name in where]
+    index = [where[names[k]] for k in own]
+    covariance[np.ix_(own, own)] = whole[np.ix_(index, index)]
+    hidden = [bool(view.hidden[where[n]]) if n in where else False for n in names]
+    return names, np.array([found[name] for name in names]), covariance, hidden
+
+
+def parameter(name: str, value: float, variance: float, hidden: bool) -> Parameter:
+    """Return a named value; what is hidden has an infinite interval."""
+    unit = "kg m2" if name in INERTIA else "m" if name in COM else unit_of(name)
+    sd = np.inf if hidden else float(np.sqrt(max(variance, 0.0)))
+    return Parameter(name, unit, float(value), sd, not hidden)
+
+
+def ratios_for(names: tuple[str, ...], values: Floats, covariance: Square) -> tuple[Parameter, ...]:
+    """Return the ratios of com and J."""
+    if not set(BODY) <= set(names):
+        return ()
+    order = [names.index(name) for name in BODY]
+    return ratios_of(values[order], covariance[np.ix_(order, order)], np.zeros((9, 0)))
+
+
+def body_of(posed: Posed, rows: Rows, answer: Answer) -> MassProperties:
+    """Return the body found; what was not sought is the testbed's."""
+    body, found = posed.testbed.body, dict(zip(rows.names, answer.values, strict=True))
+    six = [found.get(name, float(body.inertia_P[i, j])) for name, (i, j) in
+           zip(INERTIA, ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)), strict=True)]  # fmt: skip
+    com = [found.get(name, float(body.com[k])) for k, name in enumerate(COM)]
+    return MassProperties(body.mass, np.array(com), unpack_symmetric(np.array(six)))
+
+
+def residual_of(answer: Answer) -> Residual:
+    """Return how much is left, in units of what noise leaves."""
+    freedom = max(answer.left.size - len(answer.values), 1)
+    return Residual(
+        None,
+        None,
+        max(answer.excess, 1.0) * freedom,
+        freedom,
+        lag_one(answer.left),
+        portmanteau(answer.left),
+        spectral_peak=max(answer.excess, 1.0),
+    )
+
+
+def worst(rows: Rows, shift: Floats, answer: Answer) -> tuple[str, float] | None:
+    """Return the parameter that a shift moves most, and by how many sd of noise; None if none."""
+    sd = np.sqrt(max(answer.excess, 1.0) * np.maximum(np.diag(answer.covariance), 1e-300))
+    by = shift / sd
+    k = int(np.argmax(np.abs(by)))
+    return (rows.names[k], float(by[k])) if abs(by[k]) > MATTERS else None
+
+
+def outcome_of(
+    posed: Posed, rows: Rows, answer: Answer, open_scale: bool, possible: bool
+) -> Outcome:
+    """Return whether the numbers may be used, and what to think of them."""
+    told = ["The scale is open: only ratios are known." if open_scale else "A linear estimate."]
+    told += [f"Note: {note}." for note in rows.notes]
+    if not possible:
+        told.insert(0, "No body can have the inertia found.")
+    if answer.excess > DROWNED:
+        told.append("The rows leave far more than the sensors' noise: something moves the platform "
+                    "that the model does not know; do not trust the intervals.")  # fmt: skip
+    elif answer.excess > 1:
+        told.append(f"The rows leave more than the sensors' noise, {answer.excess:.2g} times its "
+                    "power where it is most: intervals are widened "
+                    f"{np.sqrt(answer.excess):.2g} times.")  # fmt: skip
+    if (most := worst(rows, answer.bias, answer)) is not None:
+        told.append(f"Noise in the regressor moves {most[0]} by about {most[1]:.2g} sd: "
+                    f"{NO_TRUST}; use momentum_corrected, or trajectory.")  # fmt: skip
+    if (most := worst(rows, answer.omitted, answer)) is not None:
+        told.append(f"What the model leaves out moves {most[0]} by about {most[1]:.2g} sd: "
+                    f"{NO_TRUST}.")  # fmt: skip
+    return Outcome(possible and answer.excess <= DROWNED, " ".join(told))

@@ -1,0 +1,21 @@
+"""The energy balance by least squares."""
+
+from equipoise.estimation.formulations.energy import energy
+from equipoise.estimation.linear import Linear, method
+from equipoise.estimation.method import Card
+from equipoise.estimation.solvers.least_squares import least_squares
+
+METHOD = method(
+    Card(
+        "energy",
+        "energy balance, one equation a time",
+        "least squares",
+        "Tanygin and Williams 1997; Schwartz and Hall 2004",
+        "a camera or a gyro; tilt better known with a camera",
+        "scale of J and com without a known change; J_zz and products without spin "
+        "about more than one axis",
+        "driven",
+        ("term", "hold"),
+    ),
+    Linear(energy, least_squares),
+)

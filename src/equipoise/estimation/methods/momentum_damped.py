@@ -1,0 +1,21 @@
+"""The momentum integral in body axes by classical Levenberg-Marquardt."""
+
+from equipoise.estimation.formulations.momentum import body_axes
+from equipoise.estimation.linear import Linear, method
+from equipoise.estimation.method import Card
+from equipoise.estimation.solvers.damped import damped
+
+METHOD = method(
+    Card(
+        "momentum_damped",
+        "momentum integral in body axes, free constants",
+        "classical Levenberg-Marquardt",
+        "da Silva 2021 section 3.1.4",
+        "a camera or a gyro; tilt better known with a camera",
+        "scale of J and com without a known change; J_zz and products without spin "
+        "about more than one axis",
+        "driven",
+        ("term", "hold"),
+    ),
+    Linear(body_axes, damped),
+)

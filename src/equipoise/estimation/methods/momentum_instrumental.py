@@ -1,0 +1,21 @@
+"""The momentum integral in body axes by instrumental variables."""
+
+from equipoise.estimation.formulations.split import split
+from equipoise.estimation.linear import Linear, method
+from equipoise.estimation.method import Card
+from equipoise.estimation.solvers.instrumental import instrumental
+
+METHOD = method(
+    Card(
+        "momentum_instrumental",
+        "momentum integral in body axes, from every second sample",
+        "instrumental variables: the samples between",
+        "Young 2011; Reiersol 1945, on da Silva 2021 Eqs. 16-21",
+        "a camera or a gyro; tilt better known with a camera",
+        "scale of J and com without a known change; J_zz and products without spin "
+        "about more than one axis",
+        "driven",
+        ("term", "hold"),
+    ),
+    Linear(split, instrumental),
+)

@@ -1,0 +1,21 @@
+"""The simplified model as printed: increments of rates by least squares."""
+
+from equipoise.estimation.formulations.simplified import increments
+from equipoise.estimation.linear import Linear, method
+from equipoise.estimation.method import Card
+from equipoise.estimation.solvers.least_squares import least_squares
+
+METHOD = method(
+    Card(
+        "simplified_increments",
+        "Euler without gyroscopic term and products, increments",
+        "least squares",
+        "Young 1998; da Silva 2021 Eqs. 8-9",
+        "a camera or a gyro; tilt better known with a camera; inertia, taken from the "
+        "testbed (its sd is counted)",
+        "J; com along gravity without tilt; com better than J is known",
+        "free",
+        ("term", "hold"),
+    ),
+    Linear(increments, least_squares, knows_inertia=True),
+)

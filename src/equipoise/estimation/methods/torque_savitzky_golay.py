@@ -1,0 +1,21 @@
+"""The torque balance by a Savitzky-Golay filter of 0.51 s."""
+
+from equipoise.estimation.formulations.torque import savitzky_golay, torque
+from equipoise.estimation.linear import Linear, method
+from equipoise.estimation.method import Card
+from equipoise.estimation.solvers.least_squares import least_squares
+
+METHOD = method(
+    Card(
+        "torque_savitzky_golay",
+        "torque balance, slopes by a Savitzky-Golay filter of 0.51 s",
+        "least squares",
+        "da Silva 2021 Eq. 12, sign of Eq. 15 corrected",
+        "a camera or a gyro; tilt better known with a camera",
+        "scale of J and com without a known change; J_zz and products without spin "
+        "about more than one axis",
+        "driven",
+        ("term", "hold"),
+    ),
+    Linear(torque(savitzky_golay), least_squares),
+)

@@ -1,0 +1,63 @@
+"""Least squares among bodies that can exist: inertia by log-Cholesky numbers (Wensing 2018).
+
+    minimise |A x - b|^2,    J_P = J_C(six) + m ( |r|^2 E - r r^T ),  six and r free
+
+Every choice of the six numbers (``maths.pseudo_inertia``) is a body with J > 0 whose moments obey
+the triangle inequalities; where the unconstrained solution is such a body, both are the same.
+Where it is none, the answer lies near the border, and its interval is that of a clipped number.
+"""
+
+import numpy as np
+from scipy.optimize import least_squares as minimise
+
+from equipoise.estimation.formulations.rows import Rows, centred, values_of
+from equipoise.estimation.solvers.aid import Aid
+from equipoise.estimation.solvers.least_squares import normal_of, solved
+from equipoise.maths import pseudo_inertia
+from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.model.arrays import Floats
+from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
+
+
+def possible(rows: Rows, aid: Aid) -> Floats:
+    """Return the solution."""
+    normal, right = normal_of(centred(rows))
+    free = solved(normal, right)
+    if not set((*INERTIA, *COM)) <= set(rows.names):
+        return free  # held values are the user's own
+    six = [rows.names.index(name) for name in INERTIA]
+    com = [rows.names.index(name) for name in COM]
+    mass = aid.testbed.body.mass
+    if is_possible(MassProperties(mass, free[com], unpack_symmetric(free[six]))):
+        return free
+    return nearest(normal, free, six, com, mass, guess_of(rows, aid))
+
+
+def guess_of(rows: Rows, aid: Aid) -> Floats:
+    """Return the testbed's values in the order of the rows."""
+    guess = values_of(aid.testbed)
+    return np.array([guess.get(name, 0.0) for name in rows.names])
+
+
+def nearest(
+    normal: Floats, free: Floats, six: list[int], com: list[int], mass: float, guess: Floats
+) -> Floats:  # fmt: skip
+    """Return the possible body of least (x - free)^T A^T A (x - free)."""
+    scale = 1 / np.sqrt(np.diag(normal))
+    root = np.linalg.cholesky(normal * np.outer(scale, scale) + 1e-12 * np.eye(len(free)))
+
+    def body(y: Floats) -> Floats:
+        x = y.copy()
+        r = y[com] * scale[com]
+        J = pseudo_inertia.to_inertia(y[six]) + parallel_axis(mass, r)
+        x[six] = pack_symmetric(J) / scale[six]
+        return x
+
+    start = free / scale
+    inertia_C = unpack_symmetric(free[six]) - parallel_axis(mass, free[com])
+    if np.trace(inertia_C) <= 0:
+        inertia_C = unpack_symmetric(guess[six])
+    start[six] = pseudo_inertia.from_inertia(inertia_C)
+    found = minimise(lambda y: root.T @ (body(y) - free / scale), start, method="lm", xtol=1e-12)
+    return body(np.asarray(found.x, dtype=np.float64)) * scale

@@ -1,0 +1,135 @@
+"""Records for the methods, made by MuJoCo: the conditions of ``method_table``, and the regimes in
+which each card says that its intervals are measured."""
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equipoise.estimation.method import Regime
+from equipoise.maths.linalg import unpack_symmetric
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
+from tests.oracle import mujoco_bench as oracle
+
+Array = NDArray[np.float64]
+Condition = Literal["slow", "quick", "driven", "noisy"]
+INERTIA = unpack_symmetric(np.array([0.265, 0.246, 0.427, -0.014, -0.035, -0.018]))
+COM, MASS, TILT = np.array([5.0, 5.0, -50.0]) * 1e-6, 14.307, np.radians(8.0)
+RATES = {"slow": (1.0, -1.0, 3.0), "quick": (1.0, -1.0, 20.0)}  # deg/s
+CAMERA_SD, HZ = np.radians(0.05), 100.0
+FINE, POOR = 0.005, 0.05  # deg/s/sqrt(Hz)
+PUSH, PERIODS = 0.010, (8.0, 11.0, 14.0)  # N m about each axis, s
+EDGE = 1e-7  # s, on both sides of a jump
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Record:
+    """What was recorded, what is known beforehand, and what is true."""
+
+    recording: Recording
+    testbed: Testbed
+    com: Array  # m, masses at home
+    inertia_P: Array  # kg m^2
+
+
+def unb(rate: tuple[float, float, float], heading: float) -> oracle.Platform:
+    """Return a platform like that of Brasilia, tilted by 8 deg, turning at some deg/s."""
+    q = oracle.product(
+        oracle.rotation(np.array([TILT, 0.0, 0.0])), oracle.rotation(np.array([0.0, 0.0, heading]))
+    )
+    return oracle.Platform(MASS, INERTIA, COM, (), 9.81, q, np.radians(rate))
+
+
+def known_before(platform: oracle.Platform, density: float) -> Testbed:
+    """Return the platform as it is, com not known, with the sensors of methods 2.9."""
+    body = MassProperties(platform.mass, np.zeros(3), platform.inertia_P)
+    gyro = Gyro(HZ, np.radians(density) * HZ**0.5, 0.0)
+    return Testbed(
+        "like UnB", body, 0.0, np.full(3, 1e-4), np.array([0.0, 0.0, 1.0]), np.radians(30),
+        platform.gravity, (), AttitudeSensor(HZ, CAMERA_SD), gyro,
+    )  # fmt: skip
+
+
+def square_waves(t: Array) -> Array:
+    """Return torques (n, 3), N m, that change sign every half period, first after a quarter."""
+    phase = t[:, None] / np.array(PERIODS) + 0.25
+    return PUSH * np.where(phase % 1.0 < 0.5, 1.0, -1.0)
+
+
+def told_torque(duration: float) -> Samples:
+    """Return the same torques as they are told: a row on both sides of every jump."""
+    jumps = [p * (0.25 + 0.5 * k) for p in PERIODS for k in range(round(2 * duration / p) + 1)]
+    inner = np.unique([j for j in jumps if 0 < j < duration])
+    t = np.unique(np.concatenate([[0.0], inner - EDGE, inner + EDGE, [duration]]))
+    return Samples(t, square_waves(t))
+
+
+def free_swing(
+    rate: tuple[float, float, float], rng: np.random.Generator, duration: float = 60.0
+) -> Record:
+    """Return a free swing."""
+    platform = unb(rate, rng.uniform(0, 2 * np.pi))
+    run = oracle.simulate(platform, (), duration, locked=True)
+    return seen(run, rng, FINE)
+
+
+def pushed(rng: np.random.Generator, density: float, duration: float = 60.0) -> Record:
+    """Return a motion under known square waves."""
+    platform = unb((0.0, 0.0, 0.0), rng.uniform(0, 2 * np.pi))
+    t = oracle.middles(duration, 1e-3)
+    run = oracle.driven(platform, np.zeros((len(t), 0)), square_waves(t), in_body=True)
+    record = seen(run, rng, density)
+    return replace(record, recording=replace(record.recording, torque=told_torque(duration)))
+
+
+def seen(run: oracle.OracleRun, rng: np.random.Generator, density: float) -> Record:
+    """Return what the sensors of methods 2.9 record of a run."""
+    noise = np.radians(density) * HZ**0.5
+    recording = oracle.sensor_log(run, rng, HZ, CAMERA_SD, HZ, noise)
+    recording = replace(recording, masses=None, mass_names=())
+    return Record(recording, known_before(run.platform, density), COM, INERTIA)
+
+
+def condition(name: Condition, seed: int) -> Record:
+    """Return a record of a condition of the table."""
+    rng = np.random.default_rng(seed)
+    if name in RATES:
+        return free_swing(RATES[name], rng)
+    return pushed(rng, FINE if name == "driven" else POOR)
+
+
+def moved(rng: np.random.Generator) -> Record:
+    """Return a random platform with two moves, camera and gyro."""
+    platform = oracle.random_platform(rng, masses_per_axis=2)
+    run = oracle.simulate(platform, oracle.random_schedule(rng, platform, moves=2))
+    bias = rng.normal(0, 1e-3, 3)
+    recording = oracle.sensor_log(run, rng, 50.0, CAMERA_SD, 50.0, 1e-4, bias)
+    camera, gyro = AttitudeSensor(50.0, CAMERA_SD), Gyro(50.0, 1e-4, np.radians(1.0))
+    testbed = oracle.testbed_for(platform, rng, attitude=camera, gyro=gyro)
+    return Record(recording, testbed, platform.com, platform.inertia_P)
+
+
+def rests(rng: np.random.Generator) -> Record:
+    """Return a random platform with drag that comes to rest after each of six moves."""
+    platform = oracle.random_platform(rng, masses_per_axis=2)
+    platform = replace(platform, viscous=np.full(3, 0.1))
+    schedule = tuple(
+        oracle.Ramp(40.0 * (k + 1), oracle._stable_targets(rng, platform)) for k in range(6)
+    )
+    run = oracle.simulate(platform, schedule, 300.0)
+    camera = AttitudeSensor(5.0, np.radians(0.2))
+    testbed = oracle.testbed_for(platform, rng, attitude=camera)
+    return Record(oracle.sensor_log(run, rng), testbed, platform.com, platform.inertia_P)
+
+
+def regime(name: Regime, seed: int) -> Record:
+    """Return a record of a regime that a card may name."""
+    rng = np.random.default_rng(seed)
+    if name == "free":
+        return free_swing(RATES["slow"], rng)
+    if name == "driven":
+        return pushed(rng, FINE, 120.0)
+    return moved(rng) if name == "moved" else rests(rng)
