@@ -17,10 +17,14 @@ from tests.oracle import mujoco_bench as oracle
 Array = NDArray[np.float64]
 Condition = Literal["slow", "quick", "driven", "noisy"]
 INERTIA = unpack_symmetric(np.array([0.265, 0.246, 0.427, -0.014, -0.035, -0.018]))
-COM, MASS, TILT = np.array([5.0, 5.0, -50.0]) * 1e-6, 14.307, np.radians(8.0)
+COM, MASS = np.array([5.0, 5.0, -50.0]) * 1e-6, 14.307
+LEAN = np.radians(5.1)  # of pitch and roll: 7 to 8 deg of tilt, about which axis is not told
+    5.1
+)  # of pitch and of roll: with 7 to 8 deg of tilt, about which axis is not told
 RATES = {"slow": (1.0, -1.0, 3.0), "quick": (1.0, -1.0, 20.0)}  # deg/s
-CAMERA_SD, HZ = np.radians(0.05), 100.0
+CAMERA_SD, HZ, HALF = np.radians(0.05), 100.0, 50.0
 FINE, POOR = 0.005, 0.05  # deg/s/sqrt(Hz)
+DURATION = 60.0  # s
 PUSH, PERIODS = 0.010, (8.0, 11.0, 14.0)  # N m about each axis, s
 EDGE = 1e-7  # s, on both sides of a jump
 
@@ -35,21 +39,19 @@ class Record:
     inertia_P: Array  # kg m^2
 
 
-def unb(rate: tuple[float, float, float], heading: float) -> oracle.Platform:
-    """Return a platform like that of Brasilia, tilted by 8 deg, turning at some deg/s."""
-    q = oracle.product(
-        oracle.rotation(np.array([TILT, 0.0, 0.0])), oracle.rotation(np.array([0.0, 0.0, heading]))
-    )
-    return oracle.Platform(MASS, INERTIA, COM, (), 9.81, q, np.radians(rate))
+def unb(rate: tuple[float, float, float]) -> oracle.Platform:
+    """Return a platform like that of Brasilia, turning at some deg/s."""
+    lean = (oracle.rotation(LEAN * axis) for axis in (np.eye(3)[1], np.eye(3)[0]))
+    return oracle.Platform(MASS, INERTIA, COM, (), 9.81, oracle.product(*lean), np.radians(rate))
 
 
-def known_before(platform: oracle.Platform, density: float) -> Testbed:
-    """Return the platform as it is, com not known, with the sensors of methods 2.9."""
+def known_before(platform: oracle.Platform, density: float, hz: float) -> Testbed:
+    """Return the platform as it is, com not known, and its sensors."""
     body = MassProperties(platform.mass, np.zeros(3), platform.inertia_P)
-    gyro = Gyro(HZ, np.radians(density) * HZ**0.5, 0.0)
+    gyro = Gyro(hz, np.radians(density) * hz**0.5, 0.0)
     return Testbed(
         "like UnB", body, 0.0, np.full(3, 1e-4), np.array([0.0, 0.0, 1.0]), np.radians(30),
-        platform.gravity, (), AttitudeSensor(HZ, CAMERA_SD), gyro,
+        platform.gravity, (), AttitudeSensor(hz, CAMERA_SD), gyro,
     )  # fmt: skip
 
 
@@ -68,29 +70,28 @@ def told_torque(duration: float) -> Samples:
 
 
 def free_swing(
-    rate: tuple[float, float, float], rng: np.random.Generator, duration: float = 60.0
+    rate: tuple[float, float, float], rng: np.random.Generator, hz: float = HZ
 ) -> Record:
     """Return a free swing."""
-    platform = unb(rate, rng.uniform(0, 2 * np.pi))
-    run = oracle.simulate(platform, (), duration, locked=True)
-    return seen(run, rng, FINE)
+    run = oracle.simulate(unb(rate), (), DURATION, locked=True)
+    return seen(run, rng, FINE, hz)
 
 
-def pushed(rng: np.random.Generator, density: float, duration: float = 60.0) -> Record:
+def pushed(rng: np.random.Generator, density: float, hz: float = HZ) -> Record:
     """Return a motion under known square waves."""
-    platform = unb((0.0, 0.0, 0.0), rng.uniform(0, 2 * np.pi))
-    t = oracle.middles(duration, 1e-3)
-    run = oracle.driven(platform, np.zeros((len(t), 0)), square_waves(t), in_body=True)
-    record = seen(run, rng, density)
-    return replace(record, recording=replace(record.recording, torque=told_torque(duration)))
+    t = oracle.middles(DURATION, 1e-3)
+    still = unb((0.0, 0.0, 0.0))
+    run = oracle.driven(still, np.zeros((len(t), 0)), square_waves(t), in_body=True)
+    record = seen(run, rng, density, hz)
+    return replace(record, recording=replace(record.recording, torque=told_torque(DURATION)))
 
 
-def seen(run: oracle.OracleRun, rng: np.random.Generator, density: float) -> Record:
-    """Return what the sensors of methods 2.9 record of a run."""
-    noise = np.radians(density) * HZ**0.5
-    recording = oracle.sensor_log(run, rng, HZ, CAMERA_SD, HZ, noise)
+def seen(run: oracle.OracleRun, rng: np.random.Generator, density: float, hz: float) -> Record:
+    """Return what camera and gyro record of a run, both at ``hz``."""
+    noise = np.radians(density) * hz**0.5
+    recording = oracle.sensor_log(run, rng, hz, CAMERA_SD, hz, noise)
     recording = replace(recording, masses=None, mass_names=())
-    return Record(recording, known_before(run.platform, density), COM, INERTIA)
+    return Record(recording, known_before(run.platform, density, hz), COM, INERTIA)
 
 
 def condition(name: Condition, seed: int) -> Record:
@@ -129,7 +130,7 @@ def regime(name: Regime, seed: int) -> Record:
     """Return a record of a regime that a card may name."""
     rng = np.random.default_rng(seed)
     if name == "free":
-        return free_swing(RATES["slow"], rng)
+        return free_swing(RATES["slow"], rng, HALF)
     if name == "driven":
-        return pushed(rng, FINE, 120.0)
+        return pushed(rng, FINE, HALF)
     return moved(rng) if name == "moved" else rests(rng)

@@ -102,7 +102,8 @@ def answered(linear: Linear, posed: Posed, rows: Rows, hold: tuple[str, ...]) ->
     aid = aid_for(linear, posed, hold, len(rows.names))
     best = linear.solver(rows, aid)
     count = max(PAIRS, len(rows.names) + SPARE)
-    sums = summed(linear, posed, hold, aid, best, count)
+    again = aid._replace(gram=2 * aid.gram, cross=2 * aid.cross)  # of noise that is in it twice
+    sums = summed(linear, posed, hold, again, best, count)
     whole, omitted = rows, np.zeros(len(best))
     if rows.omitted is not None:
         omitted = least_squares(replace(rows, b=rows.omitted, omitted=None), aid)

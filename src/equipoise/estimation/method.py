@@ -20,8 +20,8 @@ Regime = Literal["free", "driven", "moved", "rests"]
 Choice = Literal["term", "hold", "prior", "robust"]
 
 REGIMES: dict[Regime, str] = {
-    "free": "free swing of a minute, inertia known; 0.05 deg and 0.005 deg/s/sqrt(Hz), 100 Hz",
-    "driven": "two minutes of known square-wave torques, 10 mN m; the same sensors",
+    "free": "free swing of a minute, inertia known; 0.05 deg and 0.005 deg/s/sqrt(Hz), 50 Hz",
+    "driven": "a minute under known square-wave torques of 10 mN m; the same sensors",
     "moved": "two minutes with two known moves; 0.05 deg and 1e-4 rad/s, 50 Hz",
     "rests": "five minutes, damped, six moves between which the platform comes to rest; a camera",
 }

@@ -36,6 +36,7 @@ from equipoise.sensors.timing import seen_at, spread_of
 COARSE = 1e-4  # rad: what a camera of 0.2 deg makes of a thousand rows
 FINEST = 0.02  # rad
 LONGEST_STEP = 1.0  # s, chosen: a thirtieth of the shortest swing worth fitting
+KNOWN, KNOWN_COM = 1e-6, 1e-9  # of J, and m, chosen: what a stated sd of 0 is taken for
 ANCHOR = 10.0  # chosen: natural sizes by which what the data leave open may stray from the guess
 MOST = 300  # evaluations, chosen: a fit that settles takes fewer than thirty
 NOTHING = Samples(np.zeros(0), np.zeros((0, 1)))
@@ -118,8 +119,8 @@ def prior_of(
     mean, sd = np.zeros(layout.size), np.full(layout.size, np.inf)
     mean[CORE] = core_of(testbed.body)
     if inertia_and_com:
-        sd[JP] = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
-        sd[R] = testbed.com_sd
+        sd[JP] = max(testbed.inertia_sd, KNOWN) * element_sizes(testbed.body.inertia_P)
+        sd[R] = np.maximum(testbed.com_sd, KNOWN_COM)
     for k, name in enumerate(layout.errors):
         sd[names.index(name)] = errors.sd[k]
     first = FIXED + len(layout.terms) + len(layout.errors)

@@ -6,6 +6,7 @@ part of it.
 
 import numpy as np
 
+from equipoise import __version__
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation import tracker
 from equipoise.estimation.method import Card, Method, Options, refused
@@ -56,6 +57,9 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
         Outcome(fits, text + ending),
         parameters_of(belief, shift_at_end(recording, testbed)),
         belief.covariance,
+        provenance={
+            "version": __version__, "source": recording.source, "sha256": recording.sha256,
+        },
         course=Course(COM, track.t, track.com, track.com_sd),
     )
 

@@ -19,6 +19,8 @@ from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 
+LARGEST = 20.0  # of the logarithms, chosen: so that no trial leaves the range of numbers
+
 
 def possible(rows: Rows, aid: Aid) -> Floats:
     """Return the solution."""
@@ -59,5 +61,9 @@ def nearest(
     if np.trace(inertia_C) <= 0:
         inertia_C = unpack_symmetric(guess[six])
     start[six] = pseudo_inertia.from_inertia(inertia_C)
-    found = minimise(lambda y: root.T @ (body(y) - free / scale), start, method="lm", xtol=1e-12)
+    bound = np.full(len(free), np.inf)
+    bound[six[:3]] = LARGEST
+    start[six[:3]] = np.clip(start[six[:3]], 1 - LARGEST, LARGEST - 1)
+    found = minimise(lambda y: root.T @ (body(y) - free / scale), start, bounds=(-bound, bound),
+                     x_scale="jac", xtol=1e-12)  # fmt: skip
     return body(np.asarray(found.x, dtype=np.float64)) * scale
