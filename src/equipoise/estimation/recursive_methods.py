@@ -119,7 +119,7 @@ def batch_start(recursion: Recursion, rows: Rows) -> tuple[State, int]:
     """Return the state after a batch that sees everything, and its rows; else the loose start."""
     span = FIRST
     while len(rows.t) and span < 2 * (rows.t[-1] - rows.t[0]):
-        n = int(np.searchsorted(rows.t, rows.t[0] + span, side="right"))
+        n = int(np.count_nonzero(rows.t <= rows.t[0] + span))
         state = begin_with(recursion, first_of(rows, n)[0])
         if state is not None:
             return state, n

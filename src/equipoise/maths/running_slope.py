@@ -18,7 +18,7 @@ row becomes s sqrt(12 / n^3) / dt in the slope.
 import numpy as np
 
 from equipoise.maths.compiled import kernel, part
-from equipoise.model.arrays import Floats, Series, Series1
+from equipoise.model.arrays import Floats, Ints, Series, Series1
 
 
 @part
@@ -40,23 +40,34 @@ def _weights(t: Floats, a: Floats, c: Floats) -> None:
             c[i - 1] += half
 
 
+@part
+def _add(weight: float, row: Floats, out: Floats) -> None:
+    """Add a weighted row."""
+    for q in range(row.shape[0]):
+        out[q] += weight * row[q]
+
+
 @kernel
-def _run(t: Floats, x: Floats, y: Floats, weights: Floats, out: Floats) -> None:
-    """Write slopes of x, then means of y; ``weights`` is room (2, window)."""
-    window, k = weights.shape[1], x.shape[1]
-    a, c = weights[0], weights[1]
+def _run(t: Floats, values: Floats, k: int, windows: Ints, out: Floats) -> None:
+    """Write slopes of the first k columns, means of the others."""
+    room = np.empty((2, t.shape[0]))
     for i in range(out.shape[0]):
-        _weights(t[i : i + window], a, c)
+        first, last = windows[i, 0], windows[i, 1]
+        a, c = room[0, : last - first], room[1, : last - first]
+        _weights(t[first:last], a, c)
         out[i] = 0.0
-        for j in range(window):
-            for q in range(k):
-                out[i, q] += a[j] * x[i + j, q]
-            for q in range(y.shape[1]):
-                out[i, k + q] += c[j] * y[i + j, q]
+        near = values[first:last]
+        for j in range(last - first):
+            _add(a[j], near[j, :k], out[i, :k])
+            _add(c[j], near[j, k:], out[i, k:])
 
 
-def running_slope(t: Series1, x: Series, y: Series, window: int) -> tuple[Series, Series]:
-    """Return slopes of x (n, k) and matching means of y (n, l), n - window + 1 rows of each."""
-    out = np.empty((max(len(t) - window + 1, 0), x.shape[1] + y.shape[1]))
-    _run(t, np.ascontiguousarray(x), np.ascontiguousarray(y), np.empty((2, window)), out)
-    return out[:, : x.shape[1]], out[:, x.shape[1] :]
+def running_slope(t: Series1, x: Series, y: Series, windows: Ints) -> tuple[Series, Series]:
+    """Return slopes of x (n, k) and matching means of y (n, l) in each window.
+
+    ``windows`` (w, 2) are first rows and the rows behind the last ones: three rows or more.
+    """
+    k = x.shape[1]
+    out = np.empty((len(windows), k + y.shape[1]))
+    _run(t, np.hstack([x, y]), k, windows, out)
+    return out[:, :k], out[:, k:]

@@ -25,6 +25,7 @@ from equipoise.model.arrays import Floats, Ints, Series, Series1, Series3, Vecto
 from equipoise.model.testbed import Testbed
 
 WINDOW = 1.0  # s, chosen: noise of 0.05 deg/s at 100 Hz leaves 3e-4 rad/s2 in the slope
+IN_WINDOW = 25  # chosen: rows of the balance in each window; more would say the same again
 UNKNOWN = 1e-3  # rad/s, chosen: noise of rates that no gyro of the testbed gives
 TOO_SHORT = "a piece of the record is shorter than the filter and is not used"
 
@@ -87,13 +88,15 @@ def gathered(posed: Posed, parts: list[tuple[Ints, Floats, Floats]]) -> Rows:
 def smoothed_slope(posed: Posed) -> Rows:
     """Return the rows, each at the end of its window."""
     motion, terms = posed.motion, balance(posed)
-    n = window_rows(motion.t)
     parts = list[tuple[Ints, Floats, Floats]]()
     for k in np.unique(motion.piece):
         rows = np.flatnonzero(motion.piece == k)
-        acting = terms.acting[rows].reshape(len(rows), -1)
-        slope, mean = running_slope(motion.t[rows], terms.changing[rows], acting, n)
-        parts.append((rows[n - 1 :], *equations(slope, mean.reshape(-1, *terms.acting.shape[1:]))))
+        windows, flat = windows_of(len(rows), window_rows(motion.t)), terms.acting[rows]
+        slope, mean = running_slope(
+            motion.t[rows], terms.changing[rows], flat.reshape(len(rows), -1), windows
+        )
+        A, b = equations(slope, mean.reshape(-1, *flat.shape[1:]))
+        parts.append((rows[windows[:, 1] - 1], A, b))
     return without_constants(gathered(posed, parts))
 
 
@@ -105,6 +108,12 @@ def without_constants(rows: Rows) -> Rows:
 def window_rows(t: Series1) -> int:
     """Return the rows of a window, an odd number."""
     return max(2 * round(0.5 * WINDOW / period_of(t)) + 1, 5)
+
+
+def windows_of(n: int, window: int) -> Ints:
+    """Return where windows begin and end in a piece of n rows, none when it is too short."""
+    first = np.arange(0, max(n - window + 1, 0), max(window // IN_WINDOW, 1), dtype=np.int64)
+    return np.column_stack([first, first + window])
 
 
 def slope_noise(posed: Posed) -> Vector3:

@@ -150,13 +150,15 @@ def _advance(
     h, gain = np.zeros(s), np.zeros(s)
     for k in range(n):
         lam = 1.0 if last[1] < 0.0 else np.exp((last[0] - t[k]) / forget)
-        if s > c and last[1] != piece[k]:
-            _restart(x, P, c, free**2)
+        new = s > c and last[1] != piece[k]
+        if new:
             recent[:], last[2] = 0.0, 0.0
         last[0], last[1] = t[k], piece[k]
         if lam < 1.0:
             _look(A[k], noise, s > c, lam, recent, last)
             _widen(P, recent[m], limit, free, still, lam, gain)
+        if new:
+            _restart(x, P, c, free**2)
         for a in range(m):
             _equation(A[k, a], a, h)
             _learn(x, P, h, b[k, a], noise[a] ** 2, gain)
