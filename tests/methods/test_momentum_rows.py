@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import COM, EVERY_TORQUE, INERTIA, body, move_at, platform, travel
+from builders import COM, EVERY_TORQUE, INERTIA, MASS, body, move_at, platform, travel
 
 from equipoise.dynamics.timeline import timeline
 from equipoise.estimation.formulations.columns import known_momentum
