@@ -141,3 +141,10 @@ def test_centre_of_mass_that_steps_is_followed_with_forgetting():
     remains = recursive_methods.solve(etd_rls.PLAN, posed, rows)
     assert follows.values[2] == pytest.approx(COM[2] + 20e-6, abs=2e-6)
     assert abs(remains.values[2] - COM[2] - 20e-6) > 4e-6
+
+
+def test_what_is_left_of_the_rows_is_noise_of_the_rates():
+    """Chi-square near its number for rows whose noise is that of w alone; J is 10 % off in it."""
+    estimate = momentum_recursive.METHOD.run(driven(1), driven_platform(), Options())
+    assert 0.7 < estimate.residual.reduced_chi_square < 1.3
+    assert abs(estimate.residual.lag_one) < 0.1

@@ -210,7 +210,7 @@ def outcome_of(testbed: Testbed, found: dict[str, Floats], left_out: tuple[str, 
     """Return whether a body can have what was found, and what to think of it."""
     values = values_of(testbed) | {name: float(value) for name, value in found.items()}
     com, six = (np.array([values[name] for name in names]) for names in (COM, INERTIA))
-    text = "A recursive linear estimate." + NOTE
+    text = "A recursive linear estimate." + (NOTE if INERTIA[0] in found else "")
     if left_out:
         text += " Left out: " + "; ".join(left_out) + "."
     if not is_possible(MassProperties(testbed.body.mass, com, unpack_symmetric(six))):

@@ -78,8 +78,9 @@ def period_of(t: Series1) -> float:
 def gathered(posed: Posed, parts: list[tuple[Ints, Floats, Floats]]) -> Rows:
     """Return the rows that the pieces of a record came to: which they are, A and b."""
     c, motion = len(BODY) + len(posed.terms), posed.motion
-    empty = (np.zeros(0, np.int64), np.zeros((0, 3, c)), np.zeros((0, 3)))
-    which, A, b = (np.concatenate([part[j] for part in (empty, *parts)]) for j in range(3))
+    which = np.concatenate([np.zeros(0, np.int64), *(part[0] for part in parts)])
+    A = np.concatenate([np.zeros((0, 3, c)), *(part[1] for part in parts)])
+    b = np.concatenate([np.zeros((0, 3)), *(part[2] for part in parts)])
     lost = () if all(len(part[0]) for part in parts) else (TOO_SHORT,)
     told = (*motion.left_out, *lost)
     return Rows(motion.t[which], A, b, (*BODY, *posed.terms), motion.piece[which], left_out=told)
