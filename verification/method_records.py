@@ -19,8 +19,6 @@ Condition = Literal["slow", "quick", "driven", "noisy"]
 INERTIA = unpack_symmetric(np.array([0.265, 0.246, 0.427, -0.014, -0.035, -0.018]))
 COM, MASS = np.array([5.0, 5.0, -50.0]) * 1e-6, 14.307
 LEAN = np.radians(5.1)  # of pitch and roll: 7 to 8 deg of tilt, about which axis is not told
-    5.1
-)  # of pitch and of roll: with 7 to 8 deg of tilt, about which axis is not told
 RATES = {"slow": (1.0, -1.0, 3.0), "quick": (1.0, -1.0, 20.0)}  # deg/s
 CAMERA_SD, HZ, HALF = np.radians(0.05), 100.0, 50.0
 FINE, POOR = 0.005, 0.05  # deg/s/sqrt(Hz)

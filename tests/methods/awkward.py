@@ -35,9 +35,7 @@ def rows(channel: Samples, keep: np.ndarray) -> Samples:
 def both(change) -> Recording:
     """Change both sensors by a function of channel and generator."""
     rng, record = np.random.default_rng(5), sound()
-    return replace(
-        record, attitude=change(record.attitude, rng), rate=change(record.rate, rng)
-    )
+    return replace(record, attitude=change(record.attitude, rng), rate=change(record.rate, rng))
 
 
 def gap() -> Recording:
@@ -54,9 +52,7 @@ def outliers() -> Recording:
     q = multiply(record.attitude.values, exponential(turn * rng.normal(0, 0.3, (len(turn), 3))))
     odd = np.where(rng.random((len(record.rate), 1)) < 0.05, 1.0, 0.0)
     w = record.rate.values + odd * rng.normal(0, 0.3, record.rate.values.shape)
-    return replace(
-        record, attitude=Samples(record.attitude.t, q), rate=Samples(record.rate.t, w)
-    )
+    return replace(record, attitude=Samples(record.attitude.t, q), rate=Samples(record.rate.t, w))
 
 
 def sign_flips() -> Recording:
@@ -69,9 +65,7 @@ def sign_flips() -> Recording:
 def saturated() -> Recording:
     """A gyro that ends at 0.6 deg/s about every axis."""
     record, limit = sound(), np.radians(0.6)
-    return replace(
-        record, rate=Samples(record.rate.t, np.clip(record.rate.values, -limit, limit))
-    )
+    return replace(record, rate=Samples(record.rate.t, np.clip(record.rate.values, -limit, limit)))
 
 
 def camera_alone() -> Recording:

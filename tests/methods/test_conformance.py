@@ -144,7 +144,12 @@ def test_flipped_signs_change_nothing(name):
 def test_an_uncertain_inertia_widens_what_rests_on_it(name):
     """Where J is taken as known, its stated sd is part of that of com."""
     exact, vague = (identified(name, *made_sound(sound(), bed(e))) for e in (True, False))
-    if not exact.has("com_x") or not exact.sees(COM) or not vague.sees(COM) or exact.has(INERTIA[0]):
+    if (
+        not exact.has("com_x")
+        or not exact.sees(COM)
+        or not vague.sees(COM)
+        or exact.has(INERTIA[0])
+    ):
         return
     assert np.trace(vague.covariance_of(COM)) >= np.trace(exact.covariance_of(COM))
 

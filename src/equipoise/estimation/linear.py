@@ -27,6 +27,7 @@ from equipoise.estimation.method import Card, Method, Options, refused
 from equipoise.estimation.replicates import PAIRS, pairs
 from equipoise.estimation.solvers.aid import Aid, Solver
 from equipoise.estimation.solvers.least_squares import least_squares
+from equipoise.estimation.solvers.recursion import Plan, passed, recursive
 from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.estimate import INERTIA, NORMAL_95, Estimate
@@ -48,6 +49,7 @@ class Linear:
     solver: Solver
     knows_inertia: bool = False  # takes the testbed's inertia as it is
     needs_noise: bool = False  # the solver uses what noise does to the regressor
+    plan: Plan | None = None  # of a recursion, whose course is reported
 
 
 class Sums(NamedTuple):
@@ -56,6 +58,13 @@ class Sums(NamedTuple):
     covariance: Square  # (c, c)
     bias: Floats  # (c,)
     power: Floats  # (bins,) mean power of what noise leaves
+
+
+def recursion(
+    card: Card, formulation: Formulation, plan: Plan, knows_inertia: bool = False
+) -> Method:
+    """Return a method that goes along the rows."""
+    return method(card, Linear(formulation, recursive(plan), knows_inertia, plan=plan))
 
 
 def method(card: Card, linear: Linear) -> Method:
@@ -83,7 +92,9 @@ def estimate(
         answer = answered(linear, posed, rows, hold)
     except np.linalg.LinAlgError:
         return refused(card, "The rows do not determine the unknowns: the platform hardly moved.")
-    return conclude(card, posed, rows, answer, tuple(n for n in hold if n not in options.hold))
+    course = None if linear.plan is None else passed(linear.plan, testbed, rows)
+    pinned = tuple(name for name in hold if name not in options.hold)
+    return conclude(card, posed, rows, answer._replace(course=course), pinned)
 
 
 def posed_rows(linear: Linear, posed: Posed, hold: tuple[str, ...]) -> tuple[Rows, tuple[str, ...]]:

@@ -9,11 +9,12 @@ from equipoise.estimation.formulations.rows import BODY, Posed, Rows
 from equipoise.estimation.method import Card
 from equipoise.estimation.observability import DISTANCE, OPEN, Visibility, examine
 from equipoise.estimation.ratios import ratios_of
+from equipoise.estimation.solvers.recursion import Passed
 from equipoise.estimation.unknowns import term_sizes
 from equipoise.maths.linalg import inverse_spd, lag_one, unpack_symmetric
 from equipoise.maths.whiteness import portmanteau
 from equipoise.model.arrays import Floats, Series, Square
-from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter, Residual
+from equipoise.model.estimate import COM, INERTIA, Course, Estimate, Parameter, Residual
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.outcome import Outcome
 from equipoise.model.torque_terms import TERMS, unit_of
@@ -32,6 +33,7 @@ class Answer(NamedTuple):
     omitted: Floats  # what the formulation leaves out has done to it, as far as known
     left: Series  # (n, m) of the rows
     excess: float  # of its power over that of noise, where it is greatest
+    course: Passed | None = None  # of a recursion
 
 
 def conclude(
@@ -58,7 +60,19 @@ def conclude(
         is_possible(body),
         {"version": __version__, "source": posed.recording.source,
          "sha256": posed.recording.sha256},
+        course=course_of(rows, answer, whole),
     )  # fmt: skip
+
+
+def course_of(rows: Rows, answer: Answer, whole: Square) -> Course | None:
+    """Return what a recursion believed along the rows.
+
+    Its own sd take rows for independent: all are as much wider as the last one is.
+    """
+    if answer.course is None:
+        return None
+    wider = np.sqrt(np.diag(whole)) / np.maximum(answer.course.sd[-1], 1e-300)
+    return Course(rows.names, rows.t, answer.course.values, answer.course.sd * wider)
 
 
 def total(answer: Answer) -> Square:

@@ -4,31 +4,43 @@ from equipoise.estimation.method import Method
 from equipoise.estimation.methods import (
     averaged,
     averaged_printed,
+    averaged_recursive,
     energy,
     equilibrium,
+    etd_rls,
     momentum_body,
     momentum_corrected,
     momentum_damped,
     momentum_instrumental,
     momentum_laboratory,
     momentum_possible,
+    momentum_recursive,
     momentum_robust,
     momentum_segments,
     momentum_weighted,
     simplified,
     simplified_increments,
+    simplified_recursive,
+    td_td_rls,
     torque_central,
+    torque_recursive,
     torque_savitzky_golay,
+    torque_tracking,
     tracker,
     trajectory,
 )
 
-WHOLE = (trajectory, equilibrium, tracker)
+WHOLE = (
+    trajectory,
+    equilibrium,
+    tracker,
+)
 LINEAR = (
     simplified_increments,
     simplified,
     torque_central,
     torque_savitzky_golay,
+    torque_tracking,
     momentum_body,
     momentum_laboratory,
     momentum_segments,
@@ -42,7 +54,15 @@ LINEAR = (
     momentum_damped,
     momentum_possible,
 )
+REGRESSIONS = (
+    simplified_recursive,
+    torque_recursive,
+    momentum_recursive,
+    averaged_recursive,
+    td_td_rls,
+    etd_rls,
+)
 
 METHODS: dict[str, Method] = {
-    module.METHOD.card.name: module.METHOD for module in (*WHOLE, *LINEAR)
+    module.METHOD.card.name: module.METHOD for module in (*WHOLE, *LINEAR, *REGRESSIONS)
 }

@@ -58,7 +58,9 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
         parameters_of(belief, shift_at_end(recording, testbed)),
         belief.covariance,
         provenance={
-            "version": __version__, "source": recording.source, "sha256": recording.sha256,
+            "version": __version__,
+            "source": recording.source,
+            "sha256": recording.sha256,
         },
         course=Course(COM, track.t, track.com, track.com_sd),
     )

@@ -1,0 +1,22 @@
+"""Momentum integral behind an extended tracking differentiator, recursively."""
+
+from equipoise.estimation.formulations.tracked import extended
+from equipoise.estimation.linear import recursion
+from equipoise.estimation.method import Card
+from equipoise.estimation.solvers.recursion import Plan, of_extended
+
+METHOD = recursion(
+    Card(
+        "etd_rls",
+        "momentum integral behind an extended tracking differentiator",
+        "recursive least squares",
+        "Xu 2015 (ETD-RLS); Han 2009 for the differentiator",
+        "a camera or a gyro; tilt better known with a camera",
+        "scale of J and com without a known change; J_zz and products without spin "
+        "about more than one axis",
+        "driven",
+        ("term", "hold"),
+    ),
+    extended,
+    Plan(of_extended),
+)

@@ -1,0 +1,22 @@
+"""The momentum integral by recursive least squares."""
+
+from equipoise.estimation.formulations.momentum import body_axes
+from equipoise.estimation.linear import recursion
+from equipoise.estimation.method import Card
+from equipoise.estimation.solvers.recursion import Plan, unfiltered
+
+METHOD = recursion(
+    Card(
+        "momentum_recursive",
+        "momentum integral in body axes, free constants",
+        "recursive least squares",
+        "da Silva 2021 Eqs. 16-25 in matrix form (erratum R10)",
+        "a camera or a gyro; tilt better known with a camera",
+        "scale of J and com without a known change; J_zz and products without spin "
+        "about more than one axis",
+        "driven",
+        ("term", "hold"),
+    ),
+    body_axes,
+    Plan(unfiltered),
+)

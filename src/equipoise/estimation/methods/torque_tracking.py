@@ -1,0 +1,22 @@
+"""The torque balance behind two tracking differentiators."""
+
+from equipoise.estimation.formulations.torque import torque
+from equipoise.estimation.formulations.tracked import tracking
+from equipoise.estimation.linear import Linear, method
+from equipoise.estimation.method import Card
+from equipoise.estimation.solvers.least_squares import least_squares
+
+METHOD = method(
+    Card(
+        "torque_tracking",
+        "torque balance, slopes behind two tracking differentiators",
+        "least squares",
+        "Xu 2015; Han 2009 for the differentiator",
+        "a camera or a gyro; tilt better known with a camera",
+        "scale of J and com without a known change; J_zz and products without spin "
+        "about more than one axis",
+        "driven",
+        ("term", "hold"),
+    ),
+    Linear(torque(tracking), least_squares),
+)
