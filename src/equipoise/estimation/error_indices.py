@@ -1,4 +1,4 @@
-"""Error indices of a linear least-squares problem y = H x: how well it is explained (Lee Eqs. 9-10).
+"""Error indices of a linear least-squares problem y = H x (Lee Eqs. 9-10).
 
     x = (H^T H)^-1 H^T y,    SSE = y^T y - y^T H (H^T H)^-1 H^T y = |y - H x|^2
     EI       = sqrt(SSE / y^T y)                                                            (Eq. 9)

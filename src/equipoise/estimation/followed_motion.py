@@ -16,8 +16,8 @@ from equipoise.dynamics.propagation import Motion, body_of, propagate
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import Timeline
 from equipoise.estimation.believed_model import Believed
-from equipoise.estimation.condensed import condensed
 from equipoise.estimation.conclusion import EXPLAINED
+from equipoise.estimation.condensed import condensed
 from equipoise.estimation.dense_record import FINE, first_gap
 from equipoise.estimation.fitted import Fitted, chi_square_share
 from equipoise.estimation.model_choice import levelled
@@ -31,10 +31,10 @@ from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
 UNSETTLED = (
-    "The fit did not settle: what follows is seen along the motion where it stopped, which need "
+    "The fit did not settle: bounds and ranks are those of the motion where it stopped, which need "
     "not be the recording's."
 )
-DAMPED = "Damping is sought too: without it the motion cannot be followed."
+DAMPED = "Damping is sought too, unasked: without it the motion cannot be followed."
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,8 +84,8 @@ def cautions(fitted: Fitted, damped: bool) -> tuple[str, ...]:
     elif share > EXPLAINED:
         found.append(
             f"The plain model does not explain the record: it leaves {np.sqrt(share):.2g} times "
-            "the stated noise. What follows holds for noise as stated, and were nothing else to "
-            "move the platform."
+            "the stated noise. Bounds hold for noise as stated, and if nothing else moves the "
+            "platform; an estimate will be wider."
         )
     return tuple(found)
 
