@@ -9,7 +9,8 @@ follows (``followed_motion``). Priors are the testbed's for where masses stop, t
 the camera's vertical, and for the body when asked. No unbiased method does better; the trajectory
 fit does as well where the model holds.
 
-    rank        of sqrt(D) I sqrt(D), D natural sizes: directions whose sd is below half of one
+    rank        of D I D, D natural sizes: directions whose sd is below half of one, each that is
+                not costs one, an open scale too (``observability``)
     condition   of I with unit diagonal; infinite where a direction is not seen at all
     sweep       least eigenvalue of int (|g|^2 E - g g^T) dt / (g^2 T), g in body axes: how far
                 gravity leaves its mean direction, the mean square of the sine of that angle. Zero
@@ -31,9 +32,8 @@ from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.followed_motion import Followed, followed, halfway
 from equipoise.estimation.hanging_masses import by_sag
 from equipoise.estimation.observability import (
-    SEEN,
     Visibility,
-    examine,
+    examine_unheld,
     natural_sizes,
     scale_of,
 )
@@ -85,9 +85,8 @@ def seen_along(motion: Followed) -> Observability:
     values = physical(fitted.point, problem.mass, layout)
     view = view_of(fitted, values, size)
     held = np.isin(layout.names, motion.params.hold)
-    free = free_information(fitted, held)
+    sentences = tuple(dict.fromkeys(view.sentences))
     variance = np.maximum(np.diag(view.covariance), 0.0)
-    scaled = np.linalg.eigvalsh(free * np.outer(size[~held], size[~held]))
     line, path = halfway(fitted)
     upward = tilt(path.q, motion.testbed.up)
     return Observability(
@@ -97,15 +96,15 @@ def seen_along(motion: Followed) -> Observability:
         stated_before(motion),
         view.hidden,
         held,
-        tuple(dict.fromkeys(view.sentences)),
+        sentences,
         motion.cautions,
         ratios_of(values[CORE], view.covariance[CORE, CORE], view.unseen[CORE])
         if problem.scale_open
         else (),
-        condition(free),
+        condition(free_information(fitted, held)),
         gravity_sweep(line.t, -to_matrix(path.q)[:, 2, :]),
         (float(upward.min()), float(upward.max())),
-        int(np.sum(scaled >= SEEN)),
+        int(np.sum(~held)) - len(sentences),
         int(np.sum(~held)),
         fitted.point.body(problem.mass).inertia_P,
     )
@@ -115,7 +114,9 @@ def view_of(fitted: Fitted, values: Floats, size: Floats) -> Visibility:
     """Return covariance and visibility as an estimate from this fit would state them."""
     problem, layout = fitted.problem, fitted.problem.layout
     information = without_anchor(fitted.at.normal, fitted)
-    view = examine(information, scale_of(values, size), size, layout.names)
+    view = examine_unheld(
+        information, scale_of(values, size), size, layout.names, problem.prior.held
+    )
     view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
     return without_scale(view, layout) if problem.scale_open else view
 
