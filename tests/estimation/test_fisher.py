@@ -26,7 +26,7 @@ from equipoise.dynamics.timeline import timeline
 from equipoise.estimation import fisher, trajectory
 from equipoise.estimation.conclusion import conclude
 from equipoise.estimation.fisher import Observability, gravity_sweep, seen_by
-from equipoise.estimation.followed_motion import followed, halfway
+from equipoise.estimation.followed_motion import DAMPED, cautions, followed, halfway
 from equipoise.estimation.trajectory import Params
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.linalg import unpack_symmetric
@@ -95,6 +95,29 @@ def test_the_bound_is_the_inverse_of_information_by_finite_differences():
     sd = np.sqrt(np.diag(np.linalg.inv(S.T @ S + np.diag(prior))))
     seen = seen_by(record, level(platform(gyro=True)), Params())
     np.testing.assert_allclose(seen.sd, sd, rtol=2e-3)
+
+
+def test_masses_that_may_hang_make_it_as_large_as_a_fit_states():
+    """Drives that give way by 0.1 m under gravity: wider than with stiff ones, as the fit's."""
+    stiff = level(platform())
+    soft = replace(stiff, masses=tuple(replace(mass, sag_sd=0.1) for mass in stiff.masses))
+    record = noisy(clean(), 5)
+    narrow, wide = (bound(seen_by(record, bed, Params()), *BODY) for bed in (stiff, soft))
+    assert np.any(wide > 1.01 * narrow)
+    stated = conclude(trajectory.fit(record, soft, Params()), "fit", record)
+    np.testing.assert_allclose(wide, np.sqrt(np.diag(stated.covariance_of(BODY))), rtol=0.01)
+
+
+def test_a_dense_record_shows_the_same_as_means_of_its_rows():
+    """24 000 rows of a gyro, followed as means: the bound is that of all rows within 2 %."""
+    record = noisy(clean(gyro=200.0), 4)
+    testbed = level(platform(gyro=True))
+    testbed = replace(testbed, gyro=replace(testbed.gyro, rate=200.0))
+    motion = followed(record, testbed, Params())
+    assert len(motion.fitted.at.left_w) < len(record.rate) / 2
+    stated = conclude(trajectory.fit(record, testbed, Params()), "fit", record)
+    sd = np.sqrt(np.diag(stated.covariance_of(BODY)))
+    np.testing.assert_allclose(bound(fisher.seen_along(motion), *BODY), sd, rtol=0.02)
 
 
 def test_twice_the_rows_make_it_smaller_by_the_square_root_of_two():
@@ -277,6 +300,12 @@ def test_a_motion_that_is_none_is_told():
     record = Recording(Samples(np.arange(200) / 5.0, q))
     seen = seen_by(record, platform(), Params())
     assert "did not settle" in seen.cautions[0] or "does not explain" in seen.cautions[0]
+
+
+def test_damping_that_nobody_asked_for_is_told():
+    fitted = followed(clean(), platform(), Params()).fitted
+    assert cautions(fitted, damped=True) == (DAMPED,)
+    assert cautions(fitted, damped=False) == ()
 
 
 def test_masses_are_displaced_to_where_the_fit_found_them():
