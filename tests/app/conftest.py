@@ -41,6 +41,14 @@ def record_file(tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="session")
+def free_file(tmp_path_factory) -> Path:
+    """Return a record of the preset in which no mass moves, as CSV."""
+    path = tmp_path_factory.mktemp("free") / "free.csv"
+    assert run(["simulate", "sputnix", "--out", str(path)]) == 0
+    return path
+
+
+@pytest.fixture(scope="session")
 def strict_json():
     """Return a reader of JSON that refuses NaN and infinity."""
 

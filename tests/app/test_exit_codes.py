@@ -67,6 +67,34 @@ def test_options_of_identify_are_checked_before_anything_is_printed(
     assert wanted in done.err
 
 
+WRONG_OBSERVE = {
+    "held parameter": (["--hold", "inertia_zz"], "inertia_P_zz"),
+    "term": (["--term", "vicsous"], "viscous"),
+    "dialect": (["--dialect", "optitrak"], "optitrack"),
+    "two ways to read": (["--dialect", "ros", "--columns", "map.toml"], "one of them"),
+}
+
+
+@pytest.mark.parametrize(("words", "wanted"), WRONG_OBSERVE.values(), ids=WRONG_OBSERVE.keys())
+def test_options_of_observe_are_checked_before_anything_is_printed(
+    equipoise, record_file, words, wanted
+):
+    done = equipoise("observe", record_file, "--testbed", "sputnix", *words)
+    assert (done.code, done.out) == (2, "")
+    assert is_one_sentence(done.err)
+    assert wanted in done.err
+
+
+def test_a_recording_that_shows_little_ends_with_0(equipoise, free_file):
+    """What cannot be seen is the answer, not a failure."""
+    done = equipoise("observe", free_file, "--testbed", "sputnix")
+    assert done.code == 0
+    assert "not seen" in done.out
+    assert "scale" in done.out
+    assert "ekf [w, J, mu]" in done.out
+    assert "11 of 12" in done.out
+
+
 def test_a_file_that_is_there_is_kept_unless_forced(equipoise, tmp_path):
     path = tmp_path / "my.toml"
     assert equipoise("new", "sputnix", "--out", path).code == 0

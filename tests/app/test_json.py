@@ -58,6 +58,54 @@ def test_a_recording(equipoise, record_file, strict_json):
     assert any("x1 moves" in finding["sentence"] for finding in document["findings"])
 
 
+def test_what_a_recording_can_show(equipoise, record_file, strict_json):
+    """Bounds in SI beside what the testbed states; filters with their ranks."""
+    done = equipoise("observe", record_file, "--testbed", "sputnix", "--json")
+    document = strict_json(done.out)
+    assert done.code == 0
+    assert document["schema"] == "equipoise/observe/1"
+    by_name = {p["name"]: p for p in document["parameters"]}
+    assert set(by_name["com_z"]) == {"name", "unit", "sd", "testbed_sd", "observable", "held"}
+    assert by_name["com_z"]["testbed_sd"] == pytest.approx(40e-6)  # m
+    assert 1e-8 < by_name["com_z"]["sd"] < 40e-6
+    assert by_name["attitude_x"]["testbed_sd"] is None
+    assert document["rank"] == document["size"] == len(by_name)
+    assert document["unobservable"] == document["ratios"] == []
+    assert 1 < document["condition"] < 1e9
+    assert 0 < document["gravity_sweep"] < 2 / 3
+    assert 0 <= document["tilt_rad"][0] < document["tilt_rad"][1] < 1
+    ranks = {f["name"]: (f["rank"], f["possible_rank"], f["size"]) for f in document["filters"]}
+    assert ranks["ekf [attitude, w, r]"] == (9, 9, 9)
+    assert ranks["ekf [w, J, mu]"] == (None, 12, 12)
+
+
+def test_bounds_are_what_identify_states(equipoise, record_file, strict_json):
+    """The same record, the same model: sd of com and inertia within 10 %."""
+    words = (record_file, "--testbed", "sputnix", "--json")
+    bound = strict_json(equipoise("observe", *words).out)["parameters"]
+    stated = strict_json(equipoise("identify", *words).out)["parameters"]
+    sd = {p["name"]: p["sd"] for p in stated}
+    body = [p for p in bound if p["name"].startswith(("com_", "inertia_P_"))]
+    assert len(body) == 9
+    for parameter in body:
+        assert parameter["sd"] == pytest.approx(sd[parameter["name"]], rel=0.1)
+
+
+def test_what_an_open_scale_leaves(equipoise, free_file, strict_json):
+    """Without a move: null for what is not seen, and bounds of ratios; held, all is seen."""
+    words = ("observe", free_file, "--testbed", "sputnix", "--json")
+    document = strict_json(equipoise(*words).out)
+    com = next(p for p in document["parameters"] if p["name"] == "com_z")
+    assert (com["sd"], com["observable"]) == (None, False)
+    assert document["condition"] is None
+    assert document["rank"] == document["size"] - 1
+    assert len(document["ratios"]) == 8
+    assert any("scale" in sentence for sentence in document["unobservable"])
+    held = strict_json(equipoise(*words, "--hold", "inertia_P_zz").out)
+    assert held["rank"] == held["size"] == document["size"] - 1
+    assert [p["name"] for p in held["parameters"] if p["held"]] == ["inertia_P_zz"]
+
+
 @pytest.mark.parametrize("odd", [np.inf, -np.inf, np.nan])
 def test_numbers_without_a_value_become_null(odd):
     assert finite({"a": [1.0, (odd, "x")], "b": odd}) == {"a": [1.0, [None, "x"]], "b": None}

@@ -134,3 +134,26 @@ def test_natural_sizes_by_hand():
         ATTITUDE, RATE, POINT.six, np.zeros(3), np.zeros(16), np.zeros(24), np.zeros(1), RATE
     )
     assert natural_sizes(centred, MASS, LAYOUT)[R].tolist() == [1e-5] * 3
+
+
+def test_what_is_held_does_not_drown_the_rest():
+    """Three moments known to 1e-9, three products to nothing at all: one direction is not seen.
+
+    The sd of the others stay to rounding what they are without them, those of the held are theirs.
+    """
+    held = np.zeros(N, dtype=bool)
+    held[JP] = True
+    natural = without(unit("com_z"))
+    natural[held], natural[:, held] = 0.0, 0.0
+    natural[held, held] = [1e18] * 3 + [1e36] * 3
+    information = natural / np.outer(SIZE, SIZE)
+    scale = scale_of(VALUES, SIZE)
+    view = observability.examine_unheld(information, scale, SIZE, LAYOUT.names, held)
+    assert hidden(view) == {"com_z"}
+    assert view.sentences == ("the data do not see com_z",)
+    seen = ~held & (unit("com_z") == 0)
+    sd = np.sqrt(np.diag(view.covariance))
+    np.testing.assert_allclose(sd[seen], SIZE[seen] / 1e3, rtol=1e-9)
+    np.testing.assert_allclose(sd[JP] / SIZE[JP], [1e-9] * 3 + [1e-18] * 3, rtol=1e-9)
+    assert view.unseen.shape == (N, 1)
+    assert np.argmax(np.abs(view.unseen[:, 0] / SIZE)) == LAYOUT.names.index("com_z")

@@ -18,6 +18,7 @@ from equipoise.app.commands.identify import identify
 from equipoise.app.commands.inspect import inspect
 from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
+from equipoise.app.commands.observe import observe
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
 from equipoise.model.errors import EquipoiseError
@@ -34,7 +35,7 @@ app = App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for command in (demo, new, simulate, inspect, identify, methods, balance):
+for command in (demo, new, simulate, inspect, observe, identify, methods, balance):
     app.command(command)
 
 

@@ -10,7 +10,13 @@ from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.fitted import Fitted, freedom, smooth_at
 from equipoise.estimation.hanging_masses import by_sag
-from equipoise.estimation.observability import OPEN, Visibility, examine, natural_sizes, scale_of
+from equipoise.estimation.observability import (
+    OPEN,
+    Visibility,
+    examine_unheld,
+    natural_sizes,
+    scale_of,
+)
 from equipoise.estimation.ratios import ratios_of
 from equipoise.estimation.smoothing import Smoothed
 from equipoise.estimation.unknowns import (
@@ -180,7 +186,9 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
     size = natural_sizes(fitted.point, problem.mass, layout)
     anchor = np.where(problem.prior.held, 0.0, problem.prior.anchor)
     information = fitted.at.normal - np.diag(anchor)
-    view = examine(information, scale_of(values, size), size, layout.names)
+    view = examine_unheld(
+        information, scale_of(values, size), size, layout.names, problem.prior.held
+    )
     view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
     if problem.scale_open:
         view = without_scale(view, layout)

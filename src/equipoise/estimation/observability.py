@@ -8,12 +8,11 @@ is not seen; every parameter with a part in such a direction has an infinite int
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from equipoise.actuators.lags import LAG
 from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unknowns, term_sizes
 from equipoise.maths.linalg import symmetrise
-from equipoise.model.arrays import Floats, Square
+from equipoise.model.arrays import Bools, Floats, Square
 
 SEEN = 4.0  # 1 / (half a natural size)^2
 PART = 1e-3  # chosen: a smaller component of an unseen direction is rounding
@@ -31,7 +30,7 @@ class Visibility:
     """Covariance of what is seen, and which parameters have a part in what is not."""
 
     covariance: Square  # of what is not hidden
-    hidden: NDArray[np.bool_]
+    hidden: Bools
     sentences: tuple[str, ...]
     scale_open: bool
     unseen: Floats  # (n, u) directions of natural size, the scale not among them
@@ -95,3 +94,23 @@ def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, 
             others.append(direction * size)
     lost: Floats = np.array(others).reshape(-1, len(size)).T
     return Visibility(covariance, hidden, tuple(sentences), scale_open, lost)
+
+
+def examine_unheld(
+    information: Square, scale: Floats, size: Floats, names: tuple[str, ...], held: Bools
+) -> Visibility:
+    """Return the same of information in which some coordinates are held, and so are known.
+
+    They have no part in what is seen of the others, and left among these they would drown it: what
+    is known to a billionth of its size, or to nothing at all, rounds off all that is not.
+    """
+    free = np.flatnonzero(~held)
+    loose = examine(
+        information[np.ix_(free, free)], scale[free], size[free], tuple(names[k] for k in free)
+    )
+    covariance, hidden = np.zeros_like(information), np.zeros_like(held)
+    unseen = np.zeros((len(size), loose.unseen.shape[1]))
+    covariance[held, held] = 1.0 / np.diag(information)[held]
+    covariance[np.ix_(free, free)], hidden[free] = loose.covariance, loose.hidden
+    unseen[free] = loose.unseen
+    return Visibility(covariance, hidden, loose.sentences, loose.scale_open, unseen)
