@@ -5,11 +5,12 @@ from equipoise.estimation.methods import (
     equilibrium,
     momentum_body,
     momentum_laboratory,
+    smoother,
     tracker,
     trajectory,
 )
 
-WHOLE = (trajectory, equilibrium, tracker)
+WHOLE = (trajectory, equilibrium, tracker, smoother)
 LINEAR = (momentum_body, momentum_laboratory)
 
 METHODS: dict[str, Method] = {
