@@ -6,13 +6,13 @@ together; all unknowns integrated out (``stretches`` has M and the promises, bet
 the first stretch, A its matrix with the priors),
 
     -2 ln p(rows | w) = sum j^2/s^2 - promised - beta A^-1 beta + ln det A
-                        + sum_k ln det (s^2 M_k)                                   but for a constant
+                        + sum_k ln det (s^2 M_k)
 
-(restricted likelihood; Patterson and Thompson 1971, for a chain: Schweppe 1965). Nothing is
-integrated anew: a size costs one elimination.
+but for a constant (restricted likelihood; Patterson and Thompson 1971, for a chain: Schweppe 1965).
+Nothing is integrated anew: a size costs one elimination.
 
-What is taken is the mean of w^2, weighed by this and by what was expected: with even odds no walk to
-speak of, or ln w normal about the expected size, with an sd of ``DECADES_SD``. A record without
+What is taken is the mean of w^2, weighed by this and by what was expected: with even odds no walk
+to speak of, or ln w normal about the expected size, with an sd of ``DECADES_SD``. A record without
 drift says no more than that w is below what it would show; the mean keeps what cannot be excluded,
 where the likeliest size, often none, would promise too much. Variances are concave in w^2: one at
 the mean is at least their mean.

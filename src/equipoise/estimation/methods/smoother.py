@@ -36,7 +36,7 @@ METHOD = Method(
         "Rauch, Tung and Striebel 1965, about the trajectory fit of Ivanov 2021 section 3",
         "a camera or a gyro",
         "what trajectory cannot see; drift from other slow torques; drift along gravity without "
-        "tilt",
+        "tilt; a drift at a constant rate is taken for a walk",
         "moved",
         ("term", "hold", "prior", "robust"),
     ),
