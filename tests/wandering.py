@@ -10,7 +10,7 @@ PIECE = 0.25  # s, within which com stands still; no move of a whole second fall
 
 
 def random_walk(seed, size, end):
-    """How far com is from where it began after each piece: size (m/sqrt(s)) a number or one an axis."""
+    """How far com is from where it began after each piece; size in m/sqrt(s), one or three."""
     steps = np.random.default_rng(seed).normal(size=(int(end / PIECE) + 1, 3))
     steps[0] = 0.0
     return np.cumsum(size * np.sqrt(PIECE) * steps, axis=0)

@@ -36,10 +36,10 @@ from equipoise.estimation.jumps import Jump, walk
 from equipoise.estimation.model_choice import PLUMB
 from equipoise.estimation.plain_model import anchored
 from equipoise.estimation.smoothing import Smoothed
-from equipoise.estimation.trajectory import Params, fit
-from equipoise.estimation.unknowns import FIXED, R, unknowns_of
-from equipoise.estimation.trajectory_problem import Prior
 from equipoise.estimation.torque_colour import densest
+from equipoise.estimation.trajectory import Params, fit
+from equipoise.estimation.trajectory_problem import Prior
+from equipoise.estimation.unknowns import FIXED, R, unknowns_of
 from equipoise.estimation.untied_scale import disbelieved, untied
 from equipoise.estimation.walk_size import gain, likely_steps, linear_at
 from equipoise.model import sensor_terms

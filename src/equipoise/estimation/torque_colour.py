@@ -39,11 +39,12 @@ def densest(u: Floats, blocks: int = BLOCKS) -> Floats:
     Blocks are so long that there are ``blocks`` of them, at least.
     """
     lengths = [2**k for k in range(1, 20) if len(u) // 2**k >= blocks]
-    found: Floats = np.ones(u.shape[1], dtype=np.float64)
+    found: Floats = np.ones_like(u[0])
     for n in lengths:
         ratio, count = block_ratios(u, n), len(u) // n
         limit = float(chi2.isf(CHANCE, count)) / count
-        found = np.maximum(found, np.where(ratio > limit, ratio, 1.0))
+        denser: Floats = np.where(ratio > limit, ratio, 1.0)
+        found = np.maximum(found, denser)
     return found
 
 
