@@ -221,10 +221,34 @@ def test_the_last_point_is_what_a_filter_believes():
 # --- The size of the walk -------------------------------------------------------------------------
 
 
+SHORT = noisy(wandered(random_walk(0, 1e-6, 10.0), move_at(2.0, 10.0)), 1)
+
+
 def few():
     """A fit of a short record with twenty jumps."""
-    record = noisy(wandered(random_walk(0, 1e-6, 10.0), move_at(2.0, 10.0)), 1)
-    return walked(record, replace(BED, inertia_sd=1e-3), 1e-6)[0]
+    return walked(SHORT, replace(BED, inertia_sd=1e-3), 1e-6)[0]
+
+
+def dense(fitted, sd):
+    """A, b of [first stretch | every jump] for steps of these sd (m), and the jumps as they are."""
+    problem, at = linear_at(fitted)
+    prior, k, n = fitted.problem.prior, len(fitted.jumps), len(problem.slots)
+    _, x = smoothed_last(problem, at)
+    here, size = np.eye(n, n + 3 * k), n + 3 * k
+    A, b = np.zeros((size, size)), np.zeros(size)
+    A[:n, :n], b[:n] = np.diag(prior.weight), prior.weight * (prior.mean - x)
+    for i in range(k + 1):
+        A += here.T @ at.pieces.normal[i] @ here
+        b += here.T @ at.pieces.descent[i]
+        if i < k:
+            F = np.eye(n)
+            F[:STATE] = at.pieces.onward[i]
+            here = F @ here
+            here[R, n + 3 * i : n + 3 * i + 3] += np.eye(3)
+    u, weight = at.pieces.jumps.ravel(), np.tile(sd**-2.0, k)
+    A[range(n, size), range(n, size)] += weight
+    b[n:] -= weight * u
+    return A, b, u, weight
 
 
 def test_improbability_is_that_of_normal_rows():
@@ -234,24 +258,9 @@ def test_improbability_is_that_of_normal_rows():
     """
     fitted = few()
     problem, at = linear_at(fitted)
-    prior, k, n = fitted.problem.prior, len(fitted.jumps), len(problem.slots)
-    _, x = smoothed_last(problem, at)
 
-    def dense(sd):
-        here = np.eye(n, n + 3 * k)
-        A, b = np.zeros((n + 3 * k,) * 2), np.zeros(n + 3 * k)
-        A[:n, :n], b[:n] = np.diag(prior.weight), prior.weight * (prior.mean - x)
-        for i in range(k + 1):
-            A += here.T @ at.pieces.normal[i] @ here
-            b += here.T @ at.pieces.descent[i]
-            if i < k:
-                F = np.eye(n)
-                F[:STATE] = at.pieces.onward[i]
-                here = F @ here
-                here[R, n + 3 * i : n + 3 * i + 3] += np.eye(3)
-        u, weight = at.pieces.jumps.ravel(), np.tile(sd**-2.0, k)
-        A[range(n, n + 3 * k), range(n, n + 3 * k)] += weight
-        b[n:] -= weight * u
+    def densely(sd):
+        A, b, u, weight = dense(fitted, sd)
         scale = 1 / np.sqrt(np.diag(A))
         unit = A * np.outer(scale, scale)
         fell = (scale * b) @ np.linalg.solve(unit, scale * b)
@@ -260,8 +269,20 @@ def test_improbability_is_that_of_normal_rows():
 
     sizes = [np.array(sd) for sd in ([1e-6] * 3, [1e-8, 1e-6, 3e-6], [2e-6, 5e-7, 1e-5])]
     ours = np.array([improbability_of(problem, at, sd) for sd in sizes])
-    theirs = np.array([dense(sd) for sd in sizes])
+    theirs = np.array([densely(sd) for sd in sizes])
     np.testing.assert_allclose(np.diff(ours), np.diff(theirs), rtol=1e-6)
+
+
+def test_how_far_it_went_is_the_sum_of_all_jumps():
+    """And so is its sd, by the inverse of the same dense matrix, to 1e-5."""
+    fitted, nodes = walked(SHORT, replace(BED, inertia_sd=1e-3), 1e-6)
+    sd = np.array(fitted.problem.jumps[0].sd)
+    C = inverse(dense(fitted, sd)[0])[-3 * len(fitted.jumps) :, -3 * len(fitted.jumps) :]
+    total = np.tile(np.eye(3), len(fitted.jumps))
+    found = smoother.Drifting(fitted, nodes, NAMES, sd, fitted.problem.prior, 0.0)
+    way, spread = smoother.moved(found, smooth_at(fitted))
+    np.testing.assert_allclose(way, fitted.jumps.sum(axis=0), rtol=1e-6)
+    np.testing.assert_allclose(spread, np.sqrt(np.diag(total @ C @ total.T)), rtol=1e-5)
 
 
 def test_improbability_agrees_with_the_survey():
@@ -408,6 +429,8 @@ def test_a_constant_drift_that_is_asked_for_is_in_the_course():
     assert np.abs(errors(way, found.course)).max() < 4
     rate = found.parameters[found.index("drift_x")]
     assert abs(rate.value - 5e-9) < 4 * rate.sd
+    last = [found.parameters[found.index(name)].sd for name in NAMES_END]
+    np.testing.assert_allclose(found.course.sd[-1], last, rtol=0.01)
 
 
 def test_a_gyro_alone_serves_if_it_serves_the_trajectory_fit():
