@@ -49,7 +49,9 @@ def test_inertia_and_centre_of_mass_are_found(name, seed):
     """
     found = run(name, driven(seed), driven_platform())
     values = found.values((*INERTIA_NAMES, *COM_NAMES))
-    np.testing.assert_allclose(values[:3], INERTIA[:3], rtol=0.05 if name == "torque_recursive" else 0.01)
+    np.testing.assert_allclose(
+        values[:3], INERTIA[:3], rtol=0.05 if name == "torque_recursive" else 0.01
+    )
     np.testing.assert_allclose(values[3:6], INERTIA[3:], atol=5e-3)
     np.testing.assert_allclose(values[6:], COM, atol=3e-6)
     sd = np.sqrt(np.diag(found.covariance_of((*INERTIA_NAMES, *COM_NAMES))))

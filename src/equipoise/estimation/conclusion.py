@@ -88,7 +88,7 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
     d, felt = last[KNOWN_D : KNOWN_D + k], last[KNOWN_D + k :]
     drifts = [(j, FIXED + layout.terms.index(f"drift_{axis}")) for j, axis in enumerate("xyz")
               if f"drift_{axis}" in layout.terms]  # fmt: skip
-    stepped = any(COM[0] in jump.names for jump in problem.jumps)
+    stepped = any(set(COM) & set(jump.names) for jump in problem.jumps)
     if not (np.any(d) or drifts or stepped):
         return None
     com = fitted.point.com if after is None else unknowns_of(after.points[-1]).com

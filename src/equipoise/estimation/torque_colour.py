@@ -20,27 +20,31 @@ import numpy as np
 from scipy.stats import chi2
 
 from equipoise.estimation.believed_model import Believed, refitted
-from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.arrays import Floats
 
 BLOCKS = 8  # chosen: with fewer a mean square says nothing
 CHANCE = 0.1  # chosen: taken for denser than it is, noise only widens intervals
 
 
-def block_ratios(u: Floats, n: int) -> Vector3:
-    """Return the mean square of sums over n rows of unit jumps (k, 3), over n."""
+def block_ratios(u: Floats, n: int) -> Floats:
+    """Return the mean square of sums over n rows of unit jumps (k, axes), over n."""
     count = len(u) // n
-    sums = u[: count * n].reshape(count, n, 3).sum(axis=1)
+    sums = u[: count * n].reshape(count, n, u.shape[1]).sum(axis=1)
     return np.mean(sums**2, axis=0) / n
 
 
-def densest(u: Floats) -> Vector3:
-    """Return, for each axis of unit jumps (k, 3), by how much the densest blocks exceed white."""
-    lengths = [2**k for k in range(1, 20) if len(u) // 2**k >= BLOCKS]
-    found: Vector3 = np.ones(3)
+def densest(u: Floats, blocks: int = BLOCKS) -> Floats:
+    """Return, for each axis of unit jumps (k, axes), by how much the densest blocks exceed white.
+
+    Blocks are so long that there are ``blocks`` of them, at least.
+    """
+    lengths = [2**k for k in range(1, 20) if len(u) // 2**k >= blocks]
+    found: Floats = np.ones_like(u[0])
     for n in lengths:
         ratio, count = block_ratios(u, n), len(u) // n
         limit = float(chi2.isf(CHANCE, count)) / count
-        found = np.maximum(found, np.where(ratio > limit, ratio, 1.0))
+        denser: Floats = np.where(ratio > limit, ratio, 1.0)
+        found = np.maximum(found, denser)
     return found
 
 

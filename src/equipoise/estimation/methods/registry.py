@@ -21,6 +21,7 @@ from equipoise.estimation.methods import (
     simplified,
     simplified_increments,
     simplified_recursive,
+    smoother,
     td_td_rls,
     torque_central,
     torque_recursive,
@@ -32,6 +33,7 @@ from equipoise.estimation.methods import (
 
 WHOLE = (
     trajectory,
+    smoother,
     equilibrium,
     tracker,
 )

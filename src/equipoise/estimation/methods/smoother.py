@@ -1,0 +1,44 @@
+"""The trajectory fit with a drifting centre of mass: see ``estimation.smoother``."""
+
+from equipoise.estimation import smoother
+from equipoise.estimation.method import Card, Method, Options, refused
+from equipoise.estimation.methods.trajectory import terms_of
+from equipoise.estimation.reference import FEWEST, check_sensors
+from equipoise.estimation.trajectory import Params
+from equipoise.model import sensor_terms, torque_terms
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+
+def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+    """Return the estimate, with the course of the centre of mass."""
+    check_sensors(recording, testbed)
+    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
+    if rows < FEWEST:
+        return refused(METHOD.card, f"Only {rows} rows: nothing can be estimated.")
+    terms = terms_of(testbed, options)
+    params = Params(
+        torque_terms.among(terms),
+        sensor_terms.among(terms),
+        use_prior=options.use_prior,
+        hold=options.hold,
+        robust=options.robust,
+    )
+    return smoother.estimate(recording, testbed, params)
+
+
+METHOD = Method(
+    Card(
+        "smoother",
+        "motion integrated, J always possible; the centre of mass walks, by what the record shows",
+        "maximum a posteriori, Levenberg-Marquardt; equals a fixed-interval smoother",
+        "Rauch, Tung and Striebel 1965, about the trajectory fit of Ivanov 2021 section 3",
+        "a camera or a gyro",
+        "what trajectory cannot see; drift from other slow torques; drift along gravity without "
+        "tilt; a drift at a constant rate is taken for a walk",
+        "moved",
+        ("term", "hold", "prior", "robust"),
+    ),
+    run,
+)
