@@ -25,8 +25,12 @@ from verification import (
     laboratories,
     lagging_masses,
     long_record,
+    method_intervals,
+    method_table,
     mujoco_platforms,
+    real_methods,
     real_record,
+    robustness,
     starts,
     tracker_honesty,
     tracker_knows,
@@ -60,6 +64,10 @@ CHECKS = {
     "drift": Check(drift.measure, 20),
     "long_record": Check(long_record.measure, 5),
     "real_record": Check(real_record.measure, 1),
+    "method_table": Check(method_table.measure, 20),
+    "method_intervals": Check(method_intervals.measure, 200),
+    "robustness": Check(robustness.measure, 20),
+    "real_methods": Check(real_methods.measure, 1),
 }
 
 

@@ -7,8 +7,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation.method import Regime
-from equipoise.maths.linalg import unpack_symmetric
+from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.model.estimate import COM as COM_NAMES
+from equipoise.model.estimate import END
+from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
@@ -36,6 +40,16 @@ class Record:
     com: Array  # m, masses at home
     inertia_P: Array  # kg m^2
 
+    @property
+    def truth(self) -> dict[str, float]:
+        """Return what estimates should say, by name."""
+        track, end = self.recording.masses, self.com
+        if track is not None:
+            maps = mass_maps(self.testbed.masses)
+            end = end + com_shift(maps, self.testbed.body.mass, track.values[-1])
+        values = (*self.com, *end, *pack_symmetric(self.inertia_P))
+        return dict(zip((*COM_NAMES, *END, *INERTIA_NAMES), map(float, values), strict=True))
+
 
 def unb(rate: tuple[float, float, float]) -> oracle.Platform:
     """Return a platform like that of Brasilia, turning at some deg/s."""
@@ -49,7 +63,7 @@ def known_before(platform: oracle.Platform, density: float, hz: float) -> Testbe
     gyro = Gyro(hz, np.radians(density) * hz**0.5, 0.0)
     return Testbed(
         "like UnB", body, 0.0, np.full(3, 1e-4), np.array([0.0, 0.0, 1.0]), np.radians(30),
-        platform.gravity, (), AttitudeSensor(hz, CAMERA_SD), gyro,
+        platform.gravity, (), AttitudeSensor(hz, CAMERA_SD, plumb_sd=0.0), gyro,
     )  # fmt: skip
 
 
@@ -106,7 +120,7 @@ def moved(rng: np.random.Generator) -> Record:
     run = oracle.simulate(platform, oracle.random_schedule(rng, platform, moves=2))
     bias = rng.normal(0, 1e-3, 3)
     recording = oracle.sensor_log(run, rng, 50.0, CAMERA_SD, 50.0, 1e-4, bias)
-    camera, gyro = AttitudeSensor(50.0, CAMERA_SD), Gyro(50.0, 1e-4, np.radians(1.0))
+    camera, gyro = AttitudeSensor(50.0, CAMERA_SD, plumb_sd=0.0), Gyro(50.0, 1e-4, np.radians(1.0))
     testbed = oracle.testbed_for(platform, rng, attitude=camera, gyro=gyro)
     return Record(recording, testbed, platform.com, platform.inertia_P)
 
@@ -119,7 +133,7 @@ def rests(rng: np.random.Generator) -> Record:
         oracle.Ramp(40.0 * (k + 1), oracle._stable_targets(rng, platform)) for k in range(6)
     )
     run = oracle.simulate(platform, schedule, 300.0)
-    camera = AttitudeSensor(5.0, np.radians(0.2))
+    camera = AttitudeSensor(5.0, np.radians(0.2), plumb_sd=0.0)
     testbed = oracle.testbed_for(platform, rng, attitude=camera)
     return Record(oracle.sensor_log(run, rng), testbed, platform.com, platform.inertia_P)
 

@@ -91,6 +91,8 @@ def estimate_tables(estimate: Estimate) -> list[Group]:
 
 def residual_line(residual: Residual) -> str:
     """Return what the model leaves, and what it predicted of rows that it was not shown."""
+    if residual.error_index is not None:
+        return _linear_line(residual)
     attitude = residual.attitude_rms is not None
     unit = "deg" if attitude else "deg/s"
     fitted = residual.attitude_rms if attitude else residual.rate_rms
@@ -104,6 +106,15 @@ def residual_line(residual: Residual) -> str:
     if residual.steady_rms is not None and fitted is not None and residual.steady_rms > fitted:
         text += f"; {_rms(residual.steady_rms)} {unit} without the torque that wanders"
     return f"{text}. Lag-one correlation {fixed(residual.lag_one, 2)}; {_white(residual)}."
+
+
+def _linear_line(residual: Residual) -> str:
+    """Return what the rows of a linear method leave, with Lee's error indices."""
+    text = f"Error index {residual.error_index:.3g}: share of the rows' known side that is left"
+    if residual.error_indices:
+        name, worst = max(residual.error_indices.items(), key=lambda item: item[1])
+        text += f"; parameter error index of {name} {worst:.2g}, the greatest"
+    return f"{text}. They take rows for independent and columns for exact: they are no intervals."
 
 
 def _white(residual: Residual) -> str:

@@ -104,6 +104,8 @@ def residual_json(residual: Residual) -> View:
         "steady_rms": residual.steady_rms,
         "held_out_rms": residual.held_out_rms,
         "held_out_span_s": residual.held_out_span,
+        "error_index": residual.error_index,
+        "parameter_error_indices": dict(residual.error_indices),
     }
 
 

@@ -13,6 +13,7 @@ A bias, and what a formulation leaves out of the motion (``Rows.omitted``), are 
 repetition shows: they are told, and added to the sd as if they were chance.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -52,6 +53,16 @@ class Linear:
     plan: Plan | None = None  # of a recursion, whose course is reported
 
 
+class Question(NamedTuple):
+    """What is asked of a linear method about a record."""
+
+    linear: Linear
+    posed: Posed
+    rows: Rows
+    hold: tuple[str, ...]
+    draws: Sequence[tuple[Posed, Posed]]
+
+
 class Sums(NamedTuple):
     """What the replicates add up to."""
 
@@ -71,30 +82,40 @@ def method(card: Card, linear: Linear) -> Method:
     """Return the method."""
 
     def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
-        return estimate(card, linear, arranged(recording, testbed.mass_names), testbed, options)
+        return estimate(card, linear, posed_of(recording, testbed, options), options.hold)
 
-    return Method(card, run)
+    return Method(card, run, linear)
+
+
+def posed_of(recording: Recording, testbed: Testbed, options: Options) -> Posed:
+    """Return what formulations are given."""
+    recording = arranged(recording, testbed.mass_names)
+    terms = torque_terms.among((*testbed.disturbances, *options.terms))
+    return Posed(recording, testbed, led_motion(recording, testbed), terms)
 
 
 def estimate(
-    card: Card, linear: Linear, recording: Recording, testbed: Testbed, options: Options
+    card: Card,
+    linear: Linear,
+    posed: Posed,
+    hold: tuple[str, ...],
+    draws: Sequence[tuple[Posed, Posed]] | None = None,
 ) -> Estimate:
-    """Return the estimate of a record."""
-    motion = led_motion(recording, testbed)
-    if len(motion.t) < FEWEST:
-        return refused(card, f"Only {len(motion.t)} rows without a gap: there is nothing to fit.")
-    terms = torque_terms.among((*testbed.disturbances, *options.terms))
-    posed = Posed(recording, testbed, motion, terms)
-    rows, hold = posed_rows(linear, posed, options.hold)
+    """Return the estimate; ``draws`` are the record's replicates where they are at hand."""
+    n = len(posed.motion.t)
+    if n < FEWEST:
+        return refused(card, f"Only {n} rows without a gap: there is nothing to fit.")
+    rows, fixed = posed_rows(linear, posed, hold)
     if rows.b.size <= len(rows.names) or len(rows.t) < FEWEST:
         return refused(card, f"Only {len(rows.t)} rows without a gap: there is nothing to fit.")
+    if draws is None:
+        draws = tuple(pairs(posed, linear.knows_inertia, max(PAIRS, len(rows.names) + SPARE)))
     try:
-        answer = answered(linear, posed, rows, hold)
+        answer = answered(Question(linear, posed, rows, fixed, draws))
     except np.linalg.LinAlgError:
         return refused(card, "The rows do not determine the unknowns: the platform hardly moved.")
-    course = None if linear.plan is None else passed(linear.plan, testbed, rows)
-    pinned = tuple(name for name in hold if name not in options.hold)
-    return conclude(card, posed, rows, answer._replace(course=course), pinned)
+    pinned = tuple(name for name in fixed if name not in hold)
+    return conclude(card, posed, rows, answer, pinned)
 
 
 def posed_rows(linear: Linear, posed: Posed, hold: tuple[str, ...]) -> tuple[Rows, tuple[str, ...]]:
@@ -108,38 +129,39 @@ def posed_rows(linear: Linear, posed: Posed, hold: tuple[str, ...]) -> tuple[Row
     return held(free, posed.testbed, hold), hold
 
 
-def answered(linear: Linear, posed: Posed, rows: Rows, hold: tuple[str, ...]) -> Answer:
+def answered(asked: Question) -> Answer:
     """Return solution, covariance, bias and how much more than noise is left."""
-    aid = aid_for(linear, posed, hold, len(rows.names))
+    linear, rows = asked.linear, asked.rows
+    aid = aid_for(asked)
     best = linear.solver(rows, aid)
-    count = max(PAIRS, len(rows.names) + SPARE)
     again = aid._replace(gram=2 * aid.gram, cross=2 * aid.cross)  # of noise that is in it twice
-    sums = summed(linear, posed, hold, again, best, count)
+    sums = summed(asked, again, best)
     whole, omitted = rows, np.zeros(len(best))
     if rows.omitted is not None:
         omitted = least_squares(replace(rows, b=rows.omitted, omitted=None), aid)
         whole = replace(rows, b=rows.b - rows.omitted, omitted=None)
     left = remains(whole, best - sums.bias - omitted)
-    spread = (student.ppf(0.975, count) / NORMAL_95) ** 2 * sums.covariance
-    return Answer(best, spread, sums.bias, omitted, left, excess(left, sums.power))
+    spread = (student.ppf(0.975, len(asked.draws)) / NORMAL_95) ** 2 * sums.covariance
+    course = None if linear.plan is None else passed(linear.plan, asked.posed.testbed, rows)
+    return Answer(best, spread, sums.bias, omitted, left, excess(left, sums.power), course)
 
 
-def aid_for(linear: Linear, posed: Posed, hold: tuple[str, ...], unknowns: int) -> Aid:
+def aid_for(asked: Question) -> Aid:
     """Return what the solver may use: the noise of centred rows, from a few draws."""
+    unknowns = len(asked.rows.names)
     gram, cross = np.zeros((unknowns, unknowns)), np.zeros(unknowns)
-    count = FOR_NOISE if linear.needs_noise else 0
-    for plus, minus in pairs(posed, linear.knows_inertia, count):
-        first, second = (centred(rows_again(linear, each, posed, hold)) for each in (plus, minus))
+    for pair in asked.draws[: FOR_NOISE if asked.linear.needs_noise else 0]:
+        first, second = (centred(rows_again(asked, each)) for each in pair)
         dA = 0.5 * (first.A - second.A).reshape(-1, unknowns)
         db = 0.5 * (first.b - second.b).reshape(-1)
         gram += dA.T @ dA / FOR_NOISE
         cross += dA.T @ db / FOR_NOISE
-    return Aid(posed.testbed, gram, cross)
+    return Aid(asked.posed.testbed, gram, cross)
 
 
-def rows_again(linear: Linear, drawn: Posed, posed: Posed, hold: tuple[str, ...]) -> Rows:
+def rows_again(asked: Question, drawn: Posed) -> Rows:
     """Return the rows of a replicate; what is held stays at the testbed's own value."""
-    return held(linear.formulation(drawn), posed.testbed, hold)
+    return held(asked.linear.formulation(drawn), asked.posed.testbed, asked.hold)
 
 
 def remains(rows: Rows, values: Floats) -> Series:
@@ -148,15 +170,13 @@ def remains(rows: Rows, values: Floats) -> Series:
     return rows.b - rows.A @ values
 
 
-def summed(
-    linear: Linear, posed: Posed, hold: tuple[str, ...], aid: Aid, best: Floats, count: int
-) -> Sums:
+def summed(asked: Question, aid: Aid, best: Floats) -> Sums:
     """Return what the replicates add up to."""
-    c = len(best)
+    c, count = len(best), len(asked.draws)
     covariance, bias, power = np.zeros((c, c)), np.zeros(c), np.zeros(1)
-    for pair in pairs(posed, linear.knows_inertia, count):
-        again = [rows_again(linear, each, posed, hold) for each in pair]
-        plus, minus = (linear.solver(each, aid) for each in again)
+    for pair in asked.draws:
+        again = [rows_again(asked, each) for each in pair]
+        plus, minus = (asked.linear.solver(each, aid) for each in again)
         half = 0.5 * (plus - minus)
         covariance += np.outer(half, half) / count
         bias += (0.5 * (plus + minus) - best) / count

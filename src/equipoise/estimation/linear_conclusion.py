@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise import __version__
-from equipoise.estimation.formulations.rows import BODY, Posed, Rows
+from equipoise.estimation.error_indices import error_indices
+from equipoise.estimation.formulations.rows import BODY, Posed, Rows, centred
 from equipoise.estimation.method import Card
 from equipoise.estimation.observability import DISTANCE, OPEN, Visibility, examine
 from equipoise.estimation.ratios import ratios_of
@@ -14,6 +15,7 @@ from equipoise.estimation.unknowns import term_sizes
 from equipoise.maths.linalg import inverse_spd, lag_one, unpack_symmetric
 from equipoise.maths.whiteness import portmanteau
 from equipoise.model.arrays import Floats, Series, Square
+from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA, Course, Estimate, Parameter, Residual
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.outcome import Outcome
@@ -54,7 +56,7 @@ def conclude(
         tuple(parameter(names[k], values[k], covariance[k, k], hidden[k] or open_scale)
               for k in range(len(names))),
         covariance,
-        residual_of(answer),
+        residual_of(rows, answer),
         ((OPEN,) if open_scale else ()) + view.sentences,
         ratios,
         is_possible(body),
@@ -143,8 +145,19 @@ def body_of(posed: Posed, rows: Rows, answer: Answer) -> MassProperties:
     return MassProperties(body.mass, np.array(com), unpack_symmetric(np.array(six)))
 
 
-def residual_of(answer: Answer) -> Residual:
+def indices_of(rows: Rows) -> tuple[float | None, dict[str, float]]:
+    """Return Lee's error indices, total and relative by parameter; none of rows without answer."""
+    middle = centred(rows)
+    try:
+        found = error_indices(middle.A.reshape(-1, len(rows.names)), middle.b.reshape(-1))
+    except InputError:
+        return None, {}
+    return found.index, dict(zip(rows.names, map(float, found.relative), strict=True))
+
+
+def residual_of(rows: Rows, answer: Answer) -> Residual:
     """Return how much is left, in units of what noise leaves."""
+    index, relative = indices_of(rows)
     freedom = max(answer.left.size - len(answer.values), 1)
     return Residual(
         None,
@@ -154,6 +167,8 @@ def residual_of(answer: Answer) -> Residual:
         lag_one(answer.left),
         portmanteau(answer.left),
         spectral_peak=max(answer.excess, 1.0),
+        error_index=index,
+        error_indices=relative,
     )
 
 

@@ -6,7 +6,7 @@ same three things and gives the same record, so that lists, tests and studies ne
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
+
+if TYPE_CHECKING:
+    from equipoise.estimation.linear import Linear
 
 Regime = Literal["free", "driven", "moved", "rests"]
 Choice = Literal["term", "hold", "prior", "robust"]
@@ -57,6 +60,7 @@ class Method:
 
     card: Card
     run: Callable[[Recording, Testbed, Options], Estimate]
+    linear: "Linear | None" = None  # of which parts a linear method is made
 
 
 def ignored(card: Card, options: Options) -> tuple[str, ...]:

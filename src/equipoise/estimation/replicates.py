@@ -11,9 +11,10 @@ the bias being what the noise that is in the record already has done, to second 
 simulation and extrapolation, Cook and Stefanski 1994). No formulation needs a derivation of its
 own, and what a smoother or an integral does to white noise is counted as it is.
 
-Drawn are: noise of camera and gyro; where masses stopped and how late they are; and what the
-estimate takes as known but nobody told: the gyro's bias and the first tilt where there is no
-camera, and the testbed's inertia where that is not sought. Cannot draw what nobody stated.
+Drawn are: noise of camera and gyro; how the camera's vertical leans; where masses stopped and how
+late they are; and what the estimate takes as known but nobody told: the gyro's bias and the first
+tilt where there is no camera, and the testbed's inertia where that is not sought. Cannot draw what
+nobody stated.
 """
 
 from collections.abc import Iterator
@@ -66,12 +67,14 @@ def drawn(posed: Posed, k: int, sign: float, knows_inertia: bool) -> Posed:
 def turned(
     camera: Samples | None, testbed: Testbed, sign: float, rng: np.random.Generator
 ) -> Samples | None:
-    """Return the camera's rows with noise."""
+    """Return the camera's rows with noise, its vertical leaning."""
     if camera is None:
         return None
-    sd = testbed.attitude.noise if testbed.attitude else UNSTATED_CAMERA
+    stated = testbed.attitude
+    sd, lean_sd = (stated.noise, stated.plumb_sd) if stated else (UNSTATED_CAMERA, 0.0)
     noise = exponential(sign * sd * rng.normal(size=(len(camera), 3)))
-    return Samples(camera.t, multiply(camera.values, noise))
+    lean = exponential(sign * lean_sd * np.array([*rng.normal(size=2), 0.0]))
+    return Samples(camera.t, multiply(lean, multiply(camera.values, noise)))
 
 
 def shaken(

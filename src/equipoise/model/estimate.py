@@ -50,6 +50,8 @@ class Residual:
     spectral_peak: float = 1.0  # of the residuals' density over its mean; white: 1
     held_out_rms: float | None = None  # rad per axis (rad/s without attitude), predicted
     held_out_span: tuple[float, float] | None = None  # s
+    error_index: float | None = None  # of a linear method: share of the known side that is left
+    error_indices: Mapping[str, float] = field(default_factory=dict[str, float])  # -, by name
 
     @property
     def reduced_chi_square(self) -> float:
