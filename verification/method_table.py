@@ -119,9 +119,9 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         rows += rows_of(name, spread(partial(found, name), seeds))
     claim = (
         f"Bias and sd of every method on {len(seeds)} records of each of four conditions: 14.307 "
-        "kg, 60 s, 100 Hz, camera 0.05 deg; slow: 3 deg/s of spin, quick: 20 deg/s, J held; driven: "
-        "square waves of 10 mN m, J sought; noisy: the same with a gyro of 0.05 deg/s/sqrt(Hz) "
-        "instead of 0.005. J in % of sqrt(J_ii J_jj)."
+        "kg, 60 s, 100 Hz, camera 0.05 deg; slow: 3 deg/s of spin, quick: 20 deg/s, J held; "
+        "driven: square waves of 10 mN m, J sought; noisy: the same with a gyro of 0.05 instead "
+        "of 0.005 deg/s/sqrt(Hz). J in % of sqrt(J_ii J_jj)."
     )
     notes = (
         "The published test tells a tilt of 8 deg but not about which axis; roll and pitch of 5.1 "

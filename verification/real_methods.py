@@ -25,6 +25,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS
 from equipoise.procedure.identify import IdentifyOptions, identify
 from equipoise.procedure.sound_rows import sound
+from verification.method_intervals import candid
 from verification.real_record import CALM_FROM, HELD, RECORD, TESTBED, WHOLE
 from verification.result import Result, Row, Spread, at_most, in_turn
 
@@ -75,12 +76,15 @@ def judged(name: str) -> tuple[str, float | None]:
     if name == CAD:
         return "as published", left_by(testbed, testbed.body)
     estimate = estimated(name)
+    first = estimate.outcome.sentence.split(". ")[0].rstrip(".")
     if not estimate.parameters:
-        return f"refuses: {estimate.outcome.sentence}", None
+        return f"refuses: {first}", None
     body = body_of(testbed, estimate)
     if not is_possible(body):
-        return f"no body: {estimate.outcome.sentence}", None
-    said = "usable" if estimate.outcome.usable else f"not usable: {estimate.outcome.sentence}"
+        return "no body can have the inertia found, and it says so", None
+    said = "warns of its intervals" if candid(estimate) else "usable"
+    if not estimate.outcome.usable:
+        said = f"not usable: {first}"
     return said, left_by(testbed, body)
 
 
@@ -96,7 +100,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Give every method the first half of the recording."""
     claim = (
         "On a real recording every method either runs or says why not; a body found in 0 to 30 s "
-        "is judged by what it leaves of 30 to 60 s, where first attitude, rate and damping are free."
+        "is judged by what it leaves of 30 to 60 s, first attitude, rate and damping being free."
     )
     if not RECORD.exists():
         return Result("real_methods", claim, (), ("The recording is not here.",))

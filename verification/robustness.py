@@ -1,4 +1,4 @@
-"""Gross outliers, dropouts and a long gap at once: the robust fit and the tracker beside themselves.
+"""Gross outliers, dropouts and a long gap at once, for the robust fit and the tracker.
 
 Each record (``method_records``, regime moved) is estimated as it is, and with 5 % of rows of camera
 and gyro grossly off, 10 % missing and nothing seen for 30 s.

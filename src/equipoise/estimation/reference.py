@@ -16,6 +16,7 @@ from equipoise.estimation.conclusion import UNSETTLED, conclude
 from equipoise.estimation.condensed import condensed
 from equipoise.estimation.dense_record import surveyed_densely
 from equipoise.estimation.event_spread import with_moments
+from equipoise.estimation.far_rows import without_far_rows
 from equipoise.estimation.fitted import Fitted, settle
 from equipoise.estimation.jumps import carried
 from equipoise.estimation.plain_model import anchored, plainly
@@ -144,6 +145,16 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
     if rows < FEWEST:
         outcome = Outcome(False, f"Only {rows} rows: nothing can be estimated.")
         return Estimate(METHOD, outcome, (), np.zeros((0, 0)))
+    if not params.robust:
+        return estimate_of(recording, testbed, params)
+    kept, gone = without_far_rows(recording, testbed, params)
+    found = estimate_of(kept, testbed, params)
+    word = f" {gone} rows far off the motion are left out." if gone else ""
+    return replace(found, outcome=Outcome(found.outcome.usable, found.outcome.sentence + word))
+
+
+def estimate_of(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
+    """Return the estimate of rows that are all to be used."""
     belief = surveyed(recording, testbed, params)
     concluded = conclude(belief.fitted, METHOD, recording, belief.coloured)
     if not np.isfinite(belief.fitted.at.cost) or not (len(belief.cuts) or concluded.outcome.usable):

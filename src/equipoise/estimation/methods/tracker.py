@@ -10,6 +10,7 @@ from equipoise import __version__
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation import tracker
 from equipoise.estimation.method import Card, Method, Options, refused
+from equipoise.estimation.tracker_update import GATE
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import COM, END, INERTIA, Course, Estimate, Parameter
@@ -17,6 +18,7 @@ from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 
+MOST = 0.2  # chosen: with more odd rows it is the model that is odd
 SURPRISED = 1.5  # chosen: times the expected square of innovations, beyond which nothing is told
 
 
@@ -40,6 +42,19 @@ def parameters_of(belief: tracker.Belief, shift: Vector3) -> tuple[Parameter, ..
     )
 
 
+def outcome_of(track: tracker.Track) -> Outcome:
+    """Return whether the rows came as expected: those that were used, and not many were not."""
+    late = track.surprise[len(track.t) // 4 :]
+    used = late[late <= GATE]
+    surprise = float(np.mean(used)) / 3 if len(used) else np.inf
+    text = f"Tracked to the last row; innovations are {surprise:.2g} times what they should be"
+    odd = len(track.not_used)
+    text += f"; {odd} rows were too odd to be used" if odd else ""
+    fits = surprise < SURPRISED and odd < MOST * len(track.t)
+    ending = "." if fits else ": inertia, noise or model are wrong, do not trust the interval."
+    return Outcome(fits, text + ending)
+
+
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     """Return the belief after the last row, begun from what the testbed says."""
     if recording.attitude is None or len(recording.attitude) < 2:
@@ -48,13 +63,9 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     state = tracker.first_state(float(first.t[0]), first.values[0], testbed)
     track = tracker.track(recording, testbed, tracker.Params(), state)
     belief = track.end.belief
-    surprise = float(np.mean(track.surprise[len(track.t) // 4 :])) / 3
-    fits = surprise < SURPRISED
-    text = f"Tracked to the last row; innovations are {surprise:.2g} times what they should be"
-    ending = "." if fits else ": inertia, noise or model are wrong, do not trust the interval."
     return Estimate(
         METHOD.card.name,
-        Outcome(fits, text + ending),
+        outcome_of(track),
         parameters_of(belief, shift_at_end(recording, testbed)),
         belief.covariance,
         provenance={
