@@ -94,11 +94,14 @@ def jacobian(plain: Plain, here: Here, change, w, g, n):
     swirl = cross(here.J @ w + here.h) - cross(w) @ here.J if gyroscopic else np.zeros((3, 3))
     F[o : o + 3, o : o + 3] = invert @ (swirl - change[0])
     F[o : o + 3, o + 3 : o + 6] = -plain.testbed.body.mass * invert @ cross(g) @ plain.axes
-    Y = momentum_map(a) + (cross(w) @ momentum_map(w) if gyroscopic else 0)
-    F[o : o + 3, o + 6 : o + 12] = -invert @ Y
+    whole = here
     if not gyroscopic:
-        J = here.J + plain.testbed.body.inertia_P - np.diag(np.diag(plain.testbed.body.inertia_P))
-        F[o : o + 3, o + 12] = acceleration(here._replace(J=J), change, w, g, True) - a
+        tensor = plain.testbed.body.inertia_P
+        whole = here._replace(J=here.J + tensor - np.diag(np.diag(tensor)))
+    truly = acceleration(whole, change, w, g, True)
+    Y = momentum_map(truly) + cross(w) @ momentum_map(w)
+    F[o : o + 3, o + 6 : o + 12] = -np.linalg.inv(whole.J) @ Y
+    F[o : o + 3, o + 12] = truly - a
     if o:
         F[:3, :3], F[:3, 3:6] = -cross(w), np.eye(3)
         F[3:6, :3] = invert @ cross(here.mu) @ cross(g)
@@ -145,8 +148,8 @@ def noise_of(plain, here, dt, n):
     return Q
 
 
-def extended(plain, drive, i, belief: Belief) -> Belief:
-    """One step by the linearised model."""
+def transition(plain, drive, i, belief: Belief):
+    """Phi over a step, the state behind it and the platform there."""
     q, H, com, J, P = belief
     n, dt, g = len(P), drive.t[i + 1] - drive.t[i], plain.testbed.gravity
     y, here, end = stride(plain, drive, i, com, J, np.append(q, H))
@@ -154,9 +157,14 @@ def extended(plain, drive, i, belief: Belief) -> Belief:
     first, last = (q, y[:4]) if plain.kind.attitude else (drive.q[i], drive.q[i + 1])
     F0 = jacobian(plain, here, change, rate(here, H), gravity_of(first, g), n)
     F1 = jacobian(plain, end, change, rate(end, y[4:]), gravity_of(last, g), n)
-    phi = np.eye(n) + dt / 2 * (F0 + F1) + dt**2 / 2 * F1 @ F0
-    P = phi @ P @ phi.T + noise_of(plain, end, dt, n)
-    return Belief(last, y[4:], com, J, P)
+    return np.eye(n) + dt / 2 * (F0 + F1) + dt**2 / 2 * F1 @ F0, last, y[4:], end
+
+
+def extended(plain, drive, i, belief: Belief) -> Belief:
+    """One step by the linearised model."""
+    phi, q, H, end = transition(plain, drive, i, belief)
+    Q = noise_of(plain, end, drive.t[i + 1] - drive.t[i], len(phi))
+    return Belief(q, H, belief.com, belief.J, phi @ belief.P @ phi.T + Q)
 
 
 def moved(plain, belief, x):
@@ -189,7 +197,9 @@ def unscented(plain, drive, i, belief: Belief) -> Belief:
     q = drive.q[i + 1]
     if o:
         first = turned[0] * [1, -1, -1, -1]
-        q = multiply(turned[0], exponential(np.mean(logarithm(multiply(first, np.array(turned))), axis=0)))
+        q = multiply(
+            turned[0], exponential(np.mean(logarithm(multiply(first, np.array(turned))), axis=0))
+        )
         e[:, :3] = logarithm(multiply(q * [1, -1, -1, -1], np.array(turned)))
     P = e.T @ e / (2 * n) + noise_of(plain, end, dt, n)
     return Belief(q, end.J @ w + end.h, belief.com, belief.J, P)
@@ -202,7 +212,9 @@ def correct(plain, here, q, seen, belief: Belief) -> tuple[Belief, float]:
     z = logarithm(multiply(belief.q * [1, -1, -1, -1], q)) if o else seen - w
     H, R = np.eye(3, n), plain.noise**2 * np.eye(3)
     S = H @ belief.P @ H.T + R
-    K = belief.P @ H.T @ np.linalg.inv(S)
+    apart = 0 if plain.kind.gyroscopic else np.outer(belief.P[-1], belief.P[-1])
+    alone = belief.P - apart  # as if nothing were left out
+    K = alone @ H.T @ np.linalg.inv(H @ alone @ H.T + R)
     K[plain.kind.told :] = 0
     left = np.eye(n) - K @ H
     P = left @ belief.P @ left.T + K @ R @ K.T
@@ -226,7 +238,9 @@ def run(plain: Plain, rows, belief: Belief):
         a, o = drive.known[node], 6 if plain.kind.attitude else 3
         if fresh:
             P = belief.P.copy()
-            P[range(o, o + 3), range(o, o + 3)] += plain.walks.com**2 * (drive.t[node] - drive.t[here])
+            P[range(o, o + 3), range(o, o + 3)] += plain.walks.com**2 * (
+                drive.t[node] - drive.t[here]
+            )
             now = platform_at(plain.testbed, belief.com, belief.J, a, a, 1, 0)
             belief = restart(plain, now, drive.q[node], belief._replace(P=P))
             if not plain.kind.attitude:
@@ -242,7 +256,9 @@ def run(plain: Plain, rows, belief: Belief):
     return found
 
 
-def begun(kind: Kind, testbed: Testbed, noise: float, walks: Walks, axes=None) -> tuple[Plain, Belief]:
+def begun(
+    kind: Kind, testbed: Testbed, noise: float, walks: Walks, axes=None
+) -> tuple[Plain, Belief]:
     """What is believed beforehand."""
     axes, o = np.eye(3) if axes is None else axes, 3 if kind.attitude else 0
     J = testbed.body.inertia_P if kind.gyroscopic else np.diag(np.diag(testbed.body.inertia_P))
@@ -252,6 +268,12 @@ def begun(kind: Kind, testbed: Testbed, noise: float, walks: Walks, axes=None) -
     P = np.zeros((o + 13, o + 13))
     P[o + 3 : o + 6, o + 3 : o + 6], P[o + 12, o + 12] = com, 1.0
     P[range(o + 6, o + 12), range(o + 6, o + 12)] = sizes**2
-    n = o + 13 if not kind.gyroscopic else o + 12 if testbed.inertia_sd or kind.told == 12 else o + 6
+    n = (
+        o + 13
+        if not kind.gyroscopic
+        else o + 12
+        if testbed.inertia_sd or kind.told == 12
+        else o + 6
+    )
     start = Belief(np.array([1.0, 0, 0, 0]), np.zeros(3), testbed.body.com, J, P[:n, :n])
     return Plain(kind, testbed, axes, noise, walks), start

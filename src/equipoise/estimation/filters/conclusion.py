@@ -129,12 +129,18 @@ def outcome_of(state: State, surprise: Series1, text: str) -> Outcome:
     return Outcome(True, first + "." + text)
 
 
+def broken(state: State) -> bool:
+    """Say whether a belief is none: not a number, or an inertia that is not positive."""
+    if not np.all(np.isfinite(state.belief)):
+        return True
+    return bool(np.linalg.eigvalsh(unpack_symmetric(state.belief[10:]))[0] <= 0)
+
+
 def possible(state: State, testbed: Testbed) -> bool:
-    """Say whether some body can have what was found."""
-    body = MassProperties(
-        testbed.body.mass, state.belief[7:10], unpack_symmetric(state.belief[10:])
-    )
-    return bool(np.all(np.isfinite(state.belief))) and is_possible(body)
+    """Say whether some body can have what was found; J that is not told is not found."""
+    com, inertia = state.belief[7:10], unpack_symmetric(state.belief[10:])
+    found = MassProperties(testbed.body.mass, com, inertia)
+    return state.kind.told < 12 or is_possible(found)
 
 
 def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> Estimate:
@@ -151,9 +157,7 @@ def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> 
     covariance = at_home(state, standing_covariance(rows, recording, testbed))
     outcome = outcome_of(state, passed.surprise, left_out(state, rows, testbed))
     if not possible(state, testbed):
-        outcome = Outcome(
-            False, "No body can have the inertia found: the filter diverged."
-        )
+        outcome = Outcome(False, "No body can have the inertia found: the filter diverged.")
     origin = {"version": __version__, "source": recording.source, "sha256": recording.sha256}
     return Estimate(
         card.name, outcome, parameters_of(state, covariance), covariance,

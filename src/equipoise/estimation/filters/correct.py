@@ -5,6 +5,9 @@
     A = P - K H P,     P+ = A + (K R - A H^T) K^T         Joseph's form, for any gain
     q+ = q (x) exp(dth),   w+ = w + dw,   r+ = r + axes dc,   J+ = J + dJ,   H+ = J+(d) w+ + h
 
+Of the simplified model P = P_0 + b b^T, b = P_s: as s = 0 +- 1 is never corrected, b is what
+leaving out does to the estimate. The gain is the published one, from P_0, and b its bias.
+
 (Ivanov section 5 with I11: R is the variance of the whole angle; review Eq. 30.) A row is linear in
 the error state, so an unscented filter corrects by the same.
 """
@@ -28,23 +31,39 @@ def innovation(model: Model, now: Now, belief: Floats, q: Floats, seen: Floats) 
 
 
 @part
-def weigh(told: int, noise: float, z: Triple, P: Floats, work: Work) -> float:
-    """Write K and x = K z; return the squared innovation over its covariance."""
-    S, V, K, x, n = work.S, work.inverse, work.K, work.x, P.shape[0]
+def expect(noise: float, P: Floats, aside: int, work: Work) -> None:
+    """Write S and its inverse, without what an error set aside adds to P."""
+    S = work.S
     for r in range(3):
         for c in range(3):
             S[r, c] = P[r, c] + (noise if r == c else 0.0)
-    invert3(S, V)
-    surprise = 0.0
+            if aside >= 0:
+                S[r, c] -= P[r, aside] * P[c, aside]
+    invert3(S, work.inverse)
+
+
+@part
+def surprise_of(z: Triple, work: Work) -> float:
+    """Return the squared innovation over its covariance."""
+    V, total = work.inverse, 0.0
     for r in range(3):
         for c in range(3):
-            surprise += z[r] * V[r, c] * z[c]
-    for i in range(n):
+            total += z[r] * V[r, c] * z[c]
+    return total
+
+
+@part
+def weigh(told: int, z: Triple, P: Floats, aside: int, work: Work) -> None:
+    """Write K and x = K z."""
+    V, K, x = work.inverse, work.K, work.x
+    for i in range(P.shape[0]):
+        a, b, d = P[i, 0], P[i, 1], P[i, 2]
+        if aside >= 0:
+            s = P[i, aside]
+            a, b, d = a - s * P[0, aside], b - s * P[1, aside], d - s * P[2, aside]
         for c in range(3):
-            gain = P[i, 0] * V[0, c] + P[i, 1] * V[1, c] + P[i, 2] * V[2, c]
-            K[i, c] = gain if i < told else 0.0
+            K[i, c] = a * V[0, c] + b * V[1, c] + d * V[2, c] if i < told else 0.0
         x[i] = K[i, 0] * z[0] + K[i, 1] * z[1] + K[i, 2] * z[2]
-    return surprise
 
 
 @part
@@ -92,7 +111,12 @@ def correct(
 ) -> float:
     """Correct belief and covariance by a row; return the squared innovation over its covariance."""
     z = innovation(model, now, belief, q, seen)
-    surprise = weigh(model.told, model.noise, z, P, work)
+    expect(model.noise, P, -1, work)
+    surprise, aside = surprise_of(z, work), -1
+    if not model.gyroscopic:
+        aside = P.shape[0] - 1
+        expect(model.noise, P, aside, work)
+    weigh(model.told, z, P, aside, work)
     shrink(model.noise, P, work)
     apply(model, now, belief, work.x)
     return surprise

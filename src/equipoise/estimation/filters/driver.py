@@ -72,7 +72,9 @@ def advance(state: State, rows: Rows) -> tuple[State, Passed]:
     follow(state.model, rows.drive, rows.node, rows.fresh, rows.seen, belief, P, work_of(len(P)),
            out)  # fmt: skip
     t, values, sd, surprise = np.split(out, [1, 10, 19], axis=1)
-    course = Course(state.names, t[:, 0], values @ state.shown.T, sd[:, : len(state.names)])
+    # summed row by row, so that a row is the same number however many come with it
+    shown = np.sum(values[:, None, :] * state.shown, axis=2)
+    course = Course(state.names, t[:, 0], shown, sd[:, : len(state.names)])
     after = State(state.kind, state.model, state.names, state.shown, belief, P)
     return after, Passed(course, surprise[:, 0])
 

@@ -9,9 +9,9 @@ e x g_B = -[g_B x] e and W are columns of ``dynamics.regressor``. J' and h' are 
 under way and of wheels. (Review Eqs. 34 and 36 with R14 and R17; Ivanov Eq. 5.1 with I7 to I9: the whole
 rotation vector, so no block carries a factor.)
 
-The simplified model has neither [H x] - [w x] J nor [w x] W(w), nor products of inertia. What it
-leaves out is not noise but known but for J, so it is considered as an error s = 0 +- 1 of the share
-by which it acts:
+The simplified model has neither [H x] - [w x] J nor products of inertia. What it leaves out is no
+noise: it is known, but for J. So it is considered as an error s = 0 +- 1, the share by which it
+acts, and an error of J acts as on the whole equation, with w' and J of that:
 
     dw' / ds = J_full^-1 ( H' - h' - J' w - w x (J_full w + h) ) - w'
 
@@ -54,33 +54,34 @@ def less(a: Triple, b: Triple) -> Triple:
 
 
 @part
-def write_left_out(
-    model: Model, now: Now, w: Triple, push: Triple, known: Triple, row: int, F: Floats
-) -> None:
-    """Write what the simplified model leaves out of w' into the column behind J."""
+def whole(model: Model, now: Now) -> Now:
+    """Return the platform with all that the model does without."""
+    if model.gyroscopic:
+        return now
     a, b = now.inertia, model.left_out
     full = (a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5])
-    v, h = times(full, w), now.momentum
-    swirl = cross(w, (v[0] + h[0], v[1] + h[1], v[2] + h[2]))
-    whole = times(invert(full), less(less(push, known), swirl))
-    told = times(now.inverse, less(push, known))
-    for j in range(3):
-        F[row + j, row + 12] = whole[j] - told[j]
+    return Now(now.t, full, invert(full), now.moment, now.momentum, now.torque)
+
+
+@part
+def accelerated(now: Now, w: Triple, push: Triple, swirl: bool) -> Triple:
+    """Return J^-1 (push - w x H), of the simplified model J^-1 push."""
+    v, h = times(now.inertia, w), now.momentum
+    if swirl:
+        push = less(push, cross(w, (v[0] + h[0], v[1] + h[1], v[2] + h[2])))
+    return times(now.inverse, push)
 
 
 @part
 def write_inertia(
-    model: Model, now: Now, w: Triple, a: Triple, row: int, Y: Floats, Z: Floats, F: Floats
+    now: Now, w: Triple, a: Triple, row: int, Y: Floats, Z: Floats, F: Floats
 ) -> None:
     """Write -J^-1 Y_J(w, w') of as many elements as there are columns."""
     momentum_columns(a, Y)
     momentum_columns(w, Z)
     for k in range(6):
-        y = (Y[0, k], Y[1, k], Y[2, k])
-        if model.gyroscopic:
-            v = cross(w, (Z[0, k], Z[1, k], Z[2, k]))
-            y = (y[0] + v[0], y[1] + v[1], y[2] + v[2])
-        u = times(now.inverse, y)
+        v = cross(w, (Z[0, k], Z[1, k], Z[2, k]))
+        u = times(now.inverse, (Y[0, k] + v[0], Y[1, k] + v[1], Y[2, k] + v[2]))
         for j in range(3):
             F[row + j, row + 6 + k] = -u[j]
 
@@ -102,6 +103,18 @@ def write_rate(
         u = times(now.inverse, u)
         for j in range(3):
             F[row + j, row + k] = u[j]
+
+
+@part
+def write_com(model: Model, now: Now, g: Triple, row: int, Y: Floats, F: Floats) -> None:
+    """Write J^-1 m (axes x g_B) of as many axes as there are columns."""
+    B = model.axes
+    cross_columns(g, model.body.mass, 0, Y)
+    turned = (Y[0, 0], Y[0, 1], Y[0, 2], Y[1, 0], Y[1, 1], Y[1, 2], Y[2, 0], Y[2, 1], Y[2, 2])
+    for k in range(min(3, F.shape[1] - row - 3)):
+        v = times(now.inverse, dot(turned, (B[0, k], B[1, k], B[2, k])))
+        for j in range(3):
+            F[row + j, row + 3 + k] = v[j]
 
 
 @part
@@ -127,22 +140,22 @@ def write_jacobian(
     Z: Floats,
     F: Floats,
 ) -> None:
-    """Write F at one moment, (3 or 6, n); ``push`` is H'. Entries that stay nought are not set."""
-    row = 3 if model.attitude else 0
+    """Write F at one moment, (3 or 6, n); ``push`` is H' as the model has it.
+
+    Entries that stay nought are not set.
+    """
+    row, n = 3 if model.attitude else 0, F.shape[1]
     u, h = times(change.inertia, w), change.momentum
-    known = (h[0] + u[0], h[1] + u[1], h[2] + u[2])
     write_rate(model, now, change, w, row, F)
-    cross_columns(g, model.body.mass, 0, Y)
-    for k in range(min(3, F.shape[1] - row - 3)):
-        B = model.axes
-        v = dot((Y[0, 0], Y[0, 1], Y[0, 2], Y[1, 0], Y[1, 1], Y[1, 2], Y[2, 0], Y[2, 1], Y[2, 2]),
-                (B[0, k], B[1, k], B[2, k]))  # fmt: skip
-        v = times(now.inverse, v)
-        for j in range(3):
-            F[row + j, row + 3 + k] = v[j]
-    if F.shape[1] >= row + 12:
-        write_inertia(model, now, w, times(now.inverse, less(push, known)), row, Y, Z, F)
-    if F.shape[1] > row + 12:
-        write_left_out(model, now, w, push, known, row, F)
+    write_com(model, now, g, row, Y, F)
+    if n >= row + 12:
+        push = less(push, (h[0] + u[0], h[1] + u[1], h[2] + u[2]))
+        full = whole(model, now)
+        a = accelerated(full, w, push, not model.gyroscopic)
+        write_inertia(full, w, a, row, Y, Z, F)
+        if n > row + 12:
+            told = accelerated(now, w, push, False)
+            for j in range(3):
+                F[row + j, row + 12] = a[j] - told[j]
     if model.attitude:
         write_attitude(now, w, g, F)
