@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.filters.model import FIRST_RATE, Kind, Walks
-from equipoise.maths.attitude import exponential, logarithm, multiply, to_matrix
+from equipoise.maths.attitude import difference, exponential, multiply, to_matrix
 from equipoise.model.testbed import Testbed
 
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
@@ -60,8 +60,9 @@ def momentum_map(w):
     return np.column_stack([full(e) @ w for e in np.eye(6)])
 
 
-def platform_at(testbed, com, J, a, b, dt, share) -> Here:
-    """The platform at a share of a step between the known inputs a and b."""
+def platform_at(testbed, com, J, step, share) -> Here:
+    """The platform at a share of a step: known inputs at both ends, seconds."""
+    a, b, dt = step
     known, rate = a + share * (b - a), (b - a) / dt
     mu, h = testbed.body.mass * com, known[:3].copy()
     for mass, d, v in zip(testbed.masses, known[6:], rate[6:], strict=True):
@@ -85,8 +86,8 @@ def acceleration(here: Here, change, w, g, gyroscopic):
     return np.linalg.solve(here.J, push)
 
 
-def jacobian(plain: Plain, here: Here, change, w, g, n):
-    """F, (n, n): of attitude, rate and parameters."""
+def jacobian(plain: Plain, here: Here, change, w, g):
+    """F: of attitude, rate, com, inertia and what is left out."""
     kind, invert = plain.kind, np.linalg.inv(here.J)
     o, gyroscopic = (3 if kind.attitude else 0), kind.gyroscopic
     a = acceleration(here, change, w, g, gyroscopic)
@@ -105,7 +106,7 @@ def jacobian(plain: Plain, here: Here, change, w, g, n):
     if o:
         F[:3, :3], F[:3, 3:6] = -cross(w), np.eye(3)
         F[3:6, :3] = invert @ cross(here.mu) @ cross(g)
-    return F[:n, :n]
+    return F
 
 
 def slope(plain, here, y, g):
@@ -115,11 +116,11 @@ def slope(plain, here, y, g):
     return np.append(turn, np.cross(here.mu, g) + here.tau - swirl)
 
 
-def stride(plain, drive, i, com, J, y):
+def stride(plain, drive, i, body, y):
     """Runge-Kutta over step i; the state and the platform at both ends."""
-    t, a, b = drive.t, drive.known[i], drive.known[i + 1]
+    t, a, b, (com, J) = drive.t, drive.known[i], drive.known[i + 1], body
     dt, g = t[i + 1] - t[i], plain.testbed.gravity
-    heres = [platform_at(plain.testbed, com, J, a, b, dt, s) for s in (0, 0.5, 1)]
+    heres = [platform_at(plain.testbed, com, J, (a, b, dt), s) for s in (0, 0.5, 1)]
     seen = [gravity_of(drive.q[i], g), gravity_of(drive.q[i + 1], g)]
 
     def at(y, share):
@@ -152,11 +153,11 @@ def transition(plain, drive, i, belief: Belief):
     """Phi over a step, the state behind it and the platform there."""
     q, H, com, J, P = belief
     n, dt, g = len(P), drive.t[i + 1] - drive.t[i], plain.testbed.gravity
-    y, here, end = stride(plain, drive, i, com, J, np.append(q, H))
+    y, here, end = stride(plain, drive, i, (com, J), np.append(q, H))
     change = (end.J - here.J) / dt, (end.h - here.h) / dt
     first, last = (q, y[:4]) if plain.kind.attitude else (drive.q[i], drive.q[i + 1])
-    F0 = jacobian(plain, here, change, rate(here, H), gravity_of(first, g), n)
-    F1 = jacobian(plain, end, change, rate(end, y[4:]), gravity_of(last, g), n)
+    F0 = jacobian(plain, here, change, rate(here, H), gravity_of(first, g))[:n, :n]
+    F1 = jacobian(plain, end, change, rate(end, y[4:]), gravity_of(last, g))[:n, :n]
     return np.eye(n) + dt / 2 * (F0 + F1) + dt**2 / 2 * F1 @ F0, last, y[4:], end
 
 
@@ -181,26 +182,24 @@ def unscented(plain, drive, i, belief: Belief) -> Belief:
     n, dt, g = len(belief.P), drive.t[i + 1] - drive.t[i], plain.testbed
     a, b = drive.known[i], drive.known[i + 1]
     o = 3 if plain.kind.attitude else 0
-    here, end = (platform_at(g, belief.com, belief.J, a, b, dt, s) for s in (0, 1))
+    here, end = (platform_at(g, belief.com, belief.J, (a, b, dt), s) for s in (0, 1))
     root = np.linalg.cholesky(n * belief.P)
     points = np.hstack([root, -root]).T
     carried, turned = [], []
     for x in points:
         q, dw, com, J = moved(plain, belief, x)
-        now = platform_at(g, com, J, a, b, dt, 0)
+        now = platform_at(g, com, J, (a, b, dt), 0)
         H = now.J @ (rate(here, belief.H) + dw) + now.h
-        y, _, then = stride(plain, drive, i, com, J, np.append(q, H))
+        y, _, then = stride(plain, drive, i, (com, J), np.append(q, H))
         carried.append(rate(then, y[4:]))
         turned.append(y[:4])
     w, e = np.mean(carried, axis=0), points.copy()
     e[:, o : o + 3] = np.array(carried) - w
     q = drive.q[i + 1]
     if o:
-        first = turned[0] * [1, -1, -1, -1]
-        q = multiply(
-            turned[0], exponential(np.mean(logarithm(multiply(first, np.array(turned))), axis=0))
-        )
-        e[:, :3] = logarithm(multiply(q * [1, -1, -1, -1], np.array(turned)))
+        off = difference(np.array(turned), turned[0])
+        q = multiply(turned[0], exponential(np.mean(off, axis=0)))
+        e[:, :3] = difference(np.array(turned), q)
     P = e.T @ e / (2 * n) + noise_of(plain, end, dt, n)
     return Belief(q, end.J @ w + end.h, belief.com, belief.J, P)
 
@@ -209,7 +208,7 @@ def correct(plain, here, q, seen, belief: Belief) -> tuple[Belief, float]:
     """Joseph's form with the gain of what is not told nought."""
     n, o = len(belief.P), 3 if plain.kind.attitude else 0
     w = rate(here, belief.H)
-    z = logarithm(multiply(belief.q * [1, -1, -1, -1], q)) if o else seen - w
+    z = difference(q, belief.q) if o else seen - w
     H, R = np.eye(3, n), plain.noise**2 * np.eye(3)
     S = H @ belief.P @ H.T + R
     apart = 0 if plain.kind.gyroscopic else np.outer(belief.P[-1], belief.P[-1])
@@ -241,39 +240,33 @@ def run(plain: Plain, rows, belief: Belief):
             P[range(o, o + 3), range(o, o + 3)] += plain.walks.com**2 * (
                 drive.t[node] - drive.t[here]
             )
-            now = platform_at(plain.testbed, belief.com, belief.J, a, a, 1, 0)
+            now = platform_at(plain.testbed, belief.com, belief.J, (a, a, 1), 0)
             belief = restart(plain, now, drive.q[node], belief._replace(P=P))
             if not plain.kind.attitude:
                 belief, _ = correct(plain, now, drive.q[node], seen, belief)
         else:
             for i in range(here, node):
                 belief = ahead(plain, drive, i, belief)
-            dt = drive.t[node] - drive.t[node - 1]
-            now = platform_at(plain.testbed, belief.com, belief.J, drive.known[node - 1], a, dt, 1)
+            step = drive.known[node - 1], a, drive.t[node] - drive.t[node - 1]
+            now = platform_at(plain.testbed, belief.com, belief.J, step, 1)
             belief, _ = correct(plain, now, drive.q[node], seen, belief)
         found.append(belief)
         here = node
     return found
 
 
-def begun(
-    kind: Kind, testbed: Testbed, noise: float, walks: Walks, axes=None
-) -> tuple[Plain, Belief]:
+def begun(plain: Plain) -> Belief:
     """What is believed beforehand."""
-    axes, o = np.eye(3) if axes is None else axes, 3 if kind.attitude else 0
-    J = testbed.body.inertia_P if kind.gyroscopic else np.diag(np.diag(testbed.body.inertia_P))
-    size = np.sqrt(np.diag(testbed.body.inertia_P))
-    sizes = six(np.outer(size, size)) * testbed.inertia_sd
-    com = axes.T @ np.diag(testbed.com_sd**2) @ axes
+    kind, testbed = plain.kind, plain.testbed
+    o, tensor = 3 if kind.attitude else 0, testbed.body.inertia_P
+    J = tensor if kind.gyroscopic else np.diag(np.diag(tensor))
+    size = np.sqrt(np.diag(tensor))
     P = np.zeros((o + 13, o + 13))
-    P[o + 3 : o + 6, o + 3 : o + 6], P[o + 12, o + 12] = com, 1.0
-    P[range(o + 6, o + 12), range(o + 6, o + 12)] = sizes**2
-    n = (
-        o + 13
-        if not kind.gyroscopic
-        else o + 12
-        if testbed.inertia_sd or kind.told == 12
-        else o + 6
+    P[o + 3 : o + 6, o + 3 : o + 6] = plain.axes.T @ np.diag(testbed.com_sd**2) @ plain.axes
+    P[o + 6 : o + 12, o + 6 : o + 12] = np.diag(
+        (six(np.outer(size, size)) * testbed.inertia_sd) ** 2
     )
-    start = Belief(np.array([1.0, 0, 0, 0]), np.zeros(3), testbed.body.com, J, P[:n, :n])
-    return Plain(kind, testbed, axes, noise, walks), start
+    P[o + 12, o + 12] = 1.0
+    known = testbed.inertia_sd == 0 and kind.told < 12
+    n = o + 13 if not kind.gyroscopic else o + 6 if known else o + 12
+    return Belief(np.array([1.0, 0, 0, 0]), np.zeros(3), testbed.body.com, J, P[:n, :n])

@@ -23,7 +23,7 @@ from equipoise.estimation.methods import (
     ukf_9,
     ukf_12,
 )
-from equipoise.maths.attitude import exponential, multiply
+from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.compiled import kernel
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES
@@ -81,8 +81,8 @@ def test_kernels_are_the_plain_filters(seen, name):
     kind, testbed = KINDS[name], bench()
     rows, noise = rows_of(kind, seen, testbed)
     end, passed = driver.advance(driver.begin(kind, testbed, noise, WALKS), rows)
-    twin, first = plain.begun(kind, testbed, noise, WALKS, axes_of(kind, testbed.up))
-    found = plain.run(twin, rows, first)
+    twin = plain.Plain(kind, testbed, axes_of(kind, testbed.up), noise, WALKS)
+    found = plain.run(twin, rows, plain.begun(twin))
     values = np.array([[*b.com, *plain.six(b.J)] for b in found])
     apart = (values @ end.shown.T - passed.course.values) / passed.course.sd
     assert np.abs(apart).max() < 1e-6
@@ -96,9 +96,9 @@ def test_kernels_are_the_plain_filters(seen, name):
 
 
 @kernel
-def _jacobian(model, body, t, known, q, w, share, F):
+def _jacobian(model, body, dt, known, q, w, share, F):  # noqa: PLR0913, PLR0917 - a kernel
     """F of a platform with com and J of ``body`` at a share of a step."""
-    rigid = placed(model.body, body)
+    rigid, t = placed(model.body, body), np.array([0.0, dt])
     here = body_at(rigid, model.maps, t, known, 0, 0.0)
     end = body_at(rigid, model.maps, t, known, 0, 1.0)
     now, dy, y = body_at(rigid, model.maps, t, known, 0, share), np.zeros(7), np.empty(7)
@@ -109,23 +109,23 @@ def _jacobian(model, body, t, known, q, w, share, F):
         y[4 + j] = H[j] + now.momentum[j]
     g = gravity_of(y, model.body.gravity)
     slope(model, rigid, now, g, y, np.zeros((3, WIDTH)), dy)
-    push, change = (dy[4], dy[5], dy[6]), change_of(here, end, t[1] - t[0])
+    push, change = (dy[4], dy[5], dy[6]), change_of(here, end, dt)
     write_jacobian(model, now, change, rate, push, g, np.zeros((3, 6)), np.zeros((3, 6)), F)
 
 
-def slopes_of(kind, testbed, axes, step, q, w):
+def slopes_of(kind, testbed, step, q, w):
     """The right-hand side dth', w' as a function of the error state, and where it may be complex.
 
     Of the simplified model: f + s (f_whole - f), and the error of J in f_whole.
     """
-    a, b, dt, share = step
+    (a, b, dt, share), axes = step, axes_of(kind, testbed.up)
     o, g = (3 if kind.attitude else 0), plain.gravity_of(q, testbed.gravity)
     six = INERTIA if kind.gyroscopic else INERTIA * [1, 1, 1, 0, 0, 0]
 
     def accelerated(J, com, rate, weight, swirl):
-        ends = [plain.platform_at(testbed, com, J, a, b, dt, s) for s in (0, 1)]
+        ends = [plain.platform_at(testbed, com, J, (a, b, dt), s) for s in (0, 1)]
         change = (ends[1].J - ends[0].J) / dt, (ends[1].h - ends[0].h) / dt
-        here = plain.platform_at(testbed, com, J, a, b, dt, share)
+        here = plain.platform_at(testbed, com, J, (a, b, dt), share)
         return plain.acceleration(here, change, rate, weight, swirl)
 
     def slopes(x):
@@ -159,8 +159,8 @@ def test_jacobian_is_the_complex_step(name):
     rows, n = (6, 15) if kind.attitude else (3, 12 if kind.gyroscopic else 13)
     F, known = np.zeros((rows, n)), np.vstack([a, b])
     body = np.concatenate([COM, INERTIA if kind.gyroscopic else INERTIA * [1, 1, 1, 0, 0, 0]])
-    _jacobian(model, body, np.array([0.0, dt]), known, q, w, 0.3, F)
-    slopes, h = slopes_of(kind, testbed, model.axes, (a, b, dt, 0.3), q, w), 1e-20
+    _jacobian(model, body, dt, known, q, w, 0.3, F)
+    slopes, h = slopes_of(kind, testbed, (a, b, dt, 0.3), q, w), 1e-20
     wanted = np.column_stack([slopes(1j * h * e).imag / h for e in np.eye(n)])
     for k in range(0, n, 3):
         size = max(np.abs(wanted[:, k : k + 3]).max(), 1e-2)  # J' is a difference over 0.1 s
@@ -182,7 +182,7 @@ def step_of(dt):
 def start_of(kind, testbed, drive):
     """A belief that turns ten times as fast as the shared platform."""
     six = INERTIA if kind.gyroscopic else INERTIA * [1, 1, 1, 0, 0, 0]
-    here = plain.platform_at(testbed, COM, plain.full(six), *drive.known, drive.t[1], 0)
+    here = plain.platform_at(testbed, COM, plain.full(six), (*drive.known, drive.t[1]), 0)
     return np.concatenate([drive.q[0], here.J @ (10 * RATE) + here.h, COM, six])
 
 
@@ -210,21 +210,20 @@ def carried(kind, scale, dt=0.2):
 
 def differences(twin, drive, first, sizes):
     """What small changes before a step do behind it: central differences of the step."""
-    a, b = drive.known
-    here = plain.platform_at(twin.testbed, first.com, first.J, a, b, drive.t[1], 0)
+    step = *drive.known, drive.t[1]
+    here = plain.platform_at(twin.testbed, first.com, first.J, step, 0)
 
     def after(x):
         q, dw, com, J = plain.moved(twin, first, x)
-        now = plain.platform_at(twin.testbed, com, J, a, b, drive.t[1], 0)
+        now = plain.platform_at(twin.testbed, com, J, step, 0)
         H = now.J @ (plain.rate(here, first.H) + dw) + now.h
-        y, _, end = plain.stride(twin, drive, 0, com, J, np.append(q, H))
+        y, _, end = plain.stride(twin, drive, 0, (com, J), np.append(q, H))
         return y[:4], plain.rate(end, y[4:])
 
     columns = []
     for e in np.diag(sizes):
         (q1, w1), (q0, w0) = after(e), after(-e)
-        turn = plain.logarithm(multiply(q0 * [1, -1, -1, -1], q1))
-        columns.append(np.append(turn, w1 - w0) / (2 * e.max()))
+        columns.append(np.append(difference(q1, q0), w1 - w0) / (2 * e.max()))
     return np.column_stack(columns)
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from builders import (
     ATTITUDE,
     COM,
-    GYRO_SD,
     INERTIA,
     MASS,
     RATE,
@@ -24,7 +23,7 @@ from equipoise.actuators.sliding_masses import com_shift
 from equipoise.dynamics.propagation import propagate
 from equipoise.dynamics.timeline import straight_lines, timeline
 from equipoise.estimation.filters.model import Walks
-from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
+from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 

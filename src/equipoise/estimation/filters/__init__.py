@@ -1,5 +1,6 @@
-"""The published filters: one description of the model, one prediction, one correction, one driver.
+"""The published filters: one description of the model, one driver, two ways to predict.
 
-``model`` says what a filter believes, ``jacobian`` what its errors do, ``predict`` and ``correct``
-are its two stages, ``walk`` goes along the rows, ``rows`` brings them, ``driver`` is the door.
+``model`` says what a filter believes, ``jacobian`` what its errors do; ``extended`` and
+``unscented`` predict, ``correct`` corrects, ``walk`` goes along the rows, ``rows`` brings them,
+``driver`` is the door and ``conclusion`` makes an estimate.
 """

@@ -108,8 +108,8 @@ def left_out(state: State, rows: Rows, testbed: Testbed) -> str:
     if by < rest:
         return ""
     moments = np.linalg.eigvalsh(body.inertia_P)
-    square = float(np.mean(np.sum(rows.seen**2, axis=1)))
-    rule = square * float(np.ptp(moments)) / (body.mass * testbed.gravity)
+    square, apart = float(np.sum(rows.seen**2)) / len(rows.seen), moments[-1] - moments[0]
+    rule = square * float(apart) / (body.mass * testbed.gravity)
     return (
         f" The gyroscopic torque and products of inertia that the simplified model leaves out move "
         f"com by some {1e6 * by:.2g} um (|w|^2 dJ / m g: {1e6 * rule:.2g} um), more than all "

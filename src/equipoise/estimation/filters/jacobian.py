@@ -6,8 +6,8 @@
     w'   = J^-1 ( H' - h' - J' w ),   H = J w + h
 
 e x g_B = -[g_B x] e and W are columns of ``dynamics.regressor``. J' and h' are those of masses
-under way and of wheels. (Review Eqs. 34 and 36 with R14 and R17; Ivanov Eq. 5.1 with I7 to I9: the whole
-rotation vector, so no block carries a factor.)
+under way and of wheels. (Review Eqs. 34 and 36 with R14 and R17; Ivanov Eq. 5.1 with I7 to I9: the
+whole rotation vector, so no block carries a factor.)
 
 The simplified model has neither [H x] - [w x] J nor products of inertia. What it leaves out is no
 noise: it is known, but for J. So it is considered as an error s = 0 +- 1, the share by which it

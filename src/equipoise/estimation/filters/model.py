@@ -36,7 +36,7 @@ from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.dynamics.rigid_body import Body, Six
 from equipoise.estimation.tracker import belief_of
-from equipoise.maths.linalg import pack_symmetric
+from equipoise.maths.linalg import pack_symmetric, skew
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3, Vector6
 from equipoise.model.testbed import Testbed
 
@@ -45,7 +45,7 @@ FLAT = 1e-9  # chosen: the sine below which an up axis is one of the body's
 
 
 class Kind(NamedTuple):
-    """Which filter."""
+    """Which filter: what is a state, what is estimated of it, and how it is carried ahead."""
 
     attitude: bool  # the attitude is a state and a camera sees it; else an input, and a gyro sees w
     told: int  # leading elements of the error state that are estimated
@@ -87,9 +87,9 @@ def axes_of(kind: Kind, up: Vector3) -> Matrix3:
     """Return the axes (columns) of the centre of mass: the body's, or up and two across it."""
     if not kind.upright:
         return np.eye(3)
-    side = np.cross(up, np.eye(3)[int(np.argmin(np.abs(up)))])
+    side = skew(up) @ np.eye(3)[int(np.argmin(np.abs(up)))]
     side = side / float(np.linalg.norm(side))
-    return np.column_stack([up, side, np.cross(up, side)])
+    return np.column_stack([up, side, skew(up) @ side])
 
 
 def model_of(kind: Kind, testbed: Testbed, noise: float, walks: Walks) -> Model:

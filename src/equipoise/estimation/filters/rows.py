@@ -5,7 +5,10 @@ is given the attitude at every node (``led_motion``), a camera's what was seen a
 piece begins behind a gap; nothing is carried over one.
 
 ``taken`` cuts rows for a filter that runs as they come: the grid of a cut begins with the node of
-the row before it.
+the row before it. ``led_motion`` looks at a whole record, rows to come included; a bench that runs
+a gyro's filter live fills ``Rows`` with the attitude it has.
+
+What is off in the attitude goes into com: a camera that leans by e turns com along gravity by e.
 """
 
 from typing import NamedTuple

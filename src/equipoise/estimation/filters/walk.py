@@ -9,15 +9,10 @@ import numpy as np
 
 from equipoise.dynamics.rigid_body import Now, body_at
 from equipoise.estimation.filters.correct import correct
+from equipoise.estimation.filters.extended import extended
 from equipoise.estimation.filters.model import FIRST_RATE, Model
-from equipoise.estimation.filters.predict import (
-    COM,
-    Drive,
-    Work,
-    extended,
-    placed_at,
-    unscented,
-)
+from equipoise.estimation.filters.predict import COM, Drive, Work, placed_at
+from equipoise.estimation.filters.unscented import unscented
 from equipoise.maths.compiled import kernel, part
 from equipoise.model.arrays import Bools, Floats, Ints
 
