@@ -54,7 +54,7 @@ def bench(inertia_sd=0.05):
 @pytest.fixture(scope="module")
 def seen():
     """A move, a torque, a wheel, and a gap of both sensors: what the filters have to know."""
-    record = noisy(recording(END, move_at(10.0, END), 5.0, 20.0), 3)
+    record = noisy(recording(END, move_at(10.0, END), 5.0, 10.0), 3)
 
     def gapped(channel):
         keep = (channel.t < 21) | (channel.t > 24)
