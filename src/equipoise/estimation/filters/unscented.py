@@ -3,7 +3,7 @@
     points x +- columns of L,  L L^T = n P,  2n of them, each weighing 1/(2n)
     mean of the carried points;  P- = sum of e e^T / (2n) + Q dt,  e = point - mean
 
-(Simon 2006, Eqs. 14.57 to 14.62.) The error of an attitude is multiplicative: points lie about it
+(Simon 2006.) The error of an attitude is multiplicative: points lie about it
 in rotation vectors, and their mean is taken there. What is considered has points too.
 """
 

@@ -20,7 +20,7 @@ METHOD = Method(
         "ukf_6",
         "Euler's equation, attitude as an input; w and com",
         "unscented Kalman filter, 2n points; J is considered",
-        "da Silva 2021 section 3.4; Simon 2006 section 14.3",
+        "da Silva 2021 section 3.2; unscented points as in Simon 2006",
         "a gyro and a camera; J with its sd",
         "com better than J, as free motion shows their ratio; com along gravity until it has "
         "tilted",

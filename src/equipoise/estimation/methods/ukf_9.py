@@ -20,7 +20,7 @@ METHOD = Method(
         "ukf_9",
         "Euler's equation and kinematics; attitude, w and com",
         "unscented Kalman filter, 2n points, multiplicative attitude; J is considered",
-        "Ivanov 2021 section 5 with errata I7-I11; Simon 2006 section 14.3",
+        "Ivanov 2021 section 5 with errata I7-I11; unscented points as in Simon 2006",
         "a camera; J with its sd",
         "com better than J, as free motion shows their ratio; com along gravity until it has "
         "tilted",
