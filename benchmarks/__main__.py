@@ -10,7 +10,7 @@ import sys  # noqa: E402
 from rich.console import Console  # noqa: E402
 from rich.table import Table  # noqa: E402
 
-from benchmarks import fits, others  # noqa: E402
+from benchmarks import fits, others, steps  # noqa: E402
 
 CUT = 2.0  # s between cuts, chosen: a short record then has a few, a long one thousands
 console = Console(width=110)
@@ -30,6 +30,18 @@ def show_fits(quick: bool) -> None:
     console.print(table)
     for text in missing:
         console.print(text, markup=False)  # extras stand in brackets, as markup does
+
+
+def show_steps() -> None:
+    """Print what a row costs every recursive estimator."""
+    table = Table(title="One row of a recursive estimator, prediction and correction; beside NumPy")
+    for title in ("method", "elements", "us a row", "wanted, at most", "NumPy, us", "times ours"):
+        table.add_column(title, justify="left" if title == "method" else "right")
+    for step in steps.table():
+        wanted = "" if step.wanted is None else f"{step.wanted:.0f}"
+        cost = (f"{step.ours:.2f}", wanted, f"{step.plain:,.0f}", f"{step.plain / step.ours:,.0f}")
+        table.add_row(step.name, str(step.elements), *cost)
+    console.print(table)
 
 
 def show_others() -> None:
@@ -59,4 +71,5 @@ def show_others() -> None:
 
 if __name__ == "__main__":
     show_fits("--quick" in sys.argv)
+    show_steps()
     show_others()

@@ -5,9 +5,13 @@ from equipoise.estimation.methods import (
     averaged,
     averaged_printed,
     averaged_recursive,
+    ekf_12,
+    ekf_6,
+    ekf_9,
     energy,
     equilibrium,
     etd_rls,
+    kf_simplified,
     momentum_body,
     momentum_corrected,
     momentum_damped,
@@ -24,11 +28,16 @@ from equipoise.estimation.methods import (
     smoother,
     td_td_rls,
     torque_central,
+    torque_kalman,
     torque_recursive,
     torque_savitzky_golay,
     torque_tracking,
     tracker,
     trajectory,
+    ukf_12,
+    ukf_4,
+    ukf_6,
+    ukf_9,
 )
 
 WHOLE = (
@@ -43,6 +52,7 @@ LINEAR = (
     torque_central,
     torque_savitzky_golay,
     torque_tracking,
+    torque_kalman,
     momentum_body,
     momentum_laboratory,
     momentum_segments,
@@ -64,7 +74,17 @@ REGRESSIONS = (
     td_td_rls,
     etd_rls,
 )
+FILTERS = (
+    kf_simplified,
+    ekf_6,
+    ekf_9,
+    ekf_12,
+    ukf_4,
+    ukf_6,
+    ukf_9,
+    ukf_12,
+)
 
 METHODS: dict[str, Method] = {
-    module.METHOD.card.name: module.METHOD for module in (*WHOLE, *LINEAR, *REGRESSIONS)
+    module.METHOD.card.name: module.METHOD for module in (*WHOLE, *LINEAR, *REGRESSIONS, *FILTERS)
 }

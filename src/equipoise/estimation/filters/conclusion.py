@@ -1,0 +1,176 @@
+"""From a filter's run to an estimate: what it says, how far to trust it, what it could not see.
+
+Innovations judge the model: their square over its covariance is 3 a row on average. Beyond
+``SURPRISED`` times that, nothing is told to be usable.
+
+Masses stop only so well, and that is part of the centre of mass as it is, not of the one with the
+masses at home: it is added once more for the masses as they stand. It is as if nothing had been
+seen before a move, so it errs to the safe side.
+
+A camera whose vertical leans turns com by as much; that is added, too. Noise of the attitude that
+a gyro's filter is given is not.
+
+What the simplified model leaves out moves com by P_cs (``jacobian``), which is in the interval; it
+is told where it is more than the rest, beside the rule |w|^2 dJ / (m g).
+"""
+
+import numpy as np
+
+from equipoise import __version__
+from equipoise.estimation.filters.driver import State, advance, begin, told
+from equipoise.estimation.filters.model import Kind
+from equipoise.estimation.filters.rows import Rows, camera_rows, gyro_rows
+from equipoise.estimation.method import Card, refused
+from equipoise.maths.linalg import unpack_symmetric
+from equipoise.model.arrays import Floats, Matrix3, Series1
+from equipoise.model.estimate import INERTIA, Estimate, Parameter
+from equipoise.model.mass_properties import MassProperties, is_possible
+from equipoise.model.outcome import Outcome
+from equipoise.model.recording import Recording, arranged
+from equipoise.model.testbed import Testbed
+
+SURPRISED = 1.5  # chosen: times the expected square, as the tracker has it
+FEWEST = 20  # rows, chosen: fewer say nothing about the innovations
+WIDEST = 0.9  # chosen: of a moment of inertia, by which a point may lie off it
+STEADY = 1e-9  # N m, N m s, m, chosen: a known input that changes less does not change
+
+
+def fault(kind: Kind, recording: Recording, testbed: Testbed) -> str:
+    """Say what a filter lacks, or nothing."""
+    if recording.attitude is None or testbed.attitude is None:
+        return "It needs a camera, in the record and in the testbed."
+    if not kind.attitude and (recording.rate is None or testbed.gyro is None):
+        return "It needs a gyro, in the record and in the testbed."
+    if kind.told == 12 and not drives(recording):
+        return (
+            "It needs a known torque, stored momentum or move that changes: free motion shows "
+            "inertia and centre of mass by their ratio only."
+        )
+    if kind.unscented and testbed.inertia_sd * (15 if kind.attitude else 12) ** 0.5 > WIDEST:
+        return "The inertia is known too badly: unscented points would have a negative one."
+    return ""
+
+
+def drives(recording: Recording) -> bool:
+    """Say whether a known input changes."""
+    channels = (recording.torque, recording.momentum, recording.masses)
+    return any(c is not None and len(c) > 1 and np.ptp(c.values, axis=0).max() > STEADY
+               for c in channels)  # fmt: skip
+
+
+def noisy_rows(kind: Kind, recording: Recording, testbed: Testbed) -> tuple[Rows, float] | None:
+    """Return the rows of a filter's sensor and one sd of a row; None: too few."""
+    if kind.attitude:
+        rows = camera_rows(recording, testbed)
+        noise = testbed.attitude.noise if testbed.attitude else 0.0
+        return None if rows is None or len(rows.node) < FEWEST else (rows, noise)
+    found = gyro_rows(recording, testbed)
+    if found is None or len(found[0].node) < FEWEST:
+        return None
+    noise = testbed.gyro.noise if testbed.gyro else 0.0
+    return found[0], noise / found[1] ** 0.5
+
+
+def standing_covariance(rows: Rows, recording: Recording, testbed: Testbed) -> Matrix3:
+    """Return the covariance (m^2) of where masses stand that have moved."""
+    out = np.zeros((3, 3))
+    track = recording.masses
+    for i, mass in enumerate(testbed.masses if track is not None else ()):
+        assert track is not None
+        if np.ptp(track.values[:, i]) > STEADY and rows.drive.stopped.any():
+            shift = mass.mass * mass.accuracy / testbed.body.mass * mass.axis
+            out += np.outer(shift, shift)
+    return out
+
+
+def leaning(state: State, testbed: Testbed) -> Matrix3:
+    """Return what a camera whose vertical leans adds to the covariance of com, m^2: it turns it."""
+    com = state.belief[7:10]
+    sd = testbed.attitude.plumb_sd if testbed.attitude else 0.0
+    return sd**2 * (com @ com * np.eye(3) - np.outer(com, com))
+
+
+def at_home(state: State, unseen: Matrix3) -> Floats:
+    """Return the covariance of what is told, com with the masses at home."""
+    out, shown = told(state)[1].copy(), state.shown[:3, :3]
+    size = len(shown)
+    out[:size, :size] += shown @ unseen @ shown.T
+    return out
+
+
+def parameters_of(state: State, covariance: Floats) -> tuple[Parameter, ...]:
+    """Return what is told."""
+    values, sd = told(state)[0], np.sqrt(np.diag(covariance))
+    units = ["kg m2" if name in INERTIA else "m" for name in state.names]
+    return tuple(
+        Parameter(name, unit, float(value), float(spread))
+        for name, unit, value, spread in zip(state.names, units, values, sd, strict=True)
+    )
+
+
+def left_out(state: State, rows: Rows, testbed: Testbed) -> str:
+    """Say what the simplified model's leaving out does, where it is more than the rest."""
+    if state.kind.gyroscopic:
+        return ""
+    P, body = state.covariance, testbed.body
+    by = float(np.abs(P[3:6, 12]).max())
+    rest = float(np.sqrt(np.diag(P)[3:6] - P[3:6, 12] ** 2).max())
+    if by < rest:
+        return ""
+    moments = np.linalg.eigvalsh(body.inertia_P)
+    square, apart = float(np.sum(rows.seen**2)) / len(rows.seen), moments[-1] - moments[0]
+    rule = square * float(apart) / (body.mass * testbed.gravity)
+    return (
+        f" The gyroscopic torque and products of inertia that the simplified model leaves out move "
+        f"com by some {1e6 * by:.2g} um (|w|^2 dJ / m g: {1e6 * rule:.2g} um), more than all "
+        "else: the interval is as wide as that; take another filter."
+    )
+
+
+def outcome_of(state: State, surprise: Series1, text: str) -> Outcome:
+    """Return whether the numbers may be used."""
+    seen = surprise[np.isfinite(surprise)]
+    ratio = float(np.mean(seen)) / 3 if len(seen) else np.nan
+    first = f"Filtered to the last row; innovations are {ratio:.2g} times what they should be"
+    if not ratio < SURPRISED:
+        return Outcome(
+            False, first + ": inertia, noise or model are wrong, do not trust it." + text
+        )
+    return Outcome(True, first + "." + text)
+
+
+def broken(state: State) -> bool:
+    """Say whether a belief is none: not a number, or an inertia that is not positive."""
+    if not np.all(np.isfinite(state.belief)):
+        return True
+    return bool(np.linalg.eigvalsh(unpack_symmetric(state.belief[10:]))[0] <= 0)
+
+
+def possible(state: State, testbed: Testbed) -> bool:
+    """Say whether some body can have what was found; J that is not told is not found."""
+    com, inertia = state.belief[7:10], unpack_symmetric(state.belief[10:])
+    found = MassProperties(testbed.body.mass, com, inertia)
+    return state.kind.told < 12 or is_possible(found)
+
+
+def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> Estimate:
+    """Return what a filter believes after the last row of a record, begun from the testbed."""
+    recording = arranged(recording, testbed.mass_names)
+    lack = fault(kind, recording, testbed)
+    if lack:
+        return refused(card, lack)
+    found = noisy_rows(kind, recording, testbed)
+    if found is None:
+        return refused(card, f"Fewer than {FEWEST} rows without gaps: too few for a filter.")
+    rows, noise = found
+    state, passed = advance(begin(kind, testbed, noise), rows)
+    unseen = standing_covariance(rows, recording, testbed) + leaning(state, testbed)
+    covariance = at_home(state, unseen)
+    outcome = outcome_of(state, passed.surprise, left_out(state, rows, testbed))
+    if not possible(state, testbed):
+        outcome = Outcome(False, "No body can have the inertia found: the filter diverged.")
+    origin = {"version": __version__, "source": recording.source, "sha256": recording.sha256}
+    return Estimate(
+        card.name, outcome, parameters_of(state, covariance), covariance,
+        possible=possible(state, testbed), provenance=origin, course=passed.course,
+    )  # fmt: skip

@@ -1,0 +1,29 @@
+"""Unscented Kalman filter of rate and the centre of mass along the up axis."""
+
+from equipoise.estimation.filters.conclusion import estimate
+from equipoise.estimation.filters.model import Kind
+from equipoise.estimation.method import Card, Method, Options
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+KIND = Kind(attitude=False, told=4, unscented=True, upright=True)
+
+
+def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+    """Return the belief after the last row, begun from what the testbed says."""
+    return estimate(METHOD.card, KIND, recording, testbed)
+
+
+METHOD = Method(
+    Card(
+        "ukf_4",
+        "Euler's equation, attitude as an input; w and com along up (com_z where z is up)",
+        "unscented Kalman filter, 2n points; com across up and J are considered",
+        "Chesi 2014, second step; da Silva 2021 section 4.1",
+        "a gyro and a camera; com across up balanced and known (com_sd); J with its sd",
+        "com across up, which it takes from the testbed; com along gravity until it has tilted",
+        "free",
+    ),
+    run,
+)

@@ -1,0 +1,30 @@
+"""Unscented Kalman filter of attitude, rate and centre of mass."""
+
+from equipoise.estimation.filters.conclusion import estimate
+from equipoise.estimation.filters.model import Kind
+from equipoise.estimation.method import Card, Method, Options
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+KIND = Kind(attitude=True, told=9, unscented=True)
+
+
+def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+    """Return the belief after the last row, begun from what the testbed says."""
+    return estimate(METHOD.card, KIND, recording, testbed)
+
+
+METHOD = Method(
+    Card(
+        "ukf_9",
+        "Euler's equation and kinematics; attitude, w and com",
+        "unscented Kalman filter, 2n points, multiplicative attitude; J is considered",
+        "Ivanov 2021 section 5 with errata I7-I11; unscented points as in Simon 2006",
+        "a camera; J with its sd",
+        "com better than J, as free motion shows their ratio; com along gravity until it has "
+        "tilted",
+        "free",
+    ),
+    run,
+)
