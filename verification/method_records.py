@@ -1,5 +1,6 @@
-"""Records for the methods, made by MuJoCo: the conditions of ``method_table``, and the regimes in
-which each card says that its intervals are measured."""
+"""Records for the methods: the conditions of ``method_table``, and the regimes in which each card
+says that its intervals are measured. They are MuJoCo's, but those on which a torque plays.
+"""
 
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -16,6 +17,7 @@ from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
+from tests.methods import walking
 from tests.oracle import mujoco_bench as oracle
 
 Array = NDArray[np.float64]
@@ -28,6 +30,7 @@ CAMERA_SD, HZ, HALF = np.radians(0.05), 100.0, 50.0
 FINE, POOR = 0.005, 0.05  # deg/s/sqrt(Hz)
 DURATION = 60.0  # s
 PUSH, PERIODS = 0.010, (8.0, 11.0, 14.0)  # N m about each axis, s
+DRAG = 0.15  # N m s about each axis: swings die away in some ten seconds
 EDGE = 1e-7  # s, on both sides of a jump
 
 
@@ -126,16 +129,31 @@ def moved(rng: np.random.Generator) -> Record:
 
 
 def rests(rng: np.random.Generator) -> Record:
-    """Return a random platform with drag that comes to rest after each of six moves."""
-    platform = oracle.random_platform(rng, masses_per_axis=2)
-    platform = replace(platform, viscous=np.full(3, 0.1))
-    schedule = tuple(
-        oracle.Ramp(40.0 * (k + 1), oracle._stable_targets(rng, platform)) for k in range(6)
-    )
+    """Return a platform with drag, its centre of mass low, that rests after each of four moves."""
+    platform = oracle.random_platform(rng, 14.0, 2)
+    com = np.append(rng.uniform(-30e-6, 30e-6, 2), -rng.uniform(400e-6, 900e-6))
+    platform = replace(platform, com=com, viscous=np.full(3, DRAG))
+    k = len(platform.slides)
+    targets = [rng.choice([-1.0, 1.0], k) * rng.uniform(0.01, 0.05, k) for _ in range(4)]
+    schedule = tuple(oracle.Ramp(60.0 * (j + 1), each) for j, each in enumerate(targets))
     run = oracle.simulate(platform, schedule, 300.0)
     camera = AttitudeSensor(5.0, np.radians(0.2), plumb_sd=0.0)
     testbed = oracle.testbed_for(platform, rng, attitude=camera)
     return Record(oracle.sensor_log(run, rng), testbed, platform.com, platform.inertia_P)
+
+
+def wandering(seed: int, name: Regime) -> Record:
+    """Return a swing whose centre of mass walks, com being where it is at the end."""
+    push = walking.square_waves(DURATION) if name == "played" else None
+    recording, com = walking.walked(seed, DURATION, push)
+    testbed = walking.guessed(seed, 0.05)
+    camera, body = testbed.attitude, testbed.body
+    testbed = replace(testbed, attitude=replace(camera, plumb_sd=0.0))
+    if name == "levelled":
+        off = 1e-6 * np.random.default_rng(seed).normal(size=2)
+        guess = replace(body, com=np.append(com[:2] + off, body.com[2]))
+        testbed = replace(testbed, body=guess, com_sd=np.array([1e-6, 1e-6, 1e-4]))
+    return Record(recording, testbed, com, unpack_symmetric(walking.INERTIA))
 
 
 def regime(name: Regime, seed: int) -> Record:
@@ -145,4 +163,6 @@ def regime(name: Regime, seed: int) -> Record:
         return free_swing(RATES["slow"], rng, HALF)
     if name == "driven":
         return pushed(rng, FINE, HALF)
-    return moved(rng) if name == "moved" else rests(rng)
+    if name in ("moved", "rests"):
+        return moved(rng) if name == "moved" else rests(rng)
+    return wandering(seed, name)

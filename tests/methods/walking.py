@@ -7,7 +7,15 @@ of mass is made by the sliding masses. Neither is in the record.
 from dataclasses import replace
 
 import numpy as np
-from builders import (
+
+from equipoise.actuators.sliding_masses import com_shift
+from equipoise.dynamics.propagation import propagate
+from equipoise.dynamics.timeline import straight_lines, timeline
+from equipoise.estimation.filters.model import Walks
+from equipoise.maths.linalg import element_sizes, unpack_symmetric
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.recording import Recording, Samples
+from tests.builders import (
     ATTITUDE,
     COM,
     INERTIA,
@@ -18,14 +26,6 @@ from builders import (
     noisy,
     platform,
 )
-
-from equipoise.actuators.sliding_masses import com_shift
-from equipoise.dynamics.propagation import propagate
-from equipoise.dynamics.timeline import straight_lines, timeline
-from equipoise.estimation.filters.model import Walks
-from equipoise.maths.linalg import element_sizes, unpack_symmetric
-from equipoise.model.mass_properties import MassProperties
-from equipoise.model.recording import Recording, Samples
 
 WALKS = Walks()
 TICK = 0.05  # s

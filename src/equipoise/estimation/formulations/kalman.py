@@ -32,11 +32,12 @@ def _filter(
     noise: Floats, out: Floats,
 ) -> None:  # fmt: skip
     """Write the filtered rates; ``push`` (n, 3) is the impulse up to each row, less k."""
-    P, sd, grown = noise[0] ** 2, noise[0], noise[1]
+    sd, grown = noise[0], noise[1]
+    spread = sd * sd
     for i in range(t.shape[0]):
         new = i == 0 or piece[i] != piece[i - 1]
         if new:
-            P = sd * sd
+            spread = sd * sd
             for j in range(3):
                 out[i, j] = w[i, j]
             continue
@@ -47,9 +48,9 @@ def _filter(
         s0 = push[i, 0] - push[i - 1, 0] - h * (b[1] * H2 - b[2] * H1)
         s1 = push[i, 1] - push[i - 1, 1] - h * (b[2] * H0 - b[0] * H2)
         s2 = push[i, 2] - push[i - 1, 2] - h * (b[0] * H1 - b[1] * H0)
-        P += (grown * h) ** 2
-        gain = P / (P + sd * sd)
-        P *= 1.0 - gain
+        spread += (grown * h) ** 2
+        gain = spread / (spread + sd * sd)
+        spread *= 1.0 - gain
         for j in range(3):
             ahead = b[j] + inverse[j, 0] * s0 + inverse[j, 1] * s1 + inverse[j, 2] * s2
             out[i, j] = ahead + gain * (w[i, j] - ahead)
@@ -66,7 +67,7 @@ def filtered_rates(posed: Posed) -> Series3:
     out = np.empty_like(motion.w)
     J = np.ascontiguousarray(body.inertia_P)
     _filter(motion.t, np.ascontiguousarray(motion.w), motion.piece, push, at.known_momentum, J,
-            np.linalg.inv(J), noise, out)  # fmt: skip
+            np.asarray(np.linalg.inv(J), dtype=np.float64), noise, out)  # fmt: skip
     return out
 
 

@@ -23,7 +23,7 @@ METHOD = Method(
         "da Silva 2021 Eqs. 35-37 with errata R16-R19",
         "a gyro and a camera; a known torque, momentum or move; a first guess of J and its sd",
         "scale of J and com before a known change; anything from a guess that is far off",
-        "driven",
+        "played",
     ),
     run,
 )

@@ -23,7 +23,7 @@ METHOD = Method(
         "da Silva 2021 Eqs. 28-31 with errata R11-R13; Young 1998",
         "a gyro and a camera; J with its sd",
         "com along gravity until it has tilted; anything at all in fast motion",
-        "free",
+        "wandering",
     ),
     run,
 )

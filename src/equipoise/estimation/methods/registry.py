@@ -5,9 +5,9 @@ from equipoise.estimation.methods import (
     averaged,
     averaged_printed,
     averaged_recursive,
-    ekf_12,
     ekf_6,
     ekf_9,
+    ekf_12,
     energy,
     equilibrium,
     etd_rls,
@@ -34,10 +34,10 @@ from equipoise.estimation.methods import (
     torque_tracking,
     tracker,
     trajectory,
-    ukf_12,
     ukf_4,
     ukf_6,
     ukf_9,
+    ukf_12,
 )
 
 WHOLE = (

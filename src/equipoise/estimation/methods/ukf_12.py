@@ -23,7 +23,7 @@ METHOD = Method(
         "da Silva 2021 Eq. 35; unscented points as in Simon 2006",
         "a gyro and a camera; a known torque, momentum or move; a first guess of J and its sd",
         "scale of J and com before a known change",
-        "driven",
+        "played",
     ),
     run,
 )

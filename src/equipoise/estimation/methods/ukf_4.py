@@ -23,7 +23,7 @@ METHOD = Method(
         "Chesi 2014, second step; da Silva 2021 section 4.1",
         "a gyro and a camera; com across up balanced and known (com_sd); J with its sd",
         "com across up, which it takes from the testbed; com along gravity until it has tilted",
-        "free",
+        "levelled",
     ),
     run,
 )

@@ -24,7 +24,7 @@ METHOD = Method(
         "a gyro and a camera; J with its sd",
         "com better than J, as free motion shows their ratio; com along gravity until it has "
         "tilted",
-        "free",
+        "wandering",
     ),
     run,
 )
