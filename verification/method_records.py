@@ -30,7 +30,7 @@ CAMERA_SD, HZ, HALF = np.radians(0.05), 100.0, 50.0
 FINE, POOR = 0.005, 0.05  # deg/s/sqrt(Hz)
 DURATION = 60.0  # s
 PUSH, PERIODS = 0.010, (8.0, 11.0, 14.0)  # N m about each axis, s
-DRAG = 0.15  # N m s about each axis: swings die away in some ten seconds
+DRAG = 0.3  # N m s about each axis: swings die away in some ten seconds
 EDGE = 1e-7  # s, on both sides of a jump
 
 
