@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation.method import Regime
-from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import END
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES
@@ -30,6 +30,7 @@ CAMERA_SD, HZ, HALF = np.radians(0.05), 100.0, 50.0
 FINE, POOR = 0.005, 0.05  # deg/s/sqrt(Hz)
 DURATION = 60.0  # s
 PUSH, PERIODS = 0.010, (8.0, 11.0, 14.0)  # N m about each axis, s
+VAGUE = 0.05  # of J, one sd, where it is sought
 DRAG = 0.3  # N m s about each axis: swings die away in some ten seconds
 EDGE = 1e-7  # s, on both sides of a jump
 
@@ -98,7 +99,15 @@ def pushed(rng: np.random.Generator, density: float, hz: float = HZ) -> Record:
     still = unb((0.0, 0.0, 0.0))
     run = oracle.driven(still, np.zeros((len(t), 0)), square_waves(t), in_body=True)
     record = seen(run, rng, density, hz)
-    return replace(record, recording=replace(record.recording, torque=told_torque(DURATION)))
+    told = replace(record.recording, torque=told_torque(DURATION))
+    return replace(record, recording=told, testbed=vaguely(record.testbed, rng))
+
+
+def vaguely(testbed: Testbed, rng: np.random.Generator) -> Testbed:
+    """Return the testbed with an inertia that is off by what it says."""
+    off = VAGUE * element_sizes(INERTIA) * np.clip(rng.normal(size=6), -2.0, 2.0)
+    body = replace(testbed.body, inertia_P=INERTIA + unpack_symmetric(off))
+    return replace(testbed, body=body, inertia_sd=VAGUE)
 
 
 def seen(run: oracle.OracleRun, rng: np.random.Generator, density: float, hz: float) -> Record:
@@ -147,8 +156,7 @@ def wandering(seed: int, name: Regime) -> Record:
     push = walking.square_waves(DURATION) if name == "played" else None
     recording, com = walking.walked(seed, DURATION, push)
     testbed = walking.guessed(seed, 0.05)
-    camera, body = testbed.attitude, testbed.body
-    testbed = replace(testbed, attitude=replace(camera, plumb_sd=0.0))
+    body = testbed.body
     if name == "levelled":
         off = 1e-6 * np.random.default_rng(seed).normal(size=2)
         guess = replace(body, com=np.append(com[:2] + off, body.com[2]))

@@ -67,4 +67,6 @@ def guessed(seed: int, inertia_sd: float, com_sd: float = 1e-4):
     testbed = replace(platform(gyro=True), inertia_sd=inertia_sd, com_sd=np.full(3, com_sd))
     off = rng.normal(size=6) * inertia_sd * element_sizes(unpack_symmetric(INERTIA))
     com = COM + com_sd * rng.normal(size=3)
-    return replace(testbed, body=MassProperties(MASS, com, unpack_symmetric(INERTIA + off)))
+    level = replace(testbed.attitude, plumb_sd=0.0)
+    body = MassProperties(MASS, com, unpack_symmetric(INERTIA + off))
+    return replace(testbed, body=body, attitude=level)

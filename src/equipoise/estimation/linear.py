@@ -9,8 +9,9 @@ parameter errs by more than the root of the greatest ratio (Grenander and Szegoe
 ``maths.whiteness``): by so much all intervals are wider.
 
 What is left is judged without the bias, and without what the formulation is known to leave out.
-A bias, and what a formulation leaves out of the motion (``Rows.omitted``), are errors that no
-repetition shows: they are told, and added to the sd as if they were chance.
+A bias, what a formulation leaves out of the motion (``Rows.omitted``) and what smoothing a camera's
+rows blurs are errors that no repetition shows: they are told, and added to the sd as if they were
+chance.
 """
 
 from collections.abc import Sequence
@@ -22,8 +23,8 @@ from scipy.stats import chi2
 from scipy.stats import t as student
 
 from equipoise.estimation.formulations.rows import Formulation, Posed, Rows, centred, held
-from equipoise.estimation.led_motion import led_motion
-from equipoise.estimation.linear_conclusion import Answer, conclude
+from equipoise.estimation.led_motion import at_times, led_motion
+from equipoise.estimation.linear_conclusion import Answer, Shifts, conclude
 from equipoise.estimation.method import Card, Method, Options, refused
 from equipoise.estimation.replicates import PAIRS, pairs
 from equipoise.estimation.solvers.aid import Aid, Solver
@@ -32,8 +33,9 @@ from equipoise.estimation.solvers.recursion import Plan, passed, recursive
 from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.estimate import INERTIA, NORMAL_95, Estimate
-from equipoise.model.recording import Recording, arranged
+from equipoise.model.recording import Recording, Samples, arranged
 from equipoise.model.testbed import Testbed
+from equipoise.sensors.timing import seen_at
 
 FEWEST = 12  # times
 FOR_NOISE = 6  # pairs, chosen: the mean of dA^T dA over thousands of rows is known well from few
@@ -141,9 +143,27 @@ def answered(asked: Question) -> Answer:
         omitted = least_squares(replace(rows, b=rows.omitted, omitted=None), aid)
         whole = replace(rows, b=rows.b - rows.omitted, omitted=None)
     left = remains(whole, best - sums.bias - omitted)
+    blurred = blur(asked, aid, best)
     spread = (student.ppf(0.975, len(asked.draws)) / NORMAL_95) ** 2 * sums.covariance
     course = None if linear.plan is None else passed(linear.plan, asked.posed.testbed, rows)
-    return Answer(best, spread, sums.bias, omitted, left, excess(left, sums.power), course)
+    shifts = Shifts(sums.bias, omitted, blurred)
+    return Answer(best, spread, shifts, left, excess(left, sums.power), course)
+
+
+def blur(asked: Question, aid: Aid, best: Floats) -> Floats:
+    """Return what smoothing a camera's rows does to the solution: what doing so again would do.
+
+    A gyro shows quick motion as it is; a camera alone shows it smoothed over seconds.
+    """
+    recording, motion = asked.posed.recording, asked.posed.motion
+    camera = recording.attitude
+    if recording.rate is not None or camera is None:
+        return np.zeros(len(best))
+    seen = seen_at(camera.t, asked.posed.testbed.attitude)
+    smooth = replace(recording, attitude=Samples(camera.t, at_times(motion.t, motion.q, seen)))
+    again = led_motion(smooth, asked.posed.testbed)
+    posed = Posed(smooth, asked.posed.testbed, again, asked.posed.terms)
+    return asked.linear.solver(rows_again(asked, posed), aid) - best
 
 
 def aid_for(asked: Question) -> Aid:

@@ -22,8 +22,17 @@ from equipoise.model.outcome import Outcome
 from equipoise.model.torque_terms import TERMS, unit_of
 
 MATTERS = 0.5  # sd of noise: a bias beyond it makes 95 % less than 92 %
+MOST_TAKEN = 0.25  # chosen: beyond, a bias is no longer small, and not what repeating it shows
 DROWNED = 100.0  # chosen: ten times as far off as noise explains, nothing is known
 NO_TRUST = "the intervals are widened by it, but are not trustworthy"
+
+
+class Shifts(NamedTuple):
+    """Errors (c,) that no repetition shows, each as far as known."""
+
+    bias: Floats  # what noise in the regressor does
+    omitted: Floats  # what the formulation leaves out
+    blurred: Floats  # what smoothing does to quick motion
 
 
 class Answer(NamedTuple):
@@ -31,8 +40,7 @@ class Answer(NamedTuple):
 
     values: Floats  # (c,) in the order of the rows' names
     covariance: Square  # of what noise does
-    bias: Floats  # what noise in the regressor has done to it
-    omitted: Floats  # what the formulation leaves out has done to it, as far as known
+    shifts: Shifts
     left: Series  # (n, m) of the rows
     excess: float  # of its power over that of noise, where it is greatest
     course: Passed | None = None  # of a recursion
@@ -79,8 +87,8 @@ def course_of(rows: Rows, answer: Answer, whole: Square) -> Course | None:
 
 def total(answer: Answer) -> Square:
     """Return noise, widened, and the errors that no repetition shows."""
-    fixed = np.outer(answer.bias, answer.bias) + np.outer(answer.omitted, answer.omitted)
-    return max(answer.excess, 1.0) * answer.covariance + fixed
+    fixed = np.array(answer.shifts)
+    return max(answer.excess, 1.0) * answer.covariance + fixed.T @ fixed
 
 
 def rounding(covariance: Square) -> Square:
@@ -188,6 +196,10 @@ def outcome_of(
     told += [f"Note: {note}." for note in rows.notes]
     if not possible:
         told.insert(0, "No body can have the inertia found.")
+    taken = most_taken(rows, answer)
+    if taken > MOST_TAKEN:
+        told.append(f"Noise in the regressor takes some {100 * taken:.0f} % of a moment of inertia "
+                    "away: do not trust the intervals.")  # fmt: skip
     if answer.excess > DROWNED:
         told.append("The rows leave far more than the sensors' noise: something moves the platform "
                     "that the model does not know; do not trust the intervals.")  # fmt: skip
@@ -195,10 +207,25 @@ def outcome_of(
         told.append(f"The rows leave more than the sensors' noise, {answer.excess:.2g} times its "
                     "power where it is most: intervals are widened "
                     f"{np.sqrt(answer.excess):.2g} times.")  # fmt: skip
-    if (most := worst(rows, answer.bias, answer)) is not None:
+    if (most := worst(rows, answer.shifts.bias, answer)) is not None:
         told.append(f"Noise in the regressor moves {most[0]} by about {most[1]:.2g} sd: "
                     f"{NO_TRUST}; use momentum_corrected, or trajectory.")  # fmt: skip
-    if (most := worst(rows, answer.omitted, answer)) is not None:
+    if (most := worst(rows, answer.shifts.blurred, answer)) is not None:
+        told.append(f"Smoothing the camera's rows blurs quick motion and moves {most[0]} by about "
+                    f"{most[1]:.2g} sd: {NO_TRUST}; a gyro would show it.")  # fmt: skip
+    if (most := worst(rows, answer.shifts.omitted, answer)) is not None:
         told.append(f"What the model leaves out moves {most[0]} by about {most[1]:.2g} sd: "
                     f"{NO_TRUST}.")  # fmt: skip
-    return Outcome(possible and answer.excess <= DROWNED, " ".join(told))
+    fair = possible and answer.excess <= DROWNED and taken <= MOST_TAKEN
+    return Outcome(fair, " ".join(told))
+
+
+def most_taken(rows: Rows, answer: Answer) -> float:
+    """Return the greatest share of a moment of inertia that as much noise again takes.
+
+    Of p / (1 + s), s the noise's share, it leaves p / (1 + 2 s): a quarter less is s = 1/2.
+    """
+    moments = [rows.names.index(name) for name in INERTIA[:3] if name in rows.names]
+    bias, values = answer.shifts.bias, answer.values
+    shares = [float(-bias[k] / max(abs(values[k]), 1e-300)) for k in moments]
+    return max(shares, default=0.0)

@@ -20,6 +20,7 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 
 LARGEST = 20.0  # of the logarithms, chosen: so that no trial leaves the range of numbers
+MOST = 100  # evaluations, chosen: what settles takes ten
 
 
 def possible(rows: Rows, aid: Aid) -> Floats:
@@ -65,5 +66,5 @@ def nearest(
     bound[six[:3]] = LARGEST
     start[six[:3]] = np.clip(start[six[:3]], 1 - LARGEST, LARGEST - 1)
     found = minimise(lambda y: root.T @ (body(y) - free / scale), start, bounds=(-bound, bound),
-                     x_scale="jac", xtol=1e-12)  # fmt: skip
+                     x_scale="jac", xtol=1e-12, max_nfev=MOST)  # fmt: skip
     return body(np.asarray(found.x, dtype=np.float64)) * scale
