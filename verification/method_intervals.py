@@ -12,7 +12,7 @@ from equipoise.estimation.formulations.rows import Formulation, Posed, Rows
 from equipoise.estimation.linear import posed_of
 from equipoise.estimation.method import REGIMES, Method, Options, Regime
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.estimation.replicates import PAIRS, pairs
+from equipoise.estimation.replicates import Drawn, pairs
 from equipoise.model.estimate import Estimate
 from verification.chance import share_band
 from verification.method_records import Record, regime
@@ -52,14 +52,14 @@ def remembered(formulation: Formulation, known: dict[tuple[int, int], Rows]) -> 
 def estimates(record: Record, methods: Sequence[Method]) -> list[Estimate]:
     """Return the estimates of a record; linear methods share its replicates."""
     posed = posed_of(record.recording, record.testbed, Options())
-    draws = tuple(pairs(posed, True, PAIRS)) if any(m.linear for m in methods) else ()
+    shared = any(method.linear for method in methods)
+    draws = tuple(pairs(posed, Drawn(inertia=True))) if shared else ()
     known, made = dict[tuple[int, int], Rows](), list[Estimate]()
     for method in methods:
         if method.linear is None:
             made.append(method.run(record.recording, record.testbed, Options()))
             continue
-        shared = remembered(method.linear.formulation, known)
-        part = replace(method.linear, formulation=shared)
+        part = replace(method.linear, formulation=remembered(method.linear.formulation, known))
         made.append(linear_methods.estimate(method.card, part, posed, (), draws))
     return made
 

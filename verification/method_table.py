@@ -11,10 +11,9 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.linear import FOR_NOISE, Question, aid_for, posed_of, posed_rows
+from equipoise.estimation.linear import Question, aid_for, posed_of, posed_rows
 from equipoise.estimation.method import Method, Options, heeded
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.estimation.replicates import pairs
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA
 from verification.method_records import Condition, Record, condition
@@ -46,9 +45,7 @@ def values_by(method: Method, record: Record, hold: tuple[str, ...]) -> dict[str
         return {p.name: p.value for p in estimate.parameters}
     posed = posed_of(record.recording, record.testbed, options)
     rows, fixed = posed_rows(linear, posed, options.hold)
-    count = FOR_NOISE if linear.needs_noise else 0
-    draws = tuple(pairs(posed, linear.knows_inertia, count))
-    aid = aid_for(Question(linear, posed, rows, fixed, draws))
+    aid = aid_for(Question(linear, posed, rows, fixed, ()))
     return dict(zip(rows.names, map(float, linear.solver(rows, aid)), strict=True))
 
 

@@ -25,7 +25,16 @@ from equipoise.maths.attitude import conjugate, exponential, level, logarithm, m
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.maths.straight_lines import read_at
 from equipoise.maths.walk_smoother import smoothed_walk
-from equipoise.model.arrays import Bools, Floats, Ints, Series1, Series3, Series4, Vector3
+from equipoise.model.arrays import (
+    Bools,
+    Floats,
+    Ints,
+    Quaternion,
+    Series1,
+    Series3,
+    Series4,
+    Vector3,
+)
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import seen_at
@@ -130,8 +139,15 @@ def led(rate: Samples, camera: Samples, testbed: Testbed) -> LedMotion | None:
 def followed(rate: Samples, seen: Samples, bias: Vector3) -> tuple[Series4, Series3]:
     """Return the attitudes that rates lead to, and by how much the camera is off (laboratory)."""
     base = integrate_rate(rate.t, rate.values - bias, seen.values[0])
-    there = at_times(rate.t, base, seen.t)
-    return base, logarithm(multiply(seen.values, conjugate(there)))
+    turn = multiply(seen.values, conjugate(at_times(rate.t, base, seen.t)))
+    first = most_alike(turn[:FEWEST])
+    return multiply(first, base), logarithm(multiply(turn, conjugate(first)))
+
+
+def most_alike(turns: Series4) -> Quaternion:
+    """Return the rotation that is nearest to the others, as an odd one is not."""
+    apart = np.abs(turns @ turns.T)
+    return turns[int(np.argmax(np.sort(apart, axis=1)[:, len(turns) // 2]))]
 
 
 def first_bias(rate: Samples, seen: Samples) -> Vector3:
@@ -164,7 +180,7 @@ def bias_left(t: Series1, base: Series4, seen: Series1, off: Series3) -> Vector3
 
 def median_near(off: Series3) -> Series3:
     """Return the running median of five rows, which a lone odd row does not move."""
-    padded = np.pad(off, ((2, 2), (0, 0)), mode="edge")
+    padded = np.pad(off, ((2, 2), (0, 0)), mode="reflect")
     near = np.stack([padded[k : k + len(off)] for k in range(5)])
     return np.asarray(np.median(near, axis=0), dtype=np.float64)
 

@@ -26,7 +26,7 @@ from equipoise.estimation.formulations.rows import Formulation, Posed, Rows, cen
 from equipoise.estimation.led_motion import at_times, led_motion
 from equipoise.estimation.linear_conclusion import Answer, Shifts, conclude
 from equipoise.estimation.method import Card, Method, Options, refused
-from equipoise.estimation.replicates import PAIRS, pairs
+from equipoise.estimation.replicates import PAIRS, Drawn, pairs
 from equipoise.estimation.solvers.aid import Aid, Solver
 from equipoise.estimation.solvers.least_squares import least_squares
 from equipoise.estimation.solvers.recursion import Plan, passed, recursive
@@ -41,6 +41,7 @@ FEWEST = 12  # times
 FOR_NOISE = 6  # pairs, chosen: the mean of dA^T dA over thousands of rows is known well from few
 SPARE = 12  # pairs beyond the number of unknowns
 FIRST_BAND, WIDER = 5, 1.6  # bins, and how much wider each band is than the one before, chosen
+CHANCE = 3.0  # sd of the mean, within which a bias is none
 SURE = 1e-4  # how often noise alone may look like more than noise
 
 
@@ -111,7 +112,8 @@ def estimate(
     if rows.b.size <= len(rows.names) or len(rows.t) < FEWEST:
         return refused(card, f"Only {len(rows.t)} rows without a gap: there is nothing to fit.")
     if draws is None:
-        draws = tuple(pairs(posed, linear.knows_inertia, max(PAIRS, len(rows.names) + SPARE)))
+        what = Drawn(inertia=linear.knows_inertia)
+        draws = tuple(pairs(posed, what, max(PAIRS, len(rows.names) + SPARE)))
     try:
         answer = answered(Question(linear, posed, rows, fixed, draws))
     except np.linalg.LinAlgError:
@@ -167,10 +169,14 @@ def blur(asked: Question, aid: Aid, best: Floats) -> Floats:
 
 
 def aid_for(asked: Question) -> Aid:
-    """Return what the solver may use: the noise of centred rows, from a few draws."""
+    """Return what the solver may use: the noise of centred rows, from a few draws.
+
+    Of noise alone: what is off by the same all along is no scatter that could be taken off.
+    """
     unknowns = len(asked.rows.names)
     gram, cross = np.zeros((unknowns, unknowns)), np.zeros(unknowns)
-    for pair in asked.draws[: FOR_NOISE if asked.linear.needs_noise else 0]:
+    count = FOR_NOISE if asked.linear.needs_noise else 0
+    for pair in pairs(asked.posed, Drawn(constant=False), count):
         first, second = (centred(rows_again(asked, each)) for each in pair)
         dA = 0.5 * (first.A - second.A).reshape(-1, unknowns)
         db = 0.5 * (first.b - second.b).reshape(-1)
@@ -193,16 +199,22 @@ def remains(rows: Rows, values: Floats) -> Series:
 def summed(asked: Question, aid: Aid, best: Floats) -> Sums:
     """Return what the replicates add up to."""
     c, count = len(best), len(asked.draws)
-    covariance, bias, power = np.zeros((c, c)), np.zeros(c), np.zeros(1)
+    covariance, middles, power = np.zeros((c, c)), list[Floats](), np.zeros(1)
     for pair in asked.draws:
         again = [rows_again(asked, each) for each in pair]
         plus, minus = (asked.linear.solver(each, aid) for each in again)
         half = 0.5 * (plus - minus)
         covariance += np.outer(half, half) / count
-        bias += (0.5 * (plus + minus) - best) / count
+        middles.append(0.5 * (plus + minus) - best)
         noise = 0.5 * (remains(again[0], plus) - remains(again[1], minus))
         power = power + spectrum(noise) / count
-    return Sums(covariance, bias, power)
+    return Sums(covariance, beyond_chance(np.array(middles)), power)
+
+
+def beyond_chance(middles: Series) -> Floats:
+    """Return the mean of the pairs' middles (n, c), none where chance explains it."""
+    mean = middles.mean(axis=0)
+    return np.where(np.abs(mean) > CHANCE * middles.std(axis=0) / len(middles) ** 0.5, mean, 0.0)
 
 
 def spectrum(left: Series) -> Floats:

@@ -19,6 +19,7 @@ nobody stated.
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,7 +30,6 @@ from equipoise.estimation.led_motion import led_motion
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Floats
-from equipoise.model.mass_properties import is_possible
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
@@ -40,40 +40,48 @@ TILTED = 0.5  # of the tilt limit, chosen: where a platform without camera may b
 MOST_OFF = 2.0  # sd, chosen: an inertia drawn farther off may be none
 
 
-def pairs(posed: Posed, knows_inertia: bool, count: int = PAIRS) -> Iterator[tuple[Posed, Posed]]:
+class Drawn(NamedTuple):
+    """What is drawn beside the noise of the sensors."""
+
+    constant: bool = True  # what is off by the same all along: lean, stops, lag, bias, first tilt
+    inertia: bool = False  # the testbed's, for a method that takes it as known
+
+
+def pairs(posed: Posed, what: Drawn, count: int = PAIRS) -> Iterator[tuple[Posed, Posed]]:
     """Return the record with each draw added and subtracted."""
     for k in range(count):
-        yield drawn(posed, k, 1.0, knows_inertia), drawn(posed, k, -1.0, knows_inertia)
+        yield drawn(posed, k, 1.0, what), drawn(posed, k, -1.0, what)
 
 
-def drawn(posed: Posed, k: int, sign: float, knows_inertia: bool) -> Posed:
+def drawn(posed: Posed, k: int, sign: float, what: Drawn) -> Posed:
     """Return the record with the k-th draw."""
     rng = np.random.default_rng([SEED, k])
     recording, testbed = posed.recording, posed.testbed
     alone = recording.attitude is None or not len(recording.attitude)
+    constant = sign * what.constant
     recording = replace(
         recording,
-        attitude=turned(recording.attitude, testbed, sign, rng),
-        rate=shaken(recording.rate, testbed, (sign, sign * alone), rng),
-        masses=misplaced(recording, testbed, sign, rng),
+        attitude=turned(recording.attitude, testbed, (sign, constant), rng),
+        rate=shaken(recording.rate, testbed, (sign, constant * alone), rng),
+        masses=misplaced(recording, testbed, constant, rng),
     )
     if alone:
-        testbed = replace(testbed, up=tilted(testbed, sign, rng))
-    if knows_inertia:
+        testbed = replace(testbed, up=tilted(testbed, constant, rng))
+    if what.inertia:
         testbed = with_other_inertia(testbed, sign, rng)
     return Posed(recording, testbed, led_motion(recording, testbed), posed.terms)
 
 
 def turned(
-    camera: Samples | None, testbed: Testbed, sign: float, rng: np.random.Generator
+    camera: Samples | None, testbed: Testbed, signs: tuple[float, float], rng: np.random.Generator
 ) -> Samples | None:
     """Return the camera's rows with noise, its vertical leaning."""
     if camera is None:
         return None
     stated = testbed.attitude
     sd, lean_sd = (stated.noise, stated.plumb_sd) if stated else (UNSTATED_CAMERA, 0.0)
-    noise = exponential(sign * sd * rng.normal(size=(len(camera), 3)))
-    lean = exponential(sign * lean_sd * np.array([*rng.normal(size=2), 0.0]))
+    noise = exponential(signs[0] * sd * rng.normal(size=(len(camera), 3)))
+    lean = exponential(signs[1] * lean_sd * np.array([*rng.normal(size=2), 0.0]))
     return Samples(camera.t, multiply(lean, multiply(camera.values, noise)))
 
 
@@ -113,9 +121,14 @@ def tilted(testbed: Testbed, sign: float, rng: np.random.Generator) -> Floats:
 
 
 def with_other_inertia(testbed: Testbed, sign: float, rng: np.random.Generator) -> Testbed:
-    """Return the testbed with an inertia that it may as well have; the same where none may be."""
+    """Return the testbed with an inertia that it may as well have; the same where none has it.
+
+    Moments may break the triangle inequality: a flat body's draws would all be small otherwise.
+    """
     J = testbed.body.inertia_P
     size = testbed.inertia_sd * element_sizes(J)
     off = size * np.clip(rng.normal(size=6), -MOST_OFF, MOST_OFF)
-    body = replace(testbed.body, inertia_P=unpack_symmetric(pack_symmetric(J) + sign * off))
-    return replace(testbed, body=body) if is_possible(body) else testbed
+    drawn_P = unpack_symmetric(pack_symmetric(J) + sign * off)
+    if np.linalg.eigvalsh(drawn_P)[0] <= 0:
+        return testbed
+    return replace(testbed, body=replace(testbed.body, inertia_P=drawn_P))
