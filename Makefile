@@ -23,8 +23,8 @@ help:  ## list the targets
 demo: $(RUN)  ## identify and balance a simulated microsatellite mock-up
 	@$(BIN)/equipoise demo
 
-test: $(TEST)  ## run every test, and the examples of README and docs
-	@$(BIN)/pytest -q
+test: $(TEST)  ## run every test, and the examples of README and docs, on two cores
+	@$(BIN)/pytest -q -n 2
 
 bench: $(TEST)  ## time the fit, the tracker and the simulator beside other tools
 	@$(BIN)/python -m benchmarks

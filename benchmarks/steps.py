@@ -13,6 +13,9 @@ from benchmarks.ours import timed
 from equipoise.estimation.filters import driver
 from equipoise.estimation.filters.conclusion import noisy_rows
 from equipoise.estimation.filters.rows import Rows, taken
+from equipoise.estimation.formulations.momentum import body_axes
+from equipoise.estimation.linear import posed_of
+from equipoise.estimation.method import Options
 from equipoise.estimation.methods.ekf_6 import KIND as EKF_6
 from equipoise.estimation.methods.ekf_9 import KIND as EKF_9
 from equipoise.estimation.methods.ekf_12 import KIND as EKF_12
@@ -21,7 +24,9 @@ from equipoise.estimation.methods.ukf_4 import KIND as UKF_4
 from equipoise.estimation.methods.ukf_6 import KIND as UKF_6
 from equipoise.estimation.methods.ukf_9 import KIND as UKF_9
 from equipoise.estimation.methods.ukf_12 import KIND as UKF_12
+from equipoise.estimation.solvers.recursion import Plan, passed, recursion_of, some, unfiltered
 from tests.methods import plain_filters
+from tests.methods.plain_recursive import plain_rls
 from tests.methods.walking import guessed, square_waves, walked
 
 KINDS = {
@@ -58,6 +63,22 @@ def step_of(name: str) -> Step:
     return Step(name, len(state.covariance), ours, 1e6 * plain, WANTED.get(name))
 
 
+def regression() -> Step:
+    """Return what a row of recursive least squares takes: nine unknowns and three constants."""
+    record, _ = walked(1, LENGTH, square_waves(LENGTH))
+    testbed = guessed(1, INERTIA_SD)
+    rows = body_axes(posed_of(record, testbed, Options()))
+    plan = Plan(unfiltered)
+    known = recursion_of(plan, testbed, rows)
+    _, seconds = timed(lambda: passed(plan, testbed, rows), 15)
+    few = some(rows, slice(0, PLAIN_ROWS))
+    began = time.perf_counter()
+    plain_rls(known, few)
+    plain = (time.perf_counter() - began) / PLAIN_ROWS
+    size = len(rows.names) + 3
+    return Step("momentum_recursive (RLS)", size, 1e6 * seconds / len(rows.t), 1e6 * plain, 10.0)
+
+
 def plain_seconds(twin: plain_filters.Plain, rows: Rows) -> float:
     """Return the median seconds of three passes of the plain filter."""
     spent: list[float] = []
@@ -70,4 +91,4 @@ def plain_seconds(twin: plain_filters.Plain, rows: Rows) -> float:
 
 def table() -> list[Step]:
     """Return a row for every recursive estimator."""
-    return [step_of(name) for name in KINDS]
+    return [regression(), *(step_of(name) for name in KINDS)]
