@@ -11,6 +11,7 @@ from equipoise.app.figures import (
     attitude_fit,
     attitude_residual,
     balanced_com,
+    course_com,
     displacements,
     moved_com,
     rates,
@@ -40,6 +41,7 @@ def of_estimate(recording: Recording, testbed: Testbed, estimate: Estimate) -> I
     """Yield the figures that suit the method of an estimate."""
     if estimate.method != "tracker":
         yield from of_fit(recording, testbed, estimate)
+        yield from of_course(recording, estimate)
     elif recording.attitude is not None:
         yield from of_tracking(recording, testbed, estimate, None)
         if recording.masses is not None and np.any(np.ptp(recording.masses.values, axis=0)):
@@ -58,6 +60,15 @@ def of_fit(recording: Recording, testbed: Testbed, estimate: Estimate) -> Iterat
         drawn = attitude_residual.draw(recording, after, noise)
         yield Picture("figure07_residual", attitude_residual.CAPTION, drawn)
     yield Picture("figure08_rate", rates.CAPTION, rates.draw(recording, after))
+
+
+def of_course(recording: Recording, estimate: Estimate) -> Iterator[Picture]:
+    """Yield the centre of mass along the record, of a method that tells it with its sd."""
+    course = estimate.course
+    if course is None or not set(COM) <= set(course.names) or not np.all(np.isfinite(course.sd)):
+        return
+    drawn = course_com.draw(course, estimate.method, recording)
+    yield Picture("com_course", course_com.CAPTION, drawn)
 
 
 def tracked(

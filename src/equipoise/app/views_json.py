@@ -8,7 +8,7 @@ from typing import Any
 from equipoise.app.units import MM, UM
 from equipoise.assessment.finding import Finding
 from equipoise.model.arrays import Floats
-from equipoise.model.estimate import Estimate, Parameter, Residual
+from equipoise.model.estimate import Course, Estimate, Parameter, Residual
 from equipoise.model.event import UNITS, Event
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.move import Move
@@ -57,8 +57,19 @@ def estimate_json(estimate: Estimate, findings: Sequence[Finding] = ()) -> View:
         "unexplained": list(estimate.unexplained),
         "ratios": [parameter_json(p) for p in estimate.ratios],
         "possible": estimate.possible,
+        "course": None if estimate.course is None else course_json(estimate.course),
         "findings": [finding_json(f) for f in findings],
         "provenance": dict(estimate.provenance),
+    }
+
+
+def course_json(course: Course) -> View:
+    """Return what was believed along a record: times, values and sd, a row each."""
+    return {
+        "names": list(course.names),
+        "t_s": numbers(course.t),
+        "values": numbers(course.values),
+        "sd": numbers(course.sd),
     }
 
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.com_panels import draw_com, include
+from equipoise.app.figures.com_panels import Curve, draw_com, include
 from equipoise.app.figures.style import BAND, legend, panels, styled
 from equipoise.app.units import UM
 from equipoise.model.arrays import Series1, Series3, Vector3
@@ -18,7 +18,6 @@ CAPTION = (
     "(circles, bars of two standard deviations), target with its tolerance (shaded), simulated "
     "truth at each step (crosses). Grey: masses travel."
 )
-Curve = tuple[Series1, Series3, Series3]  # s, m, m (one sd)
 Look = tuple[float, Vector3, Vector3]  # s, m, m (one sd)
 
 
@@ -37,7 +36,7 @@ def draw(curve: Curve, recording: Recording, story: Story) -> Figure:
     looks, target, tolerance, truth = story
     figure, grid = panels(3, height=1.5)
     column = [row[0] for row in grid]
-    draw_com(column, *curve, recording)
+    draw_com(column, curve, recording)
     for i, axes in enumerate(column):
         low, high = (target[i] - tolerance[i]) * UM, (target[i] + tolerance[i]) * UM
         axes.axhspan(low, high, color="black", alpha=0.16, linewidth=0, label="target")

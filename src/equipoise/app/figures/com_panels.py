@@ -12,15 +12,19 @@ from equipoise.model.recording import Recording
 SETTLED = 0.15  # share of the rows before a panel's scale is taken; chosen: past the first guess
 
 
+Curve = tuple[Series1, Series3, Series3]  # s, m, m (one sd)
+
+
 def draw_com(
-    every: Sequence[Axes], t: Series1, com: Series3, sd: Series3, recording: Recording
+    every: Sequence[Axes], curve: Curve, recording: Recording, label: str = "tracker"
 ) -> None:
     """Draw x, y and z in um, scaled to what is believed after the first moments."""
+    t, com, sd = curve
     late = slice(int(SETTLED * len(t)), None)
     for i, axes in enumerate(every):
         value, spread = com[:, i] * UM, sd[:, i] * UM
         band(axes, t, value, spread, XYZ[i])
-        line(axes, t, value, XYZ[i], "tracker")
+        line(axes, t, value, XYZ[i], label)
         axes.set_ylim(around(value[late], spread[late]))
         axes.set_ylabel(f"$r_{AXES[i]}$, um")
     mark_travel(every, recording)

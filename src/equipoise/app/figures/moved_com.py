@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.com_panels import draw_com, draw_truth, include
+from equipoise.app.figures.com_panels import Curve, draw_com, draw_truth, include
 from equipoise.app.figures.style import legend, panels, styled
 from equipoise.model.arrays import Series1, Series3
 from equipoise.model.recording import Recording
@@ -12,7 +12,6 @@ CAPTION = (
     "move is fed forward to the tracker, (b) it is ignored and has to be found. Bands: two "
     "standard deviations. Dashed: the simulated truth. Grey: masses travel."
 )
-Curve = tuple[Series1, Series3, Series3]  # s, m, m (one sd)
 
 
 @styled
@@ -23,7 +22,7 @@ def draw(
     figure, grid = panels(3, 2, height=1.35)
     for k, (curve, title) in enumerate(((fed, "(a) move fed"), (ignored, "(b) move ignored"))):
         column = [row[k] for row in grid]
-        draw_com(column, *curve, recording)
+        draw_com(column, curve, recording)
         column[0].set_title(title)
         if truth is not None:
             draw_truth(column, *truth)

@@ -20,7 +20,7 @@ def draw(track: Track, recording: Recording, truth: Vector3 | None = None) -> Fi
     """Return the figure; ``truth`` (m) is drawn when the bench is simulated."""
     figure, grid = panels(3, height=1.25)
     column = [row[0] for row in grid]
-    draw_com(column, track.t, track.com, track.com_sd, recording)
+    draw_com(column, (track.t, track.com, track.com_sd), recording)
     if truth is not None:
         draw_truth(column, track.t[[0, -1]], np.array([truth, truth]))
     legend(figure, column[0])
