@@ -31,6 +31,7 @@ PUBLISHED: dict[tuple[str, str], tuple[Triple, Triple | None]] = {
     ("slow", "energy"): ((0.0, 0.0, 0.0), (0.030, 0.027, 0.175)),
     ("quick", "simplified_increments"): ((26.0, 12.0, -132.0), None),
 }
+LEAST = 5e-4  # um or %, chosen: smaller biases are shown as 0
 ROUNDED, SHARE = 0.02, 0.05  # um as printed; of a bias, for an attitude that is not told exactly
 QUICK_SHARE = 0.30  # of a bias at 20 deg/s, where it depends on the first attitude
 LIMITS = {("noisy", "momentum_corrected"): 1.0, ("noisy", "trajectory"): 0.3}  # % of J
@@ -70,9 +71,14 @@ def table(runs: Sequence[dict[str, dict[str, float]]], key: str, names: Sequence
     return np.array([[run[key].get(name, np.nan) for name in names] for run in runs])
 
 
+def shown(values: Array) -> str:
+    """Return three numbers as text, none of them smaller than a reader cares for."""
+    return triple(np.where(np.abs(values) < LEAST, 0.0, values), ".3g")
+
+
 def spread_text(errors: Array) -> str:
     """Return bias and sd as text."""
-    return f"{triple(errors.mean(axis=0), '.3g')}, sd {triple(errors.std(axis=0), '.2g')}"
+    return f"{shown(errors.mean(axis=0))}, sd {triple(errors.std(axis=0), '.2g')}"
 
 
 def as_published(name: str, key: str, errors: Array) -> tuple[str, bool]:
