@@ -139,6 +139,13 @@ def test_a_torque_that_nobody_told_widens_the_intervals():
     assert "far more than the sensors' noise" in found.outcome.sentence
 
 
+def test_a_bias_is_not_taken_for_a_torque_that_nobody_told():
+    """Slopes of a cubic lose percents of J; without that, what is left is noise."""
+    found = run("torque_savitzky_golay", driven(1, 60.0), driven_platform())
+    assert "Noise in the regressor" in found.outcome.sentence
+    assert found.residual.spectral_peak < 2.0
+
+
 def test_excess_is_one_for_noise_and_the_ratio_for_more():
     rng = np.random.default_rng(3)
     left = rng.normal(size=(2000, 3))
