@@ -20,7 +20,6 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 
 LARGEST = 20.0  # of the logarithms, chosen: so that no trial leaves the range of numbers
-MOST = 100  # evaluations, chosen: what settles takes ten
 
 
 def possible(rows: Rows, aid: Aid) -> Floats:
@@ -52,8 +51,9 @@ def nearest(
 
     def body(y: Floats) -> Floats:
         x = y.copy()
-        r = y[com] * scale[com]
-        J = pseudo_inertia.to_inertia(y[six]) + parallel_axis(mass, r)
+        r, numbers = y[com] * scale[com], y[six]
+        numbers[:3] = np.clip(numbers[:3], -LARGEST, LARGEST)
+        J = pseudo_inertia.to_inertia(numbers) + parallel_axis(mass, r)
         x[six] = pack_symmetric(J) / scale[six]
         return x
 
@@ -62,9 +62,5 @@ def nearest(
     if np.trace(inertia_C) <= 0:
         inertia_C = unpack_symmetric(guess[six])
     start[six] = pseudo_inertia.from_inertia(inertia_C)
-    bound = np.full(len(free), np.inf)
-    bound[six[:3]] = LARGEST
-    start[six[:3]] = np.clip(start[six[:3]], 1 - LARGEST, LARGEST - 1)
-    found = minimise(lambda y: root.T @ (body(y) - free / scale), start, bounds=(-bound, bound),
-                     x_scale="jac", xtol=1e-12, max_nfev=MOST)  # fmt: skip
+    found = minimise(lambda y: root.T @ (body(y) - free / scale), start, method="lm", xtol=1e-12)
     return body(np.asarray(found.x, dtype=np.float64)) * scale
