@@ -12,12 +12,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from equipoise.estimation.formulations.rows import body_with
 from equipoise.estimation.method import Options, heeded
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.trajectory import Params, fit, misfit_at
 from equipoise.io.recording_file import read_recording
 from equipoise.io.testbed_file import read_testbed
-from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.recording import window
@@ -42,25 +42,6 @@ def estimated(name: str) -> Estimate:
     return last.estimate
 
 
-def body_of(testbed: Testbed, estimate: Estimate) -> MassProperties:
-    """Return the body found; what was not sought is CAD's."""
-    found = {p.name: p.value for p in estimate.parameters}
-    body = testbed.body
-    own = dict(
-        zip(
-            INERTIA,
-            [
-                float(body.inertia_P[i, j])
-                for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-            ],
-            strict=True,
-        )
-    )
-    six = np.array([found.get(name, own[name]) for name in INERTIA])
-    com = np.array([found.get(name, float(r)) for name, r in zip(COM, body.com, strict=True)])
-    return MassProperties(body.mass, com, unpack_symmetric(six))
-
-
 def left_by(testbed: Testbed, body: MassProperties) -> float:
     """Return what a body leaves of the second half, deg rms per axis."""
     recording, seen = sound(read_recording(RECORD), replace(testbed, body=body))
@@ -79,7 +60,7 @@ def judged(name: str) -> tuple[str, float | None]:
     first = estimate.outcome.sentence.split(". ")[0].rstrip(".")
     if not estimate.parameters:
         return f"refuses: {first}", None
-    body = body_of(testbed, estimate)
+    body = body_with(testbed, {p.name: p.value for p in estimate.parameters})
     if not is_possible(body):
         return "no body can have the inertia found, and it says so", None
     said = "warns of its intervals" if candid(estimate) else "usable"

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise import __version__
 from equipoise.actuators.sliding_masses import com_shift
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.fitted import Fitted, freedom, smooth_at
 from equipoise.estimation.hanging_masses import by_sag
+from equipoise.estimation.method import origin_of
 from equipoise.estimation.observability import (
     OPEN,
     Visibility,
@@ -33,7 +33,7 @@ from equipoise.estimation.unknowns import (
 from equipoise.maths.attitude import logarithm
 from equipoise.maths.linalg import lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import COM, END, Estimate, Parameter, Residual
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording
@@ -175,6 +175,24 @@ def without_scale(view: Visibility, layout: Layout) -> Visibility:
     return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True, view.unseen)
 
 
+def without_anchor(normal: Square, fitted: Fitted) -> Square:
+    """Return information without the prior that only keeps a search from wandering."""
+    prior = fitted.problem.prior
+    return normal - np.diag(np.where(prior.held, 0.0, prior.anchor))
+
+
+def visibility_of(fitted: Fitted, values: Floats) -> Visibility:
+    """Return covariance and visibility at a fit, ``values`` being its physical coordinates."""
+    problem, layout = fitted.problem, fitted.problem.layout
+    size = natural_sizes(fitted.point, problem.mass, layout)
+    information = without_anchor(fitted.at.normal, fitted)
+    view = examine_unheld(
+        information, scale_of(values, size), size, layout.names, problem.prior.held
+    )
+    view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
+    return without_scale(view, layout) if problem.scale_open else view
+
+
 def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float = 1.0) -> Estimate:
     """Return the estimate. Units are SI; ``com_end`` is with the masses as they stand at the end.
 
@@ -183,15 +201,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
     """
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
-    size = natural_sizes(fitted.point, problem.mass, layout)
-    anchor = np.where(problem.prior.held, 0.0, problem.prior.anchor)
-    information = fitted.at.normal - np.diag(anchor)
-    view = examine_unheld(
-        information, scale_of(values, size), size, layout.names, problem.prior.held
-    )
-    view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
-    if problem.scale_open:
-        view = without_scale(view, layout)
+    view = visibility_of(fitted, values)
     after = smooth_at(fitted) if fitted.problem.jumps else None
     residual = residual_of(fitted, freedom(fitted, after) if after else 0.0)
     factor = max(widening(residual), coloured)
@@ -207,10 +217,5 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
         if view.scale_open
         else (),
         True,
-        provenance={
-            "version": __version__,
-            "source": recording.source,
-            "sha256": recording.sha256,
-            "evaluations": str(fitted.evaluations),
-        },
+        provenance=origin_of(recording) | {"evaluations": str(fitted.evaluations)},
     )

@@ -21,10 +21,10 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import chi2
 
-from equipoise import __version__
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.actuators.stops import travels
 from equipoise.dynamics.timeline import straight_lines
+from equipoise.estimation.method import origin_of
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import inverse_spd
 from equipoise.maths.long_run import long_run_covariance, memory
@@ -161,5 +161,5 @@ def estimate(recording: Recording, testbed: Testbed) -> Estimate:
     )
     text = f"The centre of mass from {len(rests)} rest positions; the inertia is not estimated."
     text += doubts(rests, misfit)
-    origin = {"version": __version__, "source": recording.source, "sha256": recording.sha256}
+    origin = origin_of(recording)
     return Estimate(METHOD, Outcome(True, text), parameters, covariance, provenance=origin)

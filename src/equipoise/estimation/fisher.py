@@ -27,16 +27,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.estimation.conclusion import without_scale
+from equipoise.estimation.conclusion import visibility_of, without_anchor
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.followed_motion import Followed, followed, halfway
-from equipoise.estimation.hanging_masses import by_sag
-from equipoise.estimation.observability import (
-    Visibility,
-    examine_unheld,
-    natural_sizes,
-    scale_of,
-)
 from equipoise.estimation.ratios import ratios_of
 from equipoise.estimation.trajectory import Params
 from equipoise.estimation.trajectory_problem import evaluate, prior_of
@@ -81,9 +74,8 @@ def seen_along(motion: Followed) -> Observability:
     """Return what a motion that was followed can show, bounds in SI units."""
     fitted = motion.fitted
     problem, layout = fitted.problem, fitted.problem.layout
-    size = natural_sizes(fitted.point, problem.mass, layout)
     values = physical(fitted.point, problem.mass, layout)
-    view = view_of(fitted, values, size)
+    view = visibility_of(fitted, values)
     held = np.isin(layout.names, motion.params.hold)
     sentences = tuple(dict.fromkeys(view.sentences))
     variance = np.maximum(np.diag(view.covariance), 0.0)
@@ -108,23 +100,6 @@ def seen_along(motion: Followed) -> Observability:
         int(np.sum(~held)),
         fitted.point.body(problem.mass).inertia_P,
     )
-
-
-def view_of(fitted: Fitted, values: Floats, size: Floats) -> Visibility:
-    """Return covariance and visibility as an estimate from this fit would state them."""
-    problem, layout = fitted.problem, fitted.problem.layout
-    information = without_anchor(fitted.at.normal, fitted)
-    view = examine_unheld(
-        information, scale_of(values, size), size, layout.names, problem.prior.held
-    )
-    view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
-    return without_scale(view, layout) if problem.scale_open else view
-
-
-def without_anchor(normal: Square, fitted: Fitted) -> Square:
-    """Return information without the prior that only keeps a search from wandering."""
-    prior = fitted.problem.prior
-    return normal - np.diag(np.where(prior.held, 0.0, prior.anchor))
 
 
 def free_information(fitted: Fitted, held: Bools) -> Square:

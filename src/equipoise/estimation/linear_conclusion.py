@@ -4,20 +4,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise import __version__
 from equipoise.estimation.error_indices import error_indices
-from equipoise.estimation.formulations.rows import BODY, Posed, Rows, centred
-from equipoise.estimation.method import Card
+from equipoise.estimation.formulations.rows import BODY, Posed, Rows, body_with, centred
+from equipoise.estimation.method import Card, origin_of
 from equipoise.estimation.observability import DISTANCE, OPEN, Visibility, examine
 from equipoise.estimation.ratios import ratios_of
 from equipoise.estimation.solvers.recursion import Passed
 from equipoise.estimation.unknowns import term_sizes
-from equipoise.maths.linalg import inverse_spd, lag_one, unpack_symmetric
+from equipoise.maths.linalg import inverse_spd, lag_one
 from equipoise.maths.whiteness import portmanteau
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA, Course, Estimate, Parameter, Residual
-from equipoise.model.mass_properties import MassProperties, is_possible
+from equipoise.model.mass_properties import is_possible
 from equipoise.model.outcome import Outcome
 from equipoise.model.torque_terms import TERMS, unit_of
 
@@ -42,7 +41,7 @@ class Answer(NamedTuple):
     covariance: Square  # of what noise does
     shifts: Shifts
     left: Series  # (n, m) of the rows
-    excess: float  # of its power over that of noise, where it is greatest
+    excess: float  # of its power over that of noise, where it is greatest; at least 1
     course: Passed | None = None  # of a recursion
 
 
@@ -55,8 +54,8 @@ def conclude(
                    rows.names)  # fmt: skip
     names, values, covariance, hidden = reported(posed, rows, answer, view, whole, pinned)
     open_scale = bool(pinned)
-    body = body_of(posed, rows, answer)
-    outcome = outcome_of(posed, rows, answer, open_scale, is_possible(body))
+    body = body_with(posed.testbed, dict(zip(rows.names, answer.values, strict=True)))
+    outcome = outcome_of(rows, answer, open_scale, is_possible(body))
     ratios = ratios_for(names, values, covariance) if open_scale else ()
     return Estimate(
         card.name,
@@ -68,8 +67,7 @@ def conclude(
         ((OPEN,) if open_scale else ()) + view.sentences,
         ratios,
         is_possible(body),
-        {"version": __version__, "source": posed.recording.source,
-         "sha256": posed.recording.sha256},
+        origin_of(posed.recording),
         course=course_of(rows, answer, whole),
     )  # fmt: skip
 
@@ -88,7 +86,7 @@ def course_of(rows: Rows, answer: Answer, whole: Square) -> Course | None:
 def total(answer: Answer) -> Square:
     """Return noise, widened, and the errors that no repetition shows."""
     fixed = np.array(answer.shifts)
-    return max(answer.excess, 1.0) * answer.covariance + fixed.T @ fixed
+    return answer.excess * answer.covariance + fixed.T @ fixed
 
 
 def rounding(covariance: Square) -> Square:
@@ -144,15 +142,6 @@ def ratios_for(names: tuple[str, ...], values: Floats, covariance: Square) -> tu
     return ratios_of(values[order], covariance[np.ix_(order, order)], np.zeros((9, 0)))
 
 
-def body_of(posed: Posed, rows: Rows, answer: Answer) -> MassProperties:
-    """Return the body found; what was not sought is the testbed's."""
-    body, found = posed.testbed.body, dict(zip(rows.names, answer.values, strict=True))
-    six = [found.get(name, float(body.inertia_P[i, j])) for name, (i, j) in
-           zip(INERTIA, ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)), strict=True)]  # fmt: skip
-    com = [found.get(name, float(body.com[k])) for k, name in enumerate(COM)]
-    return MassProperties(body.mass, np.array(com), unpack_symmetric(np.array(six)))
-
-
 def indices_of(rows: Rows) -> tuple[float | None, dict[str, float]]:
     """Return Lee's error indices, total and relative by parameter; none of rows without answer."""
     middle = centred(rows)
@@ -170,11 +159,11 @@ def residual_of(rows: Rows, answer: Answer) -> Residual:
     return Residual(
         None,
         None,
-        max(answer.excess, 1.0) * freedom,
+        answer.excess * freedom,
         freedom,
         lag_one(answer.left),
         portmanteau(answer.left),
-        spectral_peak=max(answer.excess, 1.0),
+        spectral_peak=answer.excess,
         error_index=index,
         error_indices=relative,
     )
@@ -182,15 +171,13 @@ def residual_of(rows: Rows, answer: Answer) -> Residual:
 
 def worst(rows: Rows, shift: Floats, answer: Answer) -> tuple[str, float] | None:
     """Return the parameter that a shift moves most, and by how many sd of noise; None if none."""
-    sd = np.sqrt(max(answer.excess, 1.0) * np.maximum(np.diag(answer.covariance), 1e-300))
+    sd = np.sqrt(answer.excess * np.maximum(np.diag(answer.covariance), 1e-300))
     by = shift / sd
     k = int(np.argmax(np.abs(by)))
     return (rows.names[k], float(by[k])) if abs(by[k]) > MATTERS else None
 
 
-def outcome_of(
-    posed: Posed, rows: Rows, answer: Answer, open_scale: bool, possible: bool
-) -> Outcome:
+def outcome_of(rows: Rows, answer: Answer, open_scale: bool, possible: bool) -> Outcome:
     """Return whether the numbers may be used, and what to think of them."""
     told = ["The scale is open: only ratios are known." if open_scale else "A linear estimate."]
     told += [f"Note: {note}." for note in rows.notes]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from equipoise import __version__
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
@@ -95,6 +96,11 @@ def estimated(method: Method, recording: Recording, testbed: Testbed, options: O
         raise InputError("method", f"--{name} with {method.card.name}, which knows {known}",
                          "another method, such as trajectory, or no such option")  # fmt: skip
     return method.run(recording, testbed, options)
+
+
+def origin_of(recording: Recording) -> dict[str, str]:
+    """Return what an estimate was made of, and by which version."""
+    return {"version": __version__, "source": recording.source, "sha256": recording.sha256}
 
 
 def refused(card: Card, sentence: str) -> Estimate:

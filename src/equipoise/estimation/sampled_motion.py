@@ -53,12 +53,6 @@ def averaged(t: Series1, values: Floats, at: Series1, width: float) -> Floats:
     return (running[last] - running[first]) / (last - first)[:, None]
 
 
-def common_rows(recording: Recording) -> int:
-    """Return how many times ``sampled_motion`` will give: the camera's rows, else the gyro's."""
-    camera = 0 if recording.attitude is None else len(recording.attitude)
-    return camera if camera >= 4 or recording.rate is None else len(recording.rate)
-
-
 def sampled_motion(recording: Recording, testbed: Testbed) -> SampledMotion:
     """Return attitude and rate at common times."""
     attitude, rate = recording.attitude, recording.rate

@@ -1,13 +1,7 @@
 """`equipoise observe`: what a recording can and cannot show, before any estimate is believed."""
 
-from typing import TYPE_CHECKING
-
 from equipoise.app.commands.kinds import Flag, Names
 from equipoise.app.terminal import busy
-
-if TYPE_CHECKING:
-    from equipoise.estimation.trajectory import Params
-    from equipoise.model.testbed import Testbed
 
 
 def observe(
@@ -58,10 +52,13 @@ def observe(
         from equipoise.estimation.filter_observability import filters_along
         from equipoise.estimation.fisher import seen_along
         from equipoise.estimation.followed_motion import followed
+        from equipoise.estimation.method import Options
+        from equipoise.estimation.methods.trajectory import params_of
         from equipoise.procedure.sound_rows import sound
 
         sound_recording, as_seen = sound(recording, bed)
-        motion = followed(sound_recording, as_seen, _asked(bed, terms, hold, prior))
+        asked = params_of(bed, Options(terms, hold, prior))
+        motion = followed(sound_recording, as_seen, asked)
         seen, filters = seen_along(motion), filters_along(motion)
     from equipoise.app.observe_views import observe_json, show_observability
     from equipoise.app.views_json import dump
@@ -71,15 +68,3 @@ def observe(
     else:
         show_observability(seen, filters)
     return 0
-
-
-def _asked(
-    testbed: "Testbed", terms: tuple[str, ...], hold: tuple[str, ...], prior: bool
-) -> "Params":
-    """Return what would be sought: the testbed's own terms first."""
-    from equipoise.estimation.trajectory import Params
-    from equipoise.model import sensor_terms, torque_terms
-
-    names = (*testbed.disturbances, *terms)
-    torques, sensor = torque_terms.among(names), sensor_terms.among(names)
-    return Params(torques, sensor, use_prior=prior, hold=hold)

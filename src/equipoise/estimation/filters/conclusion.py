@@ -16,11 +16,10 @@ is told where it is more than the rest, beside the rule |w|^2 dJ / (m g).
 
 import numpy as np
 
-from equipoise import __version__
 from equipoise.estimation.filters.driver import State, advance, begin, told
 from equipoise.estimation.filters.model import Kind
 from equipoise.estimation.filters.rows import Rows, camera_rows, gyro_rows
-from equipoise.estimation.method import Card, refused
+from equipoise.estimation.method import Card, origin_of, refused
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats, Matrix3, Series1
 from equipoise.model.estimate import INERTIA, Estimate, Parameter
@@ -127,7 +126,7 @@ def left_out(state: State, rows: Rows, testbed: Testbed) -> str:
     )
 
 
-def outcome_of(state: State, surprise: Series1, text: str) -> Outcome:
+def outcome_of(surprise: Series1, text: str) -> Outcome:
     """Return whether the numbers may be used."""
     seen = surprise[np.isfinite(surprise)]
     ratio = float(np.mean(seen)) / 3 if len(seen) else np.nan
@@ -166,11 +165,10 @@ def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> 
     state, passed = advance(begin(kind, testbed, noise), rows)
     unseen = standing_covariance(rows, recording, testbed) + leaning(state, testbed)
     covariance = at_home(state, unseen)
-    outcome = outcome_of(state, passed.surprise, left_out(state, rows, testbed))
+    outcome = outcome_of(passed.surprise, left_out(state, rows, testbed))
     if not possible(state, testbed):
         outcome = Outcome(False, "No body can have the inertia found: the filter diverged.")
-    origin = {"version": __version__, "source": recording.source, "sha256": recording.sha256}
     return Estimate(
         card.name, outcome, parameters_of(state, covariance), covariance,
-        possible=possible(state, testbed), provenance=origin, course=passed.course,
+        possible=possible(state, testbed), provenance=origin_of(recording), course=passed.course,
     )  # fmt: skip

@@ -7,15 +7,16 @@ know columns by number. Where a formulation integrates from a start that nobody 
 the record has free constants c of its own; they are never written out but removed by centring.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from equipoise.estimation.led_motion import LedMotion
-from equipoise.maths.linalg import pack_symmetric
+from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -53,6 +54,19 @@ def values_of(testbed: Testbed) -> dict[str, float]:
     """Return what the testbed says of the body, by name."""
     six = pack_symmetric(testbed.body.inertia_P)
     return dict(zip(BODY, map(float, (*six, *testbed.body.com)), strict=True))
+
+
+def guess_of(rows: Rows, testbed: Testbed) -> Floats:
+    """Return the testbed's values (c,) in the order of the unknowns; 0 for torques."""
+    known = values_of(testbed)
+    return np.array([known.get(name, 0.0) for name in rows.names])
+
+
+def body_with(testbed: Testbed, found: Mapping[str, float]) -> MassProperties:
+    """Return the body found; what is not among ``found`` is the testbed's."""
+    known = values_of(testbed)
+    six, com = (np.array([found.get(n, known[n]) for n in names]) for names in (INERTIA, COM))
+    return MassProperties(testbed.body.mass, com, unpack_symmetric(six))
 
 
 def held(rows: Rows, testbed: Testbed, names: tuple[str, ...]) -> Rows:

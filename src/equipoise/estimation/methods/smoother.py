@@ -2,10 +2,8 @@
 
 from equipoise.estimation import smoother
 from equipoise.estimation.method import Card, Method, Options, refused
-from equipoise.estimation.methods.trajectory import terms_of
+from equipoise.estimation.methods.trajectory import params_of
 from equipoise.estimation.reference import FEWEST, check_sensors
-from equipoise.estimation.trajectory import Params
-from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -17,15 +15,7 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     if rows < FEWEST:
         return refused(METHOD.card, f"Only {rows} rows: nothing can be estimated.")
-    terms = terms_of(testbed, options)
-    params = Params(
-        torque_terms.among(terms),
-        sensor_terms.among(terms),
-        use_prior=options.use_prior,
-        hold=options.hold,
-        robust=options.robust,
-    )
-    return smoother.estimate(recording, testbed, params)
+    return smoother.estimate(recording, testbed, params_of(testbed, options))
 
 
 METHOD = Method(

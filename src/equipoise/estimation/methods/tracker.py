@@ -6,10 +6,9 @@ part of it.
 
 import numpy as np
 
-from equipoise import __version__
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.estimation import tracker
-from equipoise.estimation.method import Card, Method, Options, refused
+from equipoise.estimation.method import Card, Method, Options, origin_of, refused
 from equipoise.estimation.tracker_update import GATE
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Vector3
@@ -68,11 +67,7 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
         outcome_of(track),
         parameters_of(belief, shift_at_end(recording, testbed)),
         belief.covariance,
-        provenance={
-            "version": __version__,
-            "source": recording.source,
-            "sha256": recording.sha256,
-        },
+        provenance=origin_of(recording),
         course=Course(COM, track.t, track.com, track.com_sd),
     )
 

@@ -11,23 +11,19 @@ from equipoise.model.testbed import Testbed
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     """Return the estimate."""
-    terms = terms_of(testbed, options)
-    return reference.estimate(
-        recording,
-        testbed,
-        Params(
-            torque_terms.among(terms),
-            sensor_terms.among(terms),
-            use_prior=options.use_prior,
-            hold=options.hold,
-            robust=options.robust,
-        ),
+    return reference.estimate(recording, testbed, params_of(testbed, options))
+
+
+def params_of(testbed: Testbed, options: Options) -> Params:
+    """Return what a trajectory fit is told: the testbed's own terms among those to estimate."""
+    terms = (*testbed.disturbances, *options.terms)
+    return Params(
+        torque_terms.among(terms),
+        sensor_terms.among(terms),
+        use_prior=options.use_prior,
+        hold=options.hold,
+        robust=options.robust,
     )
-
-
-def terms_of(testbed: Testbed, options: Options) -> tuple[str, ...]:
-    """Return the terms to estimate, the testbed's own first, each once."""
-    return tuple(dict.fromkeys((*testbed.disturbances, *options.terms)))
 
 
 METHOD = Method(

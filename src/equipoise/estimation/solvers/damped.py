@@ -9,7 +9,7 @@ to get there: it matters only with constraints, or where the motion itself is fi
 
 import numpy as np
 
-from equipoise.estimation.formulations.rows import Rows, centred, values_of
+from equipoise.estimation.formulations.rows import Rows, centred, guess_of
 from equipoise.estimation.solvers.aid import Aid
 from equipoise.estimation.solvers.least_squares import normal_of
 from equipoise.maths.scaled_solve import scaled_solve
@@ -21,10 +21,10 @@ SETTLED = 1e-13  # of the cost at x = 0
 
 def damped(rows: Rows, aid: Aid) -> Floats:
     """Return the solution."""
-    normal, right = normal_of(centred(rows))
-    square = float(np.sum(centred(rows).b ** 2))
-    guess = values_of(aid.testbed)
-    x = np.array([guess.get(name, 0.0) for name in rows.names])
+    rows = centred(rows)
+    normal, right = normal_of(rows)
+    square = float(np.sum(rows.b**2))
+    x = guess_of(rows, aid.testbed)
 
     def cost(at: Floats) -> float:
         return float(at @ (normal @ at - 2 * right)) + square

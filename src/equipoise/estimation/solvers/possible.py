@@ -10,7 +10,7 @@ Where it is none, the answer lies near the border, and its interval is that of a
 import numpy as np
 from scipy.optimize import least_squares as minimise
 
-from equipoise.estimation.formulations.rows import Rows, centred, values_of
+from equipoise.estimation.formulations.rows import Rows, centred, guess_of
 from equipoise.estimation.solvers.aid import Aid
 from equipoise.estimation.solvers.least_squares import normal_of, solved
 from equipoise.maths import pseudo_inertia
@@ -33,13 +33,7 @@ def possible(rows: Rows, aid: Aid) -> Floats:
     mass = aid.testbed.body.mass
     if is_possible(MassProperties(mass, free[com], unpack_symmetric(free[six]))):
         return free
-    return nearest(normal, free, six, com, mass, guess_of(rows, aid))
-
-
-def guess_of(rows: Rows, aid: Aid) -> Floats:
-    """Return the testbed's values in the order of the rows."""
-    guess = values_of(aid.testbed)
-    return np.array([guess.get(name, 0.0) for name in rows.names])
+    return nearest(normal, free, six, com, mass, guess_of(rows, aid.testbed))
 
 
 def nearest(

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.formulations import averaged, tracked
-from equipoise.estimation.formulations.rows import Rows, values_of
+from equipoise.estimation.formulations.rows import Rows, guess_of
 from equipoise.estimation.formulations.torque import window_of
 from equipoise.estimation.solvers.aid import Aid, Solver
 from equipoise.estimation.solvers.recursive import Recursion, State, advance, begin, begin_with
@@ -116,10 +116,10 @@ def noise_of(plan: Plan, testbed: Testbed, rows: Rows) -> Floats:
 
 def recursion_of(plan: Plan, testbed: Testbed, rows: Rows) -> Recursion:
     """Return where a plan begins on a testbed, and what it may forget."""
-    sd, known = start_sd(testbed, rows.names), values_of(testbed)
+    sd = start_sd(testbed, rows.names)
     stated = dict.fromkeys(INERTIA, testbed.inertia_sd) | dict.fromkeys(COM, 1.0 / LOOSE)
     return Recursion(
-        np.array([known.get(name, 0.0) for name in rows.names]),
+        guess_of(rows, testbed),
         sd,
         noise_of(plan, testbed, rows),
         FASTEST * float(np.trace(testbed.body.inertia_P)),
