@@ -72,6 +72,7 @@ WRONG_OBSERVE = {
     "term": (["--term", "vicsous"], "viscous"),
     "dialect": (["--dialect", "optitrak"], "optitrack"),
     "two ways to read": (["--dialect", "ros", "--columns", "map.toml"], "one of them"),
+    "window": (["--from-s", "300"], "within 0 to 120 s"),
 }
 
 

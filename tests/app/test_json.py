@@ -58,6 +58,15 @@ def test_a_recording(equipoise, record_file, strict_json):
     assert any("x1 moves" in finding["sentence"] for finding in document["findings"])
 
 
+def test_a_part_of_a_recording(equipoise, record_file, strict_json):
+    """Every command that reads a record can leave its ends out: 10 to 40 s are 151 rows at 5 Hz."""
+    part = ("--from-s", "10", "--to-s", "40", "--json")
+    looked = strict_json(equipoise("inspect", record_file, *part).out)
+    assert (looked["rows"]["attitude"], looked["span_s"]) == (151, [10, 40])
+    observed = strict_json(equipoise("observe", record_file, "--testbed", "sputnix", *part).out)
+    assert any("scale" in sentence for sentence in observed["unobservable"])  # the move is at 60 s
+
+
 def test_what_a_recording_can_show(equipoise, record_file, strict_json):
     """Bounds in SI beside what the testbed states; filters with their ranks."""
     done = equipoise("observe", record_file, "--testbed", "sputnix", "--json")

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from equipoise.app import wiring
+from equipoise.app.commands.reading import Reading
 from equipoise.app.wiring import move_of, part_of
 from equipoise.io.presets import read_preset
 from equipoise.model.errors import InputError
@@ -44,6 +45,6 @@ def test_masses_come_in_the_testbeds_order():
 def test_a_window_that_leaves_nothing_is_refused():
     q = np.tile([1.0, 0, 0, 0], (10, 1))
     recording = Recording(attitude=Samples(np.arange(10.0), q), source="run.csv")
-    assert len(part_of(recording, 2.0, 6.0).attitude or ()) == 5
+    assert len(part_of(recording, Reading(2.0, 6.0)).attitude or ()) == 5
     with pytest.raises(InputError, match="within 0 to 9 s"):
-        part_of(recording, 20.0, None)
+        part_of(recording, Reading(from_s=20.0))

@@ -3,6 +3,9 @@
 import re
 from pathlib import Path
 
+from equipoise.app.commands.reading import Reading
+from equipoise.app.commands.seeking import Seeking
+from equipoise.app.options import one_of
 from equipoise.io.column_map import ColumnMap
 from equipoise.io.column_map_file import read_column_map
 from equipoise.io.frame_check import check_frame
@@ -10,8 +13,10 @@ from equipoise.io.presets import preset_names, read_preset
 from equipoise.io.recording_file import read_recording
 from equipoise.io.testbed_file import read_testbed
 from equipoise.model.errors import InputError, nearest
+from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import expand
 
 MOVE = re.compile(r"\s*(?P<time>[^:\s]+)\s*:\s*(?P<goals>\S+=\S+(?:[\s,]+\S+=\S+)*)\s*")
 WANTED_MOVE = "'seconds: mass=mm mass=mm', such as '60: x1=-10 z1=-50'"
@@ -28,29 +33,36 @@ def testbed_of(name: str) -> Testbed:
     return read_testbed(name)
 
 
-def recording_of(file: str, dialect: str | None, columns: str | None) -> Recording:
+def recording_of(file: str, reading: Reading) -> Recording:
     """Return a recording as it is."""
-    return read_recording(file, _columns(dialect, columns))
+    return part_of(read_recording(file, _columns(reading)), reading)
 
 
-def fitting_recording_of(
-    file: str, dialect: str | None, columns: str | None, testbed: Testbed
-) -> Recording:
+def fitting_recording_of(file: str, reading: Reading, testbed: Testbed) -> Recording:
     """Return a recording that fits a testbed: masses are the testbed's, gravity points down."""
-    recording = read_recording(file, _columns(dialect, columns), testbed)
+    recording = read_recording(file, _columns(reading), testbed)
     check_frame(recording, testbed)
-    return arranged(recording, testbed.mass_names)
+    return part_of(arranged(recording, testbed.mass_names), reading)
 
 
-def _columns(dialect: str | None, columns: str | None) -> str | ColumnMap | None:
-    if dialect is not None and columns is not None:
+def sought_of(seeking: Seeking) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the terms to seek, composed ones spelt out, and the parameters to hold."""
+    for name in seeking.hold:
+        one_of("--hold", name, [*COM, *INERTIA])
+    return expand(seeking.term, "--term"), seeking.hold
+
+
+def _columns(reading: Reading) -> str | ColumnMap | None:
+    if reading.dialect is not None and reading.columns is not None:
         raise InputError("--dialect and --columns", "both", "one of them")
-    return dialect if columns is None else read_column_map(columns)
+    return reading.dialect if reading.columns is None else read_column_map(reading.columns)
 
 
-def part_of(recording: Recording, start: float | None, end: float | None) -> Recording:
-    """Return the part between two times (s); None stands for the end that there is."""
-    first, last = recording.span
+def part_of(recording: Recording, reading: Reading) -> Recording:
+    """Return the part between two times; one that is left out stands for the end there is."""
+    if reading.from_s is None and reading.to_s is None:
+        return recording
+    (first, last), start, end = recording.span, reading.from_s, reading.to_s
     part = window(recording, first if start is None else start, last if end is None else end)
     if max(len(c) for c in (part.attitude, part.rate, ()) if c is not None) < FEWEST:
         found = f"fewer than {FEWEST} rows between --from-s and --to-s"

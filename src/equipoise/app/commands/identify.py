@@ -3,7 +3,9 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag, Names
+from equipoise.app.commands.kinds import Flag
+from equipoise.app.commands.reading import WHOLE, Reading
+from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
 from equipoise.app.terminal import busy, tell_paths, watched
 
 if TYPE_CHECKING:
@@ -19,14 +21,9 @@ def identify(
     *,
     testbed: str,
     method: str = "auto",
-    hold: Names = (),
-    term: Names = (),
-    prior: Flag = False,
     robust: Flag = False,
-    from_s: float | None = None,
-    to_s: float | None = None,
-    dialect: str | None = None,
-    columns: str | None = None,
+    seeking: Seeking = NOTHING_TOLD,
+    reading: Reading = WHOLE,
     json: Flag = False,
     out: Path | None = None,
 ) -> int:
@@ -42,45 +39,28 @@ def identify(
         Testbed file, or a preset's name.
     method
         auto, or one of those that `equipoise methods` lists.
-    hold
-        Parameter to keep at the testbed's value, such as inertia_P_zz. May be repeated.
-    term
-        Torque to estimate too: viscous, quadratic, constant, swirl, sag or drift. May be repeated.
-    prior
-        Use the testbed's inertia and centre of mass with their sd; this fixes an open scale.
     robust
         Give rows that stand far off less weight.
-    from_s
-        Leave out what is before this time.
-    to_s
-        Leave out what is after this time.
-    dialect
-        How to read the table: native, optitrack or ros. Left out: by its header.
-    columns
-        Column map (TOML) for a table of any other kind.
     json
         Print one JSON document instead.
     out
         Folder for figures, report.html and estimate.json.
     """
     from equipoise.app.options import one_of
-    from equipoise.app.wiring import fitting_recording_of, part_of, testbed_of
+    from equipoise.app.wiring import fitting_recording_of, sought_of, testbed_of
     from equipoise.io.whole_folder import check_folder
-    from equipoise.model.estimate import COM, INERTIA
-    from equipoise.model.torque_terms import expand
 
-    bed, terms = testbed_of(testbed), expand(term, "--term")
-    for name in hold:
-        one_of("--hold", name, [*COM, *INERTIA])
+    bed = testbed_of(testbed)
+    terms, hold = sought_of(seeking)
     if out is not None:
         check_folder(out)
-    recording = part_of(fitting_recording_of(file, dialect, columns, bed), from_s, to_s)
+    recording = fitting_recording_of(file, reading, bed)
     with busy("identifying", announce=False):
         from equipoise.estimation.methods.registry import METHODS
         from equipoise.procedure.identify import IdentifyOptions
 
     one_of("--method", method, ["auto", *METHODS])
-    options = IdentifyOptions(method, terms, hold, prior, robust)
+    options = IdentifyOptions(method, terms, hold, seeking.prior, robust)
     done = _carried_out(recording, bed, options, quiet=json)
     _tell(done, json, out)
     return 0 if done.estimate.outcome.usable else 1

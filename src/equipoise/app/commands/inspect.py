@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.commands.kinds import Flag
+from equipoise.app.commands.reading import WHOLE, Reading
 from equipoise.app.terminal import stdout, tell_paths
 
 if TYPE_CHECKING:
@@ -16,8 +17,7 @@ def inspect(
     /,
     *,
     testbed: str | None = None,
-    dialect: str | None = None,
-    columns: str | None = None,
+    reading: Reading = WHOLE,
     json: Flag = False,
     figure: Path | None = None,
 ) -> int:
@@ -32,10 +32,6 @@ def inspect(
     testbed
         Testbed file or preset: adds what only it can tell, such as which axis is up, and what
         happened during the record: touches, parts that shifted.
-    dialect
-        How to read the table: native, optitrack or ros. Left out: by its header.
-    columns
-        Column map (TOML) for a table of any other kind.
     json
         Print one JSON document instead.
     figure
@@ -48,9 +44,9 @@ def inspect(
     from equipoise.assessment.record_findings import findings
 
     bed = None if testbed is None else testbed_of(testbed)
-    recording = recording_of(file, dialect, columns)
+    recording = recording_of(file, reading)
     found = [*findings(recording, bed)]
-    found += [NOT_SOUGHT] if bed is None else _happened(file, dialect, columns, bed)
+    found += [NOT_SOUGHT] if bed is None else _happened(file, reading, bed)
     if figure is not None:
         from equipoise.app.figures.record import draw
         from equipoise.app.outputs import write_figure
@@ -66,9 +62,7 @@ def inspect(
     return 0
 
 
-def _happened(
-    file: str, dialect: str | None, columns: str | None, testbed: "Testbed"
-) -> "list[Finding]":
+def _happened(file: str, reading: Reading, testbed: "Testbed") -> "list[Finding]":
     """Return what a fit of the record stepped over, and how well it explains the rest."""
     from equipoise.app.terminal import watched
     from equipoise.app.wiring import fitting_recording_of
@@ -76,7 +70,7 @@ def _happened(
     from equipoise.assessment.finding import Finding
     from equipoise.procedure.identify import IdentifyOptions, identify
 
-    recording = fitting_recording_of(file, dialect, columns, testbed)
+    recording = fitting_recording_of(file, reading, testbed)
     *_, last = watched(identify(recording, testbed, IdentifyOptions("trajectory")), "looking")
     if last.estimate is None:
         return []
