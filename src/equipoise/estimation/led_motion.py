@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.sampled_motion import integrate_rate, sampled_motion
+from equipoise.estimation.sensor_noise import camera_noise, gyro_noise
 from equipoise.maths.attitude import conjugate, exponential, level, logarithm, multiply, to_matrix
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.maths.straight_lines import read_at
@@ -193,8 +194,7 @@ def stand_off(left: Series3) -> Bools:
 
 def spread_of(testbed: Testbed, rate: Samples) -> tuple[float, float]:
     """Return the gyro's density (rad/sqrt(s)) and the camera's noise (rad) of one sd."""
-    density = (testbed.gyro.noise if testbed.gyro else 1e-4) * rate.period**0.5
-    return density, testbed.attitude.noise if testbed.attitude else 1e-3
+    return gyro_noise(testbed) * rate.period**0.5, camera_noise(testbed)
 
 
 def thinned(motion: LedMotion) -> LedMotion:

@@ -27,6 +27,7 @@ from equipoise.actuators.mass_errors import mass_errors
 from equipoise.dynamics.timeline import straight_lines
 from equipoise.estimation.formulations.rows import Posed
 from equipoise.estimation.led_motion import led_motion
+from equipoise.estimation.sensor_noise import camera_noise, gyro_noise
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Floats
@@ -35,7 +36,6 @@ from equipoise.model.testbed import Testbed
 
 PAIRS = 24  # chosen: sd are known to 15 %, which intervals count (``linear``)
 SEED = 20210  # of the draws, which are the same for every record
-UNSTATED_CAMERA, UNSTATED_GYRO = 1e-3, 1e-4  # rad, rad/s, of sensors that the testbed lacks
 TILTED = 0.5  # of the tilt limit, chosen: where a platform without camera may begin
 MOST_OFF = 2.0  # sd, chosen: an inertia drawn farther off may be none
 
@@ -78,9 +78,8 @@ def turned(
     """Return the camera's rows with noise, its vertical leaning."""
     if camera is None:
         return None
-    stated = testbed.attitude
-    sd, lean_sd = (stated.noise, stated.plumb_sd) if stated else (UNSTATED_CAMERA, 0.0)
-    noise = exponential(signs[0] * sd * rng.normal(size=(len(camera), 3)))
+    lean_sd = testbed.attitude.plumb_sd if testbed.attitude else 0.0
+    noise = exponential(signs[0] * camera_noise(testbed) * rng.normal(size=(len(camera), 3)))
     lean = exponential(signs[1] * lean_sd * np.array([*rng.normal(size=2), 0.0]))
     return Samples(camera.t, multiply(lean, multiply(camera.values, noise)))
 
@@ -91,8 +90,8 @@ def shaken(
     """Return the gyro's rows with noise, and with a bias where nobody can see it."""
     if gyro is None:
         return None
-    sd, bias_sd = (testbed.gyro.noise, testbed.gyro.bias_sd) if testbed.gyro else (UNSTATED_GYRO, 0)
-    noise = sd * rng.normal(size=(len(gyro), 3))
+    bias_sd = testbed.gyro.bias_sd if testbed.gyro else 0.0
+    noise = gyro_noise(testbed) * rng.normal(size=(len(gyro), 3))
     bias = bias_sd * rng.normal(size=3)
     return Samples(gyro.t, gyro.values + signs[0] * noise + signs[1] * bias)
 

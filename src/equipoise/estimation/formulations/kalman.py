@@ -19,11 +19,11 @@ from equipoise.estimation.formulations.momentum import body_axes
 from equipoise.estimation.formulations.rows import Posed, Rows
 from equipoise.estimation.formulations.torque import differentiated, even_savitzky_golay
 from equipoise.estimation.led_motion import LedMotion
+from equipoise.estimation.sensor_noise import gyro_noise
 from equipoise.maths.compiled import kernel
 from equipoise.model.arrays import Floats, Ints, Series1, Series3
 
 WRONG = 0.2  # chosen: of the accelerations, more than a CAD model is wrong by
-UNSTATED = 1e-4  # rad/s, noise of rates that no gyro of the testbed gives
 
 
 @kernel
@@ -62,8 +62,7 @@ def filtered_rates(posed: Posed) -> Series3:
     at = columns(posed.recording, posed.testbed, motion[:3])
     known = at.torque[:, :, :3] @ body.com + at.shifted
     push = at.impulse + summed(motion.t, known) - at.known_momentum
-    sd = posed.testbed.gyro.noise if posed.testbed.gyro else UNSTATED
-    noise = np.array([max(sd, 1e-9), WRONG * accelerations(posed.motion)])
+    noise = np.array([max(gyro_noise(posed.testbed), 1e-9), WRONG * accelerations(posed.motion)])
     out = np.empty_like(motion.w)
     J = np.ascontiguousarray(body.inertia_P)
     _filter(motion.t, np.ascontiguousarray(motion.w), motion.piece, push, at.known_momentum, J,
