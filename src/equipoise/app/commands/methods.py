@@ -7,6 +7,8 @@ from equipoise.app.terminal import stdout
 def methods(name: str | None = None, /, *, json: Flag = False) -> int:
     """List the methods of `equipoise identify`, or tell all about one of them.
 
+    Errata that a source names are entries of docs/errata.md.
+
     Parameters
     ----------
     name

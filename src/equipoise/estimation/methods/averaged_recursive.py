@@ -10,7 +10,7 @@ METHOD = recursion(
         "averaged_recursive",
         "averaged integral, every term over the same window, free constants",
         "least squares on the first seconds, then recursive",
-        "Lee Eqs. 5-8 with errata L1-L7",
+        "Lee Eqs. 5-8 with errata L1-L3, L7",
         "a camera or a gyro; tilt better known with a camera",
         "scale of J and com without a known change; J_zz and products without spin "
         "about more than one axis",
