@@ -5,12 +5,17 @@ known square waves, with a fine and with a poor gyro.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import savgol_coeffs
 
+from equipoise.estimation.formulations.momentum import body_axes
+from equipoise.estimation.formulations.rows import Formulation, Posed, Rows
+from equipoise.estimation.formulations.torque import filtered, torque
 from equipoise.estimation.linear import Question, aid_for, posed_of, posed_rows
 from equipoise.estimation.method import Method, Options, heeded
 from equipoise.estimation.methods.registry import METHODS
@@ -22,12 +27,15 @@ from verification.result import Result, Row, Spread, in_turn, triple
 Array = NDArray[np.float64]
 KNOWN_INERTIA = ("slow", "quick")
 Triple = tuple[float, float, float]
+LONG_WINDOW, FIRST_BELIEVED = "torque_savitzky_golay of 2.01 s", "momentum_body from the first rate"
 # Bias and sd of com (um) as published, of 20 runs.
 PUBLISHED: dict[tuple[str, str], tuple[Triple, Triple | None]] = {
     ("slow", "simplified_increments"): ((-0.48, -0.23, 5.38), (0.046, 0.044, 0.199)),
     ("slow", "simplified"): ((-0.28, -0.47, 4.78), (0.003, 0.003, 0.023)),
     ("slow", "torque_savitzky_golay"): ((0.0, 0.0, 0.0), (0.009, 0.008, 0.041)),
+    ("slow", LONG_WINDOW): ((0.0, 0.0, 0.0), (0.005, 0.005, 0.038)),
     ("slow", "momentum_body"): ((0.0, 0.0, 0.0), (0.0032, 0.0034, 0.026)),
+    ("slow", FIRST_BELIEVED): ((0.0, 0.0, -0.03), (0.070, 0.066, 0.346)),
     ("slow", "energy"): ((0.0, 0.0, 0.0), (0.030, 0.027, 0.175)),
     ("quick", "simplified_increments"): ((26.0, 12.0, -132.0), None),
 }
@@ -35,6 +43,34 @@ LEAST = 5e-4  # um or %, chosen: smaller biases are shown as 0
 ROUNDED, SHARE = 0.02, 0.05  # um as printed; of a bias, for an attitude that is not told exactly
 QUICK_SHARE = 0.30  # of a bias at 20 deg/s, where it depends on the first attitude
 LIMITS = {("noisy", "momentum_corrected"): 1.0, ("noisy", "trajectory"): 0.3}  # % of J
+
+
+def long_slope(values: Array, period: float) -> tuple[Array, int, float]:
+    """Return the slope of a cubic through 2.01 s, its first row, and 0 s by which it is early."""
+    n = round(2.01 / period)
+    n += n % 2 == 0
+    return filtered(values, savgol_coeffs(n, 3, deriv=1, delta=period, use="dot")), n // 2, 0.0
+
+
+def first_believed(posed: Posed) -> Rows:
+    """Return the momentum integral without free constants: the first row is free of noise."""
+    rows = body_axes(posed)
+    return replace(rows, A=rows.A - rows.A[0], b=rows.b - rows.b[0], piece=None)
+
+
+def variant(key: str, formulation: Formulation) -> Method:
+    """Return a method of the registry with another formulation."""
+    method = METHODS[key]
+    assert method.linear is not None
+    return replace(method, linear=replace(method.linear, formulation=formulation))
+
+
+def compared() -> dict[str, Method]:
+    """Return all methods, and two forms that are published beside them and not recommended."""
+    return METHODS | {
+        LONG_WINDOW: variant("torque_savitzky_golay", torque(long_slope)),
+        FIRST_BELIEVED: variant("momentum_body", first_believed),
+    }
 
 
 def values_by(method: Method, record: Record, hold: tuple[str, ...]) -> dict[str, float]:
@@ -62,7 +98,7 @@ def found(name: Condition, seed: int) -> dict[str, dict[str, float]]:
             for k, value in values_by(method, record, hold).items()
             if k in per and k not in hold
         }
-        for key, method in METHODS.items()
+        for key, method in compared().items()
     }
 
 
@@ -94,7 +130,7 @@ def as_published(name: str, key: str, errors: Array) -> tuple[str, bool]:
 def rows_of(name: Condition, runs: Sequence[dict[str, dict[str, float]]]) -> list[Row]:
     """Return the rows of one condition."""
     made = list[Row]()
-    for key in METHODS:
+    for key in runs[0]:
         com = table(runs, key, COM)
         seen = ~np.isnan(com).any(axis=0)
         if seen.any():
