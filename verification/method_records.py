@@ -17,6 +17,7 @@ from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
+from tests.builders import move_at
 from tests.methods import walking
 from tests.oracle import mujoco_bench as oracle
 
@@ -154,7 +155,8 @@ def rests(rng: np.random.Generator) -> Record:
 def wandering(seed: int, name: Regime) -> Record:
     """Return a swing whose centre of mass walks, com being where it is at the end."""
     push = walking.square_waves(DURATION) if name == "played" else None
-    recording, com = walking.walked(seed, DURATION, push)
+    end, track = (120.0, move_at(60.0, 120.0)) if name == "drifting" else (DURATION, None)
+    recording, com = walking.walked(seed, end, push, track)
     testbed = walking.guessed(seed, 0.05)
     body = testbed.body
     if name == "levelled":

@@ -204,6 +204,7 @@ def test_the_simplified_model_says_when_it_does_not_hold():
     testbed, record = replace(platform(gyro=True), inertia_sd=0.0), spun(10.0)
     found, whole = (estimate(m, record, testbed) for m in (kf_simplified, ekf_6))
     assert "leaves out" in found.outcome.sentence
+    assert "a bound, not trustworthy" in found.outcome.sentence
     bias, sd = np.array([p.value for p in found.parameters]) - COM, [p.sd for p in found.parameters]
     assert np.abs(bias).max() > 10e-6
     assert np.abs(bias / sd).max() < 2

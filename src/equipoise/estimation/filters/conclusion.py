@@ -122,7 +122,8 @@ def left_out(state: State, rows: Rows, testbed: Testbed) -> str:
     return (
         f" The gyroscopic torque and products of inertia that the simplified model leaves out move "
         f"com by some {1e6 * by:.2g} um (|w|^2 dJ / m g: {1e6 * rule:.2g} um), more than all "
-        "else: the interval is as wide as that; take another filter."
+        "else. The interval is as wide as that: a bound, not trustworthy as one of 95 %. Take "
+        "another filter."
     )
 
 

@@ -1,7 +1,8 @@
 """The tracker as an estimator: its belief after the last row, see ``estimation.tracker``.
 
 After a move the centre of mass is that of the masses as they stand: where they really stopped is
-part of it.
+part of it. The intervals allow for a centre of mass that drifts, and on a platform that does not
+they are wider than need be.
 """
 
 import numpy as np
@@ -80,7 +81,7 @@ METHOD = Method(
         "Ivanov 2021 section 5 with errata I7-I11; inertia in the state",
         "a camera; a first guess of J and com with their sd",
         "com along gravity until it has tilted; scale of J and com before a known change",
-        "moved",
+        "drifting",
     ),
     run,
 )
