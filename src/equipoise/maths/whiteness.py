@@ -13,7 +13,7 @@ density (Grenander and Szegoe 1958, section 5.2): no parameter errs by more than
 """
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from equipoise.model.arrays import Floats, Series
 
@@ -36,7 +36,7 @@ def portmanteau(residual: Series) -> float:
     ]
     left = n - np.arange(1, LAGS + 1)
     Q: Floats = n * (n + 2) * np.sum(np.array(rho) ** 2 / left[:, None], axis=0)
-    return float(chi2.sf(float(np.sum(Q)), LAGS * Q.size))
+    return float(chdtrc(LAGS * Q.size, float(np.sum(Q))))
 
 
 def spectral_peak(residual: Series) -> float:
