@@ -24,7 +24,7 @@ demo: $(RUN)  ## identify and balance a simulated microsatellite mock-up
 	@$(BIN)/equipoise demo
 
 test: $(TEST)  ## run every test, and the examples of README and docs, on two cores
-	@$(BIN)/pytest -q -n 2
+	@$(BIN)/pytest -q -n 2 --dist worksteal
 
 bench: $(TEST)  ## time the fit, the tracker and the simulator beside other tools
 	@$(BIN)/python -m benchmarks
