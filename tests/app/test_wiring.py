@@ -42,6 +42,17 @@ def test_masses_come_in_the_testbeds_order():
     assert not there.masses.values[:, [0, 2, 3, 5]].any()
 
 
+def test_a_move_behind_the_last_row_is_left_out():
+    """Whole or not: of the inputs one row is kept beyond the sensors' last, at 9 s."""
+    q = np.tile([1.0, 0, 0, 0], (10, 1))
+    masses = Samples(np.array([0.0, 5.0, 20.0, 21.0]), np.array([[0.0], [0.0], [0.0], [0.01]]))
+    recording = Recording(Samples(np.arange(10.0), q), None, ("x1",), masses)
+    for reading in (Reading(), Reading(from_s=2.0)):
+        known = part_of(recording, reading).masses
+        assert known is not None
+        assert known.t[-1] == 20.0
+
+
 def test_a_window_that_leaves_nothing_is_refused():
     q = np.tile([1.0, 0, 0, 0], (10, 1))
     recording = Recording(attitude=Samples(np.arange(10.0), q), source="run.csv")

@@ -1,6 +1,7 @@
 """From what a person types to objects: a testbed, a recording, moves."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 from equipoise.app.commands.reading import Reading
@@ -34,22 +35,27 @@ def testbed_of(name: str) -> Testbed:
 
 
 def recording_of(file: str, reading: Reading) -> Recording:
-    """Return a recording as it is."""
-    return part_of(read_recording(file, _columns(reading)), reading)
+    """Return a recording as it is, or the part that is asked for."""
+    recording = read_recording(file, _columns(reading))
+    whole = reading.from_s is None and reading.to_s is None
+    return recording if whole else part_of(recording, reading)
 
 
 def fitting_recording_of(file: str, reading: Reading, testbed: Testbed) -> Recording:
-    """Return a recording that fits a testbed: masses are the testbed's, gravity points down."""
+    """Return a recording that fits a testbed: masses are the testbed's, gravity points down.
+
+    What is known of times that no sensor saw is left out: a move behind the last row, say.
+    """
     recording = read_recording(file, _columns(reading), testbed)
     check_frame(recording, testbed)
     return part_of(arranged(recording, testbed.mass_names), reading)
 
 
-def sought_of(seeking: Seeking) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the terms to seek, composed ones spelt out, and the parameters to hold."""
+def spelt_out(seeking: Seeking) -> Seeking:
+    """Return what is sought with its composed terms spelt out; unknown names are refused."""
     for name in seeking.hold:
         one_of("--hold", name, [*COM, *INERTIA])
-    return expand(seeking.term, "--term"), seeking.hold
+    return replace(seeking, term=expand(seeking.term, "--term"))
 
 
 def _columns(reading: Reading) -> str | ColumnMap | None:
@@ -60,8 +66,6 @@ def _columns(reading: Reading) -> str | ColumnMap | None:
 
 def part_of(recording: Recording, reading: Reading) -> Recording:
     """Return the part between two times; one that is left out stands for the end there is."""
-    if reading.from_s is None and reading.to_s is None:
-        return recording
     (first, last), start, end = recording.span, reading.from_s, reading.to_s
     part = window(recording, first if start is None else start, last if end is None else end)
     if max(len(c) for c in (part.attitude, part.rate, ()) if c is not None) < FEWEST:

@@ -47,11 +47,10 @@ def identify(
         Folder for figures, report.html and estimate.json.
     """
     from equipoise.app.options import one_of
-    from equipoise.app.wiring import fitting_recording_of, sought_of, testbed_of
+    from equipoise.app.wiring import fitting_recording_of, spelt_out, testbed_of
     from equipoise.io.whole_folder import check_folder
 
-    bed = testbed_of(testbed)
-    terms, hold = sought_of(seeking)
+    bed, seeking = testbed_of(testbed), spelt_out(seeking)
     if out is not None:
         check_folder(out)
     recording = fitting_recording_of(file, reading, bed)
@@ -60,7 +59,7 @@ def identify(
         from equipoise.procedure.identify import IdentifyOptions
 
     one_of("--method", method, ["auto", *METHODS])
-    options = IdentifyOptions(method, terms, hold, seeking.prior, robust)
+    options = IdentifyOptions(method, seeking.term, seeking.hold, seeking.prior, robust)
     done = _carried_out(recording, bed, options, quiet=json)
     _tell(done, json, out)
     return 0 if done.estimate.outcome.usable else 1

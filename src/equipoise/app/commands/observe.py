@@ -28,10 +28,9 @@ def observe(
     json
         Print one JSON document instead.
     """
-    from equipoise.app.wiring import fitting_recording_of, sought_of, testbed_of
+    from equipoise.app.wiring import fitting_recording_of, spelt_out, testbed_of
 
-    bed = testbed_of(testbed)
-    terms, hold = sought_of(seeking)
+    bed, seeking = testbed_of(testbed), spelt_out(seeking)
     recording = fitting_recording_of(file, reading, bed)
     with busy("following the motion"):
         from equipoise.estimation.filter_observability import filters_along
@@ -42,7 +41,7 @@ def observe(
         from equipoise.procedure.sound_rows import sound
 
         sound_recording, as_seen = sound(recording, bed)
-        asked = params_of(bed, Options(terms, hold, seeking.prior))
+        asked = params_of(bed, Options(seeking.term, seeking.hold, seeking.prior))
         motion = followed(sound_recording, as_seen, asked)
         seen, filters = seen_along(motion), filters_along(motion)
     from equipoise.app.observe_views import observe_json, show_observability
