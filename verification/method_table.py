@@ -11,11 +11,10 @@ from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import savgol_coeffs
 
 from equipoise.estimation.formulations.momentum import body_axes
 from equipoise.estimation.formulations.rows import Formulation, Posed, Rows
-from equipoise.estimation.formulations.torque import filtered, torque
+from equipoise.estimation.formulations.torque import savitzky_golay, torque
 from equipoise.estimation.linear import Question, aid_for, posed_of, posed_rows
 from equipoise.estimation.method import Method, Options, heeded
 from equipoise.estimation.methods.registry import METHODS
@@ -45,13 +44,6 @@ QUICK_SHARE = 0.30  # of a bias at 20 deg/s, where it depends on the first attit
 LIMITS = {("noisy", "momentum_corrected"): 1.0, ("noisy", "trajectory"): 0.3}  # % of J
 
 
-def long_slope(values: Array, period: float) -> tuple[Array, int, float]:
-    """Return the slope of a cubic through 2.01 s, its first row, and 0 s by which it is early."""
-    n = round(2.01 / period)
-    n += n % 2 == 0
-    return filtered(values, savgol_coeffs(n, 3, deriv=1, delta=period, use="dot")), n // 2, 0.0
-
-
 def first_believed(posed: Posed) -> Rows:
     """Return the momentum integral without free constants: the first row is free of noise."""
     rows = body_axes(posed)
@@ -68,7 +60,9 @@ def variant(key: str, formulation: Formulation) -> Method:
 def compared() -> dict[str, Method]:
     """Return all methods, and two forms that are published beside them and not recommended."""
     return METHODS | {
-        LONG_WINDOW: variant("torque_savitzky_golay", torque(long_slope)),
+        LONG_WINDOW: variant(
+            "torque_savitzky_golay", torque(partial(savitzky_golay, seconds=2.01))
+        ),
         FIRST_BELIEVED: variant("momentum_body", first_believed),
     }
 

