@@ -9,7 +9,7 @@ from equipoise.model.testbed import Testbed
 
 
 class RecordedBench:
-    """The same three verbs (see ``model.bench.Bench``), and a memory."""
+    """The same four verbs (see ``model.bench.Bench``), and a memory."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench = bench
@@ -34,8 +34,12 @@ class RecordedBench:
         """Set masses on their way (m)."""
         self._bench.move(targets)
 
+    def drive(self, inputs: Mapping[str, float]) -> None:
+        """Give devices their inputs."""
+        self._bench.drive(inputs)
+
     def stop(self) -> None:
-        """Halt every mass where it is."""
+        """Halt every mass and device."""
         self._bench.stop()
 
     def recording(self) -> Recording | None:

@@ -9,7 +9,7 @@ from equipoise.model.testbed import Testbed
 
 @runtime_checkable
 class Bench(Protocol):
-    """Three verbs. Nothing is clipped: a move beyond a limit raises MoveRefused, nothing moves."""
+    """Four verbs. Nothing is clipped: what is beyond a limit is refused, and nothing moves."""
 
     @property
     def testbed(self) -> Testbed:
@@ -29,6 +29,13 @@ class Bench(Protocol):
         """Set masses on their way to displacements from home (m); later reads show the travel."""
         ...
 
+    def drive(self, inputs: Mapping[str, float]) -> None:
+        """Give devices (``model.devices``) their inputs; what is not named goes on as it was.
+
+        A jet's pulse is given once. Raises DriveRefused beyond a device's limit.
+        """
+        ...
+
     def stop(self) -> None:
-        """Halt every mass where it is."""
+        """Halt every mass where it is, and every device: no torque, gimbals and jets at rest."""
         ...

@@ -32,6 +32,18 @@ class MoveRefused(EquipoiseError):
         self.asked = asked
 
 
+class DriveRefused(EquipoiseError):
+    """A device was asked for more than it may give; nothing was driven."""
+
+    def __init__(self, device: str, asked: float, limit: float, unit: str) -> None:
+        super().__init__(
+            f"device {device}: asked for {asked:.4g} {unit}; its limit is {limit:.4g} {unit}; "
+            f"nothing was driven"
+        )
+        self.device = device
+        self.asked = asked
+
+
 def nearest(name: str, known: list[str]) -> str:
     """Say which known name is meant, or list them: the tail of a 'wanted' text."""
     close = get_close_matches(name, known, n=1)

@@ -42,6 +42,9 @@ class Recording:
     masses: Samples | None = None  # (n, k) m, displacement from home as reported
     momentum: Samples | None = None  # (n, 3) N m s, stored in wheels, body axes
     torque: Samples | None = None  # (n, 3) N m, known, body axes
+    device_names: tuple[str, ...] = ()
+    devices: Samples | None = None  # (n, k) what each device reported, SI, see ``model.devices``
+    field: Samples | None = None  # (n, 3) T, magnetic, body axes, as the magnetometer gave it
     # (n, 1) lengths of the attitude's quaternions as they were found, at the attitude's times; None
     # when they told no more than rounding. A mean of frames is shorter than one. Not written.
     attitude_norm: Samples | None = None
@@ -56,7 +59,7 @@ class Recording:
         return float(min(e[0] for e in edges)), float(max(e[1] for e in edges))
 
 
-CHANNELS = ("attitude", "rate", "masses", "momentum", "torque")
+CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field")
 
 
 def window(recording: Recording, start: float, end: float) -> Recording:
@@ -83,6 +86,8 @@ def window(recording: Recording, start: float, end: float) -> Recording:
         masses=known(recording.masses),
         momentum=known(recording.momentum),
         torque=known(recording.torque),
+        devices=known(recording.devices),
+        field=sensor(recording.field),
     )
 
 
@@ -98,7 +103,8 @@ def join(first: Recording, second: Recording) -> Recording:
     parts = {name: both(getattr(first, name), getattr(second, name)) for name in CHANNELS}
     lengths = both(first.attitude_norm, _lengths_after(first.attitude, second.attitude_norm))
     names = first.mass_names or second.mass_names
-    return replace(first, mass_names=names, attitude_norm=lengths, **parts)
+    devices = first.device_names or second.device_names
+    return replace(first, mass_names=names, device_names=devices, attitude_norm=lengths, **parts)
 
 
 def _lengths_after(attitude: Samples | None, lengths: Samples | None) -> Samples | None:

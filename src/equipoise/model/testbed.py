@@ -9,6 +9,14 @@ from dataclasses import dataclass, field
 
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
+from equipoise.model.devices import (
+    ControlMomentGyro,
+    Device,
+    JetPair,
+    MagneticField,
+    Magnetorquer,
+    ReactionWheel,
+)
 from equipoise.model.mass_properties import MassProperties
 
 SAG_SD = 0.001  # m, chosen: g / w^2 of a servo of w = 100 rad/s
@@ -90,6 +98,7 @@ class Truth:
     gaps: tuple[Gap, ...] = ()
     camera: CameraErrors = field(default_factory=CameraErrors)
     gyro: GyroErrors = field(default_factory=GyroErrors)
+    field_N: Vector3 | None = None  # T, laboratory axes; None: as the testbed has it
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,6 +121,16 @@ class Testbed:
     truth: Truth | None = None
     assumed: Mapping[str, str] = field(default_factory=dict[str, str])  # key: why it is assumed
     source: str = ""  # where it was read
+    wheels: tuple[ReactionWheel, ...] = ()
+    cmgs: tuple[ControlMomentGyro, ...] = ()
+    magnetorquers: tuple[Magnetorquer, ...] = ()
+    jets: tuple[JetPair, ...] = ()
+    magnetic_field: MagneticField | None = None
+
+    @property
+    def devices(self) -> tuple[Device, ...]:
+        """Return wheels, gyros, magnetorquers and jets; their names differ."""
+        return (*self.wheels, *self.cmgs, *self.magnetorquers, *self.jets)
 
     @property
     def mass_names(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The simulated bench: the same three verbs as a real one, and a seed that reproduces everything.
+"""The simulated bench: the same verbs as a real one, and a seed that reproduces everything.
 
 The motion is integrated from node to node. Nodes are moments that do not depend on how the bench
 is read: every look of every sensor, corners of the masses' tracks, the noise torque's grid and

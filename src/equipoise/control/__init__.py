@@ -1,0 +1,1 @@
+"""Balancing laws: one file each, a state and a sample to a state and a command."""

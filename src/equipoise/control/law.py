@@ -1,0 +1,57 @@
+"""What a balancing law is: a card that says what it needs, how it begins and what a step is.
+
+    step(state, seen, params) -> (state, command)
+
+is a pure function. ``seen`` is a Sample, or the Estimate of the look that the last command asked
+for. A law knows no device: it asks for a shift of the centre of mass and for torques, and
+``procedure.run_law`` finds masses, wheels, gyros, coils and jets that give them.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, Literal, TypeVar
+
+from equipoise.control.sample import Sample
+from equipoise.model.arrays import Vector3
+from equipoise.model.command import Command
+from equipoise.model.estimate import Estimate
+from equipoise.model.testbed import Testbed
+
+State = TypeVar("State")
+Params = TypeVar("Params")
+Need = Literal["masses", "momentum", "magnetorquers", "jets", "gyro", "attitude"]
+
+NEEDS: dict[Need, str] = {
+    "masses": "sliding masses",
+    "momentum": "reaction wheels or control moment gyros along all three axes",
+    "magnetorquers": "magnetorquers and a known magnetic field",
+    "jets": "jets about all three axes",
+    "gyro": "a gyro",
+    "attitude": "an attitude sensor",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class LawCard:
+    """What to expect of a law."""
+
+    name: str
+    idea: str  # one sentence
+    source: str  # where it is published, with equation numbers; errata by their numbers
+    needs: tuple[Need, ...]
+    leaves: str  # what it does not remove, and what it cannot see
+    stable: str  # where it is stable: sampling, rate limits, size of the offset
+    period: float  # s, between steps
+
+
+@dataclass(frozen=True, slots=True)
+class Law(Generic[State, Params]):
+    """A card, a beginning and a step.
+
+    ``begin`` takes the testbed and where the centre of mass is wanted (m, body axes), and raises
+    InputError for a testbed on which the law would not be stable.
+    """
+
+    card: LawCard
+    begin: Callable[[Testbed, Vector3], tuple[State, Params]]
+    step: Callable[[State, Sample | Estimate, Params], tuple[State, Command]]

@@ -1,0 +1,32 @@
+"""What a balancing law asks for until its next step."""
+
+from dataclasses import dataclass
+
+from equipoise.model.arrays import Vector3
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """Let the platform swing, masses still and no torque, and estimate from that record."""
+
+    duration: float  # s
+    method: str  # of ``equipoise methods``
+    hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
+    terms: tuple[str, ...] = ()  # torques to estimate, beside the testbed's own
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Command:
+    """What is wanted of the devices, all in body axes; who has which device is not a law's matter.
+
+    What cannot be delivered is limited by whoever carries it out, and the next Sample says what
+    was: a law that integrates must look there (anti-windup).
+    """
+
+    shift: Vector3 | None = None  # m, by the masses, counted from home; None: they stay
+    torque: Vector3 | None = None  # N m on the platform, by wheels or gyros; None: none
+    magnetic: Vector3 | None = None  # N m on the platform, by magnetorquers; None: none
+    impulse: Vector3 | None = None  # N m s on the platform, by jets; None: none
+    look: Look | None = None  # the next step is given the Estimate of this look, not a Sample
+    finished: str = ""  # why the law has done its work; empty: it has not
+    note: str = ""  # what people should know of this step

@@ -1,0 +1,87 @@
+"""Devices that turn a platform without moving its centre of mass, as known beforehand.
+
+Each is driven by one number and reports one number (``Recording.devices``):
+
+    device               driven by                         reports
+    reaction wheel       torque on the rotor, N m          speed against the platform, rad/s
+    control moment gyro  gimbal rate, rad/s                gimbal angle, rad
+    magnetorquer         dipole, A m^2                     dipole, A m^2
+    jet pair             impulse on the platform, N m s    torque on the platform, N m
+
+What follows an input does so with a first-order lag: y' = (input - y) / lag.
+"""
+
+from dataclasses import dataclass
+
+from equipoise.model.arrays import Vector3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ReactionWheel:
+    """A rotor with a fixed axis; its momentum is inertia times speed, along the axis.
+
+    The platform's inertia counts the rotor as if it were locked, so the speed is that against the
+    platform, and the drive holds the speed's slope: torque / inertia.
+    """
+
+    name: str
+    axis: Vector3  # unit vector, body
+    inertia: float  # kg m^2, about the axis
+    max_speed: float  # rad/s
+    max_torque: float  # N m
+    speed: float = 0.0  # rad/s, at the start
+    speed_noise: float = 0.0  # rad/s, one sd of a tachometer row
+    lag: float = 0.0  # s
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ControlMomentGyro:
+    """A rotor of constant momentum whose axis turns about a gimbal (single gimbal).
+
+    h = momentum s(angle) + gimbal_inertia angle' g,  s = cos(angle) s0 + sin(angle) g x s0. The
+    platform's inertia is that at angle zero; at an angle it has changed by
+    asymmetry (s s^T - s0 s0^T).
+    """
+
+    name: str
+    gimbal_axis: Vector3  # unit vector g, body
+    spin_axis: Vector3  # unit vector s0, body, at angle zero; at right angles to g
+    momentum: float  # N m s, of the rotor against the gimbal
+    max_rate: float  # rad/s
+    angle: float = 0.0  # rad, at the start
+    angle_noise: float = 0.0  # rad, one sd of an encoder row
+    lag: float = 0.0  # s
+    gimbal_inertia: float = 0.0  # kg m^2, of all that turns with the gimbal, about g
+    asymmetry: float = 0.0  # kg m^2, the same about the spin axis less about the third axis
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Magnetorquer:
+    """A coil; torque = dipole axis x B."""
+
+    name: str
+    axis: Vector3  # unit vector, body
+    max_dipole: float  # A m^2
+    lag: float = 0.0  # s
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JetPair:
+    """On-off jets that give a pure torque about an axis, either way; on for impulse / torque."""
+
+    name: str
+    axis: Vector3  # unit vector, body
+    torque: float  # N m, while on
+    min_pulse: float = 0.0  # s, least time on
+    lag: float = 0.0  # s
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MagneticField:
+    """The field in the laboratory, uniform, as known beforehand; of a Helmholtz cage, say."""
+
+    field_N: Vector3  # T, laboratory axes
+    noise: float | None = None  # T, one sd per axis of a magnetometer's row; None: there is none
+
+
+Device = ReactionWheel | ControlMomentGyro | Magnetorquer | JetPair
