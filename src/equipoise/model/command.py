@@ -7,7 +7,10 @@ from equipoise.model.arrays import Vector3
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """Let the platform swing, masses still and no torque, and estimate from that record."""
+    """Let the platform swing, masses still and no torque, and estimate from that record.
+
+    With ``since`` the record begins there: what was moved and driven after that is part of it.
+    """
 
     duration: float  # s
     method: str  # of ``equipoise methods``
