@@ -202,7 +202,7 @@ def looked(course: Course, command: Command, rng: np.random.Generator):
     every = round(1 / bed.attitude.rate / NODES)
     tq, q = t[::every], q[::every]
     q = multiply(q, exponential(bed.attitude.noise * rng.normal(size=(len(tq), 3))))
-    noise = GYRO_SD * np.sqrt(NODES ** -1 / 100.0)
+    noise = GYRO_SD * np.sqrt(NODES**-1 / 100.0)
     w = w + noise * rng.normal(size=w.shape)
     record = Recording(
         Samples(tq, q), Samples(t, w), bed.mass_names, Samples(t, np.array(course.d)),

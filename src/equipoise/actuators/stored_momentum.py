@@ -5,7 +5,7 @@
 
 with speeds n of tachometers, angles x of encoders, dipoles d and jets' torques T from the recorded
 columns. (In a singularity of the gyros, or at a limit, the torque commanded is not that applied:
-methods.md, section 6.) This is the known side of the equations that identify the platform.
+Lee et al., section V.) This is the known side of the equations that identify the platform.
 
 Rates of gimbals are differences of angles over the neighbouring rows, of second order in their
 spacing; noise of an encoder comes through as gimbal_inertia noise / spacing. The field is the
@@ -16,6 +16,7 @@ Cannot see pulses of jets between two rows: a row within each is needed.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from equipoise.actuators.reaction_wheels import wheel_momentum
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Series, Series1, Series3
-from equipoise.model.devices import Device
+from equipoise.model.devices import Device, recorded_name
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
@@ -36,11 +37,11 @@ def reported(recording: Recording, devices: Sequence[Device]) -> Series:
     """Return what these devices reported, (n, k) SI; InputError for one that did not."""
     names = list(recording.device_names)
     for device in devices:
-        if device.name not in names:
+        if recorded_name(device) not in names:
             where = f"{recording.source or 'recording'}: devices"
-            raise InputError(where, f"no '{device.name}'", nearest(device.name, names))
+            raise InputError(where, f"no '{device.name}'", nearest(recorded_name(device), names))
     assert recording.devices is not None
-    return recording.devices.values[:, [names.index(device.name) for device in devices]]
+    return recording.devices.values[:, [names.index(recorded_name(d)) for d in devices]]
 
 
 def slopes(t: Series1, values: Series) -> Series:
@@ -94,3 +95,12 @@ def known_torque(recording: Recording, testbed: Testbed) -> Samples | None:
     if jets:
         tau += on_platform(jets, reported(recording, jets))
     return Samples(rows.t, tau)
+
+
+def with_known_inputs(recording: Recording, testbed: Testbed) -> Recording:
+    """Return a recording with momentum and torque from its devices' rows, where it has no other."""
+    if recording.devices is None:
+        return recording
+    momentum = recording.momentum or stored_momentum(recording, testbed)
+    return replace(recording, momentum=momentum,
+                   torque=recording.torque or known_torque(recording, testbed))  # fmt: skip

@@ -11,6 +11,7 @@ from equipoise.io.column_map import ColumnMap
 from equipoise.io.column_map_file import read_column_map
 from equipoise.io.frame_check import check_frame
 from equipoise.io.presets import preset_names, read_preset
+from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.io.recording_file import read_recording
 from equipoise.io.testbed_file import read_testbed
 from equipoise.model.errors import InputError, nearest
@@ -49,7 +50,8 @@ def fitting_recording_of(file: str, reading: Reading, testbed: Testbed) -> Recor
     recording = read_recording(file, _columns(reading), testbed)
     check_frame(recording, testbed)
     recording = arranged(recording, testbed.mass_names)
-    return part_of(arranged_devices(recording, testbed.devices), reading)
+    recording = with_known_inputs(arranged_devices(recording, testbed.devices), testbed)
+    return part_of(recording, reading)
 
 
 def spelt_out(seeking: Seeking) -> Seeking:

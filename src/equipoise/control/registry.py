@@ -2,7 +2,8 @@
 
 from typing import Any
 
+from equipoise.control import momentum_buildup, pid
 from equipoise.control.law import Law
 
-ALL: tuple[Law[Any, Any], ...] = ()
+ALL: tuple[Law[Any, Any], ...] = (pid.LAW, momentum_buildup.LAW)
 LAWS: dict[str, Law[Any, Any]] = {law.card.name: law for law in ALL}

@@ -92,4 +92,7 @@ def field_of(attitude: AttitudeState, fresh: Recording, testbed: Testbed) -> Vec
     if fresh.field is not None and len(fresh.field):
         return fresh.field.values.mean(axis=0)
     known = testbed.magnetic_field
-    return None if known is None else to_matrix(attitude.q).T @ known.field_N
+    if known is None:
+        return None
+    turned: Vector3 = to_matrix(attitude.q).T @ known.field_N
+    return turned

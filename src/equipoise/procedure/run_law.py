@@ -7,7 +7,7 @@ record alone. A platform that tilts beyond its limit is halted, with the reason.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import reduce
 from typing import Any
 
@@ -16,7 +16,7 @@ import numpy as np
 from equipoise.actuators.control_moment_gyros import gyros_span
 from equipoise.actuators.jets import axes_of
 from equipoise.actuators.reaction_wheels import span, wheels_span
-from equipoise.actuators.stored_momentum import known_torque
+from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.control.law import NEEDS, Law, LawCard, Need
 from equipoise.control.sample import Sample
 from equipoise.estimation.method import Options, estimated
@@ -161,8 +161,7 @@ def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recordin
         eyes = looked(eyes, part, testbed)
     recording = fresh
     if asked.since is not None:
-        whole = since(parts, asked.since)
-        recording = replace(whole, torque=known_torque(whole, testbed))
+        recording = with_known_inputs(since(parts, asked.since), testbed)
     options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
     estimate = estimated(METHODS[asked.method], recording, testbed, options)
     return Session(eyes, hands, session.sample, parts), recording, estimate

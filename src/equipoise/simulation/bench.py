@@ -218,8 +218,7 @@ class SimulatedBench:
         sensor = testbed.gyro or testbed.attitude
         t = samples(REPORTS if sensor is None else sensor.rate, after, self._time)
         rows = reported_states(testbed, self._devices, t, rng)
-        names = tuple(device.name for device in testbed.devices)
-        seen = replace(recording, device_names=names, devices=Samples(t, rows))
+        seen = replace(recording, device_names=testbed.device_names, devices=Samples(t, rows))
         return replace(seen, momentum=stored_momentum(seen, testbed))
 
     def _attitude(self, t: Series1, q: Floats, sensor: AttitudeSensor) -> Samples:
