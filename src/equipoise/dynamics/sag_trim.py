@@ -21,7 +21,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from equipoise.maths.attitude import level, to_matrix
-from equipoise.model.arrays import Matrix3, Series3, Vector3
+from equipoise.model.arrays import Floats, Matrix3, Series3, Vector3
 
 SAG_TERMS = ("sag_xx", "sag_yy", "sag_xy", "sag_xz", "sag_yz")
 NODES, HEADINGS = 4, 8  # exact for what is of degree 6 in n
@@ -43,7 +43,8 @@ def downs(up: Vector3, tilt: float) -> tuple[Series3, Series3]:
     n = -np.column_stack([sine * np.cos(heading), sine * np.sin(heading), cosine])
     # R(level(up)) brings ``up`` to z; its transpose brings directions about z to those about up.
     turned: Series3 = n @ to_matrix(level(up))
-    return turned, np.repeat(0.5 * weights / HEADINGS, HEADINGS)[:, None]
+    weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)
+    return turned, weight.reshape(-1, 1)
 
 
 def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:

@@ -82,9 +82,10 @@ def _over(channel: Samples) -> Floats:
     """Return the integral of a channel from one row before its first to its last."""
     t, values = channel.t, channel.values
     if len(t) < 2:
-        return np.zeros(values.shape[1])
+        return np.zeros_like(values[0])
     start = 2 * t[0] - t[1]
-    return integral_at(np.array([start, t[-1]]), t, values)[-1]
+    whole: Floats = integral_at(np.array([start, t[-1]]), t, values)
+    return whole[-1]
 
 
 def field_of(attitude: AttitudeState, fresh: Recording, testbed: Testbed) -> Vector3 | None:
