@@ -3,6 +3,7 @@
 import json
 import math
 
+from equipoise.io.devices_text import text_of_devices
 from equipoise.io.toml_text import Value, number, numbers, table
 from equipoise.io.truth_text import text_of_truth
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
@@ -17,6 +18,7 @@ def text_of_testbed(testbed: Testbed) -> str:
         table("", {"name": testbed.name}),
         table("[platform]", _platform(testbed)),
         *(table("[[sliding_mass]]", _mass(mass)) for mass in testbed.masses),
+        text_of_devices(testbed),
         table("[sensor.attitude]", _attitude(testbed.attitude)),
         table("[sensor.gyro]", _gyro(testbed.gyro)),
         table("[disturbance]", {"consider": list(testbed.disturbances)}),

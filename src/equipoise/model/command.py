@@ -7,12 +7,17 @@ from equipoise.model.arrays import Vector3
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """Let the platform swing, masses still and no torque, and estimate from that record."""
+    """Let the platform swing, masses still and no torque, and estimate from that record.
+
+    With ``since`` the record begins there: what was moved and driven after that is part of it.
+    """
 
     duration: float  # s
     method: str  # of ``equipoise methods``
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     terms: tuple[str, ...] = ()  # torques to estimate, beside the testbed's own
+    use_prior: bool = False  # the testbed's inertia and centre of mass count as knowledge
+    since: float | None = None  # s: from all that was recorded since then, not this swing alone
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,0 +1,287 @@
+"""Wheel momentum build-up: hold tilted attitudes and read r from what the wheels take up.
+
+    L' = R (m r x g_B) + ...,     L = R (J w + h)
+
+Wheels hold the platform at one tilted attitude after another, and what gravity puts in is on their
+speed. All samples enter one account (``momentum_ledger``): r, sag and drift come out together, with
+their covariance. Inertia is not needed. The course:
+
+    catch    level, then a small tilt; every second the masses follow the estimate
+    holds    opposite pairs of tilts, so that what r_z puts in is taken out again; before each, the
+             masses go to the goal when what is known of it is worth more than a move's error
+    last     the masses go to the goal as it is known by then
+
+The goal is the target and, on a platform that sags, the height that trims it (``sag_trim``) above
+it: the torque left within RANGE of level is then the least. In the catch, and when wheels have
+filled to FULL until they are EMPTY, masses are set off the goal so that gravity takes the
+horizontal momentum out again:
+
+    shift = goal - r + g_B x (R^T tau) / (m g^2),    tau = -UNLOAD L,    within what is soon travelled
+
+The seconds of a hold are the fewest of CHOICES for which the covariance foreseen leaves the goal
+known to WANTED within LONGEST; else the most that fit into it.
+
+(methods.md 5.5 and 5.8; Hatcher and Young 1968 with wheels for jets.)
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.control.attitude_pid import Gains, Pid, torque, unwound
+from equipoise.control.buildup_plan import Pace, Stage, foreseen, stages_of, turned
+from equipoise.control.capacity import capacity
+from equipoise.control.law import Law, LawCard
+from equipoise.control.momentum_ledger import (
+    STANDS,
+    TERM,
+    Book,
+    Ledger,
+    book_of,
+    com_map,
+    entered,
+    opened,
+    sag_of,
+    stop_variance,
+)
+from equipoise.control.sample import Sample
+from equipoise.control.slew import Slew, end_of, reference_at, slew
+from equipoise.dynamics.sag_trim import sag_matrix, trimmed_com
+from equipoise.maths.attitude import level, multiply, to_matrix
+from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
+from equipoise.model.command import Command
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate
+from equipoise.model.testbed import Testbed
+
+PERIOD = 0.1  # s
+RANGE = float(np.radians(20))  # rad, chosen: over which the torque that is left counts
+SHARE = 0.7  # of the tilt limit, chosen: the most that is held
+CHOICES = (10.0, 14.0, 20.0, 28.0, 40.0)  # s of a hold
+WANTED = 0.025e-6  # m, chosen: one sd of the goal, half of what is promised
+LONGEST = 420.0  # s, chosen: with catches that take longer still below eight minutes
+FOLLOW = 1.0  # s, chosen: between moves while the masses follow
+UNLOAD = 0.1  # 1/s, chosen: slow against masses that travel 20 um in two seconds
+SOON = 0.2  # chosen: share of 1/UNLOAD in which masses reach what unloads
+FULL, EMPTY = 0.6, 0.15  # of the momentum that wheels can take, chosen
+SLOW = 0.06  # rad/s, chosen: the fastest turn; momentum may ask for less
+PART = 0.4  # of torque and momentum, chosen: what a turn may take of them
+FREQUENCY, DAMPING, INTEGRAL = 0.5, 0.8, 0.1  # rad/s, -, rad/s, chosen: settles in ten seconds
+WORTH = 2.0  # sds of a goal and a stop, chosen: a change that is worth a move during the holds
+PATIENCE = 60.0  # s, chosen: for masses that do not arrive
+SETTLED = 1.0  # s, chosen: masses that then stand have arrived
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What is told."""
+
+    book: Book
+    gains: Gains
+    testbed: Testbed
+    target: Vector3  # m
+    trim: Floats  # (3, k) what each torque term asks of the goal
+    stages: tuple[Stage, ...]
+    pace: Pace
+    momentum: float  # N m s, that wheels can take
+    reach: float  # m, the most that masses are set off to unload
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """How far it has come."""
+
+    ledger: Ledger | None = None
+    pid: Pid = unwound()
+    level: Quaternion | None = None  # the level attitude with the first heading
+    turn: Slew | None = None
+    stage: int = 0
+    due: float = 0.0  # s, when this stage ends
+    shift: Vector3 | None = None  # m, last asked for
+    followed: float = -np.inf  # s, when the masses last followed
+    unloading: bool = False
+    closing: float | None = None  # s, when the last move was asked for
+
+
+def loop_of(testbed: Testbed, most: float) -> Gains:
+    """Return the attitude loop for a testbed whose devices give ``most`` N m."""
+    return Gains(testbed.body.inertia_P, FREQUENCY, DAMPING, INTEGRAL, most)
+
+
+def reach_of(testbed: Testbed) -> float:
+    """Return how far (m) the masses may be set off so that they are soon there."""
+    speeds = [m.mass * m.speed / testbed.body.mass for m in testbed.masses]
+    return SOON / UNLOAD * max(speeds, default=0.0)
+
+
+def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
+    """Return the beginning; InputError without a gyro, masses, or wheels along all axes."""
+    can = capacity(testbed)
+    if can.torque <= 0 or testbed.gyro is None or not testbed.masses:
+        raise InputError("momentum_buildup", "a testbed without them",
+                         "sliding masses, a gyro, and wheels or gyros along all axes")  # fmt: skip
+    book = book_of(testbed)
+    J = float(np.linalg.eigvalsh(testbed.body.inertia_P)[-1])
+    tilt = min(RANGE, SHARE * testbed.tilt_limit)
+    trims = [trimmed_com(sag_matrix({term: 1.0}), testbed.up, tilt) for term in book.terms]
+    trim = np.array(trims).reshape(-1, 3).T
+    pace = Pace(min(SLOW, PART * can.momentum / J), PART * can.torque / J)
+    stages = planned(testbed, book, trim, pace)
+    loop = loop_of(testbed, can.torque)
+    return State(), Params(
+        book, loop, testbed, target, trim, stages, pace, can.momentum, reach_of(testbed)
+    )
+
+
+def planned(testbed: Testbed, book: Book, trim: Floats, pace: Pace) -> tuple[Stage, ...]:
+    """Return the stages with the seconds of a hold that the covariance foreseen asks for."""
+    tilt = min(RANGE, SHARE * testbed.tilt_limit)
+    best = stages_of(testbed.up, tilt, CHOICES[0])
+    for hold in CHOICES:
+        stages = stages_of(testbed.up, tilt, hold)
+        ledger = foreseen(stages, testbed, book, pace)
+        if ledger.t > LONGEST:
+            break
+        best = stages
+        covariance = off_goal(ledger, np.zeros(3), trim, book)[1]
+        if float(np.diag(covariance).max()) <= WANTED**2:
+            break
+    return best
+
+
+def off_goal(ledger: Ledger, shift: Vector3, trim: Floats, book: Book) -> tuple[Vector3, Matrix3]:
+    """Return how far the centre of mass is from what trims the platform, and the covariance."""
+    G = com_map(ledger, book)
+    G[:, TERM:] -= trim
+    return G @ ledger.x + shift, G @ ledger.P @ G.T
+
+
+def unloading(ledger: Ledger, seen: Sample, params: Params) -> Vector3:
+    """Return how far (m) off the goal gravity takes the horizontal momentum out."""
+    outward = -UNLOAD * np.array([ledger.x[0], ledger.x[1], 0.0])
+    g = seen.gravity
+    off = np.cross(g, to_matrix(seen.q).T @ outward) / (params.book.mass * (g @ g))
+    size = float(np.linalg.norm(off))
+    return off * min(1.0, params.reach / max(size, 1e-12))
+
+
+def weight_moment(ledger: Ledger, seen: Sample, params: Params) -> Vector3:
+    """Return m (r + s + C n) as believed, kg m, for the feed-forward."""
+    book = params.book
+    down = seen.gravity / float(np.linalg.norm(seen.gravity))
+    com = com_map(ledger, book) @ ledger.x
+    return book.mass * (com + seen.shift + sag_of(ledger, book) @ down)
+
+
+def home_to_goal(ledger: Ledger, params: Params) -> tuple[Vector3, Matrix3]:
+    """Return the shift (m) that brings the centre of mass to its goal, and the covariance."""
+    off, covariance = off_goal(ledger, -params.target, params.trim, params.book)
+    return -off, covariance
+
+
+def shift_for(state: State, seen: Sample, params: Params) -> State:
+    """Return the state with the shift that this step asks for."""
+    assert state.ledger is not None
+    follows = state.unloading or params.stages[state.stage].follows
+    if not follows or seen.t < state.followed + FOLLOW:
+        return state
+    wanted = home_to_goal(state.ledger, params)[0] + unloading(state.ledger, seen, params)
+    return replace(state, shift=wanted, followed=seen.t)
+
+
+def retrimmed(state: State, seen: Sample, params: Params, worth: float) -> State:
+    """Return the state with the masses sent to the goal, if that is worth its errors."""
+    assert state.ledger is not None
+    wanted, covariance = home_to_goal(state.ledger, params)
+    change: Vector3 = wanted - seen.shift
+    variance = float(np.trace(covariance) + np.sum(stop_variance(change, params.book)))
+    if change @ change < worth**2 * variance:
+        return state
+    return replace(state, shift=wanted)
+
+
+def guarded(state: State, seen: Sample, params: Params) -> State:
+    """Return the state with the unloading begun, gone on with, or ended; the hold waits for it."""
+    size = float(np.linalg.norm(seen.momentum)) / params.momentum
+    if not state.unloading:
+        return replace(state, unloading=size > FULL)
+    assert state.ledger is not None
+    if size > EMPTY and float(np.linalg.norm(state.ledger.x[:2])) > EMPTY * params.momentum:
+        return replace(state, due=state.due + PERIOD)
+    return retrimmed(replace(state, unloading=False), seen, params, 0.0)
+
+
+def entered_stage(state: State, seen: Sample, params: Params) -> State:
+    """Return the state at the beginning of its stage: the turn there, the masses to the goal."""
+    stage, book = params.stages[state.stage], params.book
+    base = state.level if state.level is not None else levelled(seen.q, params.testbed.up)
+    here = seen.q if state.turn is None else reference_at(state.turn, np.inf).q
+    way = slew(here, turned(base, stage.turn), seen.t, *params.pace)
+    state = replace(state, level=base, turn=way, due=end_of(way) + stage.seconds)
+    return state if stage.follows else retrimmed(state, seen, params, WORTH)
+
+
+def levelled(q: Quaternion, up: Vector3) -> Quaternion:
+    """Return the level attitude that is reached from ``q`` by the shortest turn."""
+    above = to_matrix(q) @ up
+    return multiply(level(above), q)
+
+
+def advanced(state: State, seen: Sample, params: Params) -> State:
+    """Return the state in the stage that this time is in."""
+    if state.turn is None:
+        return entered_stage(state, seen, params)
+    if seen.t < state.due or state.closing is not None:
+        return state
+    if state.stage + 1 < len(params.stages):
+        return entered_stage(replace(state, stage=state.stage + 1), seen, params)
+    return replace(retrimmed(state, seen, params, 1.0), closing=seen.t)
+
+
+def ended(state: State, seen: Sample) -> bool:
+    """Say whether the last move is made, or is waited for no longer."""
+    if state.closing is None or state.ledger is None or seen.t < state.closing + SETTLED:
+        return False
+    stands = bool(np.linalg.norm(seen.shift - state.ledger.stood) <= STANDS)
+    return stands or seen.t > state.closing + PATIENCE
+
+
+def report(ledger: Ledger, shift: Vector3, params: Params) -> str:
+    """Return where the centre of mass is believed to be, in words."""
+    off, covariance = off_goal(ledger, shift - params.target, params.trim, params.book)
+    parts = zip(1e6 * off, 1e6 * np.sqrt(np.diag(covariance)), strict=True)
+    text = ", ".join(f"{value:.3f} +/- {sd:.3f}" for value, sd in parts)
+    return f"The centre of mass is ({text}) um off what was wanted."
+
+
+def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+    """Return the next state and the command: torque at every step, masses when they should move."""
+    assert isinstance(seen, Sample)  # no look is ever asked for
+    ledger = state.ledger
+    ledger = opened(params.testbed, params.book, seen) if ledger is None else entered(
+        ledger, seen, params.book)  # fmt: skip
+    state = advanced(replace(state, ledger=ledger), seen, params)
+    if state.closing is None:
+        state = shift_for(guarded(state, seen, params), seen, params)
+    assert state.turn is not None
+    reference = reference_at(state.turn, seen.t)
+    moment = weight_moment(ledger, seen, params)
+    pid, u = torque(state.pid, seen, reference, params.gains, moment)
+    done = report(ledger, seen.shift, params) if ended(state, seen) else ""
+    return replace(state, pid=pid), Command(shift=state.shift, torque=u, finished=done)
+
+
+LAW = Law(
+    LawCard(
+        "momentum_buildup",
+        "holds tilted attitudes by wheels and reads the centre of mass, sag and drift from what "
+        "they take up",
+        "methods.md 5.5 and 5.8; Hatcher and Young 1968 with wheels for jets",
+        ("masses", "momentum", "gyro", "attitude"),
+        "TODO",
+        "TODO",
+        PERIOD,
+    ),
+    begin,
+    step,
+)

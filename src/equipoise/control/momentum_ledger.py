@@ -1,0 +1,218 @@
+"""Momentum build-up as a running account: what gravity's torque has put into the platform.
+
+In laboratory axes the platform's momentum changes by torque from outside alone, whatever wheels and
+gyros do:
+
+    L = R (J w + h),      L' = R ( m (r + s(t)) x g_B + sum_k c_k T_k + tau )
+
+s is the shift by the masses, T_k the columns of sag, drift and drag (``dynamics.regressor``), tau
+the play of air and bearing, an Ornstein-Uhlenbeck process in body axes. That is linear in
+L, tau, r and c along the attitudes that are measured, so a Kalman filter is the least-squares
+answer to all samples at once, and needs no stops, starts or windows:
+
+    x = [ L (3)  tau (3)  b (3)  r (3)  c (k) ],      z = R (J (w + b) + h) = L + R J b + noise
+
+b is what the gyro's bias was left at. J matters as J w alone, and is known to ``inertia_sd``: a
+sample weighs as if that error lasted for SAME_TURN, so that little but rest counts; what gravity
+does during a turn is not lost, since L carries it to the next rest. Samples while masses travel are
+not taken: their momentum is not known.
+
+A move leaves an error: the accuracy of each mass that may have moved, one whose own step shifts by
+less than twice as much. r walks by CREEP, and c are constants.
+
+(Wheel momentum build-up, methods.md 5.5; Hatcher and Young 1968 with wheels for jets.)
+
+Cannot see r along gravity's mean direction without tilt; tau that keeps its sign for longer than
+the record is taken for r.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.control.sample import Sample
+from equipoise.dynamics.regressor import TORQUE, WIDTH, torque_columns
+from equipoise.dynamics.sag_trim import sag_matrix
+from equipoise.maths.attitude import to_matrix
+from equipoise.maths.compiled import kernel
+from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
+from equipoise.model.testbed import SlidingMass, Testbed
+from equipoise.model.torque_terms import TERMS
+
+L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
+
+PLAY_SD, PLAY_TIME = 2e-6, 30.0  # N m, s, chosen: measured 4e-7 to 3e-6 (methods.md 7.1)
+BIAS_SD = 1e-4  # rad/s, chosen: a camera of 0.2 deg and 5 Hz leaves so much after ten seconds
+CREEP = 0.05e-6 / 60**0.5  # m/sqrt(s), chosen: thermal walk of 0.05 um/sqrt(min), methods.md 7.1
+SAME_TURN = 10.0  # s, chosen: as long as a turn lasts, in which an error of J w keeps its sign
+STANDS = 1e-10  # m, chosen: less is no travel
+PRIORS = {"viscous": 1e-4, "quadratic": 1e-3, "constant": 1e-5, "swirl": 1e-5, "sag": 3e-5,
+          "drift": 5e-9}  # fmt: skip  # SI, chosen: a few times what methods.md 7.1 lists
+
+
+class Book(NamedTuple):
+    """What is known beforehand."""
+
+    mass: float  # kg
+    inertia_P: Matrix3
+    inertia_sd: float  # -, relative
+    gyro_sd: float  # rad/s sqrt(s): one sd of a mean over a second
+    momentum_sd: float  # N m s, of one sample
+    terms: tuple[str, ...]
+    columns: tuple[int, ...]  # of the regressor, of these terms
+    masses: tuple[SlidingMass, ...]
+
+
+class Ledger(NamedTuple):
+    """What is believed."""
+
+    x: Floats  # (12 + k,)
+    P: Square
+    rows: Floats  # (3, 4 + k): R applied to the columns of r and c, and to the weight of s, last
+    R: Matrix3
+    shift: Vector3  # m, by the masses, at the last sample
+    stood: Vector3  # m, where the masses stood last
+    t: float  # s, of the last sample
+    begin: float  # s, of the first
+
+
+def book_of(testbed: Testbed) -> Book:
+    """Return what a testbed says beforehand; it must have a gyro."""
+    assert testbed.gyro is not None
+    terms = testbed.disturbances
+    quiet = [w.inertia * w.speed_noise for w in testbed.wheels]
+    quiet += [g.momentum * g.angle_noise for g in testbed.cmgs]
+    return Book(
+        testbed.body.mass,
+        testbed.body.inertia_P,
+        testbed.inertia_sd,
+        testbed.gyro.noise / testbed.gyro.rate**0.5,
+        max([*quiet, 1e-9]),
+        terms,
+        tuple(TORQUE + TERMS.index(term) for term in terms),
+        testbed.masses,
+    )
+
+
+@kernel
+def torques_at(w: Vector3, g: Vector3, t: float, mass: float) -> Floats:
+    """Return the regressor's columns, those of torques filled, (3, 25)."""
+    out = np.zeros((3, WIDTH))
+    size = (g[0] ** 2 + g[1] ** 2 + g[2] ** 2) ** 0.5
+    torque_columns((w[0], w[1], w[2]), (g[0], g[1], g[2]), t, mass, size, out)
+    return out
+
+
+def rows_at(seen: Sample, book: Book, begin: float) -> Floats:
+    """Return the torque (N m, laboratory axes) of r, of each c, and of the weight at s."""
+    g, w = seen.gravity, seen.rate
+    regress = torques_at(w, g, seen.t - begin, book.mass)
+    weight = -book.mass * np.cross(np.eye(3), g)  # its row i is -m e_i x g
+    known = book.mass * np.cross(seen.shift, g)
+    columns = np.column_stack([-weight.T, regress[:, book.columns], known])
+    return to_matrix(seen.q) @ columns
+
+
+def opened(testbed: Testbed, book: Book, seen: Sample) -> Ledger:
+    """Return the account at the first sample; the testbed's first guess is its beginning."""
+    priors = [PRIORS[term.split("_")[0]] for term in book.terms]
+    sd = np.concatenate(
+        [np.full(3, 1.0), np.full(3, PLAY_SD), np.full(3, BIAS_SD), testbed.com_sd, priors]
+    )
+    x = np.zeros(len(sd))
+    R = to_matrix(seen.q)
+    x[:3] = R @ (book.inertia_P @ seen.rate + seen.momentum)
+    x[COM:TERM] = testbed.body.com
+    return Ledger(x, np.diag(sd**2), rows_at(seen, book, seen.t), R, seen.shift, seen.shift,
+                  seen.t, seen.t)  # fmt: skip
+
+
+def stop_variance(change: Vector3, book: Book) -> Vector3:
+    """Return the variance (m^2) that a change of the shift (m) leaves, per axis."""
+    size, variance = float(np.linalg.norm(change)), np.zeros(3)
+    for mass in book.masses:
+        if size > 0.5 * mass.mass * mass.resolution / book.mass:
+            variance += (mass.mass * mass.accuracy / book.mass * mass.axis) ** 2
+    return variance
+
+
+def predicted(ledger: Ledger, seen: Sample, book: Book) -> Ledger:
+    """Return the account carried on to a sample."""
+    dt = seen.t - ledger.t
+    rows, R = rows_at(seen, book, ledger.begin), to_matrix(seen.q)
+    mean = 0.5 * dt * (ledger.rows + rows)
+    stay = float(np.exp(-dt / PLAY_TIME))
+    F = np.eye(len(ledger.x))
+    F[:3, PLAY:BIAS] = 0.5 * dt * (ledger.R + stay * R)
+    F[PLAY:BIAS, PLAY:BIAS] *= stay
+    F[:3, COM:] = mean[:, :-1]
+    x = F @ ledger.x
+    x[:3] += mean[:, -1]
+    P = F @ ledger.P @ F.T
+    play = np.arange(PLAY, BIAS)
+    P[play, play] += PLAY_SD**2 * (1 - stay**2)
+    com = np.arange(COM, TERM)
+    P[com, com] += CREEP**2 * dt
+    return ledger._replace(x=x, P=P, rows=rows, R=R, shift=seen.shift, t=seen.t)
+
+
+def arrived(ledger: Ledger, book: Book) -> Ledger:
+    """Return the account with the error of a move that has ended, if one has."""
+    change: Vector3 = ledger.shift - ledger.stood
+    if float(np.linalg.norm(change)) <= STANDS:
+        return ledger
+    P, com = ledger.P.copy(), np.arange(COM, TERM)
+    P[com, com] += stop_variance(change, book)
+    return ledger._replace(P=P, stood=ledger.shift)
+
+
+def noise_of(seen: Sample, R: Matrix3, dt: float, book: Book) -> Matrix3:
+    """Return the covariance of z, (N m s)^2."""
+    RJ = R @ book.inertia_P
+    white = book.gyro_sd**2 / dt * RJ @ RJ.T + 2 * book.momentum_sd**2 * np.eye(3)
+    wrong = book.inertia_sd * float(np.linalg.norm(book.inertia_P @ seen.rate))
+    return white + wrong**2 * SAME_TURN / dt * np.eye(3)
+
+
+def corrected(ledger: Ledger, seen: Sample, dt: float, book: Book) -> Ledger:
+    """Return the account with a sample's momentum entered."""
+    RJ = ledger.R @ book.inertia_P
+    H = np.zeros((3, len(ledger.x)))
+    H[:, :3], H[:, BIAS:COM] = np.eye(3), RJ
+    PHt = ledger.P @ H.T
+    S = H @ PHt + noise_of(seen, ledger.R, dt, book)
+    K = np.linalg.solve(S, PHt.T).T
+    z = RJ @ seen.rate + ledger.R @ seen.momentum
+    P = ledger.P - K @ PHt.T
+    return ledger._replace(x=ledger.x + K @ (z - H @ ledger.x), P=0.5 * (P + P.T))
+
+
+def entered(ledger: Ledger, seen: Sample, book: Book) -> Ledger:
+    """Return the account after one more sample."""
+    dt = seen.t - ledger.t
+    if dt <= 0:
+        return ledger
+    still = float(np.linalg.norm(seen.shift - ledger.shift)) <= STANDS
+    ahead = predicted(ledger, seen, book)
+    return corrected(arrived(ahead, book), seen, dt, book) if still else ahead
+
+
+def com_map(ledger: Ledger, book: Book) -> Floats:
+    """Return the map (3, n) from x to the centre of mass now, drift counted, masses at home."""
+    G = np.zeros((3, len(ledger.x)))
+    G[:, COM:TERM] = np.eye(3)
+    for axis, name in enumerate(("drift_x", "drift_y", "drift_z")):
+        if name in book.terms:
+            G[axis, TERM + book.terms.index(name)] = ledger.t - ledger.begin
+    return G
+
+
+def com_now(ledger: Ledger, book: Book) -> tuple[Vector3, Matrix3]:
+    """Return the centre of mass now (m) with the masses at home, and its covariance (m^2)."""
+    G = com_map(ledger, book)
+    return G @ ledger.x, G @ ledger.P @ G.T
+
+
+def sag_of(ledger: Ledger, book: Book) -> Matrix3:
+    """Return the matrix of sag, m."""
+    return sag_matrix(dict(zip(book.terms, ledger.x[TERM:], strict=True)))

@@ -1,0 +1,57 @@
+"""A turn from rest to rest about one axis, as a reference for the attitude control.
+
+    angle(s) = A (10 s^3 - 15 s^4 + 6 s^5),   s = t / T        rate and acceleration begin and end 0
+
+Its greatest rate is 15/8 A / T, its greatest acceleration 10 / sqrt(3) A / T^2. T is the shortest
+that keeps both within limits, so that wheels are neither saturated nor spun up beyond their speed.
+The axis is that of the shorter way, the same in body axes all along.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.control.attitude_pid import Reference
+from equipoise.maths.attitude import difference, exponential, multiply
+from equipoise.model.arrays import Quaternion, Vector3
+
+PEAK_RATE = 15.0 / 8.0
+PEAK_ACCELERATION = 10.0 / 3.0**0.5
+
+
+class Slew(NamedTuple):
+    """A turn and when it is made."""
+
+    start: Quaternion
+    turn: Vector3  # rad, in body axes
+    begin: float  # s
+    duration: float  # s
+
+
+def time_for(angle: float, rate: float, acceleration: float) -> float:
+    """Return the shortest time (s) for an angle (rad) within greatest rate and acceleration."""
+    return max(PEAK_RATE * angle / rate, (PEAK_ACCELERATION * angle / acceleration) ** 0.5)
+
+
+def slew(
+    start: Quaternion, goal: Quaternion, begin: float, rate: float, acceleration: float
+) -> Slew:
+    """Return the turn from ``start`` to ``goal`` that begins at a time (s), within its limits."""
+    turn = difference(goal, start)
+    return Slew(start, turn, begin, time_for(float(np.linalg.norm(turn)), rate, acceleration))
+
+
+def end_of(turn: Slew) -> float:
+    """Return when the turn is made, s."""
+    return turn.begin + turn.duration
+
+
+def reference_at(turn: Slew, t: float) -> Reference:
+    """Return where the platform should be at a time (s); before and after it, at rest."""
+    T = max(turn.duration, 1e-9)
+    s = min(max((t - turn.begin) / T, 0.0), 1.0)
+    angle = s**3 * (10 - 15 * s + 6 * s**2)
+    rate = 30 * s**2 * (1 - s) ** 2 / T
+    acceleration = 60 * s * (1 - s) * (1 - 2 * s) / T**2
+    q = multiply(turn.start, exponential(angle * turn.turn))
+    return Reference(q, rate * turn.turn, acceleration * turn.turn)
