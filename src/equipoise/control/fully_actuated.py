@@ -41,18 +41,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.control.law import Law, LawCard
-from equipoise.control.mass_reach import (
+from equipoise.control.beforehand import (
     LIKELY,
+    about_masses,
     around,
+    coarsest_step,
     height_sd,
     level_inertia,
     likely_offset,
-    reach_of,
+    within_reach,
 )
-from equipoise.control.momentum_reach import momentum_reach
+from equipoise.control.capacity import Capacity, capacity
+from equipoise.control.law import Law, LawCard
 from equipoise.control.sample import Sample
-from equipoise.control.sweep import Sweep, wanted
+from equipoise.control.saturation import greatest_slew, limited
+from equipoise.control.sweep import Sweep, Wanted, wanted
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -72,7 +75,8 @@ STRAY = 0.4  # of the tilt limit, chosen: what an offset may add before masses h
 NARROWEST = np.radians(1.0)  # chosen
 HOLD = 0.3  # of w_a, chosen
 SPARE = 0.8  # chosen: of momentum and torque, what is used
-LEAD = 3.0  # periods, chosen: of travel, by which masses may be behind
+SHARE = 0.5  # chosen: of a pyramid of gyros, what singular directions leave
+LEAD = 3.0  # periods of travel, chosen: by which masses may be behind
 SHORT = 0.1  # of the devices' torque, chosen: a torque that far from the one asked for is another
 ENOUGH = 7.0  # time constants, chosen: a thousandth is left
 QUIET = 30.0  # time constants, chosen: after which a law that sweeps nothing has ended
@@ -108,66 +112,71 @@ class State:
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return state and parameters; InputError where the loop would not be stable."""
-    reach, devices = reach_of(testbed), momentum_reach(testbed)
-    m, g, up = testbed.body.mass, testbed.gravity, testbed.up
+    m, g = testbed.body.mass, testbed.gravity
     speed = sweep_speed(testbed)
     w = frequency_for(testbed, RATIO * speed)
-    e1 = around(up, 1)[0]
     speed = min(speed, w / RATIO)
-    sweep = Sweep(np.column_stack([e1, np.cross(up, e1), up]),
+    sweep = Sweep(np.column_stack([*around(testbed.up), testbed.up]),
                   cone_for(testbed, target, w, speed), speed, HOLD * w)  # fmt: skip
     params = Params(
         m, testbed.body.inertia_P, target, (w / (m * g)) ** 2, 2 * ZETA * w, sweep,
-        LEAD * reach.speed * PERIOD + reach.quantum, SHORT * devices.torque, testbed.tilt_limit,
-        PERIOD,
+        LEAD * greatest_slew(testbed) * PERIOD + coarsest_step(testbed),
+        SHORT * capacity(testbed).torque, testbed.tilt_limit, PERIOD,
     )  # fmt: skip
     return State(target - testbed.body.com, np.zeros((3, 3))), params
 
 
 def sweep_speed(testbed: Testbed) -> float:
-    """Return the speed (rad/s) of the cone at which a wrong inertia leaves BIAS."""
+    """Return the speed W (rad/s) of the cone at which a wrong inertia leaves BIAS."""
     off = max(testbed.inertia_sd, FIRM) * level_inertia(testbed)
     return float((BIAS * testbed.body.mass * testbed.gravity / off) ** 0.5)
 
 
 def frequency_for(testbed: Testbed, wish: float) -> float:
-    """Return w_a (rad/s), no more than wished; InputError where the loop would not be stable."""
-    reach, offset = reach_of(testbed), likely_offset(testbed)
+    """Return w_a (rad/s), as wished if it can be; InputError where the loop is not stable."""
+    within_reach(testbed)
+    offset = likely_offset(testbed)
     weight = testbed.body.mass * testbed.gravity / level_inertia(testbed)
     least = (weight * offset / (STRAY * testbed.tilt_limit)) ** 0.5
-    most = min(MOST, SAMPLED / PERIOD, SPEED * reach.speed / max(offset, 1e-12))
-    if least > most or offset > reach.travel:
+    most = min(MOST, SAMPLED / PERIOD, SPEED * greatest_slew(testbed) / max(offset, 1e-12))
+    if least > most:
         raise InputError(
             testbed.name,
-            f"a centre of mass that may be {1e6 * offset:.3g} um off sideways, and masses that "
-            f"shift it by {1e6 * reach.speed:.3g} um/s and {1e6 * reach.travel:.3g} um",
-            f"a loop between {least:.2g} rad/s, for the tilt limit, and {most:.2g} rad/s, for the "
-            "masses: a coarse balance first, faster or heavier masses, or a firmer com_sd",
+            about_masses(testbed),
+            f"a loop that is faster than {least:.2g} rad/s, for the tilt limit, and slower than "
+            f"{most:.2g} rad/s, for masses and samples: a coarse balance first, faster or heavier "
+            "masses, or a firmer com_sd",
         )
-    return min(max(wish, least), most)
+    return float(np.clip(wish, least, most))
+
+
+def spare(testbed: Testbed) -> Capacity:
+    """Return the torque and momentum that can be counted on."""
+    most = capacity(testbed)
+    share = SPARE * (SHARE if testbed.cmgs else 1.0)
+    stored = sum(abs(wheel.inertia * wheel.speed) for wheel in testbed.wheels)
+    return Capacity(share * most.torque, share * most.momentum - stored)
 
 
 def cone_for(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
     """Return the cone's half-angle (rad) that tilt limit, torque and momentum allow."""
-    devices, J = momentum_reach(testbed), level_inertia(testbed)
-    weight = testbed.body.mass * testbed.gravity
-    offset = likely_offset(testbed)
+    J, weight = level_inertia(testbed), testbed.body.mass * testbed.gravity
+    offset, have = likely_offset(testbed), spare(testbed)
     low = abs(float(testbed.up @ (testbed.body.com - target))) + LIKELY * height_sd(testbed)
-    low += float(np.linalg.norm(target))  # held up by torque as long as the law runs
-    momentum = SPARE * devices.momentum - weight * offset * 2 * ZETA / w
-    torque = SPARE * devices.torque - weight * offset
+    low += float(np.linalg.norm(target))  # which torque holds up as long as the law runs
+    momentum = have.momentum - weight * offset * 2 * ZETA / w
     angle = min(
         CONE * testbed.tilt_limit,
         momentum / (J * W + weight * low / W),
-        torque / (J * W**2 + weight * low),
+        (have.torque - weight * offset) / (J * W**2 + weight * low),
     )
     if angle < NARROWEST:
         raise InputError(
             testbed.name,
-            f"wheels or gyros of {devices.torque:.3g} N m and {devices.momentum:.3g} N m s, and a "
-            f"centre of mass that may be {1e6 * offset:.3g} um off sideways and {1e6 * low:.3g} "
-            f"um along up: they can lead it round a cone of {np.degrees(angle):.2g} deg",
-            f"at least {np.degrees(NARROWEST):.2g} deg: a coarse balance first, or more momentum",
+            f"{have.torque:.3g} N m and {have.momentum:.3g} N m s of wheels or gyros to count on, "
+            f"and a centre of mass that may be {1e6 * offset:.3g} um off sideways and "
+            f"{1e6 * low:.3g} um along up: a cone of {np.degrees(max(angle, 0.0)):.2g} deg",
+            f"{np.degrees(NARROWEST):.2g} deg: a coarse balance first, or stronger devices",
         )
     return angle
 
@@ -183,20 +192,22 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
     own = params.inertia @ seen.rate
     error = own - params.inertia @ want.rate
     asked = np.cross(seen.rate, own + seen.momentum) - params.gain * error
-    soon = start_half(params, seen, start, down)
-    asked += params.inertia @ soon - params.mass * np.cross(params.target, seen.gravity)
+    asked += params.inertia @ soon(params, seen, seen.t - start, want) - params.mass * np.cross(
+        params.target, seen.gravity
+    )
     rest = error - mean_moment(params) * seen.rate
-    shift = limited(adapted(state, seen, rest, params), seen.shift, params.lead)
+    ahead = adapted(state, seen, rest, params) - seen.shift
+    shift = seen.shift + limited(ahead, params.lead)
     told = state.seen + params.period * (np.eye(3) - np.outer(down, down))
     after = State(shift, told, start, seen.gravity, rest, asked)
     return after, Command(shift, asked, finished=why_over(after, seen.t - start, params))
 
 
-def start_half(params: Params, seen: Sample, start: float, down: Vector3) -> Vector3:
+def soon(params: Params, seen: Sample, past: float, want: Wanted) -> Vector3:
     """Return w_d' (rad/s^2) in the middle of the period for which a torque is asked."""
-    half = params.period / 2
-    there = down + half * np.cross(down, seen.rate)
-    return wanted(params.sweep, seen.t - start + half, there, seen.rate).slope
+    half, n = params.period / 2, seen.gravity / float(np.linalg.norm(seen.gravity))
+    down, rate = n + half * np.cross(n, seen.rate), seen.rate + half * want.slope
+    return wanted(params.sweep, past + half, down, rate).slope
 
 
 def mean_moment(params: Params) -> float:
@@ -214,12 +225,6 @@ def adapted(state: State, seen: Sample, rest: Vector3, params: Params) -> Vector
     middle = np.cross(state.gravity, state.rest) + np.cross(seen.gravity, rest)
     total = turned + params.period / 2 * middle
     return state.shift - params.adaption * params.mass * total
-
-
-def limited(shift: Vector3, there: Vector3, lead: float) -> Vector3:
-    """Return a shift (m) that leads what is there by no more than ``lead``."""
-    ahead = shift - there
-    return there + ahead * min(1.0, lead / max(float(np.linalg.norm(ahead)), 1e-12))
 
 
 def fading(params: Params) -> float:
