@@ -26,9 +26,10 @@ its momentum kept and it not balanced. H_d is therefore made to lead gravity rou
     A^2 w_a^2 K W^2 / ((w_a^2 - W^2)^2 + K^2 W^2)
 
 and how much has been seen of the worst direction is the least eigenvalue of int (E - n n^T) dt,
-n = g_b / g; the law has finished when that is ENOUGH times the time constant, and says so when it
-stops with less. A wrong J turns with the cone just as a wrong height does: r_up ends off by about
-dJ W^2 / (m g), so W is chosen from the testbed's inertia_sd.
+n = g_b / g. The law has finished when that is ENOUGH times the time constant, and says so when it
+stops with less. A wrong J turns with the cone just as a wrong height does: r_up ends off by
+-dJ W^2 / (m g), so W is chosen from the testbed's inertia_sd. What turns with the cone is asked for
+as it will be in the middle of the period for which the torque stands.
 
 The trajectory is chosen from the tilt limit and from the momentum that wheels have left: they carry
 m g |r| 2 zeta / w_a for ever, and J A W + m g |r_up| A / W round the cone.
@@ -37,7 +38,7 @@ Anti-windup: s never leads what masses report by more than ``lead``, and stands 
 torque that was measured is not the one that was asked for.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -192,9 +193,7 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
     own = params.inertia @ seen.rate
     error = own - params.inertia @ want.rate
     asked = np.cross(seen.rate, own + seen.momentum) - params.gain * error
-    asked += params.inertia @ soon(params, seen, seen.t - start, want) - params.mass * np.cross(
-        params.target, seen.gravity
-    )
+    asked += steering(params, seen, seen.t - start, want)
     rest = error - mean_moment(params) * seen.rate
     ahead = adapted(state, seen, rest, params) - seen.shift
     shift = seen.shift + limited(ahead, params.lead)
@@ -203,11 +202,13 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
     return after, Command(shift, asked, finished=why_over(after, seen.t - start, params))
 
 
-def soon(params: Params, seen: Sample, past: float, want: Wanted) -> Vector3:
-    """Return w_d' (rad/s^2) in the middle of the period for which a torque is asked."""
-    half, n = params.period / 2, seen.gravity / float(np.linalg.norm(seen.gravity))
-    down, rate = n + half * np.cross(n, seen.rate), seen.rate + half * want.slope
-    return wanted(params.sweep, past + half, down, rate).slope
+def steering(params: Params, seen: Sample, past: float, want: Wanted) -> Vector3:
+    """Return H_d' - m r* x g_b (N m) in the middle of the period for which a torque is asked."""
+    half = params.period / 2
+    gravity = seen.gravity + half * np.cross(seen.gravity, seen.rate)
+    rate = seen.rate + half * want.slope
+    slope = wanted(params.sweep, past + half, gravity / float(np.linalg.norm(gravity)), rate).slope
+    return params.inertia @ slope - params.mass * np.cross(params.target, gravity)
 
 
 def mean_moment(params: Params) -> float:
@@ -256,8 +257,8 @@ LAW = Law(
         "Wheels or gyros lead gravity round a cone, and masses move until no torque is missing.",
         "Kim & Agrawal 2009; da Silva 2021 section 4.2 with erratum R24",
         ("masses", "momentum", "gyro", "attitude"),
-        "what is along gravity unless gravity sweeps; dJ W^2 / (m g) along up when J is wrong by dJ "
-        "(20 um for one inertia_sd)",
+        "what is along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
+        "dJ (20 um for one inertia_sd)",
         "TODO",
         PERIOD,
     ),

@@ -2,7 +2,7 @@
 
 Gravity's direction n = g_B / g is to go round a cone that opens slowly about level,
 
-    n_d = -cos(a) up + sin(a) p(t),    p = cos(W t) e1 + sin(W t) e2,    a = A (1 - (1 + t/s) e^-t/s)
+    n_d = -cos(a) up + sin(a) p,    p = cos(W t) e1 + sin(W t) e2,    a = A (1 - (1 + t/s) e^-t/s)
 
 so that nothing jumps at the start; s = 2 pi / W. With n' = n x w the rate for that, and for coming
 back when n has strayed, is

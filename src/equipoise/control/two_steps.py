@@ -19,8 +19,9 @@ the last one left. Rounds end when the look finds no more than a motor step, or 
 
 From the look only the height is used. The method is ``ukf_4`` (rate and r_up) when com across up
 is known to ACROSS beforehand: it takes that from the testbed, and knows nothing of what the masses
-did about it in the first step. Else it is ``trajectory`` with the testbed's inertia and its sd, which
-finds all of com: a wrong J makes r_up wrong by the same share, and the next round takes that away.
+did about it in the first step. Else it is ``trajectory`` with the testbed's inertia and its sd,
+which finds all of com: a wrong J makes r_up wrong by the same share, and the next round takes that
+away.
 """
 
 from dataclasses import dataclass, replace
