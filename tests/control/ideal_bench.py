@@ -26,6 +26,7 @@ MASS, GRAVITY, INERTIA = 14.0, 9.81, np.diag([0.30, 0.28, 0.45])
 UP = np.array([0.0, 0.0, 1.0])
 AT_P = np.zeros((3, 3))
 LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
+AT_REST = (LEVEL, np.zeros(3))
 
 
 def rails(mass=5.0, speed=0.05, travel=0.05, resolution=0.0, home=AT_P):
@@ -64,7 +65,7 @@ class Bench:
     period: float = 0.1
     noise: tuple = (0.0, 0.0)  # rad, rad/s, one sd of a sample
     seed: int = 0
-    told: tuple = (0.0, 0.0)  # relative error of a look, and its noise, m
+    told: tuple = (0.0, 0.0)  # relative error of what a look tells, and its noise, m
     momentum: np.ndarray = None  # N m s, stored at the start
 
     @property
@@ -138,8 +139,9 @@ def onward(now, bench, goal, torque, duration):
 
 
 def looked(now, bench, rng):
-    """What a look tells of the centre of mass with the masses at home."""
-    com = bench.com * (1 + bench.told[0]) + bench.told[1] * rng.normal(size=3)
+    """What a look tells of the centre of mass with the masses at home: its scale is that of J."""
+    there = shift_of(now.d, bench)
+    com = (bench.com + there) * (1 + bench.told[0]) - there + bench.told[1] * rng.normal(size=3)
     parameters = tuple(Parameter(n, "m", float(x), 1e-6) for n, x in zip(COM, com, strict=True))
     return Estimate("told", Outcome(True, "Told."), parameters, 1e-12 * np.eye(3))
 
@@ -158,7 +160,7 @@ def row(now, bench, state, command):
                command)  # fmt: skip
 
 
-def closed_loop(bench, step, begun, end, first=(LEVEL, np.zeros(3))):
+def closed_loop(bench, step, begun, end, first=AT_REST):
     """Return the rows of a law's run until ``end`` (s) or until it has finished."""
     (state, params), rng = begun, np.random.default_rng(bench.seed)
     now, rows = started(bench, *first), []
