@@ -33,7 +33,7 @@ def sag_matrix(terms: Mapping[str, float]) -> Matrix3:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, -xx - yy]])
 
 
-def downs(up: Vector3, tilt: float) -> tuple[Series3, Series3]:
+def downs(up: Vector3, tilt: float) -> tuple[Series3, Floats]:
     """Return directions of gravity within a tilt (rad) of level, and their weights, (n, 1)."""
     points, weights = np.polynomial.legendre.leggauss(NODES)
     low = np.cos(tilt)
@@ -42,9 +42,14 @@ def downs(up: Vector3, tilt: float) -> tuple[Series3, Series3]:
     sine = np.sqrt(1 - cosine**2)
     n = -np.column_stack([sine * np.cos(heading), sine * np.sin(heading), cosine])
     # R(level(up)) brings ``up`` to z; its transpose brings directions about z to those about up.
+<<<<<<< HEAD
     turned: Series3 = n @ to_matrix(level(up))
     weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)
     return turned, weight.reshape(-1, 1)
+=======
+    weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)[:, None]
+    return n @ to_matrix(level(up)), weight
+>>>>>>> lawc
 
 
 def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
