@@ -145,7 +145,7 @@ def test_rates_stay_bounded_through_a_singularity(rule):
     """
     x = np.radians([-89.9, 0.1, 89.9, -0.1])
     assert np.abs(steering.pseudo_inverse(FOUR, x, -PUSH)).max() > 10.0
-    t, angles, rates = steered(rule, seconds=30.0, start=np.zeros(4))
+    _, angles, rates = steered(rule, seconds=30.0, start=np.zeros(4))
     measure = [singularity_measure(FOUR, row) for row in angles]
     assert min(measure) < 0.05
     assert np.linalg.norm(rates, axis=1).max() < 0.75

@@ -35,11 +35,12 @@ LAYOUTS = {
     "four edges of a pyramid": tuple(rail(0.2, e, 1e-5) for e in EDGES),
     "coarse and fine": COARSE + FINE,
     "fine and coarse": FINE + COARSE,
+    "three tiers": tuple(rail(1.0, e, 1e-3) for e in np.eye(3)) + COARSE + FINE,
     "coarse and a fine pyramid": COARSE + tuple(rail(0.05, e, 5e-6, 0.02) for e in EDGES),
     "coarse and without steps": COARSE + tuple(replace(m, resolution=0.0) for m in FINE),
 }
 RIGHT_ANGLED = [name for name in LAYOUTS if "pyramid" not in name]
-shares = st.lists(st.floats(-1.0, 1.0), min_size=7, max_size=7).map(np.array)
+shares = st.lists(st.floats(-1.0, 1.0), min_size=9, max_size=9).map(np.array)
 every_layout = pytest.mark.parametrize("name", LAYOUTS)
 
 
@@ -77,7 +78,7 @@ def test_within_reach_the_error_is_of_rounding(name, now, there, off):
     d = allocate(rails_of(masses, MASS), places(masses, now, 1.0), shift)
     error = np.abs(com_shift(mass_maps(masses), MASS, d) - shift)
     if name in RIGHT_ANGLED:
-        assert error.max() <= 0.5 * step * (1 + 2e-3) + 1e-11
+        assert error.max() <= 0.5 * step * (1 + 1e-3) + 1e-11
     else:
         assert error.sum() <= (2 if "coarse" in name else 1) * rounding(masses) * (1 + 2e-3)
 
@@ -95,7 +96,7 @@ def test_steps_are_whole_and_within_travel_whatever_is_asked(name, now, there):
         assert abs(steps - round(steps)) < 1e-6
 
 
-@pytest.mark.parametrize("name", ["coarse and fine", "fine and coarse", "coarse and without steps"])
+@pytest.mark.parametrize("name", [n for n in RIGHT_ANGLED if "coarse" in n])
 @given(now=shares, fine=shares)
 def test_coarse_masses_stay_while_the_fine_ones_can_do_it(name, now, fine):
     """Whatever the fine ones can reach from where the coarse ones are."""
@@ -158,7 +159,7 @@ def test_an_answer_takes_less_than_a_tenth_of_a_millisecond(name):
     """The quickest of 20 times 20 calls, from where the last left the masses."""
     masses, rng = LAYOUTS[name], np.random.default_rng(1)
     rails, maps, d = rails_of(masses, MASS), mass_maps(masses), np.zeros(len(masses))
-    wishes = [com_shift(maps, MASS, places(masses, rng.uniform(-1, 1, 7))) for _ in range(20)]
+    wishes = [com_shift(maps, MASS, places(masses, rng.uniform(-1, 1, 9))) for _ in range(20)]
     taken = []
     for _ in range(20):
         start = time.perf_counter()
