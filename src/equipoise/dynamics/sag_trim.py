@@ -11,7 +11,7 @@ a tilt of level, each direction counting alike, solves
 
 For sag along the vertical alone, C = c u u^T, a plate that hangs by c when level, this is
 r = u c mean(sin^2 cos) / mean(sin^2): the platform is trimmed as if it sagged alike at every tilt.
-(The trimming of platform deformation; there the maximum is made least.)
+(The trimming of platform deformation, methods.md 5.8; there the maximum is made least.)
 
 The means are exact: four Gauss points in the cosine of the tilt, eight headings.
 """
@@ -42,14 +42,9 @@ def downs(up: Vector3, tilt: float) -> tuple[Series3, Floats]:
     sine = np.sqrt(1 - cosine**2)
     n = -np.column_stack([sine * np.cos(heading), sine * np.sin(heading), cosine])
     # R(level(up)) brings ``up`` to z; its transpose brings directions about z to those about up.
-<<<<<<< HEAD
-    turned: Series3 = n @ to_matrix(level(up))
     weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)
+    turned: Series3 = n @ to_matrix(level(up))
     return turned, weight.reshape(-1, 1)
-=======
-    weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)[:, None]
-    return n @ to_matrix(level(up)), weight
->>>>>>> lawc
 
 
 def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:

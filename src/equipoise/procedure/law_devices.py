@@ -24,7 +24,6 @@ from equipoise.model.devices import Device
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.law_sample import Eyes
 
-
 Inputs = dict[str, float]
 
 

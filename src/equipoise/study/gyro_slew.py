@@ -47,9 +47,7 @@ class Row(NamedTuple):
     output: Floats
 
 
-def slewed(
-    testbed: Testbed, target: Quaternion, gains: Gains, duration: float, seed: int
-) -> Slew:
+def slewed(testbed: Testbed, target: Quaternion, gains: Gains, duration: float, seed: int) -> Slew:
     """Return a slew to ``target`` of ``duration`` seconds."""
     bench, pid, rows = SimulatedBench(testbed, seed), unwound(), list[Row]()
     fresh = bench.read(PERIOD)
