@@ -47,13 +47,24 @@ def downs(up: Vector3, tilt: float) -> tuple[Series3, Floats]:
     return turned, weight.reshape(-1, 1)
 
 
+def acting_com(com: Vector3, sag: Matrix3, up: Vector3) -> Vector3:
+    """Return the centre of mass (m) of a stiff platform that behaves alike at small tilts.
+
+    Level, C adds -C u to r. A little tilted it adds to the weight's lever as a height of
+    (tr C - 3 u^T C u) / 2 would, the mean over both horizontal axes.
+    """
+    level_height = up @ sag @ up
+    return com - sag @ up + 0.5 * (np.trace(sag) - level_height) * up
+
+
 def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
     """Return the centre of mass (m) that leaves the least torque within a tilt (rad)."""
     n, weight = downs(up, tilt)
     across = np.eye(3) - (weight * n).T @ n
     bent = n @ sag
     along = np.sum(n * bent, axis=1, keepdims=True)
-    return np.linalg.solve(across, -np.sum(weight * (bent - along * n), axis=0))
+    best: Vector3 = np.linalg.solve(across, -np.sum(weight * (bent - along * n), axis=0))
+    return best
 
 
 def residual_torque(com: Vector3, sag: Matrix3, up: Vector3, tilt: float) -> float:
