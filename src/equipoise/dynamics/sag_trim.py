@@ -60,11 +60,11 @@ def acting_com(com: Vector3, sag: Matrix3, up: Vector3) -> Vector3:
 def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
     """Return the centre of mass (m) that leaves the least torque within a tilt (rad)."""
     n, weight = downs(up, tilt)
-    across = np.eye(3) - (weight * n).T @ n
-    bent = n @ sag
-    along = np.sum(n * bent, axis=1, keepdims=True)
-    best: Vector3 = np.linalg.solve(across, -np.sum(weight * (bent - along * n), axis=0))
-    return best
+    across: Matrix3 = np.eye(3) - (weight * n).T @ n
+    bent: Series3 = n @ sag
+    along: Floats = np.sum(n * bent, axis=1, keepdims=True)
+    pull: Vector3 = np.sum(weight * (bent - along * n), axis=0)
+    return np.linalg.solve(across, -pull)
 
 
 def residual_torque(com: Vector3, sag: Matrix3, up: Vector3, tilt: float) -> float:
