@@ -13,7 +13,7 @@ from equipoise.model.devices import JetPair
 impulses = arrays(np.float64, 3, elements=st.floats(-0.05, 0.05))
 
 
-def jets(axes=tuple(np.eye(3)), shortest=0.02):
+def jets(axes=((1, 0, 0), (0, 1, 0), (0, 0, 1)), shortest=0.02):
     plain = JetPair("j", np.zeros(3), 0.1, shortest)
     return tuple(
         replace(plain, name=f"j{i}", axis=np.asarray(a, float)) for i, a in enumerate(axes)

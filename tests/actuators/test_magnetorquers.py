@@ -15,7 +15,7 @@ fields = arrays(np.float64, 3, elements=st.floats(-5e-5, 5e-5))
 torques = arrays(np.float64, 3, elements=st.floats(-1e-5, 1e-5))
 
 
-def coils(axes=tuple(np.eye(3)), dipole=1e3):
+def coils(axes=((1, 0, 0), (0, 1, 0), (0, 0, 1)), dipole=1e3):
     plain = Magnetorquer("m", np.zeros(3), dipole)
     return tuple(
         replace(plain, name=f"m{i}", axis=np.asarray(a, float)) for i, a in enumerate(axes)

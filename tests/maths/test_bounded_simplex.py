@@ -11,10 +11,10 @@ def table_of(cost, A, b, upper, dear=1e4):
     """Return a table that begins with an error column for each row."""
     sign = np.where(b >= 0, 1.0, -1.0)
     n = len(cost)
-    return Table(
-        np.hstack([sign[:, None] * A, np.eye(3)]), np.arange(n, n + 3), np.abs(b),
-        np.append(cost, [dear] * 3), np.append(upper, [np.inf] * 3), np.zeros(n + 3, dtype=np.bool_),
-    )  # fmt: skip
+    rows = np.hstack([sign[:, None] * A, np.eye(3)])
+    cost, upper = np.append(cost, [dear] * 3), np.append(upper, [np.inf] * 3)
+    full = np.zeros(n + 3, dtype=np.bool_)
+    return Table(rows, np.arange(n, n + 3), np.abs(b), cost, upper, full)
 
 
 def programme(rng, whole):
