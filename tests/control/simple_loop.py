@@ -1,8 +1,6 @@
 """A plain loop around a law: the true platform between steps, masses that travel, ideal torques.
 
-Displacements are asked of three coarse and three fine masses along x, y and z: the coarse ones go
-to the nearest step, the fine ones to the rest of it. All travel at their speed and stop on whole
-steps. Jets and wheels give what is asked, at once. A look is an Estimate near the truth: no
+Masses travel at their speed and stop on whole steps. Jets and wheels give what is asked, at once. A look is an Estimate near the truth: no
 estimator is run here.
 """
 
@@ -10,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.actuators.mass_allocation import rails_of, without_delay
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.control.law import Law
 from equipoise.control.sample import Sample
@@ -80,19 +79,19 @@ class Run:
 
     @property
     def left(self) -> np.ndarray:
-        """Where the last command leaves the centre of mass once masses have arrived, m."""
+        """Where the centre of mass is at the end, m."""
         return self.com[-1]
 
 
 class Plant:
     """The true platform and where its masses are."""
 
-    def __init__(self, truth: Testbed, tilt, rate, drift=None):
+    def __init__(self, truth: Testbed, tilt, rate):
         self.testbed, self.maps = truth, mass_maps(truth.masses)
         body = truth.body
         inertia = pack_symmetric(body.inertia_P)
-        self.body = body_of(body.mass, truth.gravity, inertia, body.first_moment, drift)
-        self.d = np.zeros(len(truth.masses))
+        self.body = body_of(body.mass, truth.gravity, inertia, body.first_moment)
+        self.d, self.rails = np.zeros(len(truth.masses)), rails_of(truth.masses, body.mass)
         self.goal = self.d.copy()
         q = multiply(exponential(np.asarray(tilt, dtype=float)), level(truth.up))
         self.y = np.concatenate([q, body.inertia_P @ np.asarray(rate, dtype=float)])
@@ -108,13 +107,8 @@ class Plant:
         return self.testbed.body.com + self.shift
 
     def ask(self, shift):
-        """The coarse masses to the nearest step, the fine ones to the rest, within their rails."""
-        left = np.array(shift, dtype=float) * self.testbed.body.mass
-        for i, mass in enumerate(self.testbed.masses):
-            along = left @ mass.axis / mass.mass
-            steps = round(float(np.clip(along, *mass.travel)) / mass.resolution)
-            self.goal[i] = steps * mass.resolution
-            left = left - mass.mass * self.goal[i] * mass.axis
+        """To whole steps, the fine masses first and the coarse ones as far as they must."""
+        self.goal = without_delay(self.rails, self.goal, self.d, np.asarray(shift, dtype=float))
 
     def go(self, period, torque=None, impulse=None):
         """Let ``period`` s pass."""
@@ -158,7 +152,10 @@ class Loop:
 
 
 def fly(law: Law, begun, loop, duration, scale_error=0.05) -> Run:
-    """Run a law until it has finished and its masses have arrived, or for ``duration`` s."""
+    """Run a law until it has finished, or for ``duration`` s.
+
+    As ``procedure.run_law`` does: with a look or the end nothing is moved any more.
+    """
     plant, (state, params) = loop.plant, begun
     out = Run(*(np.zeros(0) for _ in range(4)), [], [])
     rows: list[tuple] = []
@@ -167,12 +164,11 @@ def fly(law: Law, begun, loop, duration, scale_error=0.05) -> Run:
         state, command = law.step(state, seen, params)
         out.commands.append(command)
         out.states.append(state)
-        if command.shift is not None:
-            plant.ask(command.shift)
         if command.finished:
-            plant.go(120.0)
-        elif command.look is not None:
-            plant.go(float(np.max(np.abs(plant.goal - plant.d)) / 1e-3) + 1e-3)
+            break
+        if command.shift is not None and command.look is None:
+            plant.ask(command.shift)
+        if command.look is not None:
             plant.go(command.look.duration)
             out.looks += 1
             seen = estimate(plant, scale_error)
@@ -183,7 +179,5 @@ def fly(law: Law, begun, loop, duration, scale_error=0.05) -> Run:
             seen = loop.sample(torque, impulse)
         up_N = to_matrix(plant.y[:4]) @ plant.testbed.up
         rows.append((plant.time, np.arccos(np.clip(up_N[2], -1, 1)), plant.rate, plant.com))
-        if command.finished:
-            break
     t, tilt, rate, com = (np.array(column) for column in zip(*rows, strict=True))
     return replace(out, t=t, tilt=tilt, rate=rate, com=com)

@@ -46,6 +46,7 @@ WRONG = 1e6  # -, chosen: an error of a step's length costs so many of the deare
 FREE_STEP = 1e-3  # m, chosen: in which a mass without steps is counted
 WHOLE = 1e-6  # steps, chosen: nearer to a whole step than this is there
 NEAR = 1e-3  # units, chosen: rounding of what is allowed
+NEARBY = 1.0  # steps of the coarsest, chosen: half of one is needed, the rest keeps it still
 KEPT = 0.2  # -, chosen: of the travel at each end
 
 
@@ -217,3 +218,21 @@ def allocate(rails: Rails, now: Floats, wanted: Vector3) -> Floats:
         again, still = reached(rails, with_ends_kept(rails), steps, wanted / rails.unit)
         there = again if still < missed else there
     return there * rails.step
+
+
+def without_delay(rails: Rails, now: Floats, here: Floats, wanted: Vector3) -> Floats:
+    """Return displacements (m, from home) as ``allocate`` does, but soon reached from ``here`` (m).
+
+    Fine masses cross their travel in a time in which a feedback loop has long lost its phase: they
+    go no further from where they are than NEARBY steps of the coarsest, and those do the rest.
+    Where that would miss, the fine ones go as far as they must.
+    """
+    quantum = np.linalg.norm(rails.gain, axis=1)
+    coarsest = rails.tier == rails.tier.max()
+    far = NEARBY * float(quantum[coarsest].min()) / quantum
+    steps = np.clip(here / rails.step, rails.low, rails.high)
+    low = np.where(coarsest, rails.low, np.maximum(rails.low, np.floor(steps - far)))
+    high = np.where(coarsest, rails.high, np.minimum(rails.high, np.ceil(steps + far)))
+    near = allocate(rails._replace(low=low, high=high), now, wanted)
+    missed = float(abs(wanted / rails.unit - near / rails.step @ rails.gain).sum())
+    return near if missed <= rails.allowed else allocate(rails, now, wanted)

@@ -47,7 +47,7 @@ from equipoise.control.hanging import (
     tilt_of,
     turned,
 )
-from equipoise.control.height import Height, once_level, raised, sees, unseen
+from equipoise.control.height import Height, Sent, on_the_way, once_level, raised, sees, unseen
 from equipoise.control.l1_condition import l1_norm
 from equipoise.control.law import Law, LawCard
 from equipoise.control.quiet import Bounds, Rest, Seen, bounds, is_quiet, settle
@@ -122,6 +122,7 @@ class State:
     before: Before | None = None
     rest: Rest = field(default_factory=Rest)
     level: Vector3 | None = None  # m, the mean shift that last levelled it
+    way: Sent | None = None
 
 
 # --- Predictor and adaptation ----------------------------------------------------------------
@@ -229,7 +230,7 @@ def learnt(state: State, x: Floats, seen: Sample, params: Params) -> State:
     """Return the state with the error of the prediction for now, and what that teaches."""
     before, plant = state.before, params.plant
     if before is None:
-        return state
+        return replace(state, e=np.zeros((2, 2)))
     v = turned(plant, (before.shift + seen.shift) / 2)
     th, s, e = np.zeros((2, 2)), np.zeros(2), np.zeros((2, 2))
     for i, axis in enumerate(params.axes):
@@ -275,8 +276,8 @@ def sample_step(state: State, seen: Sample, params: Params) -> tuple[State, Comm
     state = replace(state, rest=rest, before=Before(x, w0, seen.shift))
     if not is_quiet(rest, seen.t, params.quiet):
         return state, Command(shift=controlled(state, x, w0, params))
-    command = once_level(plant, state.height, rest.shift, params.target)
-    return replace(state, level=rest.shift), command
+    way = once_level(plant, state.height, seen, rest.shift, params.target)
+    return replace(state, level=rest.shift, way=way), Command(shift=way.goal)
 
 
 def look_step(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
@@ -287,7 +288,7 @@ def look_step(state: State, seen: Estimate, params: Params) -> tuple[State, Comm
     height = raised(params.plant, state.height, seen, params.target)
     shift = shift_for(params.plant, turned(params.plant, state.level))
     note = f"raised to {height.depth * 1e6:.3g} um below the target"
-    state = replace(state, height=height, rest=Rest(), before=None, e=np.zeros((2, 2)))
+    state = replace(state, height=height, rest=Rest(), way=None, before=None)
     return state, Command(shift=shift + height.along * params.plant.up, note=note)
 
 
@@ -295,6 +296,8 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
     """Return the next state and command."""
     if isinstance(seen, Estimate):
         return look_step(state, seen, params)
+    if state.way is not None:
+        return state, on_the_way(params.plant, state.way, seen)
     return sample_step(state, seen, params)
 
 

@@ -33,7 +33,7 @@ from typing import Literal
 import numpy as np
 
 from equipoise.control.hanging import Hanging, hanging, rate_of, shift_for, spared, tilt_of, turned
-from equipoise.control.height import Height, once_level, raised, sees, unseen
+from equipoise.control.height import Height, Sent, on_the_way, once_level, raised, sees, unseen
 from equipoise.control.law import Law, LawCard
 from equipoise.control.quiet import Bounds, Rest, Seen, bounds, is_quiet, settle
 from equipoise.control.sample import Sample
@@ -96,7 +96,7 @@ class Params:
 class State:
     """Where it stands."""
 
-    phase: Literal["settle", "relay", "level", "look"]
+    phase: Literal["settle", "relay", "level"]
     gains: tuple[Gains, Gains]
     rest: Rest
     height: Height
@@ -105,6 +105,7 @@ class State:
     relays: tuple[Relay, Relay] = (Relay(), Relay())
     started: float = 0.0  # s, the relay
     level: Vector3 | None = None  # m, the mean shift that last levelled it
+    way: Sent | None = None
 
 
 # --- Begin -----------------------------------------------------------------------------------
@@ -246,8 +247,8 @@ def level_phase(state: State, seen: Sample, params: Params) -> tuple[State, Comm
     state = replace(state, integral=integral, asked=shift, rest=rest)
     if not is_quiet(rest, seen.t, params.quiet):
         return state, Command(shift=shift)
-    command = once_level(plant, state.height, rest.shift, params.target)
-    return replace(state, phase="look", level=rest.shift), command
+    way = once_level(plant, state.height, seen, rest.shift, params.target)
+    return replace(state, level=rest.shift, way=way), Command(shift=way.goal)
 
 
 def look_phase(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
@@ -256,7 +257,7 @@ def look_phase(state: State, seen: Estimate, params: Params) -> tuple[State, Com
     if not sees(seen):
         return state, unseen(seen, state.level)
     height = raised(params.plant, state.height, seen, params.target)
-    state = replace(state, phase="level", height=height, rest=Rest())
+    state = replace(state, phase="level", height=height, rest=Rest(), way=None)
     assert state.integral is not None
     shift = asked_shift(state, params.plant, -state.integral)
     note = f"raised to {height.depth * 1e6:.3g} um below the target"
@@ -267,8 +268,10 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
     """Return the next state and command."""
     if isinstance(seen, Estimate):
         return look_phase(state, seen, params)
-    phases = {"settle": settle_phase, "relay": relay_phase}
-    return phases.get(state.phase, level_phase)(state, seen, params)
+    if state.way is not None:
+        return state, on_the_way(params.plant, state.way, seen)
+    phases = {"settle": settle_phase, "relay": relay_phase, "level": level_phase}
+    return phases[state.phase](state, seen, params)
 
 
 LAW = Law(CARD, begin, step)

@@ -57,7 +57,11 @@ def bounds(plant: Hanging, offset: float, swings: float) -> Bounds:
 
 
 def settle(rest: Rest, now: Seen, step: float, bounds: Bounds, aim: Floats | None = None) -> Rest:
-    """Return the means after another step (s); ``aim`` is the tilt (rad) sought, none: any."""
+    """Return the means after another step (s); ``aim`` is the tilt (rad) sought.
+
+    Without one, any tilt will do, and any rate that goes with it: a tilted platform that turns
+    about the vertical does so at a steady rate in body axes. What swings about the means counts.
+    """
     if not np.isfinite(rest.tilt[0]):
         return Rest(now.tilt, now.rate, now.shift, now.shift)
     share = step / bounds.memory
@@ -68,10 +72,13 @@ def settle(rest: Rest, now: Seen, step: float, bounds: Bounds, aim: Floats | Non
         shift=rest.shift + share * (now.shift - rest.shift),
         before=rest.before + share * (rest.shift - rest.before),
     )
-    off = now.tilt - mean.tilt if aim is None else mean.tilt - aim
+    if aim is None:
+        off, turning = now.tilt - mean.tilt, now.rate - mean.rate
+    else:
+        off, turning = mean.tilt - aim, mean.rate
     still = (
         float(np.linalg.norm(off)) <= bounds.tilt
-        and float(np.linalg.norm(mean.rate)) <= bounds.rate
+        and float(np.linalg.norm(turning)) <= bounds.rate
         and float(np.linalg.norm(mean.shift - mean.before)) <= bounds.shift
     )
     return replace(mean, since=min(rest.since, now.t) if still else np.inf)

@@ -14,7 +14,7 @@ import numpy as np
 from equipoise.actuators.cmg_steering import generalised_robust, limited_rates
 from equipoise.actuators.jets import pulses_for
 from equipoise.actuators.magnetorquers import dipoles_for
-from equipoise.actuators.mass_allocation import Rails, allocate, rails_of
+from equipoise.actuators.mass_allocation import Rails, rails_of, without_delay
 from equipoise.actuators.reaction_wheels import wheel_torques
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
@@ -47,7 +47,7 @@ def opened_hands(testbed: Testbed) -> Hands:
 def carry_out(bench: Bench, command: Command, eyes: Eyes, hands: Hands, period: float) -> Hands:
     """Do what a command asks for, until the next one ``period`` seconds later."""
     if command.shift is not None:
-        hands = send(bench, command.shift, hands)
+        hands = send(bench, command.shift, eyes.displacement, hands)
     testbed = bench.testbed
     inputs = {
         **torquing(testbed, command.torque, eyes, bench.time, period),
@@ -60,9 +60,10 @@ def carry_out(bench: Bench, command: Command, eyes: Eyes, hands: Hands, period: 
     return replace(hands, inputs=inputs, left=left)
 
 
-def send(bench: Bench, shift: Vector3, hands: Hands) -> Hands:
-    """Send the masses to where the centre of mass is shifted so (m, from home)."""
-    masses, goal = bench.testbed.masses, allocate(hands.rails, hands.goal, shift)
+def send(bench: Bench, shift: Vector3, here: Floats, hands: Hands) -> Hands:
+    """Send the masses from ``here`` (m) to where the centre of mass is shifted so (m, from home)."""
+    masses = bench.testbed.masses
+    goal = without_delay(hands.rails, hands.goal, here, shift)
     changed = np.flatnonzero(goal != hands.goal)
     if not len(changed):
         return hands
