@@ -130,12 +130,12 @@ def energy(rows, com, gains):
 
 
 def test_energy_falls_as_printed():
-    """V' = -k_p |w_p|^2: here V after 6 s less what the damping took, to what 2 ms make of it."""
-    gains, com = gains_at(platform(), 1.0, 0.0, 2e-3), np.array([3e-4, 2e-4, -5e-4])
+    """V' = -k_p |w_p|^2: here V after 6 s less what the damping took, to what 4 ms make of it."""
+    gains, com = gains_at(platform(), 1.0, 0.0, 4e-3), np.array([3e-4, 2e-4, -5e-4])
     rows = run(com, gains, 6.0, first=(AT_REST[0], np.array([0.05, -0.1, 0.02])))[:-1]
     V, taken = energy(rows, com, gains)
-    spent = np.concatenate([[0.0], np.cumsum((taken[1:] + taken[:-1]) / 2 * 2e-3)])
-    np.testing.assert_allclose(V + spent, V[0], rtol=5e-3)
+    spent = np.concatenate([[0.0], np.cumsum((taken[1:] + taken[:-1]) / 2 * 4e-3)])
+    np.testing.assert_allclose(V + spent, V[0], rtol=1e-2)
     assert spent[-1] > 0.1 * V[0]
     assert np.all(np.diff(V) < 1e-9 * V[0])
 

@@ -118,8 +118,8 @@ def test_routh_says_what_the_roots_say():
 
 @pytest.mark.parametrize(("share", "holds"), [(0.8, True), (1.2, False)])
 def test_the_loop_is_stable_as_far_as_routh_says(share, holds):
-    """w_i at a share of 2 zeta (w_a^2 + w_z^2) / w_a, hanging 1 mm low, samples of 10 ms."""
-    com, period = np.array([1e-5, 0, -1e-3]), 0.01
+    """w_i at a share of 2 zeta (w_a^2 + w_z^2) / w_a, hanging 1 mm low, samples of 20 ms."""
+    com, period = np.array([1e-5, 0, -1e-3]), 0.02
     bench = Bench(platform(inertia=np.diag([0.29, 0.29, 0.45])), com, period=period)
     state, params = underactuated_integral.LAW.begin(bench.testbed, TARGET)
     swing = MASS * GRAVITY * 1e-3 / 0.29
@@ -128,10 +128,10 @@ def test_the_loop_is_stable_as_far_as_routh_says(share, holds):
     assert routh_margin(w, limit, swing) == pytest.approx(0, abs=1e-12)
     gains = params.gains._replace(integral=share * limit, period=period)
     begun = with_params((replace(state, height=0.0), params), gains=gains, follow=10**6)
-    rows = closed_loop(bench, underactuated_integral.LAW.step, begun, 60.0)
+    rows = closed_loop(bench, underactuated_integral.LAW.step, begun, 50.0)
     rate = np.abs([r.rate[1] for r in rows])
-    assert (rate[-1000:].max() < 0.3 * rate[:1000].max()) == holds
-    assert (rate[-1000:].max() > 2 * rate[:1000].max()) != holds
+    assert (rate[-500:].max() < 0.3 * rate[:500].max()) == holds
+    assert (rate[-500:].max() > 2 * rate[:500].max()) != holds
 
 
 def test_the_loop_settles_as_its_slowest_root():
