@@ -144,7 +144,7 @@ def estimate(plant: Plant, scale_error: float) -> Estimate:
 class Loop:
     """A law, a plant, noise from a seed."""
 
-    def __init__(self, plant, noise, seed):
+    def __init__(self, plant, noise=CALM, seed=0):
         self.plant, self.noise, self.rng = plant, noise, np.random.default_rng(seed)
 
     def sample(self, torque, impulse):
@@ -157,18 +157,14 @@ class Loop:
         )  # fmt: skip
 
 
-def fly(
-    law: Law, begun, plant: Plant, duration, noise=CALM, seed=0, scale_error=0.05, law_step=None
-) -> Run:  # fmt: skip
+def fly(law: Law, begun, loop, duration, scale_error=0.05) -> Run:
     """Run a law until it has finished and its masses have arrived, or for ``duration`` s."""
-    loop = Loop(plant, noise, seed)
-    state, params = begun
-    step = law_step or law.step
+    plant, (state, params) = loop.plant, begun
     out = Run(*(np.zeros(0) for _ in range(4)), [], [])
     rows: list[tuple] = []
     seen = loop.sample(np.zeros(3), np.zeros(3))
     while plant.time < duration:
-        state, command = step(state, seen, params)
+        state, command = law.step(state, seen, params)
         out.commands.append(command)
         out.states.append(state)
         if command.shift is not None:

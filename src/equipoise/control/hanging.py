@@ -10,6 +10,11 @@ for tilt and rate along two horizontal body axes; their moments differ, products
 and are left out. A wanted v (m) is the shift s = v x u. From m r x g_B with u = z: weight at +y
 turns about -x, and c = (-r_y, r_x).
 
+A demand v = -(p theta + d rate) that is faster than masses go would be delivered late, by up to 90
+degrees of the swing, and a proportional part that is late drives it. Through a swing at w0 the
+demand has the greatest slope |w0 (p theta + d rate) + j (p rate - d w0^2 theta)|; it is scaled down
+to what masses can follow, in phase with the swing (``spared``).
+
 It hangs where r.u < 0. Masses first lower the centre of mass so far that it surely does, by the
 testbed's guess and its sd, and so far that what is left sideways tilts it by a part of the limit
 only. Sees nothing of a rotation about the vertical: a yaw rate far below w0 is taken for granted.
@@ -28,6 +33,7 @@ from equipoise.model.testbed import Testbed
 SURE = 3.0  # sds of the height, chosen
 LIKELY = 2.0  # sds of what is left sideways, chosen
 SHARE = 0.7  # of the tilt limit, chosen: where it then rests; let go level it swings to twice that
+SPARE = 0.7  # chosen: of the masses' speed for tilt and rate; the rest is the integral's
 ALONG = 0.5  # cosine, chosen: a rail nearer than 60 degrees counts for an axis
 SHALLOWEST = 1e-4  # m, chosen: a swing of half a minute
 
@@ -54,10 +60,11 @@ class Hanging(NamedTuple):
 
 def level_axes(up: Vector3) -> Series:
     """Return two body axes that are horizontal when level, as rows; x and y for up = z."""
-    first = np.eye(3)[int(np.argmin(np.abs(up) + [0.0, 1e-9, 2e-9]))]
-    first = first - up * (up @ first)
-    first /= np.linalg.norm(first)
-    return np.array([first, np.cross(up, first)])
+    nearest: Vector3 = np.eye(3)[int(np.argmin(np.abs(up) + [0.0, 1e-9, 2e-9]))]
+    first: Vector3 = nearest - up * float(up @ nearest)
+    first = first / float(np.linalg.norm(first))
+    second: Vector3 = np.cross(up, first)
+    return np.vstack([first, second])
 
 
 def tilt_of(plant: Hanging, seen: Sample) -> Floats:
@@ -79,6 +86,14 @@ def shift_for(plant: Hanging, v: Floats) -> Vector3:
 def turned(plant: Hanging, shift: Vector3) -> Floats:
     """Return v = u x s along the axes, m: the way back from ``shift_for``."""
     return plant.axes @ np.cross(plant.up, shift)
+
+
+def spared(plant: Hanging, p: Floats, d: Floats, tilt: Floats, rate: Floats) -> float:
+    """Return how much of v = -(p tilt + d rate) the masses can follow through a swing, 0 to 1."""
+    w = plant.frequency
+    slope = np.hypot(w * (p * tilt + d * rate), p * rate - d * w**2 * tilt)
+    fastest = float(np.linalg.norm(slope))
+    return min(1.0, SPARE * plant.slew / fastest) if fastest > 0 else 1.0
 
 
 def sensor_delay(testbed: Testbed) -> float:

@@ -4,19 +4,20 @@ On each of two horizontal axes of a platform that hangs (``hanging``; a = m g / 
 
     theta'' = -w0^2 theta + a (c + v),      c = u x r,  v = u x s
     v = -f (K_p theta + K_d rate) - I,      I' = f K_i theta - (v_done - v_asked) / T_a
-    f = min(1, SPARE R / |slope of the demand|)
+    f = min(1, SPARE R / |slope of the demand|)                             (``hanging.spared``)
 
 The derivative is the gyro's rate, not a differenced angle. The integral carries v to -c, so the
 tilt goes to zero and with it the sideways part of r + s; its height this loop does not see. v_done
 is the shift that the last Sample reports: an integral whose command was not delivered unwinds
-(back-calculation). f keeps the demand of a large swing as slow as the masses are (R, m/s), in
-phase with the swing; a demand cut off by the masses themselves would be late by up to 90 degrees,
-and a late proportional part drives the swing.
+(back-calculation, T_a = K_p / K_i). f keeps the demand of a large swing as slow as the masses are
+(R, m/s). K_i goes down with the swing's frequency where the platform has been raised, for a shallow
+pendulum does not bear the integral of a deep one.
 
     1 settle   -f K_d rate, with calculated gains, while masses lower the centre of mass
     2 relay    +-d about the rest tilt, both axes at once: K_u and T_u (``ziegler_nichols``)
     3 level    the PID, until tilt, rate and shift stay quiet (``quiet``)
-    4 height   looks at the swinging platform, and a last shift (``height``)
+    4 look     at the swinging platform, which tells its height (``height``); then level again,
+               from further up, and at the end a last shift to the target
 
 Source: Ziegler and Nichols 1942, and their use for balancing in da Silva et al. 2021 section 5.
 Their test, proportional action alone turned up until the loop just oscillates, cannot be done here:
@@ -26,14 +27,15 @@ slow or coarse for the relay, or where the sampled loop is not stable at half to
 """
 
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Literal
 
 import numpy as np
 
-from equipoise.control.hanging import Hanging, hanging, rate_of, shift_for, tilt_of, turned
-from equipoise.control.height import Looking, after_look, set_swinging
+from equipoise.control.hanging import Hanging, hanging, rate_of, shift_for, spared, tilt_of, turned
+from equipoise.control.height import Height, once_level, raised, sees, unseen
 from equipoise.control.law import Law, LawCard
-from equipoise.control.quiet import Bounds, Rest, Seen, is_quiet, settle
+from equipoise.control.quiet import Bounds, Rest, Seen, bounds, is_quiet, settle
 from equipoise.control.sample import Sample
 from equipoise.control.sampled_loop import Sampled, closed, radius, steps_late
 from equipoise.control.saturation import limited
@@ -60,10 +62,10 @@ from equipoise.model.testbed import Testbed
 PERIOD = 0.25  # s, chosen: a fiftieth of a swing
 LATE = 0.5  # chosen: the share of the lead that masses and sensors may be late in the relay's cycle
 STEPS = 4  # chosen: motor steps in the relay's amplitude, at the least
-SPARE = 0.7  # chosen: of the masses' speed for tilt and rate, the rest for the integral
 PATIENCE = 3.0  # chosen: of the calculated time, before the relay is given up
 FAR = 3.0  # chosen: a measured gain further than this factor from the calculated one is not taken
 MARGIN = 2.0  # chosen: the gains may be wrong by this factor
+RAISED = 0.1  # chosen: of the swing's frequency, for a platform that has been raised
 LEVEL = 1e-7  # m, chosen: an offset that counts as none, 1.4e-5 N m for 14 kg
 
 CARD = LawCard(
@@ -94,14 +96,15 @@ class Params:
 class State:
     """Where it stands."""
 
-    phase: Literal["settle", "relay", "level", "height"]
+    phase: Literal["settle", "relay", "level", "look"]
     gains: tuple[Gains, Gains]
     rest: Rest
+    height: Height
     asked: Vector3 | None = None  # m, the last shift
     integral: Floats | None = None  # (2,) m
     relays: tuple[Relay, Relay] = (Relay(), Relay())
     started: float = 0.0  # s, the relay
-    looking: Looking | None = None
+    level: Vector3 | None = None  # m, the mean shift that last levelled it
 
 
 # --- Begin -----------------------------------------------------------------------------------
@@ -125,8 +128,10 @@ def loop_of(plant: Hanging, axis: int) -> Loop:
 def check(loop: Loop, gains: Gains, delay: float) -> None:
     """Raise InputError where the sampled loop is unstable at half or twice the gains."""
     axis = Sampled(loop.gain, loop.frequency, PERIOD, steps_late(delay, PERIOD))
-    for factor in (1 / MARGIN, 1.0, MARGIN):
-        size = radius(closed(axis, Gains(*(factor * each for each in gains))))
+    for factor, share in product((1 / MARGIN, 1.0, MARGIN), (1.0, RAISED)):
+        at = axis._replace(frequency=share * axis.frequency)
+        p, i, d = np.array(gains) * factor
+        size = radius(closed(at, Gains(p, share * i, d)))
         if size >= 1:
             raise InputError(
                 "law pid",
@@ -134,12 +139,6 @@ def check(loop: Loop, gains: Gains, delay: float) -> None:
                 f"{PERIOD} s and {delay:.2g} s late",
                 "sensors less late, or a slower platform",
             )
-
-
-def bounds(plant: Hanging, offset: float, swings: float) -> Bounds:
-    """Return what is quiet where an offset (m) counts as none."""
-    tilt, w = offset / plant.depth, float(plant.frequency.min())
-    return Bounds(tilt, tilt * w, offset, swings * 2 * np.pi / w, swings * 2 * np.pi / w)
 
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
@@ -151,36 +150,27 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     for loop, gains in zip(loops, (first, second), strict=True):
         check(loop, gains, plant.delay)
     calm = bounds(plant, 0.3 * loops[0].relay, 0.5)
-    quiet = bounds(plant, max(LEVEL, 2 * plant.step), 1.0)
+    quiet = bounds(plant, max(LEVEL, 2 * plant.step), 0.5)
     params = Params(plant, loops, cycles, (first, second), calm, quiet, target)
-    return State("settle", params.gains, Rest()), params
+    return State("settle", params.gains, Rest(), Height(plant.lowered, plant.depth)), params
 
 
 # --- Step ------------------------------------------------------------------------------------
 
 
-def spared(plant: Hanging, gains: tuple[Gains, Gains], tilt: Floats, rate: Floats) -> float:
-    """Return f: how much of the demand of tilt and rate the masses can follow, 0 to 1."""
-    p, _, d = np.array(gains).T
-    w = plant.frequency
-    slope = np.hypot(w * (p * tilt + d * rate), p * rate - d * w**2 * tilt)
-    fastest = float(np.linalg.norm(slope))
-    return min(1.0, SPARE * plant.slew / fastest) if fastest > 0 else 1.0
-
-
-def asked_shift(plant: Hanging, v: Floats) -> Vector3:
-    """Return the shift (m) that gives v within reach and keeps the platform low."""
-    return shift_for(plant, limited(v, plant.reach)) + plant.lowered * plant.up
+def asked_shift(state: State, plant: Hanging, v: Floats) -> Vector3:
+    """Return the shift (m) that gives v within reach, and the height that is wanted."""
+    return shift_for(plant, limited(v, plant.reach)) + state.height.along * plant.up
 
 
 def damping(state: State, seen: Sample, params: Params) -> Floats:
     """Return -f K_d rate, m."""
     rate = rate_of(params.plant, seen)
     d = np.array([gains.derivative for gains in state.gains])
-    return -spared(params.plant, state.gains, np.zeros(2), rate) * d * rate
+    return -spared(params.plant, 0 * d, d, np.zeros(2), rate) * d * rate
 
 
-def settle_step(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+def settle_phase(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     """Return the next step of the first phase."""
     plant = params.plant
     now = Seen(seen.t, tilt_of(plant, seen), rate_of(plant, seen), seen.shift)
@@ -191,21 +181,20 @@ def settle_step(state: State, seen: Sample, params: Params) -> tuple[State, Comm
     if is_quiet(rest, seen.t, params.calm):
         state = replace(state, phase="relay", started=seen.t)
         note = "hangs at rest; the relay experiment begins"
-    return state, Command(shift=asked_shift(plant, v), note=note)
+    return state, Command(shift=asked_shift(state, plant, v), note=note)
 
 
 def relay_v(state: State, seen: Sample, params: Params) -> tuple[State, Floats]:
     """Return the relays after a sample, and v (m)."""
     tilt = tilt_of(params.plant, seen) - state.rest.tilt
     rate = rate_of(params.plant, seen)
-    relays, v = list[Relay](), damping(state, seen, params)
+    relays, v = list(state.relays), damping(state, seen, params)
     for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
         if not has_settled(relay):
             band = band_of(loop, params.cycles[i])
             sigma = float(tilt[i] + loop.lead * rate[i])
-            relay = relay_step(relay, seen.t, sigma, band)  # noqa: PLW2901
-            v[i] = relay.output * loop.relay
-        relays.append(relay)
+            relays[i] = relay_step(relay, seen.t, sigma, band)
+            v[i] = relays[i].output * loop.relay
     return replace(state, relays=(relays[0], relays[1])), v
 
 
@@ -236,7 +225,7 @@ def relay_phase(state: State, seen: Sample, params: Params) -> tuple[State, Comm
     if late or all(has_settled(relay) for relay in state.relays):
         gains, note = tuned(state, params)
         state = replace(state, phase="level", gains=gains, rest=Rest(), integral=np.zeros(2))
-    shift = asked_shift(params.plant, v)
+    shift = asked_shift(state, params.plant, v)
     return replace(state, asked=shift), Command(shift=shift, note=note)
 
 
@@ -247,33 +236,39 @@ def level_phase(state: State, seen: Sample, params: Params) -> tuple[State, Comm
     assert state.integral is not None
     assert state.asked is not None
     p, i, d = np.array(state.gains).T
-    f = spared(plant, state.gains, tilt, rate)
+    i = i * (state.height.depth / plant.depth) ** 0.5
+    f = spared(plant, p, d, tilt, rate)
     undelivered = turned(plant, seen.shift - state.asked)
     integral = state.integral + PERIOD * (f * i * tilt - undelivered * i / p)
-    shift = asked_shift(plant, -f * (p * tilt + d * rate) - integral)
+    shift = asked_shift(state, plant, -f * (p * tilt + d * rate) - integral)
     now = Seen(seen.t, tilt, rate, seen.shift)
     rest = settle(state.rest, now, PERIOD, params.quiet, np.zeros(2))
     state = replace(state, integral=integral, asked=shift, rest=rest)
     if not is_quiet(rest, seen.t, params.quiet):
         return state, Command(shift=shift)
-    looking, command = set_swinging(plant, rest.shift + sideways(params))
-    return replace(state, phase="height", looking=looking), command
+    command = once_level(plant, state.height, rest.shift, params.target)
+    return replace(state, phase="look", level=rest.shift), command
 
 
-def sideways(params: Params) -> Vector3:
-    """Return the horizontal part of the target, m."""
-    up = params.plant.up
-    return params.target - up * (up @ params.target)
+def look_phase(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
+    """Return what follows a look."""
+    assert state.level is not None
+    if not sees(seen):
+        return state, unseen(seen, state.level)
+    height = raised(params.plant, state.height, seen, params.target)
+    state = replace(state, phase="level", height=height, rest=Rest())
+    assert state.integral is not None
+    shift = asked_shift(state, params.plant, -state.integral)
+    note = f"raised to {height.depth * 1e6:.3g} um below the target"
+    return replace(state, asked=shift), Command(shift=shift, note=note)
 
 
 def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command."""
     if isinstance(seen, Estimate):
-        assert state.looking is not None
-        looking, command = after_look(params.plant, state.looking, seen, params.target)
-        return replace(state, looking=looking), command
-    phases = {"settle": settle_step, "relay": relay_phase, "level": level_phase}
-    return phases[state.phase](state, seen, params)
+        return look_phase(state, seen, params)
+    phases = {"settle": settle_phase, "relay": relay_phase}
+    return phases.get(state.phase, level_phase)(state, seen, params)
 
 
 LAW = Law(CARD, begin, step)

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.control.hanging import Hanging
 from equipoise.model.arrays import Floats, Vector3
 
 
@@ -47,6 +48,12 @@ class Seen(NamedTuple):
     tilt: Floats
     rate: Floats
     shift: Vector3
+
+
+def bounds(plant: Hanging, offset: float, swings: float) -> Bounds:
+    """Return what is quiet where an offset (m) counts as none."""
+    tilt, w = offset / plant.depth, float(plant.frequency.min())
+    return Bounds(tilt, tilt * w, offset, swings * 2 * np.pi / w, swings * 2 * np.pi / w)
 
 
 def settle(rest: Rest, now: Seen, step: float, bounds: Bounds, aim: Floats | None = None) -> Rest:

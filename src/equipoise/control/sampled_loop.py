@@ -1,4 +1,4 @@
-"""Is a linear loop through sampled masses stable? One axis that hangs (``hanging``), exactly sampled.
+"""Stability of a linear loop through sampled masses: one axis that hangs (``hanging``).
 
     theta'' = -w0^2 theta + a v,   v held over a step h,   given n steps late
 
@@ -40,10 +40,10 @@ def swing_matrix(frequency: float, period: float) -> Square:
     return np.array([[c, s / frequency], [-frequency * s, c]])
 
 
-def swing_input(axis: Sampled) -> Floats:
-    """Return b."""
-    w, h = axis.frequency, axis.period
-    return axis.gain * np.array([(1 - np.cos(w * h)) / w**2, np.sin(w * h) / w])
+def swing_input(frequency: float, period: float) -> Floats:
+    """Return b / a."""
+    half, w = np.sin(frequency * period / 2), frequency
+    return np.array([2 * half**2 / w**2, np.sin(w * period) / w])
 
 
 def closed(axis: Sampled, gains: Gains) -> Square:
@@ -52,7 +52,7 @@ def closed(axis: Sampled, gains: Gains) -> Square:
     v = -np.array([gains.proportional, gains.derivative, 1.0])
     loop = np.zeros((3 + n, 3 + n))
     loop[:2, :2] = swing_matrix(axis.frequency, axis.period)
-    loop[:2, 2 + n] = swing_input(axis)
+    loop[:2, 2 + n] = axis.gain * swing_input(axis.frequency, axis.period)
     loop[2, 0], loop[2, 2] = axis.period * gains.integral, 1.0
     loop[3, :3] = v
     loop[4:, 3:-1] = np.eye(n - 1)

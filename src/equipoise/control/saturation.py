@@ -7,8 +7,10 @@ largest ball about its centre touches a face, whose normal n is that of two rail
 
 with reach_i the half travel (m) for how far, and the speed (m/s) for how fast. Zero: some
 direction cannot be reached. Of masses on parallel rails the one that shifts fastest counts for how
-fast: a fine mass then makes up the rest of a coarse one's step, either way. Asked and delivered differ then, and an integral unwinds by the
-difference (back-calculation: Fertik and Ross 1967; Astrom and Wittenmark): I' += (done - asked) / T.
+fast: a fine mass then makes up the rest of a coarse one's step, either way.
+
+Where what was done differs from what was asked, an integral unwinds by the difference
+(back-calculation: Fertik and Ross 1967; Astrom and Wittenmark): I' += (done - asked) / T.
 """
 
 from dataclasses import replace
