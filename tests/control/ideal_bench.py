@@ -47,7 +47,11 @@ def wheels(momentum=2.0, torque=0.5):
 
 def platform(com_sd=1e-4, com=(0.0, 0.0, 0.0), inertia=INERTIA, mass=MASS, gravity=GRAVITY, **more):
     """What is known beforehand: little of the centre of mass."""
-    given = {"masses": rails(), "attitude": AttitudeSensor(20.0, 1e-4), "gyro": Gyro(20.0, 1e-5, 0)}
+    given = {
+        "masses": rails(),
+        "attitude": AttitudeSensor(20.0, 1e-4),
+        "gyro": Gyro(20.0, 1e-5, 0.0),
+    }
     return Testbed(
         "ideal", MassProperties(mass, np.array(com), inertia), 0.0, np.full(3, com_sd), UP,
         np.radians(30), gravity, **(given | more),
