@@ -182,7 +182,8 @@ def closed(axis: Axis, frequency: float, late: int) -> Square:
     new_s = s - PERIOD * w**3 * (0.5 * new_e[0] + 0.5 / w * new_e[1])
     new_u = u_ad + axis.share * (-s - u_ad)
     asked = u_ad - 2 * DAMPING * axis.wanted * x[1]
-    return np.vstack([new_x, new_e, new_s, new_u, asked, np.eye(size)[6:-1]])
+    step: Square = np.vstack([new_x, new_e, new_s, new_u, asked, np.eye(size)[6:-1]])
+    return step
 
 
 def refuse(found: str) -> InputError:
