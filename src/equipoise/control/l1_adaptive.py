@@ -182,7 +182,8 @@ def closed(axis: Axis, frequency: float, late: int) -> Square:
     new_s = s - PERIOD * w**3 * (0.5 * new_e[0] + 0.5 / w * new_e[1])
     new_u = u_ad + axis.share * (-s - u_ad)
     asked = u_ad - 2 * DAMPING * axis.wanted * x[1]
-    return np.vstack([new_x, new_e, new_s, new_u, asked, np.eye(size)[6:-1]])
+    rows = [new_x, new_e, new_s[None], new_u[None], asked[None], np.eye(size)[6:-1]]
+    return np.concatenate(rows).astype(np.float64)
 
 
 def refuse(found: str) -> InputError:
@@ -200,7 +201,7 @@ def check(axis: Axis, plant: Hanging, testbed: Testbed) -> None:
     size = axis.most * l1_norm(wanted, np.array([0.0, 1.0]), FILTER * axis.wanted)
     if size >= 1:
         raise refuse(f"an L1 condition of {size:.2g}, not below 1")
-    late = steps_late(plant.delay, h)
+    late = steps_late(plant.delay + plant.filling, h)
     for factor in (1 / MARGIN, 1.0, MARGIN):
         loop = closed(axis, axis.wanted * factor**0.5, late)
         if radius(loop) >= 1:
