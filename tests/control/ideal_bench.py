@@ -26,6 +26,7 @@ MASS, GRAVITY, INERTIA = 14.0, 9.81, np.diag([0.30, 0.28, 0.45])
 UP = np.array([0.0, 0.0, 1.0])
 AT_P = np.zeros((3, 3))
 LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
+AT_REST = (LEVEL, np.zeros(3))
 
 
 def rails(mass=5.0, speed=0.05, travel=0.05, resolution=0.0, home=AT_P):
@@ -46,7 +47,11 @@ def wheels(momentum=2.0, torque=0.5):
 
 def platform(com_sd=1e-4, com=(0.0, 0.0, 0.0), inertia=INERTIA, mass=MASS, gravity=GRAVITY, **more):
     """What is known beforehand: little of the centre of mass."""
-    given = {"masses": rails(), "attitude": AttitudeSensor(20.0, 1e-4), "gyro": Gyro(20.0, 1e-5, 0)}
+    given = {
+        "masses": rails(),
+        "attitude": AttitudeSensor(20.0, 1e-4),
+        "gyro": Gyro(20.0, 1e-5, 0.0),
+    }
     return Testbed(
         "ideal", MassProperties(mass, np.array(com), inertia), 0.0, np.full(3, com_sd), UP,
         np.radians(30), gravity, **(given | more),
@@ -64,7 +69,7 @@ class Bench:
     period: float = 0.1
     noise: tuple = (0.0, 0.0)  # rad, rad/s, one sd of a sample
     seed: int = 0
-    told: tuple = (0.0, 0.0)  # relative error of a look, and its noise, m
+    told: tuple = (0.0, 0.0)  # relative error of what a look tells, and its noise, m
     momentum: np.ndarray = None  # N m s, stored at the start
 
     @property
@@ -138,8 +143,9 @@ def onward(now, bench, goal, torque, duration):
 
 
 def looked(now, bench, rng):
-    """What a look tells of the centre of mass with the masses at home."""
-    com = bench.com * (1 + bench.told[0]) + bench.told[1] * rng.normal(size=3)
+    """What a look tells of the centre of mass with the masses at home: its scale is that of J."""
+    there = shift_of(now.d, bench)
+    com = (bench.com + there) * (1 + bench.told[0]) - there + bench.told[1] * rng.normal(size=3)
     parameters = tuple(Parameter(n, "m", float(x), 1e-6) for n, x in zip(COM, com, strict=True))
     return Estimate("told", Outcome(True, "Told."), parameters, 1e-12 * np.eye(3))
 
@@ -158,7 +164,7 @@ def row(now, bench, state, command):
                command)  # fmt: skip
 
 
-def closed_loop(bench, step, begun, end, first=(LEVEL, np.zeros(3))):
+def closed_loop(bench, step, begun, end, first=AT_REST):
     """Return the rows of a law's run until ``end`` (s) or until it has finished."""
     (state, params), rng = begun, np.random.default_rng(bench.seed)
     now, rows = started(bench, *first), []

@@ -16,10 +16,10 @@ from equipoise.estimation.methods.registry import METHODS
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.command import Command
+from equipoise.model.devices import ReactionWheel
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
-from equipoise.model.devices import ReactionWheel
 from equipoise.simulation.motion import run
 
 MASS, GRAVITY = 14.0, 9.81
@@ -213,12 +213,15 @@ def looked(course: Course, command: Command, rng: np.random.Generator):
     return estimated(METHODS[look.method], record, bed, Options(look.terms, look.hold))
 
 
-def close(law, testbed: Testbed, truth: Truth, target: np.ndarray, limit: float, begin=None):
+def close(law, testbed: Testbed, truth: Truth, target: np.ndarray, limit: float) -> Course:
     """Run a law until it has finished or the time (s) is over; return the course."""
-    rng = np.random.default_rng(truth.seed)
-    course = begun(testbed, truth)
+    return carried_on(law, law.begin(testbed, target), begun(testbed, truth), limit)
+
+
+def carried_on(law, beginning: tuple, course: Course, limit: float) -> Course:
+    rng = np.random.default_rng(course.truth.seed)
     period = law.card.period
-    state, params = law.begin(testbed, target) if begin is None else begin
+    state, params = beginning
     seen = sample(course, period, rng)
     while course.now.t < limit:
         state, command = law.step(state, seen, params)

@@ -62,7 +62,7 @@ CASES = {
         ["field_x_T", "field_x_uT"],
     ),
     "half a field": (
-        GOOD.replace("q_z", "q_z,field_x_uT,field_y_uT"),
+        "time_s,q_w,q_x,q_y,q_z,field_x_uT,field_y_uT\n" + "0,1,0,0,0,20,30\n",
         ", header",
         ["field_x_uT field_y_uT without field_z_uT"],
     ),

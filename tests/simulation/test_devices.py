@@ -1,4 +1,4 @@
-"""Wheels, gyros, coils and jets of the simulated bench: hand-worked followers, and laws of nature."""
+"""Wheels, gyros, coils and jets of the simulated bench: closed forms, and laws of nature."""
 
 from dataclasses import replace
 

@@ -40,14 +40,12 @@ from equipoise.model.arrays import Bools, Floats, Ints, Vector3
 from equipoise.model.testbed import SlidingMass
 
 ALIKE = 2.0  # -, chosen: coarse masses have steps many times the fine ones'
-DEARER = (
-    100.0  # -, chosen: more than a coarse step can save of fine ones on rails that are not flat
-)
+DEARER = 100.0  # -, chosen: more than a coarse step can save of fine ones
 TIERS = 3  # chosen: more would drown the finest tier's cost in rounding
-WRONG = 1e3  # -, chosen: an error costs more than any step, so that halves are told within 1e-3
+WRONG = 1e6  # -, chosen: an error of a step's length costs so many of the dearest steps
 FREE_STEP = 1e-3  # m, chosen: in which a mass without steps is counted
 WHOLE = 1e-6  # steps, chosen: nearer to a whole step than this is there
-NEAR = 1e-2  # units, chosen: beyond what WRONG leaves undecided
+NEAR = 1e-3  # units, chosen: rounding of what is allowed
 NEARBY = 1.0  # steps of the coarsest, chosen: half of one is needed, the rest keeps it still
 KEPT = 0.2  # -, chosen: of the travel at each end
 

@@ -59,7 +59,7 @@ class Balancing:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Limits:
-    """By which law, when to give up (None: as the law has it), how long to hold what was reached."""
+    """By which law, when to give up (None: as the law has it), how long to hold the balance."""
 
     max_moves: int | None = None
     max_time: float | None = None  # s

@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.app.commands.reading import Reading
 from equipoise.app.commands.seeking import Seeking
 from equipoise.app.options import one_of
@@ -11,7 +12,6 @@ from equipoise.io.column_map import ColumnMap
 from equipoise.io.column_map_file import read_column_map
 from equipoise.io.frame_check import check_frame
 from equipoise.io.presets import preset_names, read_preset
-from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.io.recording_file import read_recording
 from equipoise.io.testbed_file import read_testbed
 from equipoise.model.errors import InputError, nearest

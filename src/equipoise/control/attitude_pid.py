@@ -2,7 +2,7 @@
 
 Wanted is a platform that follows a reference as one with inertia J and neither wheels nor weight:
 
-    e   = 2 sgn(s) v,   (s, v) = q* (x) q_ref          rad, body axes; small: the angle still to turn
+    e   = 2 sgn(s) v,   (s, v) = q* (x) q_ref         rad, body axes; small: what is left to turn
     a   = a_ref + 2 zeta w_n (w_ref - w) + w_n^2 ( e + w_i int e dt )
     u   = w x (J w + h)  -  m r x g_B  +  J a           N m on the platform, = -h'
 
@@ -31,6 +31,8 @@ from equipoise.control.sample import Sample
 from equipoise.maths.attitude import conjugate, multiply
 from equipoise.model.arrays import Matrix3, Quaternion, Vector3
 
+FREQUENCY, DAMPING, INTEGRAL = 0.5, 0.8, 0.1  # rad/s, -, rad/s, chosen: settles in ten seconds
+
 
 class Reference(NamedTuple):
     """Where the platform should be; vectors in its own body axes there."""
@@ -56,6 +58,11 @@ class Pid(NamedTuple):
     total: Vector3  # rad s, of the error
     asked: Vector3  # N m, at the last step
     t: float | None  # s, of the last step; None: there was none
+
+
+def gains_for(inertia_P: Matrix3, most: float) -> Gains:
+    """Return the loop that is used unless told otherwise; ``most`` as in Gains."""
+    return Gains(inertia_P, FREQUENCY, DAMPING, INTEGRAL, most)
 
 
 def at_rest(q: Quaternion) -> Reference:

@@ -5,24 +5,26 @@ and without noise; the account (``momentum_ledger``) that they are entered in th
 covariance that the real one will have, since that does not depend on what is measured.
 
 Opposite tilts follow one another, so that what r_z and sag put in is taken out again. Two sizes of
-tilt tell sag from r_z: both grow with the sine, and sag falls behind as the cosine.
+tilt tell sag from r_z: both grow with the sine, and sag falls behind as the cosine. Tilts about one
+axis first and last tell both from drift. Of 226 orders of three or four pairs of 10, 14 and 20 deg
+this one foresaw the least for a table of 14 kg with sag and drift.
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from equipoise.control.momentum_ledger import Book, Ledger, entered, opened
 from equipoise.control.sample import Sample
-from equipoise.control.slew import Slew, end_of, reference_at, slew
-from equipoise.maths.attitude import exponential, level, multiply, to_matrix
+from equipoise.control.slew import Pace, end_of, reference_at, slew, turned
+from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Quaternion, Vector3
 from equipoise.model.testbed import Testbed
 
 PLAN = 1.0  # s, chosen: between foreseen samples
 PROBE = float(np.radians(5))  # rad, chosen: the tilt that first shows r_z
+SMALLER = 0.7  # chosen: the smaller tilt, see above
 CATCH = 8.0  # s of each catch, chosen: r to 1 % of what would tilt the platform in that time
 
 
@@ -34,26 +36,13 @@ class Stage(NamedTuple):
     follows: bool  # masses follow the estimate
 
 
-class Pace(NamedTuple):
-    """How fast turns are."""
-
-    rate: float  # rad/s
-    acceleration: float  # rad/s^2
-
-
 def stages_of(up: Vector3, tilt: float, hold: float) -> tuple[Stage, ...]:
     """Return catches and holds; opposite tilts follow one another, large ones and small ones."""
     x, y = to_matrix(level(up)).T[:, :2].T  # two axes across ``up``
-    half = 0.5 * tilt
-    pairs = [tilt * x, tilt * y, half * (x + y) / 2**0.5, half * (x - y) / 2**0.5]
+    pairs = [tilt * x, tilt * y, SMALLER * tilt * y, tilt * x]
     turns = [turn * sign for turn in pairs for sign in (1.0, -1.0)]
     catches = [Stage(np.zeros(3), CATCH, True), Stage(PROBE * x, CATCH, True)]
     return (*catches, *(Stage(turn, hold, False) for turn in turns))
-
-
-def turned(base: Quaternion, turn: Vector3) -> Quaternion:
-    """Return the attitude of a stage; ``base`` is the level one."""
-    return multiply(base, exponential(turn))
 
 
 def samples_of(
@@ -62,7 +51,7 @@ def samples_of(
     """Yield the samples foreseen."""
     t, here, none = 0.0, base, np.zeros(3)
     for stage in stages:
-        way = slew(here, turned(base, stage.turn), t, *pace)
+        way = slew(here, turned(base, stage.turn), t, pace)
         end = end_of(way) + stage.seconds
         while t < end:
             at = reference_at(way, t)

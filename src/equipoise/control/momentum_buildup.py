@@ -16,7 +16,7 @@ it: the torque left within RANGE of level is then the least. In the catch, and w
 filled to FULL until they are EMPTY, masses are set off the goal so that gravity takes the
 horizontal momentum out again:
 
-    shift = goal - r + g_B x (R^T tau) / (m g^2),    tau = -UNLOAD L,    within what is soon travelled
+    shift = goal - r + g_B x (R^T tau) / (m g^2),  tau = -UNLOAD L,  not beyond what is soon travelled
 
 The seconds of a hold are the fewest of CHOICES for which the covariance foreseen leaves the goal
 known to WANTED within LONGEST; else the most that fit into it.
@@ -24,12 +24,12 @@ known to WANTED within LONGEST; else the most that fit into it.
 (methods.md 5.5 and 5.8; Hatcher and Young 1968 with wheels for jets.)
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from equipoise.control.attitude_pid import Gains, Pid, torque, unwound
-from equipoise.control.buildup_plan import Pace, Stage, foreseen, stages_of, turned
+from equipoise.control.attitude_pid import Gains, Pid, gains_for, torque, unwound
+from equipoise.control.buildup_plan import Stage, foreseen, stages_of
 from equipoise.control.capacity import capacity
 from equipoise.control.law import Law, LawCard
 from equipoise.control.momentum_ledger import (
@@ -45,9 +45,18 @@ from equipoise.control.momentum_ledger import (
     stop_variance,
 )
 from equipoise.control.sample import Sample
-from equipoise.control.slew import Slew, end_of, reference_at, slew
+from equipoise.control.slew import (
+    Pace,
+    Slew,
+    end_of,
+    levelled,
+    pace_for,
+    reference_at,
+    slew,
+    turned,
+)
 from equipoise.dynamics.sag_trim import sag_matrix, trimmed_com
-from equipoise.maths.attitude import level, multiply, to_matrix
+from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -58,16 +67,13 @@ PERIOD = 0.1  # s
 RANGE = float(np.radians(20))  # rad, chosen: over which the torque that is left counts
 SHARE = 0.7  # of the tilt limit, chosen: the most that is held
 CHOICES = (10.0, 14.0, 20.0, 28.0, 40.0)  # s of a hold
-WANTED = 0.025e-6  # m, chosen: one sd of the goal, half of what is promised
+WANTED = 0.03e-6  # m, chosen: one sd of the goal per axis
 LONGEST = 420.0  # s, chosen: with catches that take longer still below eight minutes
 FOLLOW = 1.0  # s, chosen: between moves while the masses follow
 UNLOAD = 0.1  # 1/s, chosen: slow against masses that travel 20 um in two seconds
 SOON = 0.2  # chosen: share of 1/UNLOAD in which masses reach what unloads
 FULL, EMPTY = 0.6, 0.15  # of the momentum that wheels can take, chosen
-SLOW = 0.06  # rad/s, chosen: the fastest turn; momentum may ask for less
-PART = 0.4  # of torque and momentum, chosen: what a turn may take of them
-FREQUENCY, DAMPING, INTEGRAL = 0.5, 0.8, 0.1  # rad/s, -, rad/s, chosen: settles in ten seconds
-WORTH = 2.0  # sds of a goal and a stop, chosen: a change that is worth a move during the holds
+DOUBT = 2.0  # sds of the goal, chosen: a change that is worth a move during the holds
 PATIENCE = 60.0  # s, chosen: for masses that do not arrive
 SETTLED = 1.0  # s, chosen: masses that then stand have arrived
 
@@ -92,7 +98,7 @@ class State:
     """How far it has come."""
 
     ledger: Ledger | None = None
-    pid: Pid = unwound()
+    pid: Pid = field(default_factory=unwound)
     level: Quaternion | None = None  # the level attitude with the first heading
     turn: Slew | None = None
     stage: int = 0
@@ -101,11 +107,6 @@ class State:
     followed: float = -np.inf  # s, when the masses last followed
     unloading: bool = False
     closing: float | None = None  # s, when the last move was asked for
-
-
-def loop_of(testbed: Testbed, most: float) -> Gains:
-    """Return the attitude loop for a testbed whose devices give ``most`` N m."""
-    return Gains(testbed.body.inertia_P, FREQUENCY, DAMPING, INTEGRAL, most)
 
 
 def reach_of(testbed: Testbed) -> float:
@@ -121,13 +122,12 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
         raise InputError("momentum_buildup", "a testbed without them",
                          "sliding masses, a gyro, and wheels or gyros along all axes")  # fmt: skip
     book = book_of(testbed)
-    J = float(np.linalg.eigvalsh(testbed.body.inertia_P)[-1])
     tilt = min(RANGE, SHARE * testbed.tilt_limit)
     trims = [trimmed_com(sag_matrix({term: 1.0}), testbed.up, tilt) for term in book.terms]
     trim = np.array(trims).reshape(-1, 3).T
-    pace = Pace(min(SLOW, PART * can.momentum / J), PART * can.torque / J)
+    pace = pace_for(testbed, can)
     stages = planned(testbed, book, trim, pace)
-    loop = loop_of(testbed, can.torque)
+    loop = gains_for(testbed.body.inertia_P, can.torque)
     return State(), Params(
         book, loop, testbed, target, trim, stages, pace, can.momentum, reach_of(testbed)
     )
@@ -189,13 +189,16 @@ def shift_for(state: State, seen: Sample, params: Params) -> State:
     return replace(state, shift=wanted, followed=seen.t)
 
 
-def retrimmed(state: State, seen: Sample, params: Params, worth: float) -> State:
-    """Return the state with the masses sent to the goal, if that is worth its errors."""
+def retrimmed(state: State, seen: Sample, params: Params, doubt: float) -> State:
+    """Return the state with the masses sent to the goal, if the change is beyond their errors.
+
+    It must be beyond ``doubt`` sds of the goal, too.
+    """
     assert state.ledger is not None
     wanted, covariance = home_to_goal(state.ledger, params)
     change: Vector3 = wanted - seen.shift
-    variance = float(np.trace(covariance) + np.sum(stop_variance(change, params.book)))
-    if change @ change < worth**2 * variance:
+    stops = float(np.sum(stop_variance(change, params.book)))
+    if change @ change < stops + doubt**2 * float(np.trace(covariance)):
         return state
     return replace(state, shift=wanted)
 
@@ -213,18 +216,12 @@ def guarded(state: State, seen: Sample, params: Params) -> State:
 
 def entered_stage(state: State, seen: Sample, params: Params) -> State:
     """Return the state at the beginning of its stage: the turn there, the masses to the goal."""
-    stage, book = params.stages[state.stage], params.book
+    stage = params.stages[state.stage]
     base = state.level if state.level is not None else levelled(seen.q, params.testbed.up)
     here = seen.q if state.turn is None else reference_at(state.turn, np.inf).q
-    way = slew(here, turned(base, stage.turn), seen.t, *params.pace)
+    way = slew(here, turned(base, stage.turn), seen.t, params.pace)
     state = replace(state, level=base, turn=way, due=end_of(way) + stage.seconds)
-    return state if stage.follows else retrimmed(state, seen, params, WORTH)
-
-
-def levelled(q: Quaternion, up: Vector3) -> Quaternion:
-    """Return the level attitude that is reached from ``q`` by the shortest turn."""
-    above = to_matrix(q) @ up
-    return multiply(level(above), q)
+    return state if stage.follows else retrimmed(state, seen, params, DOUBT)
 
 
 def advanced(state: State, seen: Sample, params: Params) -> State:
@@ -235,7 +232,7 @@ def advanced(state: State, seen: Sample, params: Params) -> State:
         return state
     if state.stage + 1 < len(params.stages):
         return entered_stage(replace(state, stage=state.stage + 1), seen, params)
-    return replace(retrimmed(state, seen, params, 1.0), closing=seen.t)
+    return replace(retrimmed(state, seen, params, 0.0), closing=seen.t)
 
 
 def ended(state: State, seen: Sample) -> bool:

@@ -18,7 +18,7 @@ does during a turn is not lost, since L carries it to the next rest. Samples whi
 not taken: their momentum is not known.
 
 A move leaves an error: the accuracy of each mass that may have moved, one whose own step shifts by
-less than twice as much. r walks by CREEP, and c are constants.
+less than twice as much. r walks by CREEP, less where drift is a term, and c are constants.
 
 (Wheel momentum build-up, methods.md 5.5; Hatcher and Young 1968 with wheels for jets.)
 
@@ -44,6 +44,7 @@ L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
 PLAY_SD, PLAY_TIME = 2e-6, 30.0  # N m, s, chosen: measured 4e-7 to 3e-6 (methods.md 7.1)
 BIAS_SD = 1e-4  # rad/s, chosen: a camera of 0.2 deg and 5 Hz leaves so much after ten seconds
 CREEP = 0.05e-6 / 60**0.5  # m/sqrt(s), chosen: thermal walk of 0.05 um/sqrt(min), methods.md 7.1
+LEFT = 0.2  # of that, chosen: what is left where a constant drift is a term of its own
 SAME_TURN = 10.0  # s, chosen: as long as a turn lasts, in which an error of J w keeps its sign
 STANDS = 1e-10  # m, chosen: less is no travel
 PRIORS = {"viscous": 1e-4, "quadratic": 1e-3, "constant": 1e-5, "swirl": 1e-5, "sag": 3e-5,
@@ -58,6 +59,7 @@ class Book(NamedTuple):
     inertia_sd: float  # -, relative
     gyro_sd: float  # rad/s sqrt(s): one sd of a mean over a second
     momentum_sd: float  # N m s, of one sample
+    creep: float  # m/sqrt(s), by which r walks
     terms: tuple[str, ...]
     columns: tuple[int, ...]  # of the regressor, of these terms
     masses: tuple[SlidingMass, ...]
@@ -88,6 +90,7 @@ def book_of(testbed: Testbed) -> Book:
         testbed.inertia_sd,
         testbed.gyro.noise / testbed.gyro.rate**0.5,
         max([*quiet, 1e-9]),
+        CREEP * (LEFT if any(term.startswith("drift") for term in terms) else 1.0),
         terms,
         tuple(TORQUE + TERMS.index(term) for term in terms),
         testbed.masses,
@@ -152,7 +155,7 @@ def predicted(ledger: Ledger, seen: Sample, book: Book) -> Ledger:
     play = np.arange(PLAY, BIAS)
     P[play, play] += PLAY_SD**2 * (1 - stay**2)
     com = np.arange(COM, TERM)
-    P[com, com] += CREEP**2 * dt
+    P[com, com] += book.creep**2 * dt
     return ledger._replace(x=x, P=P, rows=rows, R=R, shift=seen.shift, t=seen.t)
 
 

@@ -12,11 +12,22 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.control.attitude_pid import Reference
-from equipoise.maths.attitude import difference, exponential, multiply
+from equipoise.control.capacity import Capacity
+from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
 from equipoise.model.arrays import Quaternion, Vector3
+from equipoise.model.testbed import Testbed
 
+SLOW = 0.06  # rad/s, chosen: the fastest turn; momentum may ask for less
+PART = 0.5  # of torque and momentum, chosen: what a turn may take of them
 PEAK_RATE = 15.0 / 8.0
 PEAK_ACCELERATION = 10.0 / 3.0**0.5
+
+
+class Pace(NamedTuple):
+    """How fast turns may be."""
+
+    rate: float  # rad/s
+    acceleration: float  # rad/s^2
 
 
 class Slew(NamedTuple):
@@ -28,17 +39,33 @@ class Slew(NamedTuple):
     duration: float  # s
 
 
-def time_for(angle: float, rate: float, acceleration: float) -> float:
-    """Return the shortest time (s) for an angle (rad) within greatest rate and acceleration."""
-    return max(PEAK_RATE * angle / rate, (PEAK_ACCELERATION * angle / acceleration) ** 0.5)
+def pace_for(testbed: Testbed, can: Capacity) -> Pace:
+    """Return the pace of turns about axes across ``up`` that wheels and gyros can make."""
+    across = np.eye(3) - np.outer(testbed.up, testbed.up)
+    J = float(np.linalg.eigvalsh(across @ testbed.body.inertia_P @ across)[-1])
+    return Pace(min(SLOW, PART * can.momentum / J), PART * can.torque / J)
 
 
-def slew(
-    start: Quaternion, goal: Quaternion, begin: float, rate: float, acceleration: float
-) -> Slew:
-    """Return the turn from ``start`` to ``goal`` that begins at a time (s), within its limits."""
+def time_for(angle: float, pace: Pace) -> float:
+    """Return the shortest time (s) for an angle (rad)."""
+    soonest = (PEAK_ACCELERATION * angle / pace.acceleration) ** 0.5
+    return max(PEAK_RATE * angle / pace.rate, soonest)
+
+
+def slew(start: Quaternion, goal: Quaternion, begin: float, pace: Pace) -> Slew:
+    """Return the turn from ``start`` to ``goal`` that begins at a time (s)."""
     turn = difference(goal, start)
-    return Slew(start, turn, begin, time_for(float(np.linalg.norm(turn)), rate, acceleration))
+    return Slew(start, turn, begin, time_for(float(np.linalg.norm(turn)), pace))
+
+
+def levelled(q: Quaternion, up: Vector3) -> Quaternion:
+    """Return the level attitude that is reached from ``q`` by the shortest turn."""
+    return multiply(level(to_matrix(q) @ up), q)
+
+
+def turned(base: Quaternion, turn: Vector3) -> Quaternion:
+    """Return the attitude that a rotation vector (rad, body axes) leads to."""
+    return multiply(base, exponential(turn))
 
 
 def end_of(turn: Slew) -> float:
@@ -53,5 +80,5 @@ def reference_at(turn: Slew, t: float) -> Reference:
     angle = s**3 * (10 - 15 * s + 6 * s**2)
     rate = 30 * s**2 * (1 - s) ** 2 / T
     acceleration = 60 * s * (1 - s) * (1 - 2 * s) / T**2
-    q = multiply(turn.start, exponential(angle * turn.turn))
+    q = turned(turn.start, angle * turn.turn)
     return Reference(q, rate * turn.turn, acceleration * turn.turn)

@@ -41,21 +41,22 @@ left. The characteristic polynomial and Routh's condition are
 Sampled every T with the shift held between, without w_i and w_z: w_a T < 1/zeta and < 4 zeta
 (Jury). Masses of speed v (of the centre of mass) fall behind an offset r when w_a r > v, about;
 see SPEED. The swing on the way reaches r / X, so w_a has a least value, too: the tilt limit. Where
-the least is above the most the law cannot be stable, and ``frequency_for`` says so.
+the least is above the most the law cannot be stable, and ``frequency_for`` raises InputError.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.mass_reach import (
-    Reach,
+from equipoise.control.beforehand import (
+    about_masses,
     across,
     level_inertia,
     likely_height,
     likely_offset,
-    reach_of,
+    within_reach,
 )
+from equipoise.control.saturation import greatest_slew
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
@@ -150,18 +151,18 @@ def swing_of(testbed: Testbed, height: float) -> float:
 
 def frequency_for(testbed: Testbed, period: float) -> float:
     """Return w_a (rad/s) at which the loop is stable; InputError if there is none."""
-    reach, offset = reach_of(testbed), likely_offset(testbed)
-    lowest = least_frequency(testbed, offset)
-    keeps_up = SPEED * reach.speed / max(offset, 1e-12)
-    most = min(MOST, SAMPLED / period, keeps_up)
-    if offset > reach.travel:
-        raise refusal(testbed, reach, offset, "the masses cannot reach so far")
-    if lowest > most:
-        raise refusal(
-            testbed, reach, offset,
-            f"it needs {lowest:.2g} rad/s to stay within the tilt limit, and masses and samples "
-            f"follow {most:.2g} rad/s",
-        )  # fmt: skip
+    within_reach(testbed)
+    offset = likely_offset(testbed)
+    least = least_frequency(testbed, offset)
+    most = min(MOST, SAMPLED / period, SPEED * greatest_slew(testbed) / max(offset, 1e-12))
+    if least > most:
+        raise InputError(
+            testbed.name,
+            about_masses(testbed),
+            f"a loop that is faster than {least:.2g} rad/s, for the tilt limit, and slower than "
+            f"{most:.2g} rad/s, for masses and samples: a coarse balance first, faster or heavier "
+            "masses, or a firmer com_sd",
+        )
     return most
 
 
@@ -171,13 +172,3 @@ def least_frequency(testbed: Testbed, offset: float) -> float:
     sideways = weight * offset / (TILTED * testbed.tilt_limit)
     upright = max(-swing_of(testbed, likely_height(testbed)), 0.0) / UPRIGHT
     return float(max(sideways, upright) ** 0.5)
-
-
-def refusal(testbed: Testbed, reach: Reach, offset: float, why: str) -> InputError:
-    """Return the error that says why the law would not be stable."""
-    return InputError(
-        testbed.name,
-        f"a centre of mass that may be {1e6 * offset:.3g} um off sideways, and masses that shift "
-        f"it by {1e6 * reach.speed:.3g} um/s and {1e6 * reach.travel:.3g} um: {why}",
-        "a coarse balance first, faster or heavier masses, or a firmer com_sd",
-    )

@@ -19,8 +19,9 @@ the last one left. Rounds end when the look finds no more than a motor step, or 
 
 From the look only the height is used. The method is ``ukf_4`` (rate and r_up) when com across up
 is known to ACROSS beforehand: it takes that from the testbed, and knows nothing of what the masses
-did about it in the first step. Else it is ``trajectory`` with the testbed's inertia, which finds
-all of com: a wrong J makes r_up wrong by the same share, and the next round takes that away.
+did about it in the first step. Else it is ``trajectory`` with the testbed's inertia and its sd,
+which finds all of com: a wrong J makes r_up wrong by the same share, and the next round takes that
+away.
 """
 
 from dataclasses import dataclass, replace
@@ -28,17 +29,17 @@ from typing import Literal
 
 import numpy as np
 
-from equipoise.control.mass_reach import (
+from equipoise.control.beforehand import (
     LIKELY,
-    Reach,
     across,
     around,
+    coarsest_step,
     height_sd,
     level_inertia,
     likely_height,
-    reach_of,
 )
 from equipoise.control.sample import Sample
+from equipoise.control.saturation import greatest_shift, greatest_slew
 from equipoise.control.tilt_feedback import (
     Gains,
     begun_level,
@@ -52,7 +53,7 @@ from equipoise.control.tilt_feedback import (
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Look
 from equipoise.model.errors import InputError
-from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.estimate import COM, Estimate
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s, chosen: a servo's beat
@@ -110,12 +111,12 @@ def method_for(testbed: Testbed) -> Look:
         raise InputError(testbed.name, "no gyro, or no attitude sensor", "both")
     if float(np.linalg.norm(spread)) <= ACROSS:
         return Look(LOOK, "ukf_4")
-    return Look(LOOK, "trajectory", hold=INERTIA)
+    return Look(LOOK, "trajectory", use_prior=True)
 
 
 def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Params]:
     """Return state and parameters; ``integral`` is w_i over w_a."""
-    reach, up = reach_of(testbed), testbed.up
+    up, quantum, reach = testbed.up, coarsest_step(testbed), greatest_shift(testbed)
     if float(np.linalg.norm(across(up) @ target)) > LEAST:
         raise InputError(
             "target", "a centre of mass aside of up", "one along up: masses settle there"
@@ -124,20 +125,20 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
     gains = gains_at(testbed, w, integral * w, PERIOD)
     slowest = settling(w, integral * w, min(swing_of(testbed, likely_height(testbed)), 0.0))
     lower = float(up @ (target - testbed.body.com)) - LIKELY * height_sd(testbed)
-    height = float(np.clip(lower, -reach.upward, reach.upward))
+    height = float(np.clip(lower, -reach, reach))
     params = Params(
-        gains, method_for(testbed), push_for(testbed, reach),
-        int(np.ceil(SETTLED * slowest / PERIOD)), max(reach.quantum, LEAST),
-        max(LATE * reach.quantum, NEAR), float(up @ target), testbed.tilt_limit,
+        gains, method_for(testbed), push_for(testbed),
+        int(np.ceil(SETTLED * slowest / PERIOD)), max(quantum, LEAST),
+        max(LATE * quantum, NEAR), float(up @ target), testbed.tilt_limit,
     )  # fmt: skip
     return State(across(up) @ testbed.body.com, height), params
 
 
-def push_for(testbed: Testbed, reach: Reach) -> float:
+def push_for(testbed: Testbed) -> float:
     """Return how far (m) the centre of mass goes aside for a swing of the wanted size."""
     rate = SWING * testbed.tilt_limit / LOOK
     wanted = rate * level_inertia(testbed) / (testbed.body.mass * testbed.gravity * PUSH)
-    return min(wanted, reach.speed * PUSH)
+    return min(wanted, greatest_slew(testbed) * PUSH)
 
 
 def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
@@ -194,7 +195,7 @@ def swing(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     assert state.rest is not None
     count = state.step + 1
     if state.phase == "push":
-        aside = around(params.gains.up, 4)[state.rounds % 4]
+        aside = around(params.gains.up)[state.rounds % 2]
         ends = count >= round(PUSH / PERIOD)
         state = replace(state, phase="back" if ends else "push", step=0 if ends else count)
         return state, Command(shift=state.rest + params.push * aside)

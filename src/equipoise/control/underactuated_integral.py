@@ -9,8 +9,8 @@ likely height. Not published; the integral stands still while masses are late (a
 """
 
 from equipoise.control import two_steps
+from equipoise.control.beforehand import likely_height
 from equipoise.control.law import Law, LawCard
-from equipoise.control.mass_reach import likely_height
 from equipoise.control.tilt_feedback import INTEGRAL, frequency_of, routh_margin, swing_of
 from equipoise.control.two_steps import PERIOD, Params, State
 from equipoise.model.arrays import Vector3

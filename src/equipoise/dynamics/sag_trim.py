@@ -11,7 +11,7 @@ a tilt of level, each direction counting alike, solves
 
 For sag along the vertical alone, C = c u u^T, a plate that hangs by c when level, this is
 r = u c mean(sin^2 cos) / mean(sin^2): the platform is trimmed as if it sagged alike at every tilt.
-(The trimming of platform deformation; there the maximum is made least.)
+(The trimming of platform deformation, methods.md 5.8; there the maximum is made least.)
 
 The means are exact: four Gauss points in the cosine of the tilt, eight headings.
 """
@@ -21,7 +21,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from equipoise.maths.attitude import level, to_matrix
-from equipoise.model.arrays import Matrix3, Series3, Vector3
+from equipoise.model.arrays import Floats, Matrix3, Series3, Vector3
 
 SAG_TERMS = ("sag_xx", "sag_yy", "sag_xy", "sag_xz", "sag_yz")
 NODES, HEADINGS = 4, 8  # exact for what is of degree 6 in n
@@ -33,7 +33,7 @@ def sag_matrix(terms: Mapping[str, float]) -> Matrix3:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, -xx - yy]])
 
 
-def downs(up: Vector3, tilt: float) -> tuple[Series3, Series3]:
+def downs(up: Vector3, tilt: float) -> tuple[Series3, Floats]:
     """Return directions of gravity within a tilt (rad) of level, and their weights, (n, 1)."""
     points, weights = np.polynomial.legendre.leggauss(NODES)
     low = np.cos(tilt)
@@ -42,17 +42,29 @@ def downs(up: Vector3, tilt: float) -> tuple[Series3, Series3]:
     sine = np.sqrt(1 - cosine**2)
     n = -np.column_stack([sine * np.cos(heading), sine * np.sin(heading), cosine])
     # R(level(up)) brings ``up`` to z; its transpose brings directions about z to those about up.
+    weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)
     turned: Series3 = n @ to_matrix(level(up))
-    return turned, np.repeat(0.5 * weights / HEADINGS, HEADINGS)[:, None]
+    return turned, weight.reshape(-1, 1)
+
+
+def acting_com(com: Vector3, sag: Matrix3, up: Vector3) -> Vector3:
+    """Return the centre of mass (m) of a stiff platform that behaves alike at small tilts.
+
+    Level, C adds -C u to r. A little tilted it adds to the weight's lever as a height of
+    (tr C - 3 u^T C u) / 2 would, the mean over both horizontal axes.
+    """
+    level_height = up @ sag @ up
+    return com - sag @ up + 0.5 * (np.trace(sag) - level_height) * up
 
 
 def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
     """Return the centre of mass (m) that leaves the least torque within a tilt (rad)."""
     n, weight = downs(up, tilt)
-    across = np.eye(3) - (weight * n).T @ n
-    bent = n @ sag
-    along = np.sum(n * bent, axis=1, keepdims=True)
-    return np.linalg.solve(across, -np.sum(weight * (bent - along * n), axis=0))
+    across: Matrix3 = np.eye(3) - (weight * n).T @ n
+    bent: Series3 = n @ sag
+    along: Floats = np.sum(n * bent, axis=1, keepdims=True)
+    pull: Vector3 = np.sum(weight * (bent - along * n), axis=0)
+    return np.linalg.solve(across, -pull)
 
 
 def residual_torque(com: Vector3, sag: Matrix3, up: Vector3, tilt: float) -> float:

@@ -17,7 +17,7 @@ import numpy as np
 from equipoise.maths.compiled import part
 from equipoise.model.arrays import Bools, Floats, Ints
 
-TINY, WON = 1e-9, 1e-14  # -, chosen: a pivot, and a share of the costs, that are rounding
+TINY, WON = 1e-9, 1e-15  # -, chosen: a pivot, and a share of the costs, that are rounding
 GREEDY, MOST = 40, 120  # pivots, chosen: tables as here take about ten
 
 

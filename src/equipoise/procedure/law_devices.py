@@ -16,14 +16,12 @@ from equipoise.actuators.jets import pulses_for
 from equipoise.actuators.magnetorquers import dipoles_for
 from equipoise.actuators.mass_allocation import Rails, rails_of, without_delay
 from equipoise.actuators.reaction_wheels import wheel_torques
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.command import Command
 from equipoise.model.devices import Device
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.law_sample import Eyes
-
 
 Inputs = dict[str, float]
 
@@ -46,16 +44,14 @@ def opened_hands(testbed: Testbed) -> Hands:
     return Hands(rails, np.zeros(len(testbed.masses)), off, np.zeros(3))
 
 
-def carry_out(
-    bench: Bench, command: Command, seen: Sample | None, eyes: Eyes, hands: Hands, period: float
-) -> Hands:
+def carry_out(bench: Bench, command: Command, eyes: Eyes, hands: Hands, period: float) -> Hands:
     """Do what a command asks for, until the next one ``period`` seconds later."""
     if command.shift is not None:
         hands = send(bench, command.shift, eyes.displacement, hands)
-    testbed, field = bench.testbed, None if seen is None else seen.field
+    testbed = bench.testbed
     inputs = {
         **torquing(testbed, command.torque, eyes, bench.time, period),
-        **magnetising(testbed, command.magnetic, field),
+        **magnetising(testbed, command.magnetic, eyes.field),
     }
     pulses, left = pulsing(testbed, command.impulse, hands.left)
     changed = {name: value for name, value in inputs.items() if value != hands.inputs[name]}

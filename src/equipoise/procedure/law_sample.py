@@ -24,12 +24,13 @@ class Eyes:
     states: Floats  # (n,) what the devices last reported
     momentum: Vector3  # N m s, stored
     t: float  # s, of that momentum
+    field: Vector3 | None  # T, magnetic, body axes; None: not known
 
 
 def opened(testbed: Testbed) -> Eyes:
     """Return eyes that have seen nothing."""
     masses, devices = len(testbed.masses), len(testbed.devices)
-    return Eyes(None, np.zeros(masses), np.zeros(devices), np.zeros(3), 0.0)
+    return Eyes(None, np.zeros(masses), np.zeros(devices), np.zeros(3), 0.0, None)
 
 
 def last_row(channel: Samples | None, before: Floats) -> Floats:
@@ -39,13 +40,14 @@ def last_row(channel: Samples | None, before: Floats) -> Floats:
 
 def looked(eyes: Eyes, fresh: Recording, testbed: Testbed) -> Eyes:
     """Return the eyes after a fresh record."""
-    stored = fresh.momentum
+    stored, attitude = fresh.momentum, followed(eyes.attitude, fresh, testbed)
     return Eyes(
-        followed(eyes.attitude, fresh, testbed),
+        attitude,
         last_row(fresh.masses, eyes.displacement),
         last_row(fresh.devices, eyes.states),
         last_row(stored, eyes.momentum),
         eyes.t if stored is None or not len(stored) else float(stored.t[-1]),
+        field_of(attitude, fresh, testbed),
     )
 
 
@@ -65,7 +67,7 @@ def sample_of(before: Eyes, now: Eyes, fresh: Recording, testbed: Testbed) -> Sa
         momentum=now.momentum,
         torque=torque,
         impulse=impulse_of(fresh, testbed),
-        field=field_of(now.attitude, fresh, testbed),
+        field=now.field,
     )
 
 
@@ -82,17 +84,18 @@ def _over(channel: Samples) -> Floats:
     """Return the integral of a channel from one row before its first to its last."""
     t, values = channel.t, channel.values
     if len(t) < 2:
-        return np.zeros(values.shape[1])
+        return np.zeros_like(values[0])
     start = 2 * t[0] - t[1]
-    return integral_at(np.array([start, t[-1]]), t, values)[-1]
+    whole: Floats = integral_at(np.array([start, t[-1]]), t, values)
+    return whole[-1]
 
 
-def field_of(attitude: AttitudeState, fresh: Recording, testbed: Testbed) -> Vector3 | None:
+def field_of(attitude: AttitudeState | None, fresh: Recording, testbed: Testbed) -> Vector3 | None:
     """Return the magnetic field in body axes (T): measured, else the laboratory's, turned."""
     if fresh.field is not None and len(fresh.field):
         return fresh.field.values.mean(axis=0)
     known = testbed.magnetic_field
-    if known is None:
+    if known is None or attitude is None:
         return None
     turned: Vector3 = to_matrix(attitude.q).T @ known.field_N
     return turned

@@ -58,7 +58,6 @@ class Session:
 
     eyes: Eyes
     hands: Hands
-    sample: Sample  # the last
     parts: tuple[Recording, ...] = ()  # all that was read
 
 
@@ -133,7 +132,7 @@ def first_sight(bench: Bench) -> tuple[Session, Sample]:
     if seen is None:
         found, wanted = f"no attitude in {SETTLE:g} s", "an attitude sensor that gives rows"
         raise InputError("bench", found, wanted)
-    return Session(eyes, opened_hands(testbed), seen, (fresh,)), seen
+    return Session(eyes, opened_hands(testbed), (fresh,)), seen
 
 
 def control(
@@ -141,12 +140,12 @@ def control(
 ) -> tuple[Session, Sample, Recording]:
     """Carry a command out and return what is seen a period later."""
     testbed = bench.testbed
-    hands = carry_out(bench, command, session.sample, session.eyes, session.hands, period)
+    hands = carry_out(bench, command, session.eyes, session.hands, period)
     fresh = bench.read(period)
     eyes = looked(session.eyes, fresh, testbed)
     seen = sample_of(session.eyes, eyes, fresh, testbed)
     assert seen is not None  # there was one before
-    return Session(eyes, hands, seen, (*session.parts, fresh)), seen, fresh
+    return Session(eyes, hands, (*session.parts, fresh)), seen, fresh
 
 
 def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recording, Estimate]:
@@ -164,7 +163,7 @@ def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recordin
         recording = with_known_inputs(since(parts, asked.since), testbed)
     options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
     estimate = estimated(METHODS[asked.method], recording, testbed, options)
-    return Session(eyes, hands, session.sample, parts), recording, estimate
+    return Session(eyes, hands, parts), recording, estimate
 
 
 def since(parts: tuple[Recording, ...], start: float) -> Recording:

@@ -21,13 +21,15 @@ from equipoise.actuators.sliding_masses import com_shift, inertia_shift, mass_ma
 from equipoise.actuators.stored_momentum import stored_momentum
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.dynamics.regressor import DRIFT
+from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
-from equipoise.model.arrays import Floats, Series1
+from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
+from equipoise.model.torque_terms import TERMS
 from equipoise.simulation import actuator
 from equipoise.simulation.camera_and_gyro import (
     Sensor,
@@ -128,13 +130,30 @@ class SimulatedBench:
         self._devices = driven(self._devices, self._time, all_off(self._testbed), {})
 
     def truth(self) -> MassProperties:
-        """Return the mass properties as the masses really stand now, elastic sag apart."""
+        """Return the mass properties as masses and gimbals really stand now, as they act level.
+
+        A platform that sags is told as the stiff one that behaves alike at small tilts.
+        """
         body, real = self.platform.body, self.displacements
-        drift = self.platform.torque[DRIFT : DRIFT + 3] * self._time
+        gimbals = stored(self._testbed, self._devices, np.array([self._time]))[1][0]
+        shift = inertia_shift(self._rails, real)
+        shift += inertia_shift(gimbal_maps(self._testbed.cmgs), gimbals)
+        inertia = body.inertia_P + unpack_symmetric(shift)
+        return MassProperties(body.mass, acting_com(self.com, self.sag, self._testbed.up), inertia)
+
+    @property
+    def com(self) -> Vector3:
+        """Where the centre of mass really is now, elastic sag apart, m."""
+        body, coefficients = self.platform.body, self.platform.torque
+        drift = coefficients[DRIFT : DRIFT + 3] * self._time
         slipped = com_moved(self.platform.com_steps, self._time)
-        com = body.com + drift + slipped + com_shift(self._rails, body.mass, real)
-        inertia = body.inertia_P + unpack_symmetric(inertia_shift(self._rails, real))
-        return MassProperties(body.mass, com, inertia)
+        return body.com + drift + slipped + com_shift(self._rails, body.mass, self.displacements)
+
+    @property
+    def sag(self) -> Matrix3:
+        """Elastic sag C, m."""
+        coefficients = self.platform.torque
+        return sag_matrix({term: float(coefficients[TERMS.index(term)]) for term in SAG_TERMS})
 
     @property
     def displacements(self) -> Floats:

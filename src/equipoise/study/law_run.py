@@ -12,12 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.dynamics.sag_trim import residual_torque, sag_matrix
+from equipoise.dynamics.sag_trim import residual_torque
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import TERMS
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import BalanceOptions
 from equipoise.procedure.laws import balanced_by
@@ -71,10 +70,9 @@ def gone(masses: Samples | None) -> float:
 
 def rms_torque(bench: SimulatedBench, tilt: float) -> float:
     """Return the torque (N m) that the platform really leaves, rms within a tilt (rad)."""
-    testbed, coefficients = bench.testbed, bench.platform.torque
-    sag = sag_matrix(dict(zip(TERMS, map(float, coefficients), strict=True)))
+    testbed = bench.testbed
     weight = testbed.body.mass * testbed.gravity
-    return weight * residual_torque(bench.truth().com, sag, testbed.up, tilt)
+    return weight * residual_torque(bench.com, bench.sag, testbed.up, tilt)
 
 
 def law_run(task: Task) -> LawRun:
