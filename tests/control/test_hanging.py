@@ -68,7 +68,7 @@ def test_a_platform_that_hangs_deep_enough_is_left_there():
 
 
 def test_masses_that_cannot_make_it_hang_are_refused():
-    with pytest.raises(InputError, match="1.03e\\+03 um"):
+    with pytest.raises(InputError, match="shift it by 1.03e"):
         h.hanging(table(np.array([0.0, 0.0, 900e-6])))
 
 
@@ -86,10 +86,9 @@ def test_a_demand_is_spared_to_what_masses_can_follow():
 def test_the_spared_demand_is_the_same_all_through_a_swing():
     plant, d, p = h.hanging(DEEP), np.array([1e-3, 1e-3]), np.array([4e-4, 4e-4])
     w, angle = plant.frequency, np.linspace(0, np.pi, 9)
+    first = np.array([1.0, 0.0])
     shares = [
-        h.spared(
-            plant, p, d, np.array([0.1 * np.cos(x), 0]), np.array([-0.1 * w[0] * np.sin(x), 0])
-        )
+        h.spared(plant, p, d, 0.1 * np.cos(x) * first, -0.1 * w[0] * np.sin(x) * first)
         for x in angle
     ]
     np.testing.assert_allclose(shares, shares[0], rtol=1e-12)

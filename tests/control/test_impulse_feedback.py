@@ -26,6 +26,7 @@ from tests.control.simple_loop import (
 )
 
 UM = 1e-6
+HELD = law.Window(0.0, np.zeros(3), MASS * 20 * GRAVITY * skew(UP), np.zeros(3))  # level, 20 s
 TURN, RATE = [0.03, -0.02, 0.4], [0.004, -0.003, 0.005]  # 2 deg of tilt, 0.4 deg/s
 
 
@@ -75,20 +76,14 @@ def test_the_sign_by_hand():
     params = params_for(table())
     weight = MASS * np.cross([1e-5, 0.0, 0.0], [0.0, 0.0, -GRAVITY])
     assert weight[1] > 0
-    window = law.Window(
-        0.0, np.zeros(3), -MASS * 20 * skew(np.array([0, 0, -GRAVITY])), np.zeros(3)
-    )
-    shift = law.fed_back(window, 20 * weight, np.zeros(3), params)
+    shift = law.fed_back(HELD, 20 * weight, np.zeros(3), params)
     np.testing.assert_allclose(shift, [-law.GAIN * 1e-5, 0.0, 0.0], atol=1e-18)
 
 
 def test_what_is_along_gravity_is_left_alone():
     params = params_for(table())
-    window = law.Window(
-        0.0, np.zeros(3), -MASS * 20 * skew(np.array([0, 0, -GRAVITY])), np.zeros(3)
-    )
-    b = window.A @ np.array([1e-5, 0, 5e-4])
-    assert law.fed_back(window, b, np.zeros(3), params)[2] == pytest.approx(0.0, abs=1e-15)
+    b = HELD.A @ np.array([1e-5, 0, 5e-4])
+    assert law.fed_back(HELD, b, np.zeros(3), params)[2] == pytest.approx(0.0, abs=1e-15)
 
 
 def test_the_schedule_shows_all_three_directions():
@@ -137,10 +132,7 @@ def test_slow_masses_do_no_harm():
 def test_a_steady_torque_is_taken_for_unbalance():
     """What it cannot tell apart: 1e-4 N m about x is 0.73 um along y, at one attitude."""
     params = params_for(table())
-    window = law.Window(
-        0.0, np.zeros(3), -MASS * 20 * skew(np.array([0, 0, -GRAVITY])), np.zeros(3)
-    )
-    shift = law.fed_back(window, np.array([20e-4, 0.0, 0.0]), np.zeros(3), params)
+    shift = law.fed_back(HELD, np.array([20e-4, 0.0, 0.0]), np.zeros(3), params)
     assert abs(shift[1]) == pytest.approx(law.GAIN * 1e-4 / (MASS * GRAVITY))
 
 

@@ -1,4 +1,4 @@
-"""L1 adaptive balancing: the condition by hand, the adaptation's limit, recovery, what it learns."""
+"""L1 adaptive balancing: the condition by hand, the adaptation's limit, recovery, learning."""
 
 from dataclasses import replace
 
@@ -128,6 +128,14 @@ def test_a_platform_that_swings_faster_than_believed_is_stable():
     quick = table(OFFSET - [0, 0, 60e-6], np.diag([0.21, 0.19, 0.3]))
     run = flown(0, 90, quick)
     assert run.tilt[-40:].max() < 2e-3
+
+
+def test_a_platform_that_spins_is_balanced():
+    """6 deg/s of yaw, as fast as the raised platform swings: tilt and rate turn over."""
+    begun = law.begin(guess(), np.zeros(3))
+    run = fly(law.LAW, begun, Loop(Plant(table(), TURN, [0.004, -0.003, 0.1]), NOISE, 0), 800)
+    assert "at the target" in run.finished
+    np.testing.assert_allclose(run.left[:2], 0.0, atol=0.15 * UM)
 
 
 # --- What it refuses -------------------------------------------------------------------------

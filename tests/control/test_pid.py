@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from equipoise.control import hanging, height, pid
-from equipoise.control.sampled_loop import Sampled
 from equipoise.control.ziegler_nichols import measured, ultimate
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
@@ -15,7 +14,6 @@ from tests.control.simple_loop import (
     CALM,
     INERTIA,
     NOISE,
-    OFFSET,
     Loop,
     Plant,
     fly,
@@ -157,15 +155,8 @@ def test_an_unstable_loop_is_refused():
         pid.check(loop, type(gains)(*(6 * g for g in gains)), 0.5)
 
 
-def test_the_guard_knows_the_raised_platform():
-    """A hundredth of the depth, a tenth of the frequency: the integral there is a tenth too."""
-    assert pid.RAISED == pytest.approx(0.1)
-    assert Sampled(1.0, 2.0, 0.25, 1)._replace(frequency=0.2).frequency == 2.0 * pid.RAISED
-
-
 def test_steps_are_pure():
     state, params = pid.begin(guess(), np.zeros(3))
     seen = Loop(Plant(table(), TURN, RATE)).sample(np.zeros(3), np.zeros(3))
     first, second = (pid.step(state, seen, params)[1].shift for _ in range(2))
     np.testing.assert_array_equal(first, second)
-    assert np.all(OFFSET == np.array([60.0, -40.0, -150.0]) * UM)

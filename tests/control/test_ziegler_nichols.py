@@ -99,7 +99,7 @@ def test_the_dead_band_keeps_noise_from_switching():
 
 
 def test_the_swing_is_sampled_exactly():
-    """A quarter swing takes (theta, rate) = (1, 0) to (0, -w0); a weight held swings to 2 a v/w0^2."""
+    """A quarter swing takes (1, 0) to (0, -w0); a weight held over half of one, to 2 a v / w0^2."""
     np.testing.assert_allclose(swing_matrix(W0, np.pi / 2 / W0) @ [1, 0], [0, -W0], atol=1e-15)
     np.testing.assert_allclose(swing_input(W0, np.pi / W0), [2 / W0**2, 0], atol=1e-15)
 

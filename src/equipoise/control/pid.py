@@ -74,7 +74,8 @@ CARD = LawCard(
     source="Ziegler and Nichols 1942; Astrom and Hagglund 1984; da Silva et al. 2021, section 5",
     needs=("masses", "gyro", "attitude"),
     leaves="the height, which it sees by looks at the end only; those know it by the inertia",
-    stable="as ``begin`` finds it: a hanging platform",
+    stable="hanging; sensors and fine masses up to 0.6 s late at 14 kg and steps of 0.25 s, spin to "
+    "17 deg/s; masses of 1.4 um/s too; a swing beyond what masses can follow is damped slowly",
     period=PERIOD,
 )
 
