@@ -43,7 +43,8 @@ def downs(up: Vector3, tilt: float) -> tuple[Series3, Floats]:
     n = -np.column_stack([sine * np.cos(heading), sine * np.sin(heading), cosine])
     # R(level(up)) brings ``up`` to z; its transpose brings directions about z to those about up.
     weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)[:, None]
-    return n @ to_matrix(level(up)), weight
+    about_up: Series3 = n @ to_matrix(level(up))
+    return about_up, weight
 
 
 def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
