@@ -10,10 +10,13 @@ from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
 
 PER_UM, PER_MM, PER_MS, PER_GRAM = 1e6, 1e3, 1e3, 1e3
 PER_PERCENT, PER_DEG = 1e2, 180 / math.pi
+# A density is written as noise per sample, and what is assumed of it goes along.
+WRITTEN_AS = {"sensor.gyro.noise_density_deg_s_rthz": "sensor.gyro.noise_deg_s"}
 
 
 def text_of_testbed(testbed: Testbed) -> str:
     """Return TOML that reads back as the same testbed (to the 15th digit)."""
+    assumed = {json.dumps(WRITTEN_AS.get(k, k)): why for k, why in testbed.assumed.items()}
     parts = [
         table("", {"name": testbed.name}),
         table("[platform]", _platform(testbed)),
@@ -23,7 +26,7 @@ def text_of_testbed(testbed: Testbed) -> str:
         table("[sensor.gyro]", _gyro(testbed.gyro)),
         table("[disturbance]", {"consider": list(testbed.disturbances)}),
         text_of_truth(testbed.truth),
-        table("[assumed]", {json.dumps(k): v for k, v in testbed.assumed.items()}),
+        table("[assumed]", assumed),
     ]
     return "\n".join(filter(None, parts))
 
