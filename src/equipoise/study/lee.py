@@ -30,6 +30,7 @@ from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.replicates import PAIRS, Drawn, pairs
 from equipoise.estimation.trajectory import Params
 from equipoise.maths.attitude import from_euler321, level, multiply, to_euler321
+from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Quaternion, Series3
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.recording import Recording, Samples
@@ -59,7 +60,7 @@ class Manoeuvre:
     coarse_bound: Observability  # of the platform's own
 
 
-def as_printed(testbed: Testbed) -> Testbed:
+def with_printed_errors(testbed: Testbed) -> Testbed:
     """Return the platform with the errors that the paper prints alone."""
     gyro = testbed.gyro
     assert gyro is not None
@@ -90,9 +91,11 @@ def gains_of(testbed: Testbed) -> Gains:
     return Gains(testbed.body.inertia_P, FREQUENCY, DAMPING, INTEGRAL, MOST)
 
 
-def slew_from(testbed: Testbed, start: Sequence[float], seed: int, duration: float) -> Slew:
-    """Return the slew from roll, pitch and yaw (deg) to zero, s long."""
-    bed = started(testbed, start)
+def slew_from(
+    testbed: Testbed, start: Sequence[float], seed: int, duration: float = DURATION
+) -> Slew:
+    """Return the slew from roll, pitch and yaw (deg) to zero, ``duration`` seconds of it."""
+    bed = started(with_printed_errors(testbed), start)
     return slewed(bed, level(bed.up), gains_of(bed), duration, seed)
 
 
@@ -121,15 +124,13 @@ def coarser(recording: Recording, testbed: Testbed) -> Recording:
     return replace(recording, attitude=Samples(rows.t[keep], rows.values[keep]))
 
 
-def manoeuvre(
-    testbed: Testbed, start: tuple[float, float, float], seed: int, duration: float = DURATION
-) -> Manoeuvre:
-    """Return a slew of the platform from roll, pitch and yaw (deg), and what it tells."""
-    bed = as_printed(testbed)
-    slew = slew_from(bed, start, seed, duration)
+def judged(testbed: Testbed, start: tuple[float, float, float], slew: Slew) -> Manoeuvre:
+    """Return what a slew from roll, pitch and yaw (deg) tells; the testbed has its own sensors."""
+    bed = with_printed_errors(testbed)
     found = estimates_of(slew.recording, bed)
+    bound = seen_by(slew.recording, bed, Params())
     own = seen_by(coarser(slew.recording, testbed), testbed, Params())
-    return Manoeuvre(start, bed, slew, found, seen_by(slew.recording, bed, Params()), own)
+    return Manoeuvre(start, bed, slew, found, bound, own)
 
 
 def singular_times(slew: Slew) -> tuple[float, float] | None:
@@ -147,3 +148,12 @@ def warns(estimate: Estimate) -> bool:
     worded = any(word in text for word in ("not trustworthy", "do not trust"))
     open_ended = not all(estimate.has(name) and estimate.sees((name,)) for name in SOUGHT)
     return not estimate.outcome.usable or worded or open_ended
+
+
+def true_values(testbed: Testbed) -> dict[str, float]:
+    """Return what an estimate should say, by name, SI."""
+    truth = testbed.truth
+    assert truth is not None
+    assert truth.com is not None
+    inertia = testbed.body.inertia_P if truth.inertia_P is None else truth.inertia_P
+    return dict(zip(SOUGHT, map(float, (*truth.com, *pack_symmetric(inertia))), strict=True))

@@ -37,7 +37,7 @@ class Told(NamedTuple):
     names: tuple[str, ...]
     t: Series1  # s
     values: Series  # (n, c) SI
-    index: Floats  # (n,) EI
+    total: Floats  # (n,) EI
     parameter: Series  # (n, c) PEI as printed, in units of the values
 
 
