@@ -29,7 +29,6 @@ from typing import Literal
 import numpy as np
 
 from equipoise.control.law import Law, LawCard
-from equipoise.control.sample import Sample
 from equipoise.control.planar_feedback import (
     Loop,
     Plant,
@@ -39,6 +38,7 @@ from equipoise.control.planar_feedback import (
     lean,
     loop_for,
 )
+from equipoise.control.sample import Sample
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Look
