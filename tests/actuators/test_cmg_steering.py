@@ -90,9 +90,8 @@ def test_generalised_is_all_but_exact_where_the_measure_is_good(x, torque, t):
 def test_the_lock_is_one():
     """At (-90, 0, 90, 0) deg there is no torque along x, and null motion does not lead away.
 
-    h = (2 / sqrt 3) h0 along x: well inside what the gyros hold. Null motion changes h_x, to second
-    order,
-    by -1/2 sum (h_i)_x d_i^2, which has one sign over D's null space: elliptic (Bedrossian).
+    h = (2 / sqrt 3) h0 along x: well inside what the gyros hold. To second order, null
+    motion changes h_x by -1/2 sum (h_i)_x d_i^2: of one sign over D's null space, so elliptic.
     """
     np.testing.assert_allclose(jacobian(FOUR, ELLIPTIC)[0], 0.0, atol=1e-16)
     np.testing.assert_allclose(rotor_momentum(FOUR, ELLIPTIC), [2 * H0 / 3**0.5, 0, 0], atol=1e-15)
