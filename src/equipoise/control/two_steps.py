@@ -39,13 +39,13 @@ from equipoise.control.beforehand import (
     likely_height,
 )
 from equipoise.control.sample import Sample
-from equipoise.control.saturation import greatest_shift, greatest_slew
+from equipoise.control.saturation import greatest_shift, greatest_slew, limited
 from equipoise.control.tilt_feedback import (
     Gains,
-    begun_level,
     followed,
     frequency_for,
     gains_at,
+    owed,
     settling,
     shift_for,
     swing_of,
@@ -58,6 +58,7 @@ from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s, chosen: a servo's beat
 SETTLED = 8.0  # time constants, chosen: 3e-4 of the swing is left
+PAY = 0.3  # chosen: of the masses' speed
 MEAN = 1.0  # s, chosen: at the end of a follow, over which the rest is averaged
 PUSH = 1.0  # s
 BACK = 10.0  # s, chosen: masses that are not back by then stand still
@@ -83,6 +84,7 @@ class Params:
     follow: int  # steps until the platform rests
     tolerance: float  # m, what a motor step leaves
     late: float  # m, off what was asked: the masses are on their way
+    pay: float  # m, of what is owed, in a step
     target: float  # m, along up
     tilt_limit: float  # rad
     rounds: int = ROUNDS
@@ -95,6 +97,7 @@ class State:
     held: Vector3  # m, rh; of a round that begins, what is believed
     height: float  # m, shift along up
     gravity: Vector3 | None = None  # m/s^2, at the last step; None: a round begins
+    owed: Vector3 | None = None  # m, what rh has yet to get for the tilt at which the round began
     phase: Phase = "follow"
     step: int = 0  # of the phase
     asked: Vector3 | None = None  # m, shift at the last step
@@ -129,7 +132,8 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
     params = Params(
         gains, method_for(testbed), push_for(testbed),
         int(np.ceil(SETTLED * slowest / PERIOD)), max(quantum, LEAST),
-        max(LATE * quantum, NEAR), float(up @ target), testbed.tilt_limit,
+        max(LATE * quantum, NEAR), PAY * greatest_slew(testbed) * PERIOD, float(up @ target),
+        testbed.tilt_limit,
     )  # fmt: skip
     return State(across(up) @ testbed.body.com, height), params
 
@@ -160,10 +164,12 @@ def tilt_of(seen: Sample, gains: Gains) -> float:
 def follow(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     """Level the platform; at the end, push it."""
     gains = params.gains
-    held = held_now(state, seen, params)
+    held, owing = held_now(state, seen, params)
     upward = state.height * gains.up
     shift = shift_for(gains, held, seen.gravity, seen.rate) + upward
-    state = replace(state, held=held, gravity=seen.gravity, asked=shift, step=state.step + 1)
+    paid = float(np.linalg.norm(owing)) < params.tolerance
+    count = state.step + 1 if paid else 0
+    state = replace(state, held=held, gravity=seen.gravity, owed=owing, asked=shift, step=count)
     if state.step > params.follow - round(MEAN / PERIOD):
         still = shift_for(gains, held, seen.gravity, np.zeros(3)) + upward
         tilt = across(gains.up) @ seen.gravity / gains.gravity
@@ -177,12 +183,14 @@ def follow(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     return state, Command(shift=state.rest, note="Levelled; now a push, and a look at the swing.")
 
 
-def held_now(state: State, seen: Sample, params: Params) -> Vector3:
-    """Return rh (m): begun anew at the first sample of a round, else a step on."""
-    if state.gravity is None or state.asked is None:
-        return begun_level(params.gains, state.held, seen.gravity)
+def held_now(state: State, seen: Sample, params: Params) -> tuple[Vector3, Vector3]:
+    """Return rh (m), begun anew at the first sample of a round, and what is still owed (m)."""
+    if state.gravity is None or state.asked is None or state.owed is None:
+        return state.held, owed(params.gains, seen.gravity)
     late = float(np.linalg.norm(state.asked - seen.shift)) > params.late
-    return followed(params.gains, state.held, state.gravity, seen.gravity, late)
+    held = followed(params.gains, state.held, state.gravity, seen.gravity, late)
+    paid = limited(state.owed, params.pay)
+    return held + paid, state.owed - paid
 
 
 def added(total: Vector3 | None, vector: Vector3) -> Vector3:
