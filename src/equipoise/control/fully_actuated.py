@@ -260,7 +260,8 @@ LAW = Law(
         ("masses", "momentum", "gyro", "attitude"),
         "what is along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
         "dJ (20 um for one inertia_sd)",
-        "TODO",
+        "w_a T up to 0.1, w_a |r| / v up to 1; the torque of |r| sideways, and its momentum in "
+        "2 zeta / w_a, within the devices'",
         PERIOD,
     ),
     begin,
