@@ -1,7 +1,7 @@
-"""A plain loop around a law: the true platform between steps, masses that travel, ideal torques.
+"""A plain loop around a law: the true platform between steps, masses that travel, ideal jets.
 
-Masses travel at their speed and stop on whole steps. Jets and wheels give what is asked, at once. A look is an Estimate near the truth: no
-estimator is run here.
+Masses travel at their speed and stop on whole steps. Jets and wheels give what is asked, at once. A
+look is an Estimate near the truth: no estimator is run here.
 """
 
 from dataclasses import dataclass, replace

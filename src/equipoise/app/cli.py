@@ -13,6 +13,7 @@ from cyclopts import App, CycloptsError, Parameter
 
 from equipoise import __version__
 from equipoise.app.commands.balance import balance
+from equipoise.app.commands.compare import compare
 from equipoise.app.commands.demo import demo
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.inspect import inspect
@@ -36,7 +37,7 @@ app = App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for command in (demo, new, simulate, inspect, observe, identify, methods, balance, laws):
+for command in (demo, new, simulate, inspect, observe, identify, methods, balance, laws, compare):
     app.command(command)
 
 

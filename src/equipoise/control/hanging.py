@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.control.sample import Sample
-from equipoise.control.saturation import greatest_shift, greatest_slew
+from equipoise.control.saturation import filling_time, greatest_shift, greatest_slew
 from equipoise.model.arrays import Floats, Series, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
@@ -51,6 +51,7 @@ class Hanging(NamedTuple):
     reach: float  # m
     step: float  # m, the finest that masses can shift it sideways
     delay: float  # s, of what is seen
+    filling: float  # s, that fine masses take over half a step of coarse ones
 
     @property
     def frequency(self) -> Floats:
@@ -133,5 +134,5 @@ def hanging(testbed: Testbed) -> Hanging:
     return Hanging(
         up, axes, body.mass * testbed.gravity / moments, -height - lowered, lowered,
         float(np.abs(up) @ testbed.com_sd), greatest_slew(testbed), reach,
-        finest_step(testbed, axes), sensor_delay(testbed),
+        finest_step(testbed, axes), sensor_delay(testbed), filling_time(testbed),
     )  # fmt: skip

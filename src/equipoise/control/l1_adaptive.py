@@ -13,6 +13,12 @@ e = x_hat - x:
     th_hat' = G Proj(th_hat, -e^T P b x),   s_hat' = G Proj(s_hat, -e^T P b)
     u_ad = -C(s) (th_hat^T x + s_hat),   C = w_c / (s + w_c)
 
+A yaw rate W turns tilt and rate over between the axes, and the predictor is told so, a step at a
+time:
+
+    tilt_1' += W tilt_2,  tilt_2' -= W tilt_1     (theta' = w - W u x theta)
+    rate_1' += W (J_2 - J_u) / J_1 rate_2,   rate_2' += W (J_u - J_1) / J_2 rate_1
+
 v_done is the shift that was reported: what masses do late, limited or not at all is no disturbance
 then, and nothing winds up. A_s = [0, 1; -w^2, -2 w] makes e quicker than A_m would (the companion
 predictor of the same authors). With Q = diag(w^2, 1), A_s^T P + P A_s = -Q gives
@@ -76,7 +82,8 @@ CARD = LawCard(
     source="Cao and Hovakimyan 2006, 2008; Xuan 2016, Hua 2018 (da Silva et al. 2021, section 5)",
     needs=("masses", "gyro", "attitude"),
     leaves="the height, which it sees by looks at the end only; those know it by the inertia",
-    stable="as ``begin`` finds it: a hanging platform",
+    stable="hanging; sensors and fine masses up to 0.8 s late at 14 kg and steps of 0.25 s, spin to "
+    "17 deg/s, half to twice the stiffness that is believed",
     period=PERIOD,
 )
 
@@ -98,6 +105,7 @@ class Params:
 
     plant: Hanging
     axes: tuple[Axis, Axis]
+    gyroscopic: Floats  # (2,) (J_2 - J_u) / J_1 and (J_u - J_1) / J_2
     quiet: Bounds
     target: Vector3
 
@@ -108,6 +116,7 @@ class Before(NamedTuple):
     x: Floats  # (2, 2) tilt and rate
     frequency: Floats  # (2,) w0, rad/s
     shift: Vector3  # m
+    spin: float  # rad/s, about u
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -182,7 +191,8 @@ def closed(axis: Axis, frequency: float, late: int) -> Square:
     new_s = s - PERIOD * w**3 * (0.5 * new_e[0] + 0.5 / w * new_e[1])
     new_u = u_ad + axis.share * (-s - u_ad)
     asked = u_ad - 2 * DAMPING * axis.wanted * x[1]
-    return np.vstack([new_x, new_e, new_s, new_u, asked, np.eye(size)[6:-1]])
+    rows = [new_x, new_e, new_s[None], new_u[None], asked[None], np.eye(size)[6:-1]]
+    return np.concatenate(rows).astype(np.float64)
 
 
 def refuse(found: str) -> InputError:
@@ -200,7 +210,7 @@ def check(axis: Axis, plant: Hanging, testbed: Testbed) -> None:
     size = axis.most * l1_norm(wanted, np.array([0.0, 1.0]), FILTER * axis.wanted)
     if size >= 1:
         raise refuse(f"an L1 condition of {size:.2g}, not below 1")
-    late = steps_late(plant.delay, h)
+    late = steps_late(plant.delay + plant.filling, h)
     for factor in (1 / MARGIN, 1.0, MARGIN):
         loop = closed(axis, axis.wanted * factor**0.5, late)
         if radius(loop) >= 1:
@@ -214,7 +224,11 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     for axis in axes:
         check(axis, plant, testbed)
     quiet = bounds(plant, max(LEVEL, 2 * plant.step), 0.5)
-    return State(Height(plant.lowered, plant.depth)), Params(plant, axes, quiet, target)
+    one, two = plant.axes
+    J = [float(axis @ testbed.body.inertia_P @ axis) for axis in (one, two, plant.up)]
+    gyroscopic = np.array([(J[1] - J[2]) / J[0], (J[2] - J[0]) / J[1]])
+    params = Params(plant, axes, gyroscopic, quiet, target)
+    return State(Height(plant.lowered, plant.depth)), params
 
 
 # --- Step ------------------------------------------------------------------------------------
@@ -226,6 +240,13 @@ def frequencies(state: State, seen: Sample, plant: Hanging) -> Floats:
     return np.sqrt(plant.gain * max(state.height.depth - above, FLATTEST * plant.depth))
 
 
+def turned_about_up(x: Floats, spin: float, params: Params) -> Floats:
+    """Return what turning about the vertical (rad/s) does to x, per second."""
+    (tilt_1, rate_1), (tilt_2, rate_2) = x
+    one, two = params.gyroscopic
+    return spin * np.array([[tilt_2, one * rate_2], [-tilt_1, two * rate_1]])
+
+
 def learnt(state: State, x: Floats, seen: Sample, params: Params) -> State:
     """Return the state with the error of the prediction for now, and what that teaches."""
     before, plant = state.before, params.plant
@@ -233,10 +254,11 @@ def learnt(state: State, x: Floats, seen: Sample, params: Params) -> State:
         return replace(state, e=np.zeros((2, 2)))
     v = turned(plant, (before.shift + seen.shift) / 2)
     th, s, e = np.zeros((2, 2)), np.zeros(2), np.zeros((2, 2))
+    turning = turned_about_up(before.x, before.spin, params)
     for i, axis in enumerate(params.axes):
         n = axis.gain * float(v[i]) + matched(state, before.x)[i]
         x_hat = predicted(axis, before.x[i], state.e[i], float(before.frequency[i]), n)
-        e[i] = x_hat - x[i]
+        e[i] = x_hat + PERIOD * turning[i] - x[i]
         th[i], s[i] = adapted(axis, e[i], x[i], state.th[i], float(state.s[i]))
     return replace(state, th=th, s=s, e=e)
 
@@ -269,11 +291,12 @@ def sample_step(state: State, seen: Sample, params: Params) -> tuple[State, Comm
     plant = params.plant
     tilt, rate = tilt_of(plant, seen), rate_of(plant, seen)
     x, w0 = np.column_stack([tilt, rate]), frequencies(state, seen, plant)
+    spin = float(plant.up @ seen.rate)
     state = learnt(state, x, seen, params)
     state = replace(state, u_ad=filtered(state, x, params))
     now = Seen(seen.t, tilt, rate, seen.shift)
     rest = settle(state.rest, now, PERIOD, params.quiet, np.zeros(2))
-    state = replace(state, rest=rest, before=Before(x, w0, seen.shift))
+    state = replace(state, rest=rest, before=Before(x, w0, seen.shift, spin))
     if not is_quiet(rest, seen.t, params.quiet):
         return state, Command(shift=controlled(state, x, w0, params))
     way = once_level(plant, state.height, seen, rest.shift, params.target)

@@ -63,7 +63,7 @@ PERIOD = 0.25  # s, chosen: a fiftieth of a swing
 LATE = 0.5  # chosen: the share of the lead that masses and sensors may be late in the relay's cycle
 STEPS = 4  # chosen: motor steps in the relay's amplitude, at the least
 PATIENCE = 3.0  # chosen: of the calculated time, before the relay is given up
-FAR = 3.0  # chosen: a measured gain further than this factor from the calculated one is not taken
+FAR = 2.0  # chosen: a measured gain further than this factor from the calculated one is not taken
 MARGIN = 2.0  # chosen: the gains may be wrong by this factor
 RAISED = 0.1  # chosen: of the swing's frequency, for a platform that has been raised
 LEVEL = 1e-7  # m, chosen: an offset that counts as none, 1.4e-5 N m for 14 kg
@@ -74,7 +74,8 @@ CARD = LawCard(
     source="Ziegler and Nichols 1942; Astrom and Hagglund 1984; da Silva et al. 2021, section 5",
     needs=("masses", "gyro", "attitude"),
     leaves="the height, which it sees by looks at the end only; those know it by the inertia",
-    stable="as ``begin`` finds it: a hanging platform",
+    stable="hanging; sensors and fine masses up to 0.6 s late at 14 kg and steps of 0.25 s, spin to "
+    "17 deg/s; masses of 1.4 um/s too; a swing beyond what masses can follow is damped slowly",
     period=PERIOD,
 )
 
@@ -138,7 +139,7 @@ def check(loop: Loop, gains: Gains, delay: float) -> None:
                 "law pid",
                 f"a loop that is unstable at {factor:.2g} times its gains, sampled every "
                 f"{PERIOD} s and {delay:.2g} s late",
-                "sensors less late, or a slower platform",
+                "sensors less late, fine masses that soon make up a coarse step, a slower platform",
             )
 
 
@@ -149,7 +150,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     cycles = (ultimate(loops[0]), ultimate(loops[1]))
     first, second = (rule(c, loop.lead) for c, loop in zip(cycles, loops, strict=True))
     for loop, gains in zip(loops, (first, second), strict=True):
-        check(loop, gains, plant.delay)
+        check(loop, gains, plant.delay + plant.filling)
     calm = bounds(plant, 0.3 * loops[0].relay, 0.5)
     quiet = bounds(plant, max(LEVEL, 2 * plant.step), 0.5)
     params = Params(plant, loops, cycles, (first, second), calm, quiet, target)

@@ -7,9 +7,9 @@
 
     I+ = I + h K_i theta,   v = -(K_p theta + K_d theta' + I)
 
-n is one more than the steps within the sensors' delay, for masses take up to a step to arrive. The
-eigenvalues of all this together lie within the unit circle where the loop is stable. Says nothing
-of masses that are asked to go faster than they can.
+n covers the delay of sensors and masses, and half a step, for masses that go evenly over a step.
+The eigenvalues of all this together lie within the unit circle where the loop is stable. Says
+nothing of masses that are asked to go faster than they can.
 """
 
 from typing import NamedTuple
@@ -30,8 +30,8 @@ class Sampled(NamedTuple):
 
 
 def steps_late(delay: float, period: float) -> int:
-    """Return n for sensors that are late by ``delay`` (s)."""
-    return 1 + int(np.ceil(delay / period - 1e-9))
+    """Return n for sensors and masses that are late by ``delay`` (s)."""
+    return int(np.ceil(delay / period + 0.5 - 1e-9))
 
 
 def swing_matrix(frequency: float, period: float) -> Square:

@@ -7,14 +7,15 @@ largest ball about its centre touches a face, whose normal n is that of two rail
 
 with reach_i the half travel (m) for how far, and the speed (m/s) for how fast. Zero: some
 direction cannot be reached. Of masses on parallel rails the one that shifts fastest counts for how
-fast: a fine mass then makes up the rest of a coarse one's step, either way.
+fast: a fine mass then makes up the rest of a coarse one's step, half of it at most, and until it
+has done so the shift is that much off. How long that takes is a delay of small demands.
 
 Where what was done differs from what was asked, an integral unwinds by the difference
 (back-calculation: Fertik and Ross 1967; Astrom and Wittenmark): I' += (done - asked) / T.
 """
 
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, permutations
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.testbed import SlidingMass, Testbed
 
 PARALLEL = 0.99  # cosine, chosen
+FINER = 2.0  # -, chosen: below this ratio of steps masses are alike
 
 
 def limited(vector: Floats, most: float) -> Floats:
@@ -58,3 +60,15 @@ def greatest_slew(testbed: Testbed) -> float:
         if all(abs(float(mass.axis @ other.axis)) < PARALLEL for other in alone):
             alone.append(mass)
     return ball(replace(testbed, masses=tuple(alone)), np.array([m.speed for m in alone]))
+
+
+def filling_time(testbed: Testbed) -> float:
+    """Return the longest that a fine mass takes over half a step of a coarse one beside it, s."""
+    pairs = [
+        (fine, coarse)
+        for fine, coarse in permutations(testbed.masses, 2)
+        if abs(float(fine.axis @ coarse.axis)) >= PARALLEL
+        and FINER * fine.mass * fine.resolution < coarse.mass * coarse.resolution
+    ]
+    times = [c.mass * c.resolution / (2 * f.mass * f.speed) for f, c in pairs]
+    return max(times, default=0.0)

@@ -6,7 +6,8 @@ Each is driven by one number and reports one number (``Recording.devices``):
     reaction wheel       torque on the rotor, N m          speed against the platform, rad/s
     control moment gyro  gimbal rate, rad/s                gimbal angle, rad
     magnetorquer         dipole, A m^2                     dipole, A m^2
-    jet pair             impulse on the platform, N m s    torque on the platform, N m
+    jet pair             impulse on the platform, N m s    torque on the platform, N m, mean since
+                                                           the row before
 
 What follows an input does so with a first-order lag: y' = (input - y) / lag.
 

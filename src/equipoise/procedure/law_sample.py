@@ -9,7 +9,6 @@ from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.control.sample import Sample
 from equipoise.estimation.attitude_filter import AttitudeState, followed
 from equipoise.maths.attitude import to_matrix
-from equipoise.maths.straight_lines import integral_at
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
@@ -81,13 +80,12 @@ def impulse_of(fresh: Recording, testbed: Testbed) -> Vector3:
 
 
 def _over(channel: Samples) -> Floats:
-    """Return the integral of a channel from one row before its first to its last."""
+    """Return the sum of means since the row before, times how long that is ago."""
     t, values = channel.t, channel.values
     if len(t) < 2:
-        return np.zeros_like(values[0])
-    start = 2 * t[0] - t[1]
-    whole: Floats = integral_at(np.array([start, t[-1]]), t, values)
-    return whole[-1]
+        return np.zeros(values.shape[1])
+    whole: Floats = np.diff(t, prepend=2 * t[0] - t[1]) @ values
+    return whole
 
 
 def field_of(attitude: AttitudeState | None, fresh: Recording, testbed: Testbed) -> Vector3 | None:

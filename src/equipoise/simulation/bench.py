@@ -231,12 +231,17 @@ class SimulatedBench:
         )
         return self._with_devices(seen_so_far, after) if testbed.devices else seen_so_far
 
+    @property
+    def _reports(self) -> float:
+        """How often devices report, Hz."""
+        sensor = self._testbed.gyro or self._testbed.attitude
+        return REPORTS if sensor is None else sensor.rate
+
     def _with_devices(self, recording: Recording, after: float) -> Recording:
         """Return the recording with what the devices report, and what follows from it."""
         testbed, rng = self._testbed, self._states_rng
-        sensor = testbed.gyro or testbed.attitude
-        t = samples(REPORTS if sensor is None else sensor.rate, after, self._time)
-        rows = reported_states(testbed, self._devices, t, rng)
+        t = samples(self._reports, after, self._time)
+        rows = reported_states(testbed, self._devices, t, rng, 1 / self._reports)
         seen = replace(recording, device_names=testbed.device_names, devices=Samples(t, rows))
         return replace(seen, momentum=stored_momentum(seen, testbed))
 
@@ -263,5 +268,5 @@ class SimulatedBench:
         kept = max(int(np.searchsorted(t, behind, side="right")) - 1, 0)
         self._node, self._state = float(t[kept]), path.y[kept]
         self._noise = forgotten(self._noise, self._node)
-        self._devices = without_past(self._devices, self._node)
+        self._devices = without_past(self._devices, self._node - 1 / self._reports)
         self._track = actuator.without_past(self._track, self._node - self.platform.mass_lag)

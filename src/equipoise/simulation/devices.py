@@ -130,15 +130,18 @@ def effects(testbed: Testbed, devices: Followers, t: Series1) -> tuple[Series3, 
 
 
 def reported_states(
-    testbed: Testbed, devices: Followers, t: Series1, rng: np.random.Generator
+    testbed: Testbed, devices: Followers, t: Series1, rng: np.random.Generator, gap: float
 ) -> Floats:
     """Return what the devices report at times (s), (n, k), with the noise of their sensors.
 
-    A wheel at rest is seen to be at rest.
+    A wheel at rest is seen to be at rest; a jet reports the mean since ``gap`` (s) before, so that
+    no pulse is lost between two rows.
     """
     y, Y = followed(devices, t)
     w, g = len(testbed.wheels), len(testbed.cmgs)
-    rows = np.hstack([Y[:, : w + g], y[:, w + g :]])
+    mean = (Y - followed(devices, t - gap)[1]) / gap
+    jets = w + g + len(testbed.magnetorquers)
+    rows = np.hstack([Y[:, : w + g], y[:, w + g : jets], mean[:, jets:]])
     sd = [wheel.speed_noise for wheel in testbed.wheels] + [c.angle_noise for c in testbed.cmgs]
     noise = rng.standard_normal((len(t), w + g)) * np.array(sd)
     turning = np.hstack([rows[:, :w] != 0, np.ones((len(t), g), dtype=bool)])
