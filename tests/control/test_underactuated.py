@@ -278,6 +278,7 @@ def test_the_push_swings_the_platform_as_far_as_was_meant():
     before = rows[rows.index(first) - 1]
     rate = np.linalg.norm(before.rate)
     assert rate == pytest.approx(0.4 * np.radians(30) / 20, rel=0.1)
+    assert before.command.look.since == pytest.approx(ends(rows)[0].t)  # a known change
     np.testing.assert_allclose(before.shift, first.shift, atol=1e-9)  # the masses are back
 
 

@@ -20,8 +20,9 @@ the last one left. Rounds end when the look finds no more than a motor step, or 
 From the look only the height is used. The method is ``ukf_4`` (rate and r_up) when com across up
 is known to ACROSS beforehand: it takes that from the testbed, and knows nothing of what the masses
 did about it in the first step. Else it is ``trajectory`` with the testbed's inertia and its sd,
-which finds all of com: a wrong J makes r_up wrong by the same share, and the next round takes that
-away.
+which finds all of com. The record begins with the push: a known change, by which the scale of J is
+seen. A J that is wrong yet makes r_up wrong by the same share, and the next round takes that away
+but for the share of the target's own depth.
 """
 
 from dataclasses import dataclass, replace
@@ -103,6 +104,7 @@ class State:
     asked: Vector3 | None = None  # m, shift at the last step
     rest: Vector3 | None = None  # m, sum of shifts asked in the last second of a follow
     level: Vector3 | None = None  # sum of P_up g_b / g then
+    since: float = 0.0  # s, when the push began
     rounds: int = 0  # looks made
     left: float = np.inf  # m, what the last look found
 
@@ -179,7 +181,8 @@ def follow(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     n = round(MEAN / PERIOD)
     assert state.rest is not None
     assert state.level is not None
-    state = replace(state, rest=state.rest / n, level=state.level / n, phase="push", step=0)
+    state = replace(state, rest=state.rest / n, level=state.level / n, phase="push", step=0,
+                    since=seen.t)  # fmt: skip
     return state, Command(shift=state.rest, note="Levelled; now a push, and a look at the swing.")
 
 
@@ -210,7 +213,9 @@ def swing(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     arrived = float(np.linalg.norm(seen.shift - state.rest)) <= params.late
     if count == 1 or (not arrived and count < round(BACK / PERIOD)):
         return replace(state, step=count), Command(shift=state.rest)
-    return replace(state, phase="look", rest=seen.shift), Command(look=params.look)
+    return replace(state, phase="look", rest=seen.shift), Command(
+        look=replace(params.look, since=state.since)
+    )
 
 
 def trimmed(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
