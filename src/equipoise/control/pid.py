@@ -9,7 +9,7 @@ On each of two horizontal axes of a platform that hangs (``hanging``; a = m g / 
 The derivative is the gyro's rate, not a differenced angle. The integral carries v to -c, so the
 tilt goes to zero and with it the sideways part of r + s; its height this loop does not see. v_done
 is the shift that the last Sample reports: an integral whose command was not delivered unwinds
-(back-calculation, T_a = K_p / K_i). f keeps the demand of a large swing as slow as the masses are
+(back-calculation: Astrom and Wittenmark; T_a = K_p / K_i). f keeps the demand of a large swing as slow as the masses are
 (R, m/s). K_i goes down with the swing's frequency where the platform has been raised, for a shallow
 pendulum does not bear the integral of a deep one.
 
