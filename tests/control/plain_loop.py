@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.control.sample import Sample
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.estimation.method import Options, estimated
@@ -128,6 +128,21 @@ def delivered(course: Course, wanted: np.ndarray | None, dt: float) -> np.ndarra
     return (course.now.h - np.clip(course.now.h - u * dt, -full, full)) / dt
 
 
+def targets(bed: Testbed, goal: np.ndarray, shift: np.ndarray) -> np.ndarray:
+    """Displacements for a shift, three coarse masses then three fine ones along x, y and z.
+
+    Coarse ones go when fine ones would have to go further than one and a half of their steps.
+    """
+    coarse, fine = bed.masses[0], bed.masses[3]
+    step, small = coarse.mass * coarse.resolution, fine.mass * fine.resolution
+    left = MASS * shift - coarse.mass * goal[:3]
+    steps = np.where(np.abs(left) > 1.5 * step, np.round(left / step), 0.0)
+    left = left - steps * step
+    return np.concatenate(
+        [goal[:3] + steps * coarse.resolution, np.round(left / small) * fine.resolution]
+    )
+
+
 def moved(d: np.ndarray, goal: np.ndarray, testbed: Testbed, dt: float) -> np.ndarray:
     most = np.array([m.speed for m in testbed.masses]) * dt
     return d + np.clip(goal - d, -most, most)
@@ -147,9 +162,7 @@ def go(course: Course, command: Command, dt: float, rng: np.random.Generator) ->
     now, truth, bed = course.now, course.truth, course.testbed
     shift = command.shift
     if shift is not None and (now.asked is None or np.any(shift != now.asked)):
-        here = com_shift(mass_maps(bed.masses), MASS, now.goal)
-        now.goal = displacements_for(bed.masses, MASS, now.goal, shift - here)
-        now.asked = shift
+        now.goal, now.asked = targets(bed, now.goal, shift), shift
     u, coil = delivered(course, command.torque, dt), magnetic(course, command.magnetic)
     stay = np.exp(-dt / 30.0)
     play = stay * now.play + truth.play * np.sqrt(1 - stay**2) * rng.normal(size=3)

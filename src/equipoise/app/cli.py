@@ -13,6 +13,7 @@ from cyclopts import App, CycloptsError, Parameter
 
 from equipoise import __version__
 from equipoise.app.commands.balance import balance
+from equipoise.app.commands.compare import compare
 from equipoise.app.commands.demo import demo
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.inspect import inspect
@@ -20,6 +21,7 @@ from equipoise.app.commands.laws import laws
 from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
+from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
 from equipoise.model.errors import EquipoiseError
@@ -36,7 +38,10 @@ app = App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for command in (demo, new, simulate, inspect, observe, identify, methods, balance, laws):
+COMMANDS = (
+    demo, new, simulate, inspect, observe, identify, methods, balance, laws, compare, reproduce,
+)  # fmt: skip
+for command in COMMANDS:
     app.command(command)
 
 

@@ -14,9 +14,9 @@ their covariance. Inertia is not needed. The course:
 The goal is the target and, on a platform that sags, the height that trims it (``sag_trim``) above
 it: the torque left within RANGE of level is then the least. In the catch, and when wheels have
 filled to FULL until they are EMPTY, masses are set off the goal so that gravity takes the
-horizontal momentum out again:
+horizontal momentum out again, no further than is soon travelled:
 
-    shift = goal - r + g_B x (R^T tau) / (m g^2),  tau = -UNLOAD L,  not beyond what is soon travelled
+    shift = goal - r + g_B x (R^T tau) / (m g^2),    tau = -UNLOAD L
 
 The seconds of a hold are the fewest of CHOICES for which the covariance foreseen leaves the goal
 known to WANTED within LONGEST; else the most that fit into it.

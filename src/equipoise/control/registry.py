@@ -4,9 +4,11 @@ from typing import Any
 
 from equipoise.control import (
     fully_actuated,
+    impulse_feedback,
     l1_adaptive,
     momentum_buildup,
     pid,
+    planar_magnetic,
     underactuated,
     underactuated_integral,
 )
@@ -17,6 +19,8 @@ ALL: tuple[Law[Any, Any], ...] = (
     l1_adaptive.LAW,
     underactuated.LAW,
     underactuated_integral.LAW,
+    planar_magnetic.LAW,
+    impulse_feedback.LAW,
     fully_actuated.LAW,
     momentum_buildup.LAW,
 )

@@ -64,7 +64,7 @@ def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
     bent: Series3 = n @ sag
     along: Floats = np.sum(n * bent, axis=1, keepdims=True)
     pull: Vector3 = np.sum(weight * (bent - along * n), axis=0)
-    return np.linalg.solve(across, -pull)
+    return -np.linalg.inv(across) @ pull
 
 
 def residual_torque(com: Vector3, sag: Matrix3, up: Vector3, tilt: float) -> float:

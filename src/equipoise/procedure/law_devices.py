@@ -61,7 +61,7 @@ def carry_out(bench: Bench, command: Command, eyes: Eyes, hands: Hands, period: 
 
 
 def send(bench: Bench, shift: Vector3, here: Floats, hands: Hands) -> Hands:
-    """Send the masses from ``here`` (m) to where the centre of mass is shifted so (m, from home)."""
+    """Send the masses from ``here`` (m) to where the centre of mass is shifted so (m)."""
     masses = bench.testbed.masses
     goal = without_delay(hands.rails, hands.goal, here, shift)
     changed = np.flatnonzero(goal != hands.goal)

@@ -187,7 +187,8 @@ def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
 
 def stop_step(bench: Bench, why: str) -> Step:
     """Return the stop of a run that cannot go on."""
-    return Step("stop", bench.time, f"Stopped: {why}.", verdict=Verdict(False, f"Stopped: {why}."))
+    verdict = Verdict(False, f"Stopped: {why}.", halted=True)
+    return Step("stop", bench.time, verdict.sentence, verdict=verdict)
 
 
 def control_step(bench: Bench, card: LawCard, began: float, why: str) -> Step:

@@ -1,0 +1,284 @@
+"""Planar feedback by masses and coils, then free swings for the height, in turn (Bologna).
+
+    hang      the masses go down, so that the platform is a pendulum whatever r_z is
+    feedback  masses integrate the tilt away, coils damp (``planar_feedback``), until it is level
+    kick      the masses lean the platform by KICK; nothing damps it
+    look      free swing, least squares for r and one moment of J, another held
+    calm      feedback again, from where the look says that it is level: a swing that is taken up
+              to where the platform is softer would grow
+    ...       feedback, kick, look and calm again at FLOOR, a tenth as deep
+    end       all masses to the target
+
+A free swing shows r and J up to one factor, so that a drawing's J makes r wrong by its own error.
+The way between the two depths is known, and tells that factor k and r at home:
+
+    r_i + s_i = k (r + s_i),    k = up.( r_1 + s_1 - r_2 - s_2 ) / up.( s_1 - s_2 )
+    r = ( r_2 + s_2 ) / k - s_2
+
+r_i is what look i says of r with the masses at home, s_i the shift at it. Another swing at FLOOR is
+made as long as it changes r by more than GAIN sds, at most MOST looks in all.
+
+(Bahu and Modenini 2020; the note of 2022 for coils. They fit J and r_z under constraints that could
+not be read, methods.md 5.6. Here what a small swing does not show of J is held, and the least
+squares are corrected for noise: constrained ones were 0.4 % further off and often not usable.)
+"""
+
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+
+from equipoise.control.law import Law, LawCard
+from equipoise.control.planar_feedback import (
+    Loop,
+    Plant,
+    Variant,
+    creep,
+    damping_torque,
+    lean,
+    loop_for,
+)
+from equipoise.control.sample import Sample
+from equipoise.maths.attitude import level, to_matrix
+from equipoise.model.arrays import Vector3
+from equipoise.model.command import Command, Look
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import COM, Estimate
+from equipoise.model.testbed import Testbed
+
+Phase = Literal["hang", "feedback", "kick", "calm", "rise", "end"]
+
+PERIOD = 0.2  # s
+METHOD = "momentum_corrected"
+SWING = 60.0  # s of a look
+FLOOR = 30e-6  # m, chosen: as shallow as a swing of 60 s still shows, a period of 50 s
+STEEP = 6.0  # chosen: of the sideways sd, so that the platform leans by ten degrees at most
+UNSURE = 2.0  # sds of the height that must still hang
+KICK = float(np.radians(8))  # rad, chosen: well above what drafts do
+LEVEL = float(np.radians(0.3))  # rad, chosen: lean and swing at which the feedback has done
+MEAN = 10.0  # s, chosen: over which these are judged
+LONGEST = 600.0  # s, chosen: feedback is left after that in any case
+GAIN = 3.0  # sds
+MOST = 4  # looks, chosen
+ROUNDING = 1e-6
+MISSES = 2  # looks that show nothing, chosen
+ARRIVED = 0.5  # s, chosen: masses that stand so long have arrived
+STANDS = 1e-10  # m
+LAG = 2.0  # s of travel, chosen: masses so far behind are not asked for more
+FAST = 0.5  # chosen: of the masses' speed, the most that feedback at ten degrees may ask for
+TEN_DEGREES = float(np.radians(10))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What is told."""
+
+    plant: Plant
+    up: Vector3
+    target: Vector3  # m
+    depth: float  # m, of the first swing
+    speed: float  # m/s, of the shift
+    variant: Variant = "sine"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shown:
+    """What a look said."""
+
+    com: Vector3  # m, masses at home
+    sd: Vector3
+    shift: Vector3  # m, at the look
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """How far it has come."""
+
+    phase: Phase
+    shift: Vector3  # m, asked for
+    loop: Loop
+    since: float | None = None  # s, when the phase began
+    lean: float = 1.0  # rad, running mean of the tilt
+    swing: float = 1.0  # rad, running mean of |w across the vertical| / w_n
+    seen_shift: Vector3 = field(default_factory=lambda: np.zeros(3))
+    stood: float = 0.0  # s, since when the masses stand
+    t: float = 0.0
+    looks: tuple[Shown, ...] = ()
+    failed: int = 0  # looks that showed nothing
+    goal: Vector3 | None = None  # m, the shift to end with
+
+
+def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
+    """Return the beginning; InputError where masses are too slow for the feedback."""
+    up, sd = testbed.up, testbed.com_sd
+    across = np.eye(3) - np.outer(up, up)
+    J = float(np.linalg.eigvalsh(across @ testbed.body.inertia_P @ across)[-1])
+    depth = max(STEEP * float(np.linalg.norm(across @ sd)), 3 * FLOOR)
+    hang = depth + UNSURE * float(abs(up @ sd)) + float(testbed.body.com @ up)
+    speed = max([m.mass * m.speed / testbed.body.mass for m in testbed.masses], default=0.0)
+    plant = Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
+    params = Params(plant, up, target, depth, speed)
+    loop = loop_for(plant, depth, params.variant)
+    if plant.coils == 0 or loop.integral * TEN_DEGREES > FAST * speed:
+        raise InputError("planar_magnetic", f"masses that shift by {1e6 * speed:.3g} um/s and "
+                         f"coils that give {plant.coils:.3g} N m", "coils, a known field, and "
+                         f"{1e6 * loop.integral * TEN_DEGREES / FAST:.3g} um/s")  # fmt: skip
+    return State("hang", -hang * up, loop), params
+
+
+def coils_of(testbed: Testbed) -> float:
+    """Return the torque (N m) that coils along all axes give across the field; else zero."""
+    coils, field = testbed.magnetorquers, testbed.magnetic_field
+    axes = np.array([coil.axis for coil in coils]).reshape(-1, 3)
+    if field is None or np.linalg.matrix_rank(axes) < 3:
+        return 0.0
+    return min(coil.max_dipole for coil in coils) * float(np.linalg.norm(field.field_N))
+
+
+def watched(state: State, seen: Sample, params: Params) -> State:
+    """Return the state with this sample in its running means."""
+    began = state.since is not None
+    n = seen.gravity / float(np.linalg.norm(seen.gravity))
+    swing = float(np.linalg.norm(np.cross(seen.rate, n))) / state.loop.swing
+    tilt = float(np.linalg.norm(lean(seen.gravity, params.up)))
+    share = 1.0 - float(np.exp(-(seen.t - state.t) / MEAN)) if began else 0.0
+    moved = bool(np.linalg.norm(seen.shift - state.seen_shift) > STANDS)
+    return replace(
+        state,
+        since=state.since if began else seen.t,
+        lean=state.lean + share * (tilt - state.lean),
+        swing=state.swing + share * (swing - state.swing),
+        stood=state.stood if began and not moved else seen.t,
+        seen_shift=seen.shift,
+        t=seen.t,
+    )
+
+
+def fed_back(state: State, seen: Sample, params: Params, dt: float) -> State:
+    """Return the state with the masses told to follow the tilt, unless they are behind."""
+    behind = float(np.linalg.norm(state.shift - seen.shift))
+    if behind > LAG * params.speed:
+        return state
+    speed = creep(seen.gravity, params.up, state.swing, state.loop)
+    return replace(state, shift=state.shift + dt * speed)
+
+
+def into(state: State, phase: Phase, shift: Vector3) -> State:
+    """Return the state at the beginning of a phase that asks for a shift (m)."""
+    since = None if state.since is None else state.t
+    return replace(state, phase=phase, shift=shift, since=since, stood=state.t, lean=1.0, swing=1.0)
+
+
+def kicked(state: State, params: Params) -> State:
+    """Return the state with the masses set to lean the platform, between its axes."""
+    x, y = to_matrix(level(params.up))[:2]
+    aside = np.tan(KICK) * state.loop.depth * (0.8 * x + 0.6 * y)
+    return into(state, "kick", state.shift + aside)
+
+
+def held(up: Vector3) -> tuple[str, ...]:
+    """Return the elements of J that a small swing about horizontal axes does not show, and one."""
+    z = int(np.argmax(np.abs(up)))
+    x, y = (i for i in range(3) if i != z)
+    pairs = ((x, x), (z, z), (x, z), (y, z))
+    return tuple("inertia_P_" + "".join("xyz"[i] for i in sorted(pair)) for pair in pairs)
+
+
+def has_arrived(state: State) -> bool:
+    """Say whether the masses have stood for a while after this phase asked for a shift."""
+    return state.since is not None and state.t >= max(state.stood, state.since) + ARRIVED
+
+
+def is_level(state: State) -> bool:
+    """Say whether the feedback has done what it can."""
+    assert state.since is not None
+    return state.lean + state.swing < LEVEL or state.t > state.since + LONGEST
+
+
+def unscaled(first: Shown, last: Shown, up: Vector3) -> Vector3:
+    """Return r (m) with the masses at home, freed of the factor that both looks share."""
+    way = float(up @ (first.shift - last.shift))
+    k = float(up @ (first.com + first.shift - last.com - last.shift)) / way
+    return (last.com + last.shift) / k - last.shift
+
+
+def believed(looks: tuple[Shown, ...], up: Vector3) -> Vector3:
+    """Return r (m) with the masses at home; one look's as it is."""
+    return looks[0].com if len(looks) == 1 else unscaled(looks[0], looks[-1], up)
+
+
+def after_look(state: State, seen: Estimate, params: Params) -> State:
+    """Return the state after a look: calmed down where it is, with what comes then."""
+    state = replace(state, since=None)  # the clock has gone on
+    if not (seen.outcome.usable and seen.sees(COM)):
+        return into(replace(state, failed=state.failed + 1), "feedback", state.shift)
+    sd, up = np.sqrt(np.diag(seen.covariance_of(COM))), params.up
+    looks = (*state.looks, Shown(seen.com, sd, state.shift))
+    r = believed(looks, up)
+    depth = -float(up @ (r + state.shift))
+    gained = len(looks) < 3 or bool(np.any(np.abs(r - believed(looks[:-1], up)) > GAIN * sd))
+    goal = -FLOOR * up if len(looks) < MOST and gained else params.target
+    loop = loop_for(params.plant, depth, params.variant)
+    state = replace(state, looks=looks, loop=loop, goal=goal - r)
+    return into(state, "calm", -depth * up - r)
+
+
+def after_calm(state: State, params: Params) -> State:
+    """Return the state on its way up, to FLOOR or to the end."""
+    assert state.goal is not None
+    depth = -float(params.up @ (state.goal + believed(state.looks, params.up)))
+    if depth < FLOOR * (1 - ROUNDING):
+        return into(state, "end", state.goal)
+    loop = loop_for(params.plant, FLOOR, params.variant)
+    return into(replace(state, loop=loop), "rise", state.goal)
+
+
+def next_of(state: State, params: Params) -> State:
+    """Return the state in the next phase, where one has ended."""
+    if state.phase in ("hang", "rise") and has_arrived(state):
+        return into(state, "feedback", state.shift)
+    if state.phase == "feedback" and is_level(state):
+        return kicked(state, params)
+    if state.phase == "calm" and is_level(state):
+        return after_calm(state, params)
+    return state
+
+
+def asked(state: State, seen: Sample, params: Params) -> Command:
+    """Return the command of a phase."""
+    if state.phase == "kick":
+        look = Look(SWING, METHOD, held(params.up)) if has_arrived(state) else None
+        return Command(shift=state.shift, look=look)
+    done = state.phase == "end" and has_arrived(state)
+    text = f"Level, and at its height after {len(state.looks)} looks." if done else ""
+    coils = damping_torque(seen.rate, state.loop)
+    return Command(shift=state.shift, magnetic=coils, finished=text)
+
+
+def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+    """Return the next state and the command."""
+    if isinstance(seen, Estimate):
+        state = after_look(state, seen, params)
+        lost = f"{MISSES} looks did not show the centre of mass: {seen.outcome.sentence}"
+        return state, Command(shift=state.shift, finished=lost if state.failed == MISSES else "")
+    dt = seen.t - state.t if state.since is not None else 0.0
+    state = watched(state, seen, params)
+    if state.phase in ("feedback", "calm"):
+        state = fed_back(state, seen, params, dt)
+    state = next_of(state, params)
+    return state, asked(state, seen, params)
+
+
+LAW = Law(
+    LawCard(
+        "planar_magnetic",
+        "masses integrate the tilt away while coils damp, and free swings tell the height",
+        "Bahu and Modenini 2020; Bologna note of 2022; methods.md 5.6",
+        ("masses", "magnetorquers", "attitude", "gyro"),
+        "TODO",
+        "TODO",
+        PERIOD,
+    ),
+    begin,
+    step,
+)
