@@ -82,8 +82,8 @@ CARD = LawCard(
     source="Cao and Hovakimyan 2006, 2008; Xuan 2016, Hua 2018 (da Silva et al. 2021, section 5)",
     needs=("masses", "gyro", "attitude"),
     leaves="the height, which it sees by looks at the end only; those know it by the inertia",
-    stable="hanging; sensors and fine masses up to 0.8 s late at 14 kg and steps of 0.25 s, spin to "
-    "17 deg/s, half to twice the stiffness that is believed",
+    stable="hanging; sensors and fine masses up to 0.8 s late at 14 kg and steps of 0.25 s, spin "
+    "to 17 deg/s, half to twice the stiffness that is believed",
     period=PERIOD,
 )
 

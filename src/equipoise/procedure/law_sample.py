@@ -84,7 +84,8 @@ def _over(channel: Samples) -> Floats:
     t, values = channel.t, channel.values
     if len(t) < 2:
         return np.zeros(values.shape[1])
-    whole: Floats = np.diff(t, prepend=2 * t[0] - t[1]) @ values
+    since: Floats = np.diff(t, prepend=2 * t[0] - t[1])
+    whole: Floats = np.sum(since[:, None] * values, axis=0)
     return whole
 
 
