@@ -138,9 +138,9 @@ def targets(bed: Testbed, goal: np.ndarray, shift: np.ndarray) -> np.ndarray:
     left = MASS * shift - coarse.mass * goal[:3]
     steps = np.where(np.abs(left) > 1.5 * step, np.round(left / step), 0.0)
     left = left - steps * step
-    return np.concatenate([
-        goal[:3] + steps * coarse.resolution, np.round(left / small) * fine.resolution
-    ])
+    return np.concatenate(
+        [goal[:3] + steps * coarse.resolution, np.round(left / small) * fine.resolution]
+    )
 
 
 def moved(d: np.ndarray, goal: np.ndarray, testbed: Testbed, dt: float) -> np.ndarray:

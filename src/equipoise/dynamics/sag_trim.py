@@ -36,15 +36,15 @@ def sag_matrix(terms: Mapping[str, float]) -> Matrix3:
 def downs(up: Vector3, tilt: float) -> tuple[Series3, Floats]:
     """Return directions of gravity within a tilt (rad) of level, and their weights, (n, 1)."""
     points, weights = np.polynomial.legendre.leggauss(NODES)
-    low = np.cos(tilt)
+    low = float(np.cos(tilt))
     cosine = np.repeat(0.5 * (1 + low) + 0.5 * (1 - low) * points, HEADINGS)
     heading = np.tile(2 * np.pi * np.arange(HEADINGS) / HEADINGS, NODES)
     sine = np.sqrt(1 - cosine**2)
     n = -np.column_stack([sine * np.cos(heading), sine * np.sin(heading), cosine])
     # R(level(up)) brings ``up`` to z; its transpose brings directions about z to those about up.
     weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)[:, None]
-    about_up: Series3 = n @ to_matrix(level(up))
-    return about_up, weight
+    turn: Matrix3 = to_matrix(level(up))
+    return n @ turn, weight
 
 
 def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
@@ -52,8 +52,9 @@ def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
     n, weight = downs(up, tilt)
     across = np.eye(3) - (weight * n).T @ n
     bent = n @ sag
-    along = np.sum(n * bent, axis=1, keepdims=True)
-    return np.linalg.solve(across, -np.sum(weight * (bent - along * n), axis=0))
+    along: Floats = np.sum(n * bent, axis=1, keepdims=True)
+    right: Vector3 = -np.sum(weight * (bent - along * n), axis=0)
+    return np.linalg.solve(across, right)
 
 
 def residual_torque(com: Vector3, sag: Matrix3, up: Vector3, tilt: float) -> float:
