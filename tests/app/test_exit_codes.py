@@ -128,18 +128,18 @@ def verdict_step(passed: bool) -> Step:
 
 @pytest.mark.parametrize(("passed", "code"), [(True, 0), (False, 1)])
 def test_the_verdict_is_the_exit_code(equipoise, monkeypatch, passed, code):
-    monkeypatch.setattr(balancing, "balance", lambda bench, options: iter([verdict_step(passed)]))
+    monkeypatch.setattr(balancing, "balanced_by", lambda *_: iter([verdict_step(passed)]))
     assert equipoise("balance", "sputnix").code == code
 
 
 def test_ctrl_c_halts_the_bench_and_says_so(equipoise, monkeypatch):
     halted = []
 
-    def interrupted(bench, options):
+    def interrupted(law, bench, options, longest):
         yield Step("look", bench.time, "Looked.", recording=bench.read(1.0))
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(balancing, "balance", interrupted)
+    monkeypatch.setattr(balancing, "balanced_by", interrupted)
     monkeypatch.setattr(SimulatedBench, "stop", lambda bench: halted.append(bench.time))
     done = equipoise("balance", "sputnix", "--out", "here")
     assert done.code == 130

@@ -120,6 +120,22 @@ def test_moves_of_masses_are_told_with_times_and_sizes() -> None:
     assert "mass x1 moves from 0 to -10 mm" in moves[0].sentence
 
 
+def test_devices_and_the_field_are_told_and_strangers_named() -> None:
+    """A wheel and a magnetometer beside the camera; the testbed has a wheel of another name."""
+    t, q = np.arange(6.0), swing(np.random.default_rng(3))[0]
+    devices, field = Samples(t, np.ones((6, 2))), Samples(t, np.full((6, 3), 2e-5))
+    names = ("wheel:rw_x", "jet:rw_y")
+    record = Recording(Samples(T, q), device_names=names, devices=devices, field=field)
+    told = " ".join(f.sentence for f in findings(record, read_preset("reference-table")))
+    assert "devices of wheel:rw_x, jet:rw_y: 6 rows from 0 to 5 s, 1 Hz." in told
+    assert "magnetic field: 6 rows from 0 to 5 s, 1 Hz." in told
+    assert "device jet:rw_y is not in the testbed; did you mean 'jet:jp_y'?" in told
+    assert "device wheel:rw_x" not in told
+    bare = " ".join(f.sentence for f in findings(record, read_preset("sputnix")))
+    assert "device wheel:rw_x is not in the testbed; it has none" in bare
+    assert "device" not in said(record)
+
+
 def test_a_platform_on_its_side_is_a_turned_frame() -> None:
     """Leaning by 90 deg about x, body y points up; if the testbed says z, the frame is turned."""
     q = exponential(np.tile([np.pi / 2, 0, 0], (50, 1)))

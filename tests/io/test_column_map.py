@@ -64,6 +64,35 @@ def test_declared_units_become_si(tmp_path) -> None:
     np.testing.assert_array_equal(recording.attitude.values, Q)
 
 
+def test_devices_and_a_magnetometer_are_declared_with_their_units(tmp_path) -> None:
+    """rpm, deg, mA m2 and mN m, all of one column; nT, in axes of its own."""
+    device = '[[device]]\nname = "{}"\nreports = "{}"\ncolumn = "stage"\nunit = "{}"\n'
+    kinds = [
+        ("x", "wheel", "rpm"),
+        ("a", "gimbal", "deg"),
+        ("m", "dipole", "mA m2"),
+        ("j", "jet", "mN m"),
+    ]
+    field = '[field]\ncolumns = ["gx", "gy", "gz"]\nunit = "nT"\naxes = ["y", "-x", "z"]\n'
+    recording = read(tmp_path, MAP + "".join(device.format(*kind) for kind in kinds) + field)
+    assert recording.device_names == ("wheel:x", "gimbal:a", "dipole:m", "jet:j")
+    last = [1500 * np.pi / 30, 1500 * np.pi / 180, 1.5, 1.5]
+    np.testing.assert_allclose(recording.devices.values[-1], last, rtol=1e-12)
+    turned = np.degrees(W)[:, [1, 0, 2]] * [1, -1, 1]
+    np.testing.assert_allclose(recording.field.values, turned * 1e-9, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("kind", "unit", "words"),
+    [("wheel", "N m", "rad/s"), ("jet", "rpm", "N m"), ("rotor", "rpm", "'wheel', 'gimbal'")],
+)
+def test_a_device_in_a_unit_that_it_cannot_have_is_refused(tmp_path, kind, unit, words) -> None:
+    """A speed is no torque, and a kind that is not known is named."""
+    device = f'[[device]]\nname = "x"\nreports = "{kind}"\ncolumn = "stage"\nunit = "{unit}"\n'
+    with pytest.raises(InputError, match=words):
+        read(tmp_path, MAP + device)
+
+
 def test_order_and_direction_are_declared(tmp_path) -> None:
     """Scalar last, laboratory to body: the same attitudes."""
     text = MAP.replace('"wxyz"', '"xyzw"\nturns = "laboratory to body"')

@@ -6,6 +6,7 @@ import pytest
 from equipoise.io.frame_check import check_frame
 from equipoise.io.presets import read_preset
 from equipoise.io.recording_file import read_recording, write_recording
+from equipoise.io.testbed_file import parse_testbed
 from equipoise.maths.attitude import exponential
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
@@ -51,6 +52,26 @@ CASES = {
         ["'omega_x_deg_s'", "'omega_x_rad_s'"],
     ),
     "mass in metres": (GOOD.replace("q_w", "mass_x1_m"), ", header", ["'mass_<name>_mm'"]),
+    "wheel in rpm": (GOOD.replace("q_w", "wheel_x_rpm"), ", header", ["'wheel_<name>_rad_s'"]),
+    "gimbal in radians": (GOOD.replace("q_w", "gimbal_a_rad"), ", header", ["'gimbal_<name>_deg'"]),
+    "a jet of no name": (GOOD.replace("q_w", "jet_N_m"), ", header", ["'jet_<name>_N_m'"]),
+    "a dipole in Am2": (GOOD.replace("q_w", "dipole_x_Am2"), ", header", ["'dipole_<name>_A_m2'"]),
+    "field in tesla": (
+        GOOD.replace("q_w,q_x,q_y", "field_x_T,field_y_T,field_z_T"),
+        ", header",
+        ["field_x_T", "field_x_uT"],
+    ),
+    "half a field": (
+        "time_s,q_w,q_x,q_y,q_z,field_x_uT,field_y_uT\n" + "0,1,0,0,0,20,30\n",
+        ", header",
+        ["field_x_uT field_y_uT without field_z_uT"],
+    ),
+    "one wheel blank": (
+        "time_s,q_w,q_x,q_y,q_z,wheel_x_rad_s,wheel_y_rad_s\n"
+        + "".join(r.replace("\n", ",1,\n") for r in ROWS),
+        ", line 2, column 'wheel_y_rad_s'",
+        ["a blank cell", "the other columns of devices"],
+    ),
     "no sensor": ("time_s,mass_x1_mm\n0,0\n1,0\n2,0\n", "", ["neither attitude nor rate"]),
     "a column twice": (TWICE, ", header", ["two columns 'q_z'"]),
     "nobody's header": ("alpha,beta\n1,2\n3,4\n", ", header", ["alpha, beta", "--columns"]),
@@ -106,6 +127,20 @@ def test_a_mass_that_the_testbed_lacks_names_the_nearest(tmp_path) -> None:
     read_recording(path)
     with pytest.raises(InputError, match=r"mass 'x12'; wanted did you mean 'x[12]'"):
         read_recording(path, testbed=read_preset("sputnix"))
+
+
+def test_a_device_that_the_testbed_lacks_names_the_nearest(tmp_path) -> None:
+    """With a testbed at hand, the recording may tell of its devices alone, and of their kinds."""
+    text = 'name = "t"\n[platform]\nmass_kg = 9\ninertia_kg_m2 = [[1,0,0],[0,1,0],[0,0,1]]\n'
+    coil = '[[magnetorquer]]\nname = "x"\naxis = [1, 0, 0]\nmax_dipole_A_m2 = 1\n'
+    path = tmp_path / "run.csv"
+    path.write_text(GOOD.replace("q_w", "wheel_x_rad_s,q_w").replace(",1,", ",0,1,"))
+    assert read_recording(path).device_names == ("wheel:x",)
+    with pytest.raises(InputError, match=r"device 'wheel:x'; wanted no device"):
+        read_recording(path, testbed=parse_testbed(text, "t"))
+    bed = parse_testbed(text + coil + "[magnetic_field]\nfield_uT = [0, 0, 9]", "t")
+    with pytest.raises(InputError, match=r"device 'wheel:x'; wanted one of dipole:x"):
+        read_recording(path, testbed=bed)
 
 
 def test_broken_parquet_is_named(tmp_path) -> None:

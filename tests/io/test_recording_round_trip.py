@@ -19,6 +19,15 @@ NAMES = st.lists(
     st.from_regex(r"[a-z][a-z0-9_]{0,5}", fullmatch=True), min_size=1, max_size=3, unique=True
 )
 
+DEVICES = st.lists(
+    st.from_regex(r"(wheel|gimbal|dipole|jet):[a-z][a-z0-9_]{0,5}", fullmatch=True),
+    min_size=1,
+    max_size=4,
+    unique=True,
+)
+# Not in SI in the file: to units in the last place.
+ULP = {"masses": 2, "field": 2, "devices": 4}
+
 
 def times(rng: np.random.Generator, n: int) -> np.ndarray:
     """Draw strictly growing times, some shared between channels and some not."""
@@ -42,6 +51,7 @@ def channels(draw: st.DrawFn) -> dict[str, Any]:
     turns = np.cumsum(rng.normal(scale=0.05, size=(n, 3)), axis=0)
     attitude = Samples(times(rng, n), exponential(turns)) if draw(st.booleans()) else None
     names = tuple(draw(NAMES)) if draw(st.booleans()) else ()
+    devices = tuple(draw(DEVICES)) if draw(st.booleans()) else ()
     return {
         "attitude": attitude,
         "rate": vectors(0.1) if attitude is None or draw(st.booleans()) else None,
@@ -49,22 +59,26 @@ def channels(draw: st.DrawFn) -> dict[str, Any]:
         "masses": vectors(0.05, len(names)) if names else None,
         "momentum": vectors(1e-3) if draw(st.booleans()) else None,
         "torque": vectors(1e-6) if draw(st.booleans()) else None,
+        "device_names": devices,
+        "devices": vectors(10.0, len(devices)) if devices else None,
+        "field": vectors(5e-5) if draw(st.booleans()) else None,
     }
 
 
 def assert_same(again: Recording, first: Recording) -> None:
-    """Every channel to the last bit; masses, stored in mm, within two units in the last place."""
+    """Every channel to the last bit; what is not in SI in the file, to a few units of the last."""
     assert again.mass_names == first.mass_names
+    assert again.device_names == first.device_names
     for name in CHANNELS:
         ours, theirs = getattr(again, name), getattr(first, name)
         assert (ours is None) == (theirs is None)
         if ours is None:
             continue
         np.testing.assert_array_equal(ours.t, theirs.t)
-        if name == "masses":
-            np.testing.assert_array_max_ulp(ours.values, theirs.values, maxulp=2)
-        else:
-            np.testing.assert_array_equal(ours.values, theirs.values)
+        np.testing.assert_array_max_ulp(ours.values, theirs.values, maxulp=ULP.get(name, 0))
+    for k, name in enumerate(first.device_names):
+        if not name.startswith("gimbal"):
+            np.testing.assert_array_equal(again.devices.values[:, k], first.devices.values[:, k])
 
 
 @pytest.mark.parametrize("suffix", ["csv", "parquet"])
@@ -80,6 +94,9 @@ def test_a_recording_comes_back_to_the_last_bit(tmp_path_factory, suffix, parts)
     again = read_recording(path)
     assert_same(again, first)
     assert [note for note in again.notes if " gap" not in note] == []
+
+
+LEVEL = np.tile([1.0, 0.0, 0.0, 0.0], (3, 1))
 
 
 def simple(n: int = 5) -> Recording:
@@ -107,6 +124,54 @@ def test_the_header_is_the_documented_one(tmp_path) -> None:
     assert lines[0] == "time_s,q_w,q_x,q_y,q_z,mass_x1_mm"
     assert lines[1].endswith(",12.3")
     assert lines[2].endswith(",")
+
+
+def test_each_kind_of_device_has_its_unit_in_the_header(tmp_path) -> None:
+    """A speed in rad/s, an angle in deg, a dipole, a torque; the field in uT; in their order."""
+    path, t = tmp_path / "r.csv", np.arange(3.0)
+    names = ("jet:y", "wheel:r_s", "gimbal:a", "dipole:x")
+    rows = Samples(t[:1], np.array([[0.02, -10.5, np.pi / 4, 0.4]]))
+    field = Samples(t[:1], np.array([[0, -2e-5, 5e-5]]))
+    write_recording(
+        Recording(Samples(t, LEVEL), device_names=names, devices=rows, field=field), path
+    )
+    head, first, second, _ = path.read_text().splitlines()
+    columns = (
+        "jet_y_N_m,wheel_r_s_rad_s,gimbal_a_deg,dipole_x_A_m2,field_x_uT,field_y_uT,field_z_uT"
+    )
+    assert head == f"time_s,q_w,q_x,q_y,q_z,{columns}"
+    cells = list(map(float, first.split(",")[5:]))
+    np.testing.assert_allclose(cells, [0.02, -10.5, 45, 0.4, 0, -20, 50], rtol=1e-15)
+    assert second.endswith(",,,,,,")
+    again = read_recording(path)
+    assert again.device_names == names
+    assert_same(again, Recording(Samples(t, LEVEL), device_names=names, devices=rows, field=field))
+
+
+def test_a_device_that_never_turns_is_kept_and_a_dead_magnetometer_is_not(tmp_path) -> None:
+    """A wheel at rest is a fact; a field of zero is nobody's."""
+    path, t = tmp_path / "r.csv", np.arange(3.0)
+    still, dead = Samples(t, np.zeros((3, 1))), Samples(t, np.zeros((3, 3)))
+    write_recording(
+        Recording(Samples(t, LEVEL), device_names=("wheel:x",), devices=still, field=dead), path
+    )
+    again = read_recording(path)
+    assert again.device_names == ("wheel:x",)
+    assert again.field is None
+    assert any(note.startswith("field: zero in every row") for note in again.notes)
+
+
+def test_a_device_of_no_kind_is_not_written(tmp_path) -> None:
+    """Its unit would be anyone's guess."""
+    rows = Samples(np.arange(3.0), np.ones((3, 1)))
+    with pytest.raises(InputError, match=r"found 'x'; wanted its name after 'wheel:', 'gimbal:'"):
+        write_recording(
+            Recording(
+                rate=Samples(np.arange(3.0), np.ones((3, 3))), device_names=("x",), devices=rows
+            ),
+            tmp_path / "r.csv",
+        )
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("name", ["r.xlsx", "r"])

@@ -267,6 +267,14 @@ def test_a_testbed_written_and_read_again_is_the_same(text: str) -> None:
     assert again.truth.torque == pytest.approx(first.truth.torque, rel=1e-12)
 
 
+def test_what_is_assumed_of_a_noise_density_is_written_of_the_noise() -> None:
+    """A written file has the noise per sample, and must not name a key that it lacks."""
+    key = "sensor.gyro.noise_density_deg_s_rthz"
+    text = MINIMAL + "[sensor.gyro]\nrate_hz = 100\nnoise_density_deg_s_rthz = 0.01\n"
+    first = parse_testbed(f'{text}[assumed]\n"{key}" = "so"\n', "t")
+    assert parse_testbed(text_of(first), "t").assumed == {"sensor.gyro.noise_deg_s": "so"}
+
+
 def test_writing_a_text_keeps_its_comments(tmp_path) -> None:
     """A preset's remarks survive being written."""
     path = tmp_path / "my.toml"

@@ -1,8 +1,11 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
-from equipoise.model.recording import Recording, Samples, arranged, join, window
+from equipoise.model.devices import ControlMomentGyro, Device, JetPair, ReactionWheel
+from equipoise.model.errors import InputError
+from equipoise.model.recording import Recording, Samples, arranged, arranged_devices, join, window
 
 LEVEL = [1.0, 0.0, 0.0, 0.0]
 
@@ -135,3 +138,48 @@ def test_lengths_stay_with_the_rows_of_the_attitude():
         np.testing.assert_array_equal(rows.attitude_norm.values[:, 0], rows.attitude.t)
     second_alone = join(replace(early, attitude_norm=None), late)
     assert second_alone.attitude_norm.t.tolist() == [5.0, 6.0, 7.0, 8.0, 9.0, 10.0]
+
+
+X, Y = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
+DEVICES: tuple[Device, ...] = (
+    ReactionWheel("x", X, 1e-4, 600.0, 0.01, speed=30.0),
+    ReactionWheel("y", Y, 1e-4, 600.0, 0.01),
+    ControlMomentGyro("a", X, Y, 1.0, 2.0, angle=0.5),
+    JetPair("x", X, 0.02),
+)
+
+
+def of_devices(*names: str) -> Recording:
+    """Rows at 0 s and 1 s; the k-th column is k + 1 throughout."""
+    values = np.tile(np.arange(1.0, len(names) + 1), (2, 1))
+    return Recording(device_names=names, devices=Samples(np.arange(2.0), values), source="r.csv")
+
+
+def test_device_columns_come_in_the_order_of_the_devices():
+    """A wheel and a jet of one name are told apart."""
+    there = arranged_devices(of_devices("jet:x", "gimbal:a", "wheel:x", "wheel:y"), DEVICES)
+    assert there.device_names == ("wheel:x", "wheel:y", "gimbal:a", "jet:x")
+    np.testing.assert_array_equal(there.devices.values, [[3, 4, 2, 1], [3, 4, 2, 1]])
+    assert arranged_devices(there, DEVICES) is there
+
+
+def test_a_device_that_was_not_recorded_stays_as_it_is_at_the_start():
+    there = arranged_devices(of_devices("wheel:y"), DEVICES)
+    np.testing.assert_array_equal(there.devices.values, [[30, 1, 0.5, 0], [30, 1, 0.5, 0]])
+
+
+def test_a_record_without_devices_is_left_as_it_is():
+    record = ten_seconds()
+    assert arranged_devices(record, DEVICES) is record
+
+
+@pytest.mark.parametrize(
+    ("name", "devices", "words"),
+    [
+        ("wheel:yy", DEVICES, "r.csv: devices: found 'wheel:yy'; wanted did you mean 'wheel:y'"),
+        ("wheel:y", (), "wanted none: the testbed has none"),
+    ],
+)
+def test_a_device_that_is_not_there_is_named_with_the_nearest(name, devices, words):
+    with pytest.raises(InputError, match=words):
+        arranged_devices(of_devices(name), devices)

@@ -11,14 +11,16 @@ from equipoise.app.recorded_bench import RecordedBench
 from equipoise.app.terminal import watched
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.bench import Bench
+from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, END, INERTIA, Estimate
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.procedure.balance import BalanceOptions
 from equipoise.procedure.hold import HoldOptions, balance_and_hold
+from equipoise.procedure.laws import OWN, balanced_by
 from equipoise.simulation.bench import SimulatedBench
 
 HALTED = "every mass was halted where it is"
@@ -57,11 +59,12 @@ class Balancing:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Limits:
-    """When to give up (None: as the procedure has it), and how long to hold what was reached."""
+    """By which law, when to give up (None: as the law has it), how long to hold the balance."""
 
     max_moves: int | None = None
     max_time: float | None = None  # s
     hold: float = 0.0  # s
+    law: str = OWN.name
 
 
 def run(
@@ -90,7 +93,10 @@ def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     moves = usual.max_moves if limits.max_moves is None else limits.max_moves
     balancing = replace(usual, max_moves=moves, max_time=limits.max_time or usual.max_time)
     if limits.hold == 0:
-        return balance(bench, balancing)
+        return balanced_by(limits.law, bench, balancing, limits.max_time)
+    if limits.law != OWN.name:
+        wanted = f"a hold after {OWN.name}, or no hold"
+        raise InputError("--hold-min", f"a hold after {limits.law}", wanted)
     return balance_and_hold(bench, balancing, holding)
 
 

@@ -13,9 +13,11 @@ from cyclopts import App, CycloptsError, Parameter
 
 from equipoise import __version__
 from equipoise.app.commands.balance import balance
+from equipoise.app.commands.compare import compare
 from equipoise.app.commands.demo import demo
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.inspect import inspect
+from equipoise.app.commands.laws import laws
 from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
@@ -35,7 +37,7 @@ app = App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for command in (demo, new, simulate, inspect, observe, identify, methods, balance):
+for command in (demo, new, simulate, inspect, observe, identify, methods, balance, laws, compare):
     app.command(command)
 
 

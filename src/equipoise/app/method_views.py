@@ -5,7 +5,7 @@ from dataclasses import asdict
 
 from rich.table import Table
 
-from equipoise.app.tables import quiet_table
+from equipoise.app.tables import named_rows, quiet_table
 from equipoise.app.views_json import View
 from equipoise.estimation.method import REGIMES, Card
 
@@ -25,13 +25,7 @@ def list_table(cards: Sequence[Card]) -> Table:
 
 def card_table(card: Card) -> Table:
     """Return all that a card says."""
-    table = quiet_table()
-    table.show_header = False
-    table.add_column(style="bold", no_wrap=True)
-    table.add_column()
-    for head, text in card_rows(card):
-        table.add_row(head, text)
-    return table
+    return named_rows(card_rows(card))
 
 
 def card_rows(card: Card) -> list[tuple[str, str]]:

@@ -16,7 +16,14 @@ from equipoise.model.step import Step
 
 MARKS = {"content": "  ", "motion": "  ", "problem": "! ", "mended": "~ "}
 FINDING_STYLE = {"content": "", "motion": "", "problem": "bold yellow", "mended": "dim"}
-STEP_STYLE = {"look": "dim", "estimate": "", "move": "cyan", "verify": "bold", "stop": "bold"}
+STEP_STYLE = {
+    "look": "dim",
+    "estimate": "",
+    "move": "cyan",
+    "control": "cyan",
+    "verify": "bold",
+    "stop": "bold",
+}
 
 
 def finding_line(finding: Finding) -> Table:
@@ -43,6 +50,17 @@ def step_line(step: Step) -> Table:
 def quiet_table() -> Table:
     """Return a table without lines between rows."""
     return Table(box=None, pad_edge=False)
+
+
+def named_rows(texts: Sequence[tuple[str, str]]) -> Table:
+    """Return names and texts, line by line."""
+    table = quiet_table()
+    table.show_header = False
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column()
+    for name, text in texts:
+        table.add_row(name, text)
+    return table
 
 
 def titled(title: str, table: Table) -> Group:

@@ -135,6 +135,7 @@ def findings_json(recording: Recording, findings: Sequence[Finding]) -> View:
         "span_s": recording.span,
         "rows": {name: 0 if c is None else len(c) for name, c in channels.items()},
         "masses": list(recording.mass_names),
+        "devices": list(recording.device_names),
         "findings": [finding_json(f) for f in findings],
     }
 

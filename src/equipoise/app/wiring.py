@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.app.commands.reading import Reading
 from equipoise.app.commands.seeking import Seeking
 from equipoise.app.options import one_of
@@ -15,7 +16,7 @@ from equipoise.io.recording_file import read_recording
 from equipoise.io.testbed_file import read_testbed
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.model.recording import Recording, arranged, window
+from equipoise.model.recording import Recording, arranged, arranged_devices, window
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
 
@@ -42,13 +43,15 @@ def recording_of(file: str, reading: Reading) -> Recording:
 
 
 def fitting_recording_of(file: str, reading: Reading, testbed: Testbed) -> Recording:
-    """Return a recording that fits a testbed: masses are the testbed's, gravity points down.
+    """Return a recording that fits a testbed: masses and devices are its, gravity points down.
 
     What is known of times that no sensor saw is left out: a move behind the last row, say.
     """
     recording = read_recording(file, _columns(reading), testbed)
     check_frame(recording, testbed)
-    return part_of(arranged(recording, testbed.mass_names), reading)
+    recording = arranged(recording, testbed.mass_names)
+    recording = with_known_inputs(arranged_devices(recording, testbed.devices), testbed)
+    return part_of(recording, reading)
 
 
 def spelt_out(seeking: Seeking) -> Seeking:

@@ -19,18 +19,21 @@ def content_findings(recording: Recording) -> list[Finding]:
         ("masses", recording.masses),
         ("stored momentum", recording.momentum),
         ("known torque", recording.torque),
+        ("devices", recording.devices),
+        ("magnetic field", recording.field),
     )
+    parts = {"masses": recording.mass_names, "devices": recording.device_names}
     present = [(name, c) for name, c in named if c is not None and len(c)]
     absent = [name for name in ("attitude", "rate") if name not in dict(present)]
-    content = [_content(name, channel, recording.mass_names) for name, channel in present]
+    content = [_content(name, channel, parts.get(name, ())) for name, channel in present]
     content += [Finding("content", f"No {name} was recorded.") for name in absent]
     sensors = [(name, c) for name, c in present if name in ("attitude", "rate")]
     return content + [gap for name, c in sensors for gap in _timing(name, c)]
 
 
-def _content(name: str, channel: Samples, masses: tuple[str, ...]) -> Finding:
+def _content(name: str, channel: Samples, parts: tuple[str, ...]) -> Finding:
     first, last = float(channel.t[0]), float(channel.t[-1])
-    of = f" of {', '.join(masses)}" if name == "masses" else ""
+    of = f" of {', '.join(parts)}" if parts else ""
     text = f"{name}{of}: {len(channel)} rows from {first:.6g} to {last:.6g} s"
     if len(channel) > 1:
         text += f", {1 / channel.period:.4g} Hz"

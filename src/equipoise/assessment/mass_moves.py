@@ -3,8 +3,8 @@
 import numpy as np
 
 from equipoise.assessment.finding import Finding
+from equipoise.assessment.strangers import stranger_findings
 from equipoise.model.arrays import Series1
-from equipoise.model.errors import nearest
 from equipoise.model.recording import Recording
 
 STILL = 1e-6  # m between rows; chosen: below any actuator's step, above an encoder's flicker
@@ -16,7 +16,7 @@ def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[F
     masses = recording.masses
     if masses is None or not len(masses):
         return [Finding("content", "No mass positions were recorded: the scale stays open.")]
-    found = _strangers(recording.mass_names, known)
+    found = stranger_findings("mass", recording.mass_names, known)
     moves = [
         move
         for i, name in enumerate(recording.mass_names)
@@ -44,15 +44,4 @@ def _moves(name: str, t: Series1, x: Series1) -> list[Finding]:
             name,
         )
         for a, b in zip(starts.tolist(), ends.tolist(), strict=True)
-    ]
-
-
-def _strangers(names: tuple[str, ...], known: tuple[str, ...] | None) -> list[Finding]:
-    """Return a problem for each mass that the testbed does not have."""
-    if known is None:
-        return []
-    return [
-        Finding("problem", f"mass {name} is not in the testbed; {nearest(name, list(known))}")
-        for name in names
-        if name not in known
     ]

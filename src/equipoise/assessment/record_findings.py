@@ -13,6 +13,7 @@ from equipoise.assessment.odd_rows import odd_row_findings
 from equipoise.assessment.rate_quality import rate_findings
 from equipoise.assessment.row_averaging import averaging_findings
 from equipoise.assessment.shown_sensors import unstated_findings
+from equipoise.assessment.strangers import stranger_findings
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -20,11 +21,13 @@ from equipoise.model.testbed import Testbed
 def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Finding, ...]:
     """Return all findings; a testbed adds what only it can tell, such as which axis is up."""
     masses = tuple(mass.name for mass in testbed.masses) if testbed else None
+    devices = testbed.device_names if testbed else None
     sensors = (None, None) if testbed is None else (testbed.attitude, testbed.gyro)
     up = None if testbed is None else testbed.up
     return (
         *content_findings(recording),
         *move_findings(recording, masses),
+        *stranger_findings("device", recording.device_names, devices),
         *motion_findings(recording.attitude, up),
         *noise_findings(recording.attitude),
         *averaging_findings(recording, sensors[0]),

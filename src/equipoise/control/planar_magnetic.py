@@ -1,7 +1,7 @@
 """Planar feedback by masses and coils, then free swings for the height, in turn (Bologna).
 
     hang      the masses go down, so that the platform is a pendulum whatever r_z is
-    feedback  masses integrate the tilt away, coils damp (``tilt_feedback``), until it is level
+    feedback  masses integrate the tilt away, coils damp (``planar_feedback``), until it is level
     kick      the masses lean the platform by KICK; nothing damps it
     look      free swing, least squares for r and one moment of J, another held
     calm      feedback again, from where the look says that it is level: a swing that is taken up
@@ -28,7 +28,7 @@ from equipoise.control.law import Law, LawCard
 from equipoise.control.sample import Sample
 from equipoise.control.slew import moment_across
 from equipoise.control.swing_looks import METHOD, Shown, believed, held, shown
-from equipoise.control.tilt_feedback import (
+from equipoise.control.planar_feedback import (
     Loop,
     Plant,
     Variant,

@@ -36,25 +36,35 @@ def sag_matrix(terms: Mapping[str, float]) -> Matrix3:
 def downs(up: Vector3, tilt: float) -> tuple[Series3, Floats]:
     """Return directions of gravity within a tilt (rad) of level, and their weights, (n, 1)."""
     points, weights = np.polynomial.legendre.leggauss(NODES)
-    low = float(np.cos(tilt))
+    low = np.cos(tilt)
     cosine = np.repeat(0.5 * (1 + low) + 0.5 * (1 - low) * points, HEADINGS)
     heading = np.tile(2 * np.pi * np.arange(HEADINGS) / HEADINGS, NODES)
     sine = np.sqrt(1 - cosine**2)
     n = -np.column_stack([sine * np.cos(heading), sine * np.sin(heading), cosine])
     # R(level(up)) brings ``up`` to z; its transpose brings directions about z to those about up.
-    weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)[:, None]
-    turn: Matrix3 = to_matrix(level(up))
-    return n @ turn, weight
+    weight: Floats = np.repeat(0.5 * weights / HEADINGS, HEADINGS)
+    turned: Series3 = n @ to_matrix(level(up))
+    return turned, weight.reshape(-1, 1)
+
+
+def acting_com(com: Vector3, sag: Matrix3, up: Vector3) -> Vector3:
+    """Return the centre of mass (m) of a stiff platform that behaves alike at small tilts.
+
+    Level, C adds -C u to r. A little tilted it adds to the weight's lever as a height of
+    (tr C - 3 u^T C u) / 2 would, the mean over both horizontal axes.
+    """
+    level_height = up @ sag @ up
+    return com - sag @ up + 0.5 * (np.trace(sag) - level_height) * up
 
 
 def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
     """Return the centre of mass (m) that leaves the least torque within a tilt (rad)."""
     n, weight = downs(up, tilt)
-    across = np.eye(3) - (weight * n).T @ n
-    bent = n @ sag
+    across: Matrix3 = np.eye(3) - (weight * n).T @ n
+    bent: Series3 = n @ sag
     along: Floats = np.sum(n * bent, axis=1, keepdims=True)
-    right: Vector3 = -np.sum(weight * (bent - along * n), axis=0)
-    return np.linalg.solve(across, right)
+    pull: Vector3 = np.sum(weight * (bent - along * n), axis=0)
+    return -np.linalg.inv(across) @ pull
 
 
 def residual_torque(com: Vector3, sag: Matrix3, up: Vector3, tilt: float) -> float:

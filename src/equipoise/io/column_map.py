@@ -37,6 +37,15 @@ class MassColumn:
 
 
 @dataclass(frozen=True, slots=True)
+class DeviceColumn:
+    """A device, as a recording names it ('wheel:x'), and the column of what it reported."""
+
+    device: str
+    column: str
+    factor: float  # to rad/s, rad, A m^2 or N m, see ``model.devices``
+
+
+@dataclass(frozen=True, slots=True)
 class Layout:
     """How a text is cut into cells. What is None is found out by looking."""
 
@@ -57,6 +66,8 @@ class ColumnMap:
     masses: tuple[MassColumn, ...] = ()
     momentum: Columns | None = None
     torque: Columns | None = None
+    devices: tuple[DeviceColumn, ...] = ()
+    field: Columns | None = None
     lab_up: str = "z"  # the laboratory axis of the table that points up
     body: tuple[str, str, str] = ("x", "y", "z")  # our body axes in terms of the table's
     inverse: bool = False  # the attitude turns laboratory into body components

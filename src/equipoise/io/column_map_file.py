@@ -21,6 +21,14 @@ axes = ["x", "y", "-z"]             # left out: as body
 name = "x1"
 column = "stage 1"
 unit = "mm"
+[[device]]
+name = "x"
+reports = "wheel"                   # wheel: speed, gimbal: angle, dipole, jet: torque
+column = "rw1 speed"
+unit = "rpm"
+[field]
+columns = ["bx", "by", "bz"]        # a magnetometer's, body axes
+unit = "nT"
 """
 
 from pathlib import Path
@@ -30,16 +38,19 @@ import numpy as np
 from pydantic import Field
 
 from equipoise.io.axis_turns import axes_matrix
-from equipoise.io.column_map import ColumnMap, Columns, Euler, Layout, MassColumn
-from equipoise.io.testbed_schema import Table
+from equipoise.io.column_map import ColumnMap, Columns, DeviceColumn, Euler, Layout, MassColumn
+from equipoise.io.table_keys import Table
 from equipoise.io.toml_file import read_toml
 from equipoise.io.unit_names import factor
+from equipoise.model.devices import Reported
 from equipoise.model.errors import InputError
 
 WANTED = "a column map (TOML)"
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 Axes = Annotated[list[Axis], Field(min_length=3, max_length=3)]
 Three = Annotated[list[str], Field(min_length=3, max_length=3)]
+# What a device reports: the kind of unit.
+QUANTITY = {"wheel": "rate", "gimbal": "angle", "dipole": "dipole", "jet": "torque"}
 
 
 class TimeTable(Table):
@@ -75,6 +86,15 @@ class MassTable(Table):
     unit: str
 
 
+class DeviceTable(Table):
+    """What a device of the testbed reported."""
+
+    name: str
+    reports: Reported
+    column: str
+    unit: str
+
+
 class MapFile(Table):
     """A column map file as a whole."""
 
@@ -90,6 +110,8 @@ class MapFile(Table):
     mass: list[MassTable] = Field([])
     momentum: TriadTable | None = None
     torque: TriadTable | None = None
+    device: list[DeviceTable] = Field([])
+    field: TriadTable | None = None
 
 
 def read_column_map(path: str | Path) -> ColumnMap:
@@ -109,6 +131,8 @@ def read_column_map(path: str | Path) -> ColumnMap:
         masses=tuple(_mass(m, f"{source}: mass[{i + 1}]") for i, m in enumerate(table.mass)),
         momentum=_triad(table.momentum, "momentum", f"{source}: momentum"),
         torque=_triad(table.torque, "torque", f"{source}: torque"),
+        devices=tuple(_device(d, f"{source}: device[{i + 1}]") for i, d in enumerate(table.device)),
+        field=_triad(table.field, "magnetic", f"{source}: field"),
         lab_up=table.lab_up,
         body=body,
         inverse=table.attitude is not None and table.attitude.turns == "laboratory to body",
@@ -146,6 +170,11 @@ def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:
 
 def _mass(table: MassTable, where: str) -> MassColumn:
     return MassColumn(table.name, table.column, factor(table.unit, "length", where))
+
+
+def _device(table: DeviceTable, where: str) -> DeviceColumn:
+    unit = factor(table.unit, QUANTITY[table.reports], where)
+    return DeviceColumn(f"{table.reports}:{table.name}", table.column, unit)
 
 
 def _axes(axes: list[Axis], where: str) -> tuple[str, str, str]:

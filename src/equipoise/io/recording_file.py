@@ -31,14 +31,15 @@ def read_recording(
     """Return what a file holds, with notes on all that was set right.
 
     ``dialect`` is a dialect's name or a column map; None goes by the header. With a ``testbed``
-    the recording may name no mass that it does not have. InputError says what cannot be used.
+    the recording may name no mass or device that it does not have. InputError says what cannot be
+    used.
     """
     content = read_bytes(path, WANTED)
     layout = dialect.layout if isinstance(dialect, ColumnMap) else Layout()
     table = _table(content, str(path), layout)
     recording = recording_of(table, _columns(table, dialect))
     if testbed is not None:
-        check_masses(recording, testbed)
+        check_names(recording, testbed)
     return replace(recording, sha256=hashlib.sha256(content).hexdigest())
 
 
@@ -55,15 +56,18 @@ def write_recording(recording: Recording, path: str | Path) -> None:
         write_whole(path, csv_text(columns))
 
 
-def check_masses(recording: Recording, testbed: Testbed) -> None:
-    """Raise InputError if the recording moves a mass that the testbed does not have."""
-    known = [mass.name for mass in testbed.masses]
-    for name in recording.mass_names:
-        if name not in known:
-            wanted = nearest(name, known) if known else "no masses: the testbed has none"
-            where = f"{recording.source}, header"
-            of = f" (of testbed {testbed.source or testbed.name})"
-            raise InputError(where, f"mass '{name}'", wanted + of)
+def check_names(recording: Recording, testbed: Testbed) -> None:
+    """Raise InputError if the recording names a mass or device that the testbed does not have."""
+    of = f" (of testbed {testbed.source or testbed.name})"
+    for kind, names, known in (
+        ("mass", recording.mass_names, list(testbed.mass_names)),
+        ("device", recording.device_names, list(testbed.device_names)),
+    ):
+        for name in names:
+            if name not in known:
+                none = f"no {kind}: the testbed has none"
+                wanted = nearest(name, known) if known else none
+                raise InputError(f"{recording.source}, header", f"{kind} '{name}'", wanted + of)
 
 
 def _table(content: bytes, source: str, layout: Layout) -> Table:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from equipoise.io.attitude_reading import euler_angles, lengths, quaternions
 from equipoise.io.channels import Channel, in_body_axes, read_channel, read_time
-from equipoise.io.column_map import ColumnMap, Columns
+from equipoise.io.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
 from equipoise.io.dead_columns import without_dead
 from equipoise.io.table import Table
 from equipoise.io.time_order import forward_rows, gap_notes, without_duplicates
@@ -32,8 +32,8 @@ class Rows:
         if channel is None or columns is None:
             return None, ()
         channel, twice = without_duplicates(channel, self.table)
-        if name == "masses":
-            return channel, twice  # a mass that never moves is a fact, not a dead column
+        if name in ("masses", "devices"):
+            return channel, twice  # what never moves is a fact, not a dead column
         kept, dead = without_dead(channel, columns, self.columns.native)
         return kept, (*twice, *dead)
 
@@ -49,9 +49,11 @@ def recording_of(table: Table, columns: ColumnMap) -> Recording:
     attitude, norm, of_attitude = _attitude(source)
     rate, of_rate = source.vector("rate", columns.rate)
     _check_enough(table, attitude, rate)
-    masses, of_masses = source.channel("masses", _mass_columns(columns))
+    masses, of_masses = source.channel("masses", _together(columns.masses))
     momentum, of_momentum = source.vector("momentum", columns.momentum)
     torque, of_torque = source.vector("torque", columns.torque)
+    devices, of_devices = source.channel("devices", _together(columns.devices))
+    field, of_field = source.vector("field", columns.field)
     gaps = [note for c in (attitude, rate) if c is not None for note in gap_notes(c)]
     notes = (*table.notes, *columns.notes, *order, *of_attitude, *of_rate, *of_masses)
     return Recording(
@@ -61,9 +63,12 @@ def recording_of(table: Table, columns: ColumnMap) -> Recording:
         masses=_samples(masses),
         momentum=_samples(momentum),
         torque=_samples(torque),
+        device_names=tuple(each.device for each in columns.devices) if devices else (),
+        devices=_samples(devices),
+        field=_samples(field),
         attitude_norm=_samples(norm),
         source=table.source,
-        notes=(*notes, *of_momentum, *of_torque, *gaps),
+        notes=(*notes, *of_momentum, *of_torque, *of_devices, *of_field, *gaps),
     )
 
 
@@ -89,14 +94,11 @@ def _attitude(source: Rows) -> tuple[Channel | None, Channel | None, Notes]:
     return mended, None if angles else lengths(raw), (*notes, *told)
 
 
-def _mass_columns(columns: ColumnMap) -> Columns | None:
-    """Return the masses' columns as one group."""
-    if not columns.masses:
+def _together(columns: tuple[MassColumn | DeviceColumn, ...]) -> Columns | None:
+    """Return the columns of all masses, or of all devices, as one group."""
+    if not columns:
         return None
-    return Columns(
-        tuple(mass.column for mass in columns.masses),
-        tuple(mass.factor for mass in columns.masses),
-    )
+    return Columns(tuple(c.column for c in columns), tuple(c.factor for c in columns))
 
 
 def _check_enough(table: Table, *sensors: Channel | None) -> None:

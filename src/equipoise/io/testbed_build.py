@@ -6,6 +6,8 @@ from typing import Any, NoReturn, cast
 import numpy as np
 
 from equipoise.io import testbed_schema as schema
+from equipoise.io.devices_build import devices_of
+from equipoise.io.directions import unit_vector
 from equipoise.io.inertia_check import check_inertia
 from equipoise.io.truth_build import truth_of
 from equipoise.model.arrays import Vector3
@@ -15,7 +17,6 @@ from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
 from equipoise.model.torque_terms import expand
 
 UM, MM, MS, GRAM, PERCENT, DEG = 1e-6, 1e-3, 1e-3, 1e-3, 1e-2, math.pi / 180
-AXIS_FLOOR = 1e-6  # chosen: a shorter axis has no direction one could mean
 HANGS = 1e-3  # m: a centre of mass guessed this far off P hangs there on purpose (chosen)
 STANDS_OUT = 10.0  # times the other components, for its axis to be the vertical one (chosen)
 
@@ -24,7 +25,7 @@ def testbed_of(table: schema.TestbedFile, source: str) -> Testbed:
     """Return the testbed that a file describes."""
     masses = _masses(table, source)
     body = _body(table.platform, source)
-    platform = table.platform
+    platform, devices = table.platform, devices_of(table, source)
     return Testbed(
         name=table.name,
         body=body,
@@ -40,15 +41,12 @@ def testbed_of(table: schema.TestbedFile, source: str) -> Testbed:
         truth=truth_of(table, body, f"{source}: truth"),
         assumed=_assumed(table, source),
         source=source,
+        wheels=devices.wheels,
+        cmgs=devices.cmgs,
+        magnetorquers=devices.magnetorquers,
+        jets=devices.jets,
+        magnetic_field=devices.magnetic_field,
     )
-
-
-def unit_vector(axis: list[float], where: str) -> Vector3:
-    """Return a direction as a unit vector; zero length is an error."""
-    length = math.hypot(*axis)
-    if length < AXIS_FLOOR:
-        raise InputError(where, f"an axis of length {length:g}", "a direction such as [1, 0, 0]")
-    return np.array(axis, float) / length
 
 
 def _body(platform: schema.Platform, source: str) -> MassProperties:

@@ -6,26 +6,29 @@ A unit is part of its key. Nothing is converted here; ``testbed_build`` does tha
 import math
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
+from equipoise.io.devices_schema import (
+    ControlMomentGyro,
+    JetPair,
+    MagneticField,
+    Magnetorquer,
+    ReactionWheel,
+)
+from equipoise.io.table_keys import (
+    Five,
+    Name,
+    NotNegative,
+    Pair,
+    Positive,
+    SdTriple,
+    Square,
+    Table,
+    Triple,
+)
 from equipoise.model.testbed import LAG_SD, PLUMB_SD, SAG_SD
 
-Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
-Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
-Five = Annotated[list[float], Field(min_length=5, max_length=5)]
-Square = Annotated[list[Triple], Field(min_length=3, max_length=3)]
-Positive = Annotated[float, Field(gt=0)]
-NotNegative = Annotated[float, Field(ge=0)]
-SdTriple = Annotated[list[Positive], Field(min_length=3, max_length=3)]
 Point = Literal["C", "P"]
-# A mass's name becomes part of a column's name, so it is kept to what any table program takes.
-Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
-
-
-class Table(BaseModel):
-    """One table of the file: an unknown key is an error, and a number must be a finite number."""
-
-    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 class Platform(Table):
@@ -107,7 +110,7 @@ class Sensors(Table):
 class Disturbance(Table):
     """Which torques to consider beside gravity."""
 
-    consider: list[str] = []
+    consider: list[str] = Field(default=[])
 
 
 class Fault(Table):
@@ -160,7 +163,7 @@ class Truth(Table):
     drift_um_min: Triple | None = None
     noise_torque_N_m: NotNegative = 0.0
     noise_correlation_s: Positive = 30.0
-    gyro_bias_deg_s: Triple = [0.0, 0.0, 0.0]
+    gyro_bias_deg_s: Triple = Field([0.0, 0.0, 0.0])
     gyro_scale_percent: Triple = Field([0.0, 0.0, 0.0], description="each axis reads so much more")
     gyro_misalignment_deg: Triple = Field(
         [0.0, 0.0, 0.0], description="rotation vector from body axes to the gyro's"
@@ -181,10 +184,11 @@ class Truth(Table):
         10.0, description="turn of an outlier about any axis, chosen: far outside any noise"
     )
     mass_lag_s: NotNegative = Field(0.0, description="masses are so far behind their report")
-    fault: list[Fault] = []
-    contact: list[Contact] = []
-    com_step: list[ComStep] = []
-    gap: list[Gap] = []
+    field_uT: Triple | None = Field(None, description="magnetic, laboratory axes, as it really is")
+    fault: list[Fault] = Field([])
+    contact: list[Contact] = Field([])
+    com_step: list[ComStep] = Field([])
+    gap: list[Gap] = Field([])
 
 
 class TestbedFile(Table):
@@ -194,7 +198,12 @@ class TestbedFile(Table):
 
     name: Annotated[str, Field(min_length=1)]
     platform: Platform
-    sliding_mass: list[SlidingMass] = []
+    sliding_mass: list[SlidingMass] = Field([])
+    reaction_wheel: list[ReactionWheel] = Field([])
+    control_moment_gyro: list[ControlMomentGyro] = Field([])
+    magnetorquer: list[Magnetorquer] = Field([])
+    jet_pair: list[JetPair] = Field([])
+    magnetic_field: MagneticField | None = None
     sensor: Sensors = Sensors()
     disturbance: Disturbance = Disturbance()
     truth: Truth | None = None

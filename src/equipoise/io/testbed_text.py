@@ -3,25 +3,30 @@
 import json
 import math
 
+from equipoise.io.devices_text import text_of_devices
 from equipoise.io.toml_text import Value, number, numbers, table
 from equipoise.io.truth_text import text_of_truth
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
 
 PER_UM, PER_MM, PER_MS, PER_GRAM = 1e6, 1e3, 1e3, 1e3
 PER_PERCENT, PER_DEG = 1e2, 180 / math.pi
+# A density is written as noise per sample, and what is assumed of it goes along.
+WRITTEN_AS = {"sensor.gyro.noise_density_deg_s_rthz": "sensor.gyro.noise_deg_s"}
 
 
 def text_of_testbed(testbed: Testbed) -> str:
     """Return TOML that reads back as the same testbed (to the 15th digit)."""
+    assumed = {json.dumps(WRITTEN_AS.get(k, k)): why for k, why in testbed.assumed.items()}
     parts = [
         table("", {"name": testbed.name}),
         table("[platform]", _platform(testbed)),
         *(table("[[sliding_mass]]", _mass(mass)) for mass in testbed.masses),
+        text_of_devices(testbed),
         table("[sensor.attitude]", _attitude(testbed.attitude)),
         table("[sensor.gyro]", _gyro(testbed.gyro)),
         table("[disturbance]", {"consider": list(testbed.disturbances)}),
         text_of_truth(testbed.truth),
-        table("[assumed]", {json.dumps(k): v for k, v in testbed.assumed.items()}),
+        table("[assumed]", assumed),
     ]
     return "\n".join(filter(None, parts))
 

@@ -19,7 +19,7 @@ from equipoise.model.mass_properties import MassProperties, from_centre
 from equipoise.model.testbed import Fault, Truth
 from equipoise.model.torque_terms import GROUPS
 
-UM, PERCENT, DEG = 1e-6, 1e-2, math.pi / 180
+UM, UT, PERCENT, DEG = 1e-6, 1e-6, 1e-2, math.pi / 180
 # Key of the file, group of terms, factor to SI.
 TORQUES = (
     ("viscous_N_m_s", "viscous", 1.0),
@@ -38,6 +38,9 @@ def truth_of(table: schema.TestbedFile, guess: MassProperties, where: str) -> Tr
     truth = table.truth
     if truth is None:
         return None
+    if truth.field_uT is not None and table.magnetic_field is None:
+        wanted = "a table [magnetic_field] with the field as known beforehand"
+        raise InputError(f"{where}.field_uT", "a true field but none that is known", wanted)
     com = _scaled(truth.com_um, UM)
     low, high = _box(truth, table.platform, where)
     return Truth(
@@ -61,6 +64,7 @@ def truth_of(table: schema.TestbedFile, guess: MassProperties, where: str) -> Tr
         gaps=gaps_of(truth, where),
         camera=camera_errors_of(truth),
         gyro=gyro_errors_of(truth),
+        field_N=_scaled(truth.field_uT, UT),
     )
 
 

@@ -9,7 +9,7 @@ from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErr
 from equipoise.model.testbed import Fault, Truth
 from equipoise.model.torque_terms import GROUPS
 
-PER_UM, PER_PERCENT, PER_DEG = 1e6, 1e2, 180 / math.pi
+PER_UM, PER_UT, PER_PERCENT, PER_DEG = 1e6, 1e6, 1e2, 180 / math.pi
 
 
 def text_of_truth(truth: Truth | None) -> str:
@@ -81,6 +81,8 @@ def _known(truth: Truth) -> dict[str, Value]:
         keys["attitude_deg"] = numbers(truth.attitude, PER_DEG)
     if truth.rate is not None:
         keys["rate_deg_s"] = numbers(truth.rate, PER_DEG)
+    if truth.field_N is not None:
+        keys["field_uT"] = numbers(truth.field_N, PER_UT)
     return keys
 
 

@@ -26,6 +26,12 @@ TO_SI = {
     "N m": 1.0,
     "mN m": 1e-3,
     "uN m": 1e-6,
+    "A m2": 1.0,
+    "mA m2": 1e-3,
+    "T": 1.0,
+    "mT": 1e-3,
+    "uT": 1e-6,
+    "nT": 1e-9,
 }
 KINDS = {
     "time": ("s", "ms", "us", "ns", "min"),
@@ -34,6 +40,8 @@ KINDS = {
     "length": ("m", "cm", "mm", "um"),
     "momentum": ("N m s", "mN m s"),
     "torque": ("N m", "mN m", "uN m"),
+    "dipole": ("A m2", "mA m2"),
+    "magnetic": ("T", "mT", "uT", "nT"),
 }
 # As they end a key: how to say them.
 SPOKEN = {
@@ -48,7 +56,9 @@ SPOKEN = {
     "cm_s": "cm/s",
     "m_s2": "m/s2",
     "m_s": "m/s",
+    "A_m2": "A m2",
     "N_m": "N m",
+    "rpm": "rpm",
     "percent": "percent",
     "deg": "deg",
     "rad": "rad",
@@ -56,6 +66,7 @@ SPOKEN = {
     "hz": "Hz",
     "khz": "kHz",
     "um": "um",
+    "uT": "uT",
     "mm": "mm",
     "cm": "cm",
     "ms": "ms",

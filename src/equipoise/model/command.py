@@ -16,7 +16,8 @@ class Look:
     method: str  # of ``equipoise methods``
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     terms: tuple[str, ...] = ()  # torques to estimate, beside the testbed's own
-    since: float | None = None  # s, of the samples' clock; None: this swing alone
+    use_prior: bool = False  # the testbed's inertia and centre of mass count as knowledge
+    since: float | None = None  # s: from all that was recorded since then, not this swing alone
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,14 +6,21 @@ Each is driven by one number and reports one number (``Recording.devices``):
     reaction wheel       torque on the rotor, N m          speed against the platform, rad/s
     control moment gyro  gimbal rate, rad/s                gimbal angle, rad
     magnetorquer         dipole, A m^2                     dipole, A m^2
-    jet pair             impulse on the platform, N m s    torque on the platform, N m
+    jet pair             impulse on the platform, N m s    torque on the platform, N m, mean since
+                                                           the row before
 
 What follows an input does so with a first-order lag: y' = (input - y) / lag.
+
+A recording does not know the testbed, so its name of a device holds what the numbers are:
+``wheel:x``, ``gimbal:a``, ``dipole:x`` or ``jet:x`` for a device of the name after the colon.
 """
 
 from dataclasses import dataclass
+from typing import Literal
 
 from equipoise.model.arrays import Vector3
+
+Reported = Literal["wheel", "gimbal", "dipole", "jet"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,3 +92,23 @@ class MagneticField:
 
 
 Device = ReactionWheel | ControlMomentGyro | Magnetorquer | JetPair
+
+
+REPORTED: dict[type[Device], Reported] = {
+    ReactionWheel: "wheel",
+    ControlMomentGyro: "gimbal",
+    Magnetorquer: "dipole",
+    JetPair: "jet",
+}
+
+
+def recorded_name(device: Device) -> str:
+    """Return what a recording calls a device, such as 'wheel:x'."""
+    return f"{REPORTED[type(device)]}:{device.name}"
+
+
+def at_start(device: Device) -> float:
+    """Return what a device reports before it is driven: rad/s, rad, A m^2 or N m."""
+    if isinstance(device, ReactionWheel):
+        return device.speed
+    return device.angle if isinstance(device, ControlMomentGyro) else 0.0

@@ -2,6 +2,9 @@
 
 Times are seconds on one clock and grow strictly within a channel. Mass displacements, stored
 momentum and known torque are straight lines between their rows, and constant outside them.
+
+A device's name begins with what is reported of it ('wheel:x', ``model.devices.recorded_name``):
+a file writes each kind in its own unit, and is read without a testbed.
 """
 
 from dataclasses import dataclass, replace
@@ -9,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.model.arrays import Series, Series1
+from equipoise.model.devices import Device, at_start, recorded_name
 from equipoise.model.errors import InputError, nearest
 
 
@@ -42,8 +46,8 @@ class Recording:
     masses: Samples | None = None  # (n, k) m, displacement from home as reported
     momentum: Samples | None = None  # (n, 3) N m s, stored in wheels, body axes
     torque: Samples | None = None  # (n, 3) N m, known, body axes
-    device_names: tuple[str, ...] = ()
-    devices: Samples | None = None  # (n, k) what each device reported, SI, see ``model.devices``
+    device_names: tuple[str, ...] = ()  # 'wheel:x', 'gimbal:a', 'dipole:x', 'jet:x'
+    devices: Samples | None = None  # (n, k) what each reported: rad/s, rad, A m^2, N m
     field: Samples | None = None  # (n, 3) T, magnetic, body axes, as the magnetometer gave it
     # (n, 1) lengths of the attitude's quaternions as they were found, at the attitude's times; None
     # when they told no more than rounding. A mean of frames is shorter than one. Not written.
@@ -124,11 +128,36 @@ def arranged(recording: Recording, names: tuple[str, ...]) -> Recording:
     if masses is None or recording.mass_names == names:
         return recording
     have = recording.mass_names or names[: masses.values.shape[1]]
+    where = f"{recording.source or 'recording'}: masses"
+    masses = _in_order(masses, have, dict.fromkeys(names, 0.0), where)
+    return replace(recording, mass_names=names, masses=masses)
+
+
+def arranged_devices(recording: Recording, devices: tuple[Device, ...]) -> Recording:
+    """Return the recording with its device columns in the order of a testbed's devices.
+
+    A device that has no column stays as it is at the start. Raises InputError for a column of no
+    device.
+    """
+    start = {recorded_name(device): at_start(device) for device in devices}
+    rows, names = recording.devices, tuple(start)
+    if rows is None or recording.device_names == names:
+        return recording
+    where = f"{recording.source or 'recording'}: devices"
+    rows = _in_order(rows, recording.device_names, start, where)
+    return replace(recording, device_names=names, devices=rows)
+
+
+def _in_order(
+    rows: Samples, have: tuple[str, ...], wanted: dict[str, float], where: str
+) -> Samples:
+    """Return columns in the wanted order; what there is no column of stands at its value."""
+    names = list(wanted)
     for name in have:
-        if name not in names:
-            where = f"{recording.source or 'recording'}: masses"
-            raise InputError(where, f"'{name}'", nearest(name, list(names)))
-    values = np.zeros((len(masses), len(names)))
-    for column, name in zip(masses.values.T, have, strict=True):
+        if name not in wanted:
+            none = "none: the testbed has none"
+            raise InputError(where, f"'{name}'", nearest(name, names) if names else none)
+    values = np.tile(np.array(list(wanted.values()), float), (len(rows), 1))
+    for column, name in zip(rows.values.T, have, strict=True):
         values[:, names.index(name)] = column
-    return replace(recording, mass_names=names, masses=Samples(masses.t, values))
+    return Samples(rows.t, values)

@@ -8,7 +8,7 @@ from equipoise.model.move import Move
 from equipoise.model.recording import Recording
 from equipoise.model.verdict import Verdict
 
-Kind = Literal["look", "estimate", "move", "verify", "stop"]
+Kind = Literal["look", "estimate", "move", "control", "verify", "stop"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,6 +16,7 @@ from equipoise.model.devices import (
     MagneticField,
     Magnetorquer,
     ReactionWheel,
+    recorded_name,
 )
 from equipoise.model.mass_properties import MassProperties
 
@@ -131,6 +132,11 @@ class Testbed:
     def devices(self) -> tuple[Device, ...]:
         """Return wheels, gyros, magnetorquers and jets; their names differ."""
         return (*self.wheels, *self.cmgs, *self.magnetorquers, *self.jets)
+
+    @property
+    def device_names(self) -> tuple[str, ...]:
+        """Return the names that a recording gives the devices, such as 'wheel:x', in order."""
+        return tuple(recorded_name(device) for device in self.devices)
 
     @property
     def mass_names(self) -> tuple[str, ...]:

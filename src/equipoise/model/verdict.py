@@ -14,3 +14,4 @@ class Verdict:
     com: Vector3 | None = None  # m, as the masses stand
     sd: Vector3 | None = None  # m
     sure: bool = True  # False: the data do not tell
+    halted: bool = False  # True: the run was broken off, for safety

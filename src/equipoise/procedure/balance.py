@@ -240,7 +240,7 @@ def final(bench: Bench, progress: Progress, options: BalanceOptions, why: str) -
     last = progress.moves[-1] if progress.moves else None
     judged = verdict(knowledge, last, progress.still_since, options.target, options.tolerance)
     if why == "the platform tilts beyond its limit":
-        judged = Verdict(False, f"Stopped: {why}.", knowledge.com, knowledge.sd)
+        judged = Verdict(False, f"Stopped: {why}.", knowledge.com, knowledge.sd, halted=True)
     kind = "verify" if judged.passed else "stop"
     text = f"{why[0].upper()}{why[1:]}. {judged.sentence}"
     return Step(kind, bench.time, text, knowledge.recording, knowledge.estimate, verdict=judged)

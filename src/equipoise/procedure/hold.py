@@ -197,6 +197,7 @@ def verdict_step(
     text = f"Held for {options.duration / 60:.3g} min; at most ({far}) um from the target."
     if tilted_out:
         text = "Stopped: the platform tilts beyond its limit."
-    verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, *belief)
+    verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, *belief,
+                      halted=tilted_out)  # fmt: skip
     return Step("verify" if not tilted_out else "stop", bench.time, verdict.sentence,
                 verdict=verdict)  # fmt: skip

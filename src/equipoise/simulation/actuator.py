@@ -147,6 +147,12 @@ def retracked(track: Track, travel: Travel, now: float) -> Track:
     )
 
 
+def without_past(track: Track, before: float) -> Track:
+    """Return the track without what only matters before a time (s)."""
+    first = max(int(np.searchsorted(track.t, before, side="right")) - 1, 0)
+    return Track(track.t[first:], track.reported[first:], track.real[first:]) if first else track
+
+
 def lines(t: Series1, track_t: Series1, values: Floats) -> Floats:
     """Return a track's displacements (m) at times ``t``; constant outside its rows."""
     if not values.shape[1]:

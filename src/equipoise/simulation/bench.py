@@ -12,19 +12,24 @@ moved as it must have to be at its first attitude and rate at time zero.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
+from equipoise.actuators.control_moment_gyros import gimbal_maps
 from equipoise.actuators.sliding_masses import com_shift, inertia_shift, mass_maps
+from equipoise.actuators.stored_momentum import stored_momentum
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.dynamics.regressor import DRIFT
+from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
-from equipoise.model.arrays import Floats, Series1
+from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
+from equipoise.model.torque_terms import TERMS
 from equipoise.simulation import actuator
 from equipoise.simulation.camera_and_gyro import (
     Sensor,
@@ -36,13 +41,25 @@ from equipoise.simulation.camera_and_gyro import (
     outside,
 )
 from equipoise.simulation.clock import multiples, samples, tick, tick_one
+from equipoise.simulation.devices import (
+    all_off,
+    effects,
+    grid_of,
+    inputs_of,
+    kept_until,
+    reported_states,
+    started,
+    stored,
+)
 from equipoise.simulation.draw_truth import draw_truth
 from equipoise.simulation.events import com_moved, run_through, times
-from equipoise.simulation.motion import Path, first_state
+from equipoise.simulation.followers import bends, driven, without_past
+from equipoise.simulation.magnetised import run_magnetised
+from equipoise.simulation.motion import Path
 from equipoise.simulation.noise_torque import extended, forgotten, start_noise, torque_at
 from equipoise.simulation.sensor_errors import misfelt, misread, whole, whole_angles, with_bad_rows
 
-ALWAYS = 1.0  # s, chosen: a node at least so often, whatever the sensors do
+REPORTS = 20.0  # Hz, chosen: how often devices report where no sensor sets the pace
 A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on when now is a node
 
 
@@ -50,9 +67,10 @@ class SimulatedBench:
     """A bench made of equations; see ``model.bench.Bench``. ``platform`` is what it really is."""
 
     def __init__(self, testbed: Testbed, seed: int) -> None:
-        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(6)]
+        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(7)]
         rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
         self._bad_rng, self._bad = streams[5], np.zeros(0)
+        self._states_rng, self._devices = streams[6], started(testbed)
         self._testbed, self._seed = testbed, seed
         self.platform = draw_truth(testbed, rng)
         truth, masses = self.platform, testbed.masses
@@ -60,12 +78,13 @@ class SimulatedBench:
         moment = truth.body.first_moment
         self._body = body_of(truth.body.mass, testbed.gravity, inertia, moment, truth.torque)
         self._happens = times([*truth.contacts, *truth.com_steps])
-        self._maps, self._rails = stacked(mass_maps(masses)), mass_maps(masses)
+        self._rails = mass_maps(masses)
+        self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
         self._travel, self._track = actuator.at_home(masses), actuator.track_home(masses)
         self._noise = start_noise(truth.noise_torque, truth.noise_correlation, self._noise_rng)
         self._lead = max(lead(testbed.attitude), lead(testbed.gyro))
         self._time, self._read_until = 0.0, -1.0
-        self._now = first_state(truth.body, truth.attitude, truth.rate)
+        self._now = self._first_state()
         self._node, self._state = 0.0, self._now
         if self._lead > 0:
             self._node = -self._lead
@@ -101,18 +120,40 @@ class SimulatedBench:
         travel = actuator.sent(self._travel, self._time, goals, masses, faults, self._stops_rng)
         self._command(travel)
 
+    def drive(self, inputs: Mapping[str, float]) -> None:
+        """Give devices their inputs (``model.devices``); all of them or none."""
+        self._devices = driven(self._devices, self._time, *inputs_of(self._testbed, inputs))
+
     def stop(self) -> None:
-        """Halt every mass where it is."""
+        """Halt every mass where it is, and every device."""
         self._command(actuator.halted(self._travel, self._time))
+        self._devices = driven(self._devices, self._time, all_off(self._testbed), {})
 
     def truth(self) -> MassProperties:
-        """Return the mass properties as the masses really stand now, elastic sag apart."""
+        """Return the mass properties as masses and gimbals really stand now, as they act level.
+
+        A platform that sags is told as the stiff one that behaves alike at small tilts.
+        """
         body, real = self.platform.body, self.displacements
-        drift = self.platform.torque[DRIFT : DRIFT + 3] * self._time
+        gimbals = stored(self._testbed, self._devices, np.array([self._time]))[1][0]
+        shift = inertia_shift(self._rails, real)
+        shift += inertia_shift(gimbal_maps(self._testbed.cmgs), gimbals)
+        inertia = body.inertia_P + unpack_symmetric(shift)
+        return MassProperties(body.mass, acting_com(self.com, self.sag, self._testbed.up), inertia)
+
+    @property
+    def com(self) -> Vector3:
+        """Where the centre of mass really is now, elastic sag apart, m."""
+        body, coefficients = self.platform.body, self.platform.torque
+        drift = coefficients[DRIFT : DRIFT + 3] * self._time
         slipped = com_moved(self.platform.com_steps, self._time)
-        com = body.com + drift + slipped + com_shift(self._rails, body.mass, real)
-        inertia = body.inertia_P + unpack_symmetric(inertia_shift(self._rails, real))
-        return MassProperties(body.mass, com, inertia)
+        return body.com + drift + slipped + com_shift(self._rails, body.mass, self.displacements)
+
+    @property
+    def sag(self) -> Matrix3:
+        """Elastic sag C, m."""
+        coefficients = self.platform.torque
+        return sag_matrix({term: float(coefficients[TERMS.index(term)]) for term in SAG_TERMS})
 
     @property
     def displacements(self) -> Floats:
@@ -128,6 +169,14 @@ class SimulatedBench:
         """Return the angle between the axis that should point up and the vertical, rad."""
         return float(tilt(self._now[:4], self._testbed.up))
 
+    def _first_state(self) -> Floats:
+        """Return the state at time zero: masses at home, wheels and gyros as they start."""
+        truth = self.platform
+        h, gimbals = stored(self._testbed, self._devices, np.zeros(1))
+        shift = inertia_shift(gimbal_maps(self._testbed.cmgs), gimbals[0])
+        inertia = truth.body.inertia_P + unpack_symmetric(shift)
+        return np.concatenate([truth.attitude, inertia @ truth.rate + h[0]])
+
     def _command(self, travel: actuator.Travel) -> None:
         self._travel = travel
         self._track = actuator.retracked(self._track, travel, self._time)
@@ -138,7 +187,8 @@ class SimulatedBench:
         self._noise = extended(self._noise, now, self._noise_rng)
         seen = [looks_between(s, start, now) for s in (self._testbed.attitude, self._testbed.gyro)]
         turns = tick(self._track.t + self.platform.mass_lag)
-        others = [turns, self._happens, multiples(ALWAYS, start, now)]
+        others = [turns, self._happens, bends(self._devices, start, now)]
+        others.append(multiples(grid_of(self._testbed), start, now))
         if self._noise.sd > 0:
             others.append(self._noise.t)
         t = np.unique(np.concatenate([[start], *seen, *others]))
@@ -147,12 +197,14 @@ class SimulatedBench:
     def _follow(self, t: Series1) -> Path:
         """Return the motion along nodes, from where the state is kept."""
         truth = self.platform
-        known = np.zeros((len(t), 6 + len(self._testbed.masses)))
-        known[:, 3:6] = torque_at(self._noise, t)
-        known[:, 6:] = self._real(t)
-        return run_through(
-            self._body, self._maps, self._state, t, known, truth.contacts, truth.com_steps
-        )
+        h, gimbals = stored(self._testbed, self._devices, t)
+        dipole, jets = effects(self._testbed, self._devices, t)
+        known = np.hstack([h, torque_at(self._noise, t) + jets, self._real(t), gimbals])
+        platform = (self._body, self._maps, self._state, t, known)
+        events = (truth.contacts, truth.com_steps)
+        if self.platform.field_N is None or not dipole.any():
+            return run_through(*platform, *events)
+        return run_magnetised(*platform, *events, dipole, self.platform.field_N)
 
     def _real(self, t: Series1) -> Floats:
         """Return where the masses really are, m from home, (n, k)."""
@@ -174,8 +226,24 @@ class SimulatedBench:
         if names:
             start = max(since - self._lead, 0.0)
             masses = actuator.reported_rows(self._track, start, self._time)
-        source = f"simulated {testbed.name}, seed {self._seed}"
-        return Recording(attitude, rate, names, masses, source=source)
+        seen_so_far = Recording(
+            attitude, rate, names, masses, source=f"simulated {testbed.name}, seed {self._seed}"
+        )
+        return self._with_devices(seen_so_far, after) if testbed.devices else seen_so_far
+
+    @property
+    def _reports(self) -> float:
+        """How often devices report, Hz."""
+        sensor = self._testbed.gyro or self._testbed.attitude
+        return REPORTS if sensor is None else sensor.rate
+
+    def _with_devices(self, recording: Recording, after: float) -> Recording:
+        """Return the recording with what the devices report, and what follows from it."""
+        testbed, rng = self._testbed, self._states_rng
+        t = samples(self._reports, after, self._time)
+        rows = reported_states(testbed, self._devices, t, rng, 1 / self._reports)
+        seen = replace(recording, device_names=testbed.device_names, devices=Samples(t, rows))
+        return replace(seen, momentum=stored_momentum(seen, testbed))
 
     def _attitude(self, t: Series1, q: Floats, sensor: AttitudeSensor) -> Samples:
         """Return the camera's rows stamped ``t`` from attitudes at its looks."""
@@ -196,6 +264,9 @@ class SimulatedBench:
     def _advance(self, t: Series1, path: Path) -> None:
         """Keep the state now, and at the last node that no later row can look behind."""
         self._now = path.y[int(np.searchsorted(t, self._time))]
-        kept = int(np.searchsorted(t, self._time - self._lead, side="right")) - 1
+        behind = kept_until(self._testbed, self._time - self._lead)
+        kept = max(int(np.searchsorted(t, behind, side="right")) - 1, 0)
         self._node, self._state = float(t[kept]), path.y[kept]
         self._noise = forgotten(self._noise, self._node)
+        self._devices = without_past(self._devices, self._node - 1 / self._reports)
+        self._track = actuator.without_past(self._track, self._node - self.platform.mass_lag)

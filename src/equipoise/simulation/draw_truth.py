@@ -46,6 +46,7 @@ class SimulatedPlatform:
     gaps: tuple[Gap, ...] = ()
     camera: CameraErrors = field(default_factory=CameraErrors)
     gyro: GyroErrors = field(default_factory=GyroErrors)
+    field_N: Vector3 | None = None  # T, magnetic, laboratory axes
 
 
 def own_truth(testbed: Testbed) -> Truth:
@@ -75,6 +76,13 @@ def draw_attitude(up: Vector3, greatest: float, rng: np.random.Generator) -> Qua
     turn_N = exponential(np.array([0.0, 0.0, heading]))
     lean_N = exponential(tilt * np.array([np.cos(direction), np.sin(direction), 0.0]))
     return multiply(lean_N, multiply(turn_N, level(up)))
+
+
+def field_of(testbed: Testbed) -> Vector3 | None:
+    """Return the magnetic field as it really is, T, laboratory axes."""
+    if testbed.truth is not None and testbed.truth.field_N is not None:
+        return testbed.truth.field_N
+    return None if testbed.magnetic_field is None else testbed.magnetic_field.field_N
 
 
 def coefficients(torque: dict[str, float]) -> Floats:
@@ -108,4 +116,5 @@ def draw_truth(testbed: Testbed, rng: np.random.Generator) -> SimulatedPlatform:
         gaps=truth.gaps,
         camera=truth.camera,
         gyro=truth.gyro,
+        field_N=field_of(testbed),
     )

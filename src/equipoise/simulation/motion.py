@@ -17,8 +17,7 @@ from equipoise.dynamics.propagation import NO_COLUMNS, Columns, look, step
 from equipoise.dynamics.regressor import WIDTH, Triple
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at
 from equipoise.maths.compiled import kernel, part
-from equipoise.model.arrays import Floats, Ints, Quaternion, Vector3
-from equipoise.model.mass_properties import MassProperties
+from equipoise.model.arrays import Floats, Ints
 
 TURN = 0.0125  # rad, chosen: energy then drifts by less than 1e-9 in ten minutes
 LONGEST = 0.25  # s, chosen
@@ -98,8 +97,3 @@ def run(body: Body, maps: Floats, y: Floats, t: Floats, known: Floats) -> Path:
     path = Path(np.zeros((len(t), ROWS)), np.zeros((len(t), 3)))
     _run(body, maps, t, known, NO_OWNERS, NO_COLUMNS, y.copy(), *path)
     return path
-
-
-def first_state(body: MassProperties, q: Quaternion, rate: Vector3) -> Floats:
-    """Return the state (7,) of a platform whose masses stand at home."""
-    return np.concatenate([q, body.inertia_P @ rate])

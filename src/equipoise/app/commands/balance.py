@@ -10,6 +10,7 @@ def balance(
     testbed: str,
     /,
     *,
+    law: str = "look_and_move",
     seed: int = 1,
     target_um: Triple = (0.0, 0.0, -100.0),
     tolerance_um: Triple = (2.0, 2.0, 3.0),
@@ -27,6 +28,8 @@ def balance(
     ----------
     testbed
         Testbed file, or a preset's name. Its [truth] says what the simulated platform is like.
+    law
+        How to balance; `equipoise laws` lists them.
     seed
         Seed of all that is drawn: the same seed gives the same run.
     target_um
@@ -34,9 +37,9 @@ def balance(
     tolerance_um
         How near to the target is near enough, along each axis.
     max_moves
-        Moves of the masses before giving up: 3, or 10 before a hold.
+        Moves of the masses before giving up: 3, or 10 before a hold. Of look_and_move alone.
     max_time_s
-        Bench time before giving up: 120, or 600 before a hold.
+        Bench time before giving up: 120, or 600 before a hold or with another law.
     hold_min
         Then follow the drift and hold the balance for so many minutes. The balance before it is to
         a third of the tolerance, since its errors stay.
@@ -45,7 +48,7 @@ def balance(
     out
         Folder for figures, report.html and balance.json.
     """
-    from equipoise.app.options import not_negative, positive, seed_of, tolerance, vector
+    from equipoise.app.options import not_negative, one_of, positive, seed_of, tolerance, vector
     from equipoise.app.units import UM
     from equipoise.app.wiring import testbed_of
     from equipoise.io.whole_folder import check_folder
@@ -54,7 +57,7 @@ def balance(
     near = tolerance("--tolerance-um", tolerance_um, 1 / UM)
     moves = None if max_moves is None else int(not_negative("--max-moves", max_moves))
     longest = None if max_time_s is None else positive("--max-time-s", max_time_s)
-    limits = (moves, longest, not_negative("--hold-min", hold_min) * 60)
+    hold = not_negative("--hold-min", hold_min) * 60
     bed, seed = testbed_of(testbed), seed_of(seed)
     if out is not None:
         check_folder(out)
@@ -63,10 +66,12 @@ def balance(
         from equipoise.app.balance_views import account_of, document_of, show_result, show_step
         from equipoise.app.balancing import Goal, Limits, run
         from equipoise.app.views_json import dump
+        from equipoise.procedure.laws import CARDS
         from equipoise.simulation.bench import SimulatedBench
 
+        limits = Limits(moves, longest, hold, one_of("--law", law, list(CARDS)))
         bench = SimulatedBench(bed, seed)
-    done = run(bench, Goal(target, near), Limits(*limits), None if json else show_step)
+    done = run(bench, Goal(target, near), limits, None if json else show_step)
     document = document_of(done, seed)
     if json:
         print(dump(document))

@@ -1,0 +1,22 @@
+"""Inputs beyond a limit are scaled all together, so that what they do keeps its direction.
+
+Cutting each input at its own limit would turn the torque, and a law that pushes one way would push
+another.
+"""
+
+from typing import NamedTuple
+
+from equipoise.model.arrays import Floats, Vector3
+
+
+class Delivered(NamedTuple):
+    """What devices are given, and what that does to the platform."""
+
+    inputs: Floats  # (n,) as ``model.devices`` has them
+    torque: Vector3  # N m on the platform, body axes
+
+
+def scaled(inputs: Floats, most: Floats) -> Floats:
+    """Return the inputs times the greatest share up to 1 with which none is beyond ``most``."""
+    over = abs(inputs) > most
+    return inputs * float((most[over] / abs(inputs[over])).min()) if over.any() else inputs

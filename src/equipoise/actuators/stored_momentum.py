@@ -1,0 +1,106 @@
+"""What devices did to a platform, from what they reported: never from what they were told.
+
+    h(t)   = sum I_i n_i a_i + sum momentum_j s_j(x_j) + gimbal_inertia_j x_j' g_j
+    tau(t) = (sum d_k a_k) x B(t) + sum T_l a_l
+
+with speeds n of tachometers, angles x of encoders, dipoles d and jets' torques T from the recorded
+columns. (In a singularity of the gyros, or at a limit, the torque commanded is not that applied:
+Lee et al., section V.) This is the known side of the equations that identify the platform.
+
+Rates of gimbals are differences of angles over the neighbouring rows, of second order in their
+spacing; noise of an encoder comes through as gimbal_inertia noise / spacing. The field is the
+magnetometer's, or the testbed's, turned into body axes by the measured attitude at the rows'
+stamps: pass attitudes stamped when the camera looked.
+
+Cannot see pulses of jets between two rows: a row within each is needed.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.actuators.control_moment_gyros import gimbal_momentum, rotor_momentum
+from equipoise.actuators.jets import on_platform
+from equipoise.actuators.magnetorquers import magnetic_torque
+from equipoise.actuators.reaction_wheels import wheel_momentum
+from equipoise.maths.attitude import to_matrix
+from equipoise.maths.straight_lines import read_at
+from equipoise.model.arrays import Floats, Series, Series1, Series3
+from equipoise.model.devices import Device, recorded_name
+from equipoise.model.errors import InputError, nearest
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+
+
+def reported(recording: Recording, devices: Sequence[Device]) -> Series:
+    """Return what these devices reported, (n, k) SI; InputError for one that did not."""
+    names = list(recording.device_names)
+    for device in devices:
+        if recorded_name(device) not in names:
+            where = f"{recording.source or 'recording'}: devices"
+            raise InputError(where, f"no '{device.name}'", nearest(recorded_name(device), names))
+    assert recording.devices is not None
+    return recording.devices.values[:, [names.index(recorded_name(d)) for d in devices]]
+
+
+def slopes(t: Series1, values: Series) -> Series:
+    """Return the slopes (1/s) of columns at their rows, from the rows on both sides."""
+    return np.gradient(values, t, axis=0) if len(t) > 1 else np.zeros_like(values)
+
+
+def stored_momentum(recording: Recording, testbed: Testbed, gimbals: bool = True) -> Samples | None:
+    """Return the momentum (n, 3) N m s of wheels and gyros; None where there are no such rows.
+
+    ``gimbals``: with that of the turning gimbals, which ``gimbal_maps`` give by themselves.
+    """
+    wheels, cmgs, rows = testbed.wheels, testbed.cmgs, recording.devices
+    if rows is None or not (wheels or cmgs):
+        return None
+    h: Series3 = np.zeros((len(rows), 3))
+    if wheels:
+        h += wheel_momentum(wheels, reported(recording, wheels))
+    if cmgs:
+        angles = reported(recording, cmgs)
+        h += rotor_momentum(cmgs, angles)
+        h += gimbal_momentum(cmgs, slopes(rows.t, angles)) if gimbals else 0.0
+    return Samples(rows.t, h)
+
+
+def field_at(t: Series1, recording: Recording, testbed: Testbed) -> Series3:
+    """Return the magnetic field (n, 3) T in body axes: measured, or else known and turned.
+
+    InputError where there is neither, or no attitude to turn it by.
+    """
+    measured = recording.field
+    if measured is not None and len(measured):
+        return read_at(t, measured.t, measured.values)
+    known, attitude = testbed.magnetic_field, recording.attitude
+    if known is None or attitude is None or not len(attitude):
+        wanted = "a magnetometer's rows, or a known field and an attitude"
+        raise InputError(recording.source or "recording", "no magnetic field", wanted)
+    turned: Floats = known.field_N @ to_matrix(attitude.values)
+    return read_at(t, attitude.t, turned)
+
+
+def known_torque(recording: Recording, testbed: Testbed) -> Samples | None:
+    """Return the torque (n, 3) N m of magnetorquers and jets; None where there are no such rows."""
+    coils, jets, rows = testbed.magnetorquers, testbed.jets, recording.devices
+    if rows is None or not (coils or jets):
+        return None
+    tau: Series3 = np.zeros((len(rows), 3))
+    if coils:
+        field = field_at(rows.t, recording, testbed)
+        tau += magnetic_torque(coils, reported(recording, coils), field)
+    if jets:
+        tau += on_platform(jets, reported(recording, jets))
+    return Samples(rows.t, tau)
+
+
+def with_known_inputs(recording: Recording, testbed: Testbed) -> Recording:
+    """Return a recording with momentum and torque from its devices' rows, where it has no other."""
+    if recording.devices is None:
+        return recording
+    momentum = recording.momentum or stored_momentum(recording, testbed)
+    return replace(recording, momentum=momentum,
+                   torque=recording.torque or known_torque(recording, testbed))  # fmt: skip

@@ -1,0 +1,122 @@
+"""Cards of laws, and laws compared, for terminal, JSON and CSV."""
+
+import csv
+from collections.abc import Sequence
+from dataclasses import asdict
+from io import StringIO
+
+from rich.console import Group
+from rich.table import Table
+from rich.text import Text
+
+from equipoise.app.tables import named_rows, quiet_table
+from equipoise.app.units import MICRO, MM, PER_DEG, UM
+from equipoise.app.views_json import View, dump
+from equipoise.control.law import NEEDS, LawCard
+from equipoise.study.compare_laws import Comparison, LawSummary, Middle
+
+SCHEMA = "equipoise/laws/1"
+
+
+def list_table(cards: Sequence[LawCard]) -> Table:
+    """Return one line a law."""
+    table = quiet_table()
+    table.add_column("law", style="bold", no_wrap=True)
+    for head in ("idea", "needs", "source"):
+        table.add_column(head)
+    for card in cards:
+        table.add_row(card.name, card.idea, ", ".join(card.needs), card.source)
+    return table
+
+
+def card_table(card: LawCard) -> Table:
+    """Return all that a card says."""
+    needs = ", ".join(NEEDS[need] for need in card.needs)
+    period = f"{card.period:g} s between steps" if card.period > 0 else "as the record allows"
+    return named_rows([
+        ("law", card.name),
+        ("idea", card.idea),
+        ("source", card.source),
+        ("needs", needs),
+        ("leaves", card.leaves),
+        ("stable", card.stable),
+        ("pace", period),
+    ])  # fmt: skip
+
+
+def laws_json(cards: Sequence[LawCard]) -> View:
+    """Return cards, schema equipoise/laws/1."""
+    return {"schema": SCHEMA, "laws": [asdict(card) for card in cards]}
+
+
+def both(values: Middle, factor: float, digits: int = 2) -> str:
+    """Return a median, and in brackets what 95 % stay below."""
+    return f"{values.median * factor:.{digits}g} ({values.most * factor:.{digits}g})"
+
+
+def summary_cells(law: LawSummary) -> tuple[str, ...]:
+    """Return one law as cells."""
+    return (
+        law.law,
+        both(law.aside, UM),
+        both(law.height, UM),
+        both(law.torque, MICRO, 3),
+        f"{100 * law.within / law.runs:.0f} %",
+        both(law.time, 1.0, 3),
+        both(law.travel, MM, 3),
+        f"{law.halted}",
+        f"{law.false_passes}",
+    )
+
+
+def comparison_table(found: Comparison) -> Group:
+    """Return all laws, the one that leaves the least torque first, and who was refused why."""
+    table = quiet_table()
+    table.add_column("law", style="bold", no_wrap=True)
+    heads = ("aside, um", "height, um", "torque, uN m", f"<= {found.required * MICRO:g} uN m",
+             "time, s", "travel, mm", "halted", "false passes")  # fmt: skip
+    for head in heads:
+        table.add_column(head, justify="right")
+    for law in sorted(found.laws, key=lambda each: each.torque.most):
+        table.add_row(*summary_cells(law))
+    said = Text(
+        f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
+        f"the runs stay below. Offsets from the target; torque rms within "
+        f"{found.tilt * PER_DEG:g} deg of level, {both(found.before, MICRO, 3)} uN m before."
+    )
+    refused = [Text(f"{each.law} was refused: {each.why}") for each in found.refusals]
+    return Group(table, Text(), said, *refused)
+
+
+def comparison_json(found: Comparison) -> View:
+    """Return the comparison, schema equipoise/compare_laws/1, SI."""
+    return {
+        "schema": "equipoise/compare_laws/1",
+        "testbed": found.testbed.name,
+        "seeds": list(found.seeds),
+        "tilt": found.tilt,
+        "required_torque": found.required,
+        "torque_before": found.before._asdict(),
+        "laws": [_summary_json(law) for law in found.laws],
+        "refused": [asdict(each) for each in found.refusals],
+    }
+
+
+def _summary_json(law: LawSummary) -> View:
+    cells = asdict(law)
+    return {key: value._asdict() if isinstance(value, Middle) else value
+            for key, value in cells.items()}  # fmt: skip
+
+
+def files_of(found: Comparison) -> dict[str, str | bytes]:
+    """Return compare.json, and laws.csv with one line a run."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["law", "seed", "offset_x_um", "offset_y_um", "offset_z_um", "torque_uN_m",
+                     "time_s", "travel_mm", "passed", "halted", "verdict"])  # fmt: skip
+    for run in found.runs:
+        offset = [f"{UM * x:.6g}" for x in run.offset]
+        writer.writerow([run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", f"{run.time:.6g}",
+                         f"{MM * run.travel:.6g}", run.verdict.passed, run.verdict.halted,
+                         run.verdict.sentence])  # fmt: skip
+    return {"compare.json": dump(comparison_json(found)) + "\n", "laws.csv": text.getvalue()}

@@ -1,0 +1,92 @@
+"""Planar feedback: masses integrate the tilt away, coils damp the swing.
+
+With n the vertical in body axes, n_p its part across ``up`` and theta the tilt,
+
+    linear      s' = k_i theta n_p / |n_p|          the angle of tilt
+    sine        s' = k_i n_p                        its sine
+    magnetic    tau = -k_d w                        torque on the platform
+
+A centre of mass that hangs by lambda below the pivot leans the platform until n_p = -(r + s)_p /
+lambda. So at rest the masses creep to where it is level, (r + s)_p' = -w_i (r + s)_p with
+w_i = k_i / lambda. With swing and damping about one axis,
+
+    J theta'' + k_d theta' + m g lambda theta = m g (r + s),      s' = -k_i theta
+
+is stable for k_d lambda > J k_i, that is for w_i < w_d = k_d / J (Routh). Masses are slow, so
+gains keep w_i well below both w_d and the swing w_n = sqrt(m g lambda / J).
+
+Coils are weak: full, they are worth the integral of a swing of A_s = tau_max / (m g lambda) w_n /
+w_i, and beyond that the integral would drive the swing on. So in a swing of amplitude A it creeps
+slower, by MARGIN A_s / A: the platform calms down first and is levelled then.
+
+(Bahu and Modenini 2020, and their note of 2022, in which coils damp and masses integrate; the split
+is that of methods.md 5.6.)
+
+Coils give the part of tau across the field. That takes energy out at any rate, even cut short axis
+by axis, only if all of the rate is damped: with w across the vertical alone, as published, a field
+that leans spins the platform up about the vertical.
+
+Cannot see r along the vertical. Coils give torque across the field only: a swing about a horizontal
+field is not damped, and one about a leaning field in part.
+"""
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from equipoise.model.arrays import Vector3
+
+Variant = Literal["linear", "sine"]
+
+DAMPING = 0.7  # chosen: of critical, where coils are not saturated
+MARGIN = 0.5  # chosen: fields lean, and A is a running mean
+APART = 0.2  # chosen: w_i of w_n, which is a seventh of where it is unsettled
+
+
+class Plant(NamedTuple):
+    """What the loop has to deal with."""
+
+    inertia: float  # kg m^2, the greatest about a horizontal axis
+    weight: float  # N, m g
+    coils: float  # N m, that they give across the field
+
+
+class Loop(NamedTuple):
+    """The gains, and what they were made for."""
+
+    damping: float  # N m s, k_d
+    integral: float  # m/s, k_i
+    swing: float  # rad/s, w_n
+    depth: float  # m, lambda
+    calm: float  # rad, the amplitude up to which the integral may have its whole gain
+    variant: Variant
+
+
+def loop_for(plant: Plant, depth: float, variant: Variant) -> Loop:
+    """Return the gains for a centre of mass ``depth`` (m) below the pivot."""
+    w_n = (plant.weight * depth / plant.inertia) ** 0.5
+    calm = MARGIN / APART * plant.coils / (plant.weight * depth)
+    k_d = 2 * DAMPING * w_n * plant.inertia
+    return Loop(k_d, APART * w_n * depth, w_n, depth, calm, variant)
+
+
+def lean(gravity: Vector3, up: Vector3) -> Vector3:
+    """Return n_p: the vertical's part across ``up``, its length the sine of the tilt."""
+    n = -gravity / float(np.linalg.norm(gravity))
+    return n - (n @ up) * up
+
+
+def creep(gravity: Vector3, up: Vector3, swing: float, loop: Loop) -> Vector3:
+    """Return the speed (m/s) of the shift that the tilt asks for in a swing of some rad."""
+    across = lean(gravity, up)
+    gain = loop.integral * min(1.0, loop.calm / max(swing, 1e-12))
+    if loop.variant == "sine":
+        return gain * across
+    sine = float(np.linalg.norm(across))
+    tilt = float(np.arctan2(sine, -(gravity @ up) / float(np.linalg.norm(gravity))))
+    return gain * tilt / max(sine, 1e-12) * across
+
+
+def damping_torque(rate: Vector3, loop: Loop) -> Vector3:
+    """Return the torque on the platform (N m) that takes swing and spin out."""
+    return -loop.damping * rate

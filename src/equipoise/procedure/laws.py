@@ -1,0 +1,33 @@
+"""Every way to balance, by name: the package's own procedure, and the published laws."""
+
+from collections.abc import Iterator
+
+from equipoise.control.law import LawCard
+from equipoise.control.registry import LAWS
+from equipoise.model.bench import Bench
+from equipoise.model.step import Step
+from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.procedure.run_law import LawOptions, check, run_law
+
+OWN = LawCard(
+    name="look_and_move",
+    idea="fit the whole record, move when the fit says that it pays, prove it on what comes after",
+    source="Equipoise; Ivanov 2021 section 5, with the trajectory fit instead of a filter",
+    needs=("masses", "attitude"),
+    leaves="what the motor steps leave; elastic sag only if the testbed considers it",
+    stable="open loop between moves: always; it brakes a platform that would pass its tilt limit",
+    period=0.0,
+)
+CARDS: dict[str, LawCard] = {OWN.name: OWN, **{name: law.card for name, law in LAWS.items()}}
+
+
+def balanced_by(
+    name: str, bench: Bench, options: BalanceOptions, max_time: float | None
+) -> Iterator[Step]:
+    """Return the steps of a law; InputError for a testbed that has not what it needs."""
+    check(CARDS[name], bench.testbed)
+    if name == OWN.name:
+        return balance(bench, options)
+    own = LawOptions(options.target, options.tolerance)
+    longest = own.max_time if max_time is None else max_time
+    return run_law(bench, LAWS[name], LawOptions(own.target, own.tolerance, longest))

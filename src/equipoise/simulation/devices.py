@@ -1,0 +1,149 @@
+"""Wheels, gyros, coils and jets of the simulated bench, all of them followers of their inputs.
+
+    device               input          y                       Y
+    reaction wheel       torque         slope of speed rad/s^2  speed, within its limit
+    control moment gyro  gimbal rate    gimbal rate             gimbal angle
+    magnetorquer         dipole         dipole
+    jet pair             impulse        torque, a pulse of impulse / torque seconds
+
+They report what they do, with the noise of tachometers and encoders; nothing is reported of what
+they were told.
+"""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.control_moment_gyros import gimbal_coordinates, rotor_momentum
+from equipoise.actuators.jets import on_platform
+from equipoise.actuators.magnetorquers import dipole_of
+from equipoise.actuators.reaction_wheels import wheel_momentum
+from equipoise.model.arrays import Floats, Series1, Series3
+from equipoise.model.devices import ControlMomentGyro, Device, JetPair, Magnetorquer, ReactionWheel
+from equipoise.model.errors import DriveRefused, InputError, nearest
+from equipoise.model.testbed import Testbed
+from equipoise.simulation.clock import tick_one
+from equipoise.simulation.followers import Followers, at_rest, followed
+from equipoise.simulation.magnetised import PIECE
+
+ALWAYS = 1.0  # s, chosen: a node at least so often, whatever the sensors do
+GIMBALS = 0.004  # s, chosen: at 1 rad/s a straight line for h then errs by 2e-6 of it
+LEAST_LAG = 1e-3  # s, chosen: no coil and no valve is faster
+HAIR = 1e-9  # relative, chosen: an input on the limit may be rounded beyond it by so much
+
+
+class Inputs(NamedTuple):
+    """What devices are given, by index."""
+
+    goals: dict[int, float]  # of y
+    lasting: dict[int, float]  # s, of pulses
+
+
+def started(testbed: Testbed) -> Followers:
+    """Return the devices as they are at the start."""
+    wheels, devices = testbed.wheels, testbed.devices
+    lag = [each.lag if isinstance(each, ReactionWheel | ControlMomentGyro)
+           else max(each.lag, LEAST_LAG) for each in devices]  # fmt: skip
+    rest = np.full(len(devices) - len(wheels), np.inf)
+    limit = np.concatenate([np.array([wheel.max_speed for wheel in wheels]), rest])
+    begin = [wheel.speed for wheel in wheels] + [gyro.angle for gyro in testbed.cmgs]
+    Y = np.concatenate([np.array(begin), np.zeros(len(devices) - len(begin))])
+    return at_rest(np.array(lag), limit, Y)
+
+
+def grid_of(testbed: Testbed) -> float:
+    """Return how often there must be a node, s."""
+    if testbed.cmgs:
+        return GIMBALS
+    return PIECE if testbed.magnetorquers else ALWAYS
+
+
+def kept_until(testbed: Testbed, t: float) -> float:
+    """Return up to when the motion need not be followed again: coils work in whole pieces, s."""
+    return tick_one(PIECE * float(np.floor(t / PIECE + HAIR))) if testbed.magnetorquers else t
+
+
+def inputs_of(testbed: Testbed, inputs: Mapping[str, float]) -> Inputs:
+    """Return inputs by index; InputError for a wrong name or number, DriveRefused beyond limits."""
+    names, found = [device.name for device in testbed.devices], Inputs({}, {})
+    for name, asked in inputs.items():
+        if name not in names:
+            wanted = nearest(name, names) if names else "no devices: this testbed has none"
+            raise InputError("drive", f"a device '{name}'", wanted)
+        if not np.isfinite(asked):
+            raise InputError(f"drive: {name}", f"{asked}", "a finite number")
+        i = names.index(name)
+        found.goals[i] = goal_of(testbed.devices[i], float(asked))
+        device = testbed.devices[i]
+        if isinstance(device, JetPair) and asked:
+            found.lasting[i] = abs(float(asked)) / device.torque
+    return found
+
+
+def goal_of(device: Device, asked: float) -> float:
+    """Return the input of one device as a goal of its y; DriveRefused beyond its limit."""
+    if isinstance(device, JetPair):
+        least = device.torque * device.min_pulse
+        if asked and abs(asked) < least * (1 - HAIR):
+            raise DriveRefused(device.name, asked, least, "N m s at least")
+        return float(np.sign(asked)) * device.torque
+    limits = {
+        ReactionWheel: ("max_torque", "N m"),
+        ControlMomentGyro: ("max_rate", "rad/s"),
+        Magnetorquer: ("max_dipole", "A m^2"),
+    }
+    limit, unit = limits[type(device)]
+    if abs(asked) > getattr(device, limit) * (1 + HAIR):
+        raise DriveRefused(device.name, asked, getattr(device, limit), unit)
+    return asked / device.inertia if isinstance(device, ReactionWheel) else asked
+
+
+def all_off(testbed: Testbed) -> dict[int, float]:
+    """Return goals that leave wheels at their speed and everything else without effect."""
+    return dict.fromkeys(range(len(testbed.devices)), 0.0)
+
+
+def stored(testbed: Testbed, devices: Followers, t: Series1) -> tuple[Series3, Floats]:
+    """Return stored momentum (n, 3) N m s and gimbal coordinates (n, 3 g) at times (s)."""
+    w, g = len(testbed.wheels), len(testbed.cmgs)
+    _, Y = followed(devices, t)
+    angles = Y[:, w : w + g]
+    h, gimbals = np.zeros((len(t), 3)), np.zeros((len(t), 0))
+    if w:
+        h += wheel_momentum(testbed.wheels, Y[:, :w])
+    if g:
+        h += rotor_momentum(testbed.cmgs, angles)
+        gimbals = gimbal_coordinates(testbed.cmgs, angles)
+    return h, gimbals
+
+
+def effects(testbed: Testbed, devices: Followers, t: Series1) -> tuple[Series3, Series3]:
+    """Return total dipole (n, 3) A m^2 and torque of jets (n, 3) N m at times (s), body axes."""
+    first = len(testbed.wheels) + len(testbed.cmgs)
+    y, _ = followed(devices, t)
+    split, none = first + len(testbed.magnetorquers), np.zeros((len(t), 3))
+    return (
+        dipole_of(testbed.magnetorquers, y[:, first:split]) if testbed.magnetorquers else none,
+        on_platform(testbed.jets, y[:, split:]) if testbed.jets else none,
+    )
+
+
+def reported_states(
+    testbed: Testbed, devices: Followers, t: Series1, rng: np.random.Generator, gap: float
+) -> Floats:
+    """Return what the devices report at times (s), (n, k), with the noise of their sensors.
+
+    A wheel at rest is seen to be at rest; a jet reports the mean since ``gap`` (s) before, so that
+    no pulse is lost between two rows.
+    """
+    y, Y = followed(devices, t)
+    w, g = len(testbed.wheels), len(testbed.cmgs)
+    mean = (Y - followed(devices, t - gap)[1]) / gap
+    jets = w + g + len(testbed.magnetorquers)
+    rows = np.hstack([Y[:, : w + g], y[:, w + g : jets], mean[:, jets:]])
+    sd = [wheel.speed_noise for wheel in testbed.wheels] + [c.angle_noise for c in testbed.cmgs]
+    noise = rng.standard_normal((len(t), w + g)) * np.array(sd)
+    turning = np.hstack([rows[:, :w] != 0, np.ones((len(t), g), dtype=bool)])
+    rows[:, : w + g] += np.where(turning, noise, 0.0)
+    return rows

@@ -1,0 +1,1 @@
+"""Many runs: what methods and laws are worth."""

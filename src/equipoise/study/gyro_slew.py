@@ -1,0 +1,102 @@
+"""A slew by control moment gyros on a simulated platform, and all that was seen of it.
+
+The platform starts at rest at its truth's attitude and is brought to another by quaternion PID
+(Lee et al. Eq. 2 with erratum L4, ``control.attitude_pid``); the gimbals are steered by the
+singularity-robust inverse. What the law asked for and what the gyros gave differ in a singularity:
+both are kept, and what identifies the platform is the second, from measured gimbal angles.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.cmg_steering import limited_rates, singularity_robust
+from equipoise.actuators.control_moment_gyros import jacobian, singularity_measure
+from equipoise.control.attitude_pid import Gains, Pid, at_rest, torque, unwound
+from equipoise.control.sample import Sample
+from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4
+from equipoise.model.recording import Recording, join
+from equipoise.model.testbed import Testbed
+from equipoise.procedure.law_sample import Eyes, looked, opened, sample_of
+from equipoise.simulation.bench import SimulatedBench
+
+PERIOD = 0.05  # s, chosen: the loop's
+
+
+class Slew(NamedTuple):
+    """What happened, a row for each step of the loop."""
+
+    t: Series1  # s
+    q: Series4  # as filtered
+    rate: Series3  # rad/s, as filtered
+    angles: Floats  # (n, k) rad, of the gimbals, as measured
+    rates: Floats  # (n, k) rad/s, asked of the gimbals
+    required: Series3  # N m, asked of the gyros on the platform
+    output: Series3  # N m, -D angles', what the rates give
+    measure: Series1  # -, 0 in a singularity
+    recording: Recording
+
+
+class Row(NamedTuple):
+    """One step."""
+
+    seen: Sample
+    angles: Floats
+    rates: Floats
+    required: Floats
+    output: Floats
+
+
+def slewed(testbed: Testbed, target: Quaternion, gains: Gains, duration: float, seed: int) -> Slew:
+    """Return a slew to ``target`` of ``duration`` seconds."""
+    bench, pid, rows = SimulatedBench(testbed, seed), unwound(), list[Row]()
+    fresh = bench.read(PERIOD)
+    parts, before = [fresh], opened(testbed)
+    eyes = looked(before, fresh, testbed)
+    while bench.time < duration:
+        seen = sample_of(before, eyes, fresh, testbed)
+        assert seen is not None  # a camera's first row is at time zero
+        pid, row = stepped(testbed, eyes, seen, (pid, target, gains))
+        rows.append(row)
+        named = zip(testbed.cmgs, row.rates, strict=True)
+        bench.drive({cmg.name: float(rate) for cmg, rate in named})
+        fresh = bench.read(PERIOD)
+        parts.append(fresh)
+        before, eyes = eyes, looked(eyes, fresh, testbed)
+    return told(testbed, rows, parts)
+
+
+def stepped(
+    testbed: Testbed, eyes: Eyes, seen: Sample, law: tuple[Pid, Quaternion, Gains]
+) -> tuple[Pid, Row]:
+    """Return the law's state and what is done, at one step."""
+    pid, target, gains = law
+    pid, required = torque(pid, seen, at_rest(target), gains, np.zeros(3))
+    angles = eyes.states[len(testbed.wheels) :][: len(testbed.cmgs)]
+    rates = limited_rates(testbed.cmgs, singularity_robust(testbed.cmgs, angles, required))
+    output: Floats = -jacobian(testbed.cmgs, angles) @ rates
+    return pid, Row(seen, angles, rates, required, output)
+
+
+def told(testbed: Testbed, rows: list[Row], parts: list[Recording]) -> Slew:
+    """Return the rows as columns, and one recording."""
+    measure = [singularity_measure(testbed.cmgs, row.angles) for row in rows]
+    return Slew(
+        np.array([row.seen.t for row in rows]),
+        np.array([row.seen.q for row in rows]),
+        np.array([row.seen.rate for row in rows]),
+        np.array([row.angles for row in rows]),
+        np.array([row.rates for row in rows]),
+        np.array([row.required for row in rows]),
+        np.array([row.output for row in rows]),
+        np.array(measure),
+        joined(parts),
+    )
+
+
+def joined(parts: list[Recording]) -> Recording:
+    """Return records as one, two by two: what is copied then grows no faster than the data."""
+    while len(parts) > 1:
+        pairs = [parts[i : i + 2] for i in range(0, len(parts), 2)]
+        parts = [join(*pair) if len(pair) > 1 else pair[0] for pair in pairs]
+    return parts[0]
