@@ -6,7 +6,17 @@ import time
 
 import pytest
 
-COMMANDS = ("demo", "new", "simulate", "inspect", "observe", "identify", "methods", "balance")
+COMMANDS = (
+    "demo",
+    "new",
+    "simulate",
+    "inspect",
+    "observe",
+    "identify",
+    "methods",
+    "balance",
+    "reproduce",
+)
 HEAVY = ("numpy", "scipy", "numba", "matplotlib", "pydantic", "pyarrow", "jaxtyping")
 PROMPT = 0.5  # s, what the issue asks for
 LOADED = 1.6  # a test machine at work is slower than a person's at rest

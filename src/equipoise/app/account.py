@@ -21,6 +21,16 @@ LIBRARIES = ("numpy", "scipy", "numba", "matplotlib")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Sheet:
+    """A table of a report's own, with what is said below it."""
+
+    title: str
+    heads: Sequence[str]
+    lines: Sequence[Sequence[str]]
+    remarks: Sequence[str] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Account:
     """What was asked, of what platform, what was done, and what came of it."""
 
@@ -34,6 +44,7 @@ class Account:
     verdict: Verdict | None = None
     change: Change | None = None
     pictures: Sequence[Picture] = field(default=())
+    sheets: Sequence[Sheet] = ()
 
 
 def origin(**more: str) -> dict[str, str]:

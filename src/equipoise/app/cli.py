@@ -21,6 +21,7 @@ from equipoise.app.commands.laws import laws
 from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
+from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
 from equipoise.model.errors import EquipoiseError
@@ -37,7 +38,10 @@ app = App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-for command in (demo, new, simulate, inspect, observe, identify, methods, balance, laws, compare):
+COMMANDS = (
+    demo, new, simulate, inspect, observe, identify, methods, balance, laws, compare, reproduce,
+)  # fmt: skip
+for command in COMMANDS:
     app.command(command)
 
 

@@ -100,6 +100,12 @@ def _steps(account: Account) -> Iterator[str]:
         yield _section(title, _table(("time, s", "", ""), lines))
 
 
+def _sheets(account: Account) -> Iterator[str]:
+    for sheet in account.sheets:
+        remarks = "".join(f"<p>{escape(remark)}</p>" for remark in sheet.remarks)
+        yield _section(sheet.title, _table(sheet.heads, sheet.lines) + remarks)
+
+
 def _mass_properties(account: Account) -> Iterator[str]:
     if account.estimate is None:
         return
@@ -146,6 +152,7 @@ SECTIONS = (
     _platform,
     _findings,
     _steps,
+    _sheets,
     _mass_properties,
     _unseen,
 )

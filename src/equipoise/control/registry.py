@@ -3,10 +3,14 @@
 from typing import Any
 
 from equipoise.control import (
+    coarse_fine,
     fully_actuated,
+    impulse_feedback,
     l1_adaptive,
     momentum_buildup,
     pid,
+    planar_magnetic,
+    slew_and_look,
     underactuated,
     underactuated_integral,
 )
@@ -17,7 +21,11 @@ ALL: tuple[Law[Any, Any], ...] = (
     l1_adaptive.LAW,
     underactuated.LAW,
     underactuated_integral.LAW,
+    planar_magnetic.LAW,
+    impulse_feedback.LAW,
     fully_actuated.LAW,
     momentum_buildup.LAW,
+    slew_and_look.LAW,
+    coarse_fine.LAW,
 )
 LAWS: dict[str, Law[Any, Any]] = {law.card.name: law for law in ALL}

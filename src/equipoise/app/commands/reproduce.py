@@ -1,0 +1,71 @@
+"""`equipoise reproduce`: a paper's simulation run again, with its figures."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Flag
+from equipoise.app.terminal import busy, tell_paths
+
+if TYPE_CHECKING:
+    from equipoise.study.lee import Manoeuvre
+
+PAPERS = ("lee",)
+
+
+def reproduce(paper: str, /, *, seed: int = 1, out: Path | None = None, json: Flag = False) -> int:
+    """Run a paper's simulation again, beside what this program makes of it.
+
+    lee: two slews by control moment gyros, a large and a small one; the averaged integral as
+    printed and corrected, and the trajectory fit, with the least sd that the data allow.
+
+    Parameters
+    ----------
+    paper
+        Paper to reproduce: lee.
+    seed
+        Seed of all that is drawn: the same seed gives the same run.
+    out
+        Folder for the paper's figures, report.html and reproduce.json.
+    json
+        Print one JSON document instead.
+    """
+    from equipoise.app.options import one_of, seed_of
+    from equipoise.app.views_json import dump
+    from equipoise.io.whole_folder import check_folder
+
+    one_of("paper", paper, list(PAPERS))
+    seed = seed_of(seed)
+    if out is not None:
+        check_folder(out)
+    runs = _slews(seed)
+    from equipoise.app.lee_views import account_of, document_of, show_result
+
+    document = document_of(runs, seed)
+    if json:
+        print(dump(document))
+    else:
+        show_result(runs)
+    if out is not None:
+        from equipoise.app.archive import write_account
+
+        with busy("drawing"):
+            paths = write_account(account_of(runs, seed), document, "reproduce", out)
+        tell_paths(paths, json)
+    return 0
+
+
+def _slews(seed: int) -> "list[Manoeuvre]":
+    """Return both slews with what was made of them."""
+    from equipoise.io.presets import read_preset
+
+    with busy("preparing", announce=False):
+        from equipoise.study.lee import LARGE, SMALL, judged, slew_from
+
+    bed, done = read_preset("kau"), list["Manoeuvre"]()
+    for start in (LARGE, SMALL):
+        where = f"from {start[0]:g} deg of roll"
+        with busy(f"slewing {where}"):
+            slew = slew_from(bed, start, seed)
+        with busy(f"identifying {where}"):
+            done.append(judged(bed, start, slew))
+    return done

@@ -1,0 +1,82 @@
+"""Estimates and error indices along a record, as Lee et al. draw them (Eqs. 4-10, Figs. 10-16, 18).
+
+At growing times t_j, of all rows up to then:
+
+    x_j = (H^T H)^-1 H^T y,    EI and PEI of the same H and y      (``error_indices``)
+
+Recursive least squares without forgetting (Eq. 8, W = E) that begin with a batch come to the same
+at every t_j. Like theirs it begins where the platform already turns: at rest H tells nothing.
+
+Cannot see what biases x: rows are taken to err alike and independently.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.estimation.error_indices import error_indices
+from equipoise.estimation.formulations.rows import Formulation, Rows, centred
+from equipoise.estimation.linear import posed_of
+from equipoise.estimation.method import Options
+from equipoise.estimation.solvers.least_squares import flat, solved
+from equipoise.model.arrays import Floats, Series, Series1
+from equipoise.model.errors import InputError
+from equipoise.model.recording import Recording, window
+from equipoise.model.testbed import Testbed
+
+TURNING = np.radians(1.0)  # rad/s, chosen: fifty times the gyro's noise
+BATCH = 2.0  # s, chosen: of the first rows, before which nothing is told
+EVERY = 1.0  # s
+SMOOTHED = 20  # rows of the gyro, to see whether it turns
+
+
+class Told(NamedTuple):
+    """What rows up to each time tell; columns in the order of ``names``."""
+
+    names: tuple[str, ...]
+    t: Series1  # s
+    values: Series  # (n, c) SI
+    total: Floats  # (n,) EI
+    parameter: Series  # (n, c) PEI as printed, in units of the values
+
+
+def turning_from(recording: Recording) -> float:
+    """Return the time (s) from which the platform turns; InputError if it never does."""
+    rate = recording.rate
+    assert rate is not None
+    kernel = np.ones(SMOOTHED) / SMOOTHED
+    smooth = np.column_stack([np.convolve(w, kernel, "same") for w in rate.values.T])
+    turns = np.flatnonzero(np.linalg.norm(smooth, axis=1) > TURNING)
+    if not len(turns):
+        raise InputError("recording", "no rate above 1 deg/s", "a platform that turns")
+    return float(rate.t[turns[0]])
+
+
+def told_along(formulation: Formulation, recording: Recording, testbed: Testbed) -> Told:
+    """Return the course of a formulation's estimates from where the platform turns."""
+    start = turning_from(recording)
+    part = window(recording, start, recording.span[1])
+    rows = formulation(posed_of(part, testbed, Options()))
+    times = np.arange(start + BATCH, rows.t[-1] + 1e-9, EVERY)
+    told = [told_at(rows, t) for t in times]
+    return Told(rows.names, times, *(np.array(column) for column in zip(*told, strict=True)))
+
+
+def told_at(rows: Rows, t: float) -> tuple[Floats, float, Floats]:
+    """Return values, EI and PEI of the rows up to a time; nan where they tell nothing."""
+    first = centred(rows_until(rows, t))
+    H, y = flat(first)
+    nothing = np.full(len(rows.names), np.nan)
+    try:
+        indices = error_indices(H, y)
+    except InputError:
+        return nothing, np.nan, nothing
+    return solved(H.T @ H, H.T @ y), indices.index, indices.parameter
+
+
+def rows_until(rows: Rows, t: float) -> Rows:
+    """Return the rows up to a time, s."""
+    n = int(np.searchsorted(rows.t, t, side="right"))
+    piece = None if rows.piece is None else rows.piece[:n]
+    return replace(rows, t=rows.t[:n], A=rows.A[:n], b=rows.b[:n], piece=piece)
