@@ -25,9 +25,6 @@ from typing import Literal
 import numpy as np
 
 from equipoise.control.law import Law, LawCard
-from equipoise.control.sample import Sample
-from equipoise.control.slew import moment_across
-from equipoise.control.swing_looks import METHOD, Shown, believed, held, shown
 from equipoise.control.planar_feedback import (
     Loop,
     Plant,
@@ -37,6 +34,9 @@ from equipoise.control.planar_feedback import (
     lean,
     loop_for,
 )
+from equipoise.control.sample import Sample
+from equipoise.control.slew import moment_across
+from equipoise.control.swing_looks import METHOD, Shown, believed, held, shown
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Look

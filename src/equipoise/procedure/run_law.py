@@ -30,7 +30,7 @@ from equipoise.model.recording import Recording, join, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.knowledge import learn
+from equipoise.procedure.knowledge import as_if_stiff, learn
 from equipoise.procedure.law_devices import Hands, carry_out, let_rest, opened_hands
 from equipoise.procedure.law_sample import Eyes, looked, opened, sample_of
 from equipoise.procedure.tilt_guard import tilted
@@ -162,7 +162,7 @@ def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recordin
     if asked.since is not None:
         recording = with_known_inputs(since(parts, asked.since), testbed)
     options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
-    estimate = estimated(METHODS[asked.method], recording, testbed, options)
+    estimate = estimated(METHODS[asked.method], recording, as_if_stiff(testbed), options)
     return Session(eyes, hands, parts), recording, estimate
 
 
