@@ -15,19 +15,22 @@ from equipoise.estimation.formulations.rows import centred
 from equipoise.estimation.linear import posed_of
 from equipoise.estimation.method import Options
 from equipoise.io.presets import read_preset
-from equipoise.maths.attitude import tilt
+from equipoise.maths.attitude import level, tilt
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import window
+from equipoise.study.gyro_slew import slewed
 from equipoise.study.lee import (
     LARGE,
     SOUGHT,
     angles_of,
     attitude_at,
     coarser,
+    gains_of,
     singular_times,
     slew_from,
+    started,
     true_values,
     warns,
     with_printed_errors,
@@ -88,6 +91,12 @@ def test_what_is_told_of_the_torque_is_what_the_gyros_stored(slew):
     given = -np.diff(stored, axis=0) / np.diff(slew.t)[:, None]
     np.testing.assert_allclose(given[2:], slew.output[2:-1], atol=8e-3)  # the gimbals turn on
     assert np.abs(slew.output).max() > 0.2
+
+
+def test_the_shorter_way_is_turned_whatever_the_sign_of_the_target(slew):
+    bed = started(with_printed_errors(BED), LARGE)
+    other = slewed(bed, -level(bed.up), gains_of(bed), 1.0, 1)
+    np.testing.assert_array_equal(other.required, slew.required[: len(other.t)])
 
 
 def test_away_from_the_singularity_none_is_told(slew):
