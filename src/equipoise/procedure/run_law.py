@@ -36,6 +36,7 @@ from equipoise.model.verdict import Verdict
 from equipoise.procedure.knowledge import as_if_stiff, learn
 from equipoise.procedure.law_devices import Hands, carry_out, let_rest, opened_hands
 from equipoise.procedure.law_sample import Eyes, looked, opened, sample_of
+from equipoise.procedure.proof import watched_swing
 from equipoise.procedure.tilt_guard import tilted
 from equipoise.procedure.verify import verdict
 
@@ -195,7 +196,8 @@ def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
     if wait > 0:
         bench.read(wait)
     began = bench.time
-    knowledge = learn(None, bench.read(options.proof), bench.testbed)
+    fresh = watched_swing(bench, session.eyes, options.proof)
+    knowledge = learn(None, fresh, bench.testbed)
     judged = verdict(knowledge, None, began, options.target, options.tolerance)
     kind = "verify" if judged.passed else "stop"
     return Step(kind, bench.time, judged.sentence, knowledge.recording, knowledge.estimate,
