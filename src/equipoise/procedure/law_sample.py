@@ -84,9 +84,9 @@ def _over(channel: Samples) -> Floats:
     t, values = channel.t, channel.values
     if len(t) < 2:
         return np.zeros(values.shape[1])
-    since: Floats = np.diff(t, prepend=2 * t[0] - t[1])
-    whole: Floats = np.sum(since[:, None] * values, axis=0)
-    return whole
+    gaps: Floats = np.diff(t)
+    since = np.append(gaps[:1], gaps)
+    return since @ values
 
 
 def field_of(attitude: AttitudeState | None, fresh: Recording, testbed: Testbed) -> Vector3 | None:

@@ -7,7 +7,7 @@ record alone. A platform that tilts beyond its limit is halted, with the reason.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import reduce
 from typing import Any
 
@@ -29,6 +29,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, join, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import GROUPS
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.knowledge import learn
 from equipoise.procedure.law_devices import Hands, carry_out, let_rest, opened_hands
@@ -162,8 +163,14 @@ def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recordin
     if asked.since is not None:
         recording = with_known_inputs(since(parts, asked.since), testbed)
     options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
-    estimate = estimated(METHODS[asked.method], recording, testbed, options)
+    estimate = estimated(METHODS[asked.method], recording, stiff(testbed), options)
     return Session(eyes, hands, parts), recording, estimate
+
+
+def stiff(testbed: Testbed) -> Testbed:
+    """Return the testbed without elastic sag, for looks: see ``knowledge.learn``."""
+    terms = tuple(term for term in testbed.disturbances if term not in GROUPS["sag"])
+    return replace(testbed, disturbances=terms)
 
 
 def since(parts: tuple[Recording, ...], start: float) -> Recording:
