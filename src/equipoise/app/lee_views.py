@@ -77,10 +77,8 @@ def sheet_of(done: Manoeuvre) -> Sheet:
     told = "no singularity" if near is None else f"singular from {near[0]:.1f} to {near[1]:.1f} s"
     angles = ", ".join(f"{angle:g}" for angle in done.start)
     remarks = [f"{name}: {estimate.outcome.sentence}" for name, estimate in done.estimates.items()]
-    return Sheet(
-        f"From ({angles}) deg, {told}: value (sd) error; J in kg m2, m r in g cm", ("", "truth", *done.estimates), lines,
-        remarks,
-    )  # fmt: skip
+    title = f"From ({angles}) deg, {told}: value (sd) error; J in kg m2, m r in g cm"
+    return Sheet(title, ("", "truth", *done.estimates), lines, remarks)
 
 
 def bound_sheet(runs: Sequence[Manoeuvre]) -> Sheet:

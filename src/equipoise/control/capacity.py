@@ -7,10 +7,12 @@ be had in every direction:
     gyro     a_k = g x s at angle 0,   b_k momentum times greatest rate
              momentum (E - g g^T) d, of length sqrt(1 - (g.d)^2) times the rotor's
 
-The least is taken over directions about three degrees apart, and is too great by 0.2 % at most.
+For boxes the least is at right angles to two of the axes; directions about three degrees apart are
+looked at beside these, for the momentum of gyros.
 A gyro's is for its angle at the start; gyros in a singularity give less (methods.md 6).
 """
 
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -43,9 +45,11 @@ def capacity(testbed: Testbed) -> Capacity:
     axes = np.array([*(w.axis for w in testbed.wheels), *turned]).reshape(-1, 3)
     if len(axes) < 3 or np.linalg.svd(axes)[1][2] < FLAT:
         return Capacity(0.0, 0.0)
-    d = directions()
-    torque: Series1 = np.zeros(POINTS)
-    momentum: Series1 = np.zeros(POINTS)
+    crossed = [np.cross(a, b) for a, b in combinations(axes, 2)]
+    square = [c / np.linalg.norm(c) for c in crossed if np.linalg.norm(c) > FLAT]
+    d = np.vstack([directions(), *square])
+    torque: Series1 = np.zeros(len(d))
+    momentum: Series1 = np.zeros(len(d))
     for wheel in testbed.wheels:
         along = np.abs(d @ wheel.axis)
         torque += wheel.max_torque * along

@@ -50,6 +50,7 @@ from equipoise.control.slew import (
     Slew,
     end_of,
     levelled,
+    moment_across,
     pace_for,
     reference_at,
     slew,
@@ -125,7 +126,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     tilt = min(RANGE, SHARE * testbed.tilt_limit)
     trims = [trimmed_com(sag_matrix({term: 1.0}), testbed.up, tilt) for term in book.terms]
     trim = np.array(trims).reshape(-1, 3).T
-    pace = pace_for(testbed, can)
+    pace = pace_for(moment_across(testbed.body.inertia_P, testbed.up), can)
     stages = planned(testbed, book, trim, pace)
     loop = gains_for(testbed.body.inertia_P, can.torque)
     return State(), Params(

@@ -9,14 +9,10 @@
     ...       feedback, kick, look and calm again at FLOOR, a tenth as deep
     end       all masses to the target
 
-A free swing shows r and J up to one factor, so that a drawing's J makes r wrong by its own error.
-The way between the two depths is known, and tells that factor k and r at home:
-
-    r_i + s_i = k (r + s_i),    k = up.( r_1 + s_1 - r_2 - s_2 ) / up.( s_1 - s_2 )
-    r = ( r_2 + s_2 ) / k - s_2
-
-r_i is what look i says of r with the masses at home, s_i the shift at it. Another swing at FLOOR is
-made as long as it changes r by more than GAIN sds, at most MOST looks in all.
+The way between the two depths is known, and frees r of the factor that it shares with J
+(``swing_looks``). Another swing at FLOOR is
+made as
+long as it changes r by more than GAIN sds, at most MOST looks in all.
 
 (Bahu and Modenini 2020; the note of 2022 for coils. They fit J and r_z under constraints that could
 not be read, methods.md 5.6. Here what a small swing does not show of J is held, and the least
@@ -39,6 +35,8 @@ from equipoise.control.planar_feedback import (
     loop_for,
 )
 from equipoise.control.sample import Sample
+from equipoise.control.slew import moment_across
+from equipoise.control.swing_looks import METHOD, Shown, believed, held, shown
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Look
@@ -49,7 +47,6 @@ from equipoise.model.testbed import Testbed
 Phase = Literal["hang", "feedback", "kick", "calm", "rise", "end"]
 
 PERIOD = 0.2  # s
-METHOD = "momentum_corrected"
 SWING = 60.0  # s of a look
 FLOOR = 30e-6  # m, chosen: as shallow as a swing of 60 s still shows, a period of 50 s
 STEEP = 6.0  # chosen: of the sideways sd, so that the platform leans by ten degrees at most
@@ -82,15 +79,6 @@ class Params:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shown:
-    """What a look said."""
-
-    com: Vector3  # m, masses at home
-    sd: Vector3
-    shift: Vector3  # m, at the look
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class State:
     """How far it has come."""
 
@@ -111,9 +99,8 @@ class State:
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError where masses are too slow for the feedback."""
     up, sd = testbed.up, testbed.com_sd
-    across = np.eye(3) - np.outer(up, up)
-    J = float(np.linalg.eigvalsh(across @ testbed.body.inertia_P @ across)[-1])
-    depth = max(STEEP * float(np.linalg.norm(across @ sd)), 3 * FLOOR)
+    J = moment_across(testbed.body.inertia_P, up)
+    depth = max(STEEP * float(np.linalg.norm(sd - (sd @ up) * up)), 3 * FLOOR)
     hang = depth + UNSURE * float(abs(up @ sd)) + float(testbed.body.com @ up)
     speed = max([m.mass * m.speed / testbed.body.mass for m in testbed.masses], default=0.0)
     plant = Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
@@ -176,14 +163,6 @@ def kicked(state: State, params: Params) -> State:
     return into(state, "kick", state.shift + aside)
 
 
-def held(up: Vector3) -> tuple[str, ...]:
-    """Return the elements of J that a small swing about horizontal axes does not show, and one."""
-    z = int(np.argmax(np.abs(up)))
-    x, y = (i for i in range(3) if i != z)
-    pairs = ((x, x), (z, z), (x, z), (y, z))
-    return tuple("inertia_P_" + "".join("xyz"[i] for i in sorted(pair)) for pair in pairs)
-
-
 def has_arrived(state: State) -> bool:
     """Say whether the masses have stood for a while after this phase asked for a shift."""
     return state.since is not None and state.t >= max(state.stood, state.since) + ARRIVED
@@ -195,28 +174,16 @@ def is_level(state: State) -> bool:
     return state.lean + state.swing < LEVEL or state.t > state.since + LONGEST
 
 
-def unscaled(first: Shown, last: Shown, up: Vector3) -> Vector3:
-    """Return r (m) with the masses at home, freed of the factor that both looks share."""
-    way = float(up @ (first.shift - last.shift))
-    k = float(up @ (first.com + first.shift - last.com - last.shift)) / way
-    return (last.com + last.shift) / k - last.shift
-
-
-def believed(looks: tuple[Shown, ...], up: Vector3) -> Vector3:
-    """Return r (m) with the masses at home; one look's as it is."""
-    return looks[0].com if len(looks) == 1 else unscaled(looks[0], looks[-1], up)
-
-
 def after_look(state: State, seen: Estimate, params: Params) -> State:
     """Return the state after a look: calmed down where it is, with what comes then."""
     state = replace(state, since=None)  # the clock has gone on
     if not (seen.outcome.usable and seen.sees(COM)):
         return into(replace(state, failed=state.failed + 1), "feedback", state.shift)
-    sd, up = np.sqrt(np.diag(seen.covariance_of(COM))), params.up
-    looks = (*state.looks, Shown(seen.com, sd, state.shift))
+    up, look = params.up, shown(seen, state.shift)
+    looks = (*state.looks, look)
     r = believed(looks, up)
     depth = -float(up @ (r + state.shift))
-    gained = len(looks) < 3 or bool(np.any(np.abs(r - believed(looks[:-1], up)) > GAIN * sd))
+    gained = len(looks) < 3 or bool(np.any(np.abs(r - believed(looks[:-1], up)) > GAIN * look.sd))
     goal = -FLOOR * up if len(looks) < MOST and gained else params.target
     loop = loop_for(params.plant, depth, params.variant)
     state = replace(state, looks=looks, loop=loop, goal=goal - r)

@@ -3,12 +3,14 @@
 from typing import Any
 
 from equipoise.control import (
+    coarse_fine,
     fully_actuated,
     impulse_feedback,
     l1_adaptive,
     momentum_buildup,
     pid,
     planar_magnetic,
+    slew_and_look,
     underactuated,
     underactuated_integral,
 )
@@ -23,5 +25,7 @@ ALL: tuple[Law[Any, Any], ...] = (
     impulse_feedback.LAW,
     fully_actuated.LAW,
     momentum_buildup.LAW,
+    slew_and_look.LAW,
+    coarse_fine.LAW,
 )
 LAWS: dict[str, Law[Any, Any]] = {law.card.name: law for law in ALL}

@@ -14,8 +14,7 @@ import numpy as np
 from equipoise.control.attitude_pid import Reference
 from equipoise.control.capacity import Capacity
 from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
-from equipoise.model.arrays import Quaternion, Vector3
-from equipoise.model.testbed import Testbed
+from equipoise.model.arrays import Matrix3, Quaternion, Vector3
 
 SLOW = 0.06  # rad/s, chosen: the fastest turn; momentum may ask for less
 PART = 0.5  # of torque and momentum, chosen: what a turn may take of them
@@ -39,11 +38,15 @@ class Slew(NamedTuple):
     duration: float  # s
 
 
-def pace_for(testbed: Testbed, can: Capacity) -> Pace:
-    """Return the pace of turns about axes across ``up`` that wheels and gyros can make."""
-    across = np.eye(3) - np.outer(testbed.up, testbed.up)
-    J = float(np.linalg.eigvalsh(across @ testbed.body.inertia_P @ across)[-1])
-    return Pace(min(SLOW, PART * can.momentum / J), PART * can.torque / J)
+def moment_across(inertia_P: Matrix3, up: Vector3) -> float:
+    """Return the greatest moment of inertia about an axis across ``up``, kg m^2."""
+    across = np.eye(3) - np.outer(up, up)
+    return float(np.linalg.eigvalsh(across @ inertia_P @ across)[-1])
+
+
+def pace_for(moment: float, can: Capacity) -> Pace:
+    """Return the pace that devices can make about an axis of some moment of inertia (kg m^2)."""
+    return Pace(min(SLOW, PART * can.momentum / moment), PART * can.torque / moment)
 
 
 def time_for(angle: float, pace: Pace) -> float:

@@ -7,7 +7,7 @@ record alone. A platform that tilts beyond its limit is halted, with the reason.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import reduce
 from typing import Any
 
@@ -19,6 +19,8 @@ from equipoise.actuators.reaction_wheels import span, wheels_span
 from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.control.law import NEEDS, Law, LawCard, Need
 from equipoise.control.sample import Sample
+from equipoise.estimation import trajectory
+from equipoise.estimation.conclusion import conclude
 from equipoise.estimation.method import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.arrays import Vector3
@@ -29,9 +31,9 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, join, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import GROUPS
+from equipoise.model.torque_terms import among
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.knowledge import learn
+from equipoise.procedure.knowledge import as_if_stiff, learn
 from equipoise.procedure.law_devices import Hands, carry_out, let_rest, opened_hands
 from equipoise.procedure.law_sample import Eyes, looked, opened, sample_of
 from equipoise.procedure.tilt_guard import tilted
@@ -162,15 +164,23 @@ def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recordin
     recording = fresh
     if asked.since is not None:
         recording = with_known_inputs(since(parts, asked.since), testbed)
-    options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
-    estimate = estimated(METHODS[asked.method], recording, stiff(testbed), options)
+    estimate = looked_into(recording, testbed, asked)
     return Session(eyes, hands, parts), recording, estimate
 
 
-def stiff(testbed: Testbed) -> Testbed:
-    """Return the testbed without elastic sag, for looks: see ``knowledge.learn``."""
-    terms = tuple(term for term in testbed.disturbances if term not in GROUPS["sag"])
-    return replace(testbed, disturbances=terms)
+def looked_into(recording: Recording, testbed: Testbed, asked: Look) -> Estimate:
+    """Return what a method makes of a record, within the patience of somebody at a bench.
+
+    The trajectory fit is taken without the survey that it makes of a recording from elsewhere.
+    """
+    testbed = as_if_stiff(testbed)
+    options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
+    if asked.method != trajectory.METHOD:
+        return estimated(METHODS[asked.method], recording, testbed, options)
+    terms = among((*testbed.disturbances, *options.terms))
+    params = trajectory.Params(terms, use_prior=options.use_prior, hold=options.hold)
+    fitted = trajectory.fit(recording, testbed, params)
+    return conclude(fitted, trajectory.METHOD, recording)
 
 
 def since(parts: tuple[Recording, ...], start: float) -> Recording:

@@ -1,0 +1,196 @@
+"""Large turns by wheels or gyros, and one fit of all that was recorded (Lee's procedure).
+
+    turn      from where the platform is to A, B and C, far apart and tilted, by ``attitude_pid``
+    look      all since the first turn is fitted at once: the momentum that wheels or gyros stored
+              is known and sets the scale, so that J and r come out together
+    move      the masses go to the target, once; then turn and look again
+
+Gravity's torque on an unknown r is not fed forward; the integral takes it. Wheels must take all of
+it while the turns last, so ``begin`` asks for
+
+    m g |com_sd| T < momentum,     T: all the turns
+
+(Lee et al. sections IV and V: start at (70, 30, -30) deg, one turn to level; there the estimate
+runs along, here it is made at the end, by maximum likelihood for their integrated regression.)
+"""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from equipoise.control.attitude_pid import Gains, Pid, gains_for, torque, unwound
+from equipoise.control.capacity import capacity
+from equipoise.control.law import Law, LawCard
+from equipoise.control.sample import Sample
+from equipoise.control.slew import (
+    Pace,
+    Slew,
+    end_of,
+    levelled,
+    pace_for,
+    reference_at,
+    slew,
+    time_for,
+)
+from equipoise.control.swing_looks import shows
+from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
+from equipoise.model.arrays import Quaternion, Vector3
+from equipoise.model.command import Command, Look
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate
+from equipoise.model.testbed import Testbed
+
+PERIOD = 0.1  # s
+SHARE = 0.7  # of the tilt limit, chosen: the tilt of A, B and C
+HEADING = float(
+    np.radians(60)
+)  # rad, chosen: between one and the next, to see J about the vertical
+METHOD, AFTER = "trajectory", 5.0  # s, chosen: of the look after the last turn
+ROUNDS = 2  # turns, look and move, and once more
+REST = 3.0  # s after a turn, chosen: until its error has settled
+STANDS, ARRIVED = 1e-10, 1.0  # m, s: masses that stand so long have arrived
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What is told."""
+
+    testbed: Testbed
+    gains: Gains
+    pace: Pace
+    target: Vector3  # m
+    turns: tuple[Quaternion, ...]  # A, B and C, from level with the first heading
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """How far it has come."""
+
+    com: Vector3  # m, believed, masses at home
+    pid: Pid = field(default_factory=unwound)
+    base: Quaternion | None = None  # level, with the first heading
+    way: Slew | None = None
+    at: int = 0  # which turn
+    round: int = 1
+    began: float = 0.0  # s, of this round's turns
+    shift: Vector3 | None = None  # m, asked for
+    seen_shift: Vector3 | None = None  # m, at the last sample
+    stood: float = 0.0  # s, since when the masses stand
+    moving: bool = False  # the masses are on their way
+    finished: str = ""
+
+
+def attitudes(testbed: Testbed) -> tuple[Quaternion, ...]:
+    """Return A, B and C from level: tilted to three sides, at three headings."""
+    tilt = SHARE * testbed.tilt_limit
+    x, y = to_matrix(level(testbed.up))[:2]
+    sides = [0.0, 2.0 * np.pi / 3, -2.0 * np.pi / 3]
+    headings = [HEADING, 0.0, -HEADING]
+    return tuple(
+        multiply(exponential(h * testbed.up), exponential(tilt * (np.cos(a) * x + np.sin(a) * y)))
+        for h, a in zip(headings, sides, strict=True)
+    )
+
+
+def ways(params: Params) -> list[float]:
+    """Return how long each turn lasts (s), the first from level."""
+    here, found = level(params.testbed.up), list[float]()
+    for turn in params.turns:
+        there = multiply(level(params.testbed.up), turn)
+        angle = float(np.linalg.norm(difference(there, here)))
+        found.append(time_for(angle, params.pace) + REST)
+        here = there
+    return found
+
+
+def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
+    """Return the beginning; InputError where wheels cannot take gravity's torque for so long."""
+    can, J = capacity(testbed), testbed.body.inertia_P
+    if can.torque <= 0 or not testbed.masses:
+        raise InputError("slew_and_look", "a testbed without them",
+                         "sliding masses, and wheels or gyros along all axes")  # fmt: skip
+    pace = pace_for(float(np.linalg.eigvalsh(J)[-1]), can)
+    params = Params(testbed, gains_for(J, can.torque), pace, target, attitudes(testbed))
+    weight = testbed.body.mass * testbed.gravity * float(np.linalg.norm(testbed.com_sd))
+    needed = weight * sum(ways(params))
+    if can.momentum < needed:
+        raise InputError("slew_and_look", f"wheels or gyros that store {can.momentum:.3g} N m s",
+                         f"{needed:.3g} N m s: m g com_sd while the turns last")  # fmt: skip
+    return State(testbed.body.com), params
+
+
+def turning(state: State, seen: Sample, params: Params) -> State:
+    """Return the state on its way to the turn that is due; ``at`` past the last: all are made."""
+    turned = state.way is not None and state.way.duration > 0  # or held while masses travelled
+    if state.way is not None and turned:
+        if seen.t < end_of(state.way) + REST:
+            return state
+        state = replace(state, at=state.at + 1)
+    if state.at == len(params.turns):
+        return state
+    base = levelled(seen.q, params.testbed.up) if state.base is None else state.base
+    here = seen.q if state.way is None else reference_at(state.way, np.inf).q
+    way = slew(here, multiply(base, params.turns[state.at]), seen.t, params.pace)
+    began = seen.t if state.at == 0 else state.began
+    return replace(state, base=base, way=way, began=began)
+
+
+def driven(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+    """Return the state and the command that follows the turn, or holds after it."""
+    assert state.way is not None
+    reference = reference_at(state.way, seen.t)
+    moment = params.testbed.body.mass * (state.com + seen.shift)
+    pid, u = torque(state.pid, seen, reference, params.gains, moment)
+    return replace(state, pid=pid), Command(shift=state.shift, torque=u)
+
+
+def after_look(state: State, seen: Estimate, params: Params) -> State:
+    """Return the state with the masses on their way to the target."""
+    state = replace(state, seen_shift=None, pid=unwound(), way=None, at=0, round=state.round + 1)
+    if not shows(seen):
+        return replace(state, finished=f"The turns did not show the centre of mass: "
+                       f"{seen.outcome.sentence}")  # fmt: skip
+    done = f"At its place after {ROUNDS} rounds of turns." if state.round > ROUNDS else ""
+    return replace(state, com=seen.com, shift=params.target - seen.com, moving=True, finished=done)
+
+
+def watched(state: State, seen: Sample) -> State:
+    """Return the state that knows whether the masses still travel."""
+    before = state.seen_shift
+    stands = before is not None and bool(np.linalg.norm(seen.shift - before) <= STANDS)
+    stood = state.stood if stands else seen.t
+    return replace(state, seen_shift=seen.shift, stood=stood,
+                   moving=state.moving and seen.t < stood + ARRIVED)  # fmt: skip
+
+
+def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+    """Return the next state and the command: torque while turning, then a look at all of it."""
+    if isinstance(seen, Estimate):
+        state = after_look(state, seen, params)
+        return state, Command(shift=state.shift)
+    state = watched(state, seen)
+    if state.finished and not state.moving:
+        return state, Command(shift=state.shift, finished=state.finished)
+    if state.way is None and (state.moving or state.finished):
+        state = replace(state, way=Slew(seen.q, np.zeros(3), seen.t, 0.0))
+    if state.moving or state.finished:
+        return driven(state, seen, params)
+    state = turning(state, seen, params)
+    if state.at == len(params.turns):
+        return state, Command(shift=state.shift, look=Look(AFTER, METHOD, since=state.began))
+    return driven(state, seen, params)
+
+
+LAW = Law(
+    LawCard(
+        "slew_and_look",
+        "turns far by wheels or gyros, and fits the whole record with what they stored",
+        "Lee et al. Eqs. 1-3 and sections IV, V, with errata L1-L4",
+        ("masses", "momentum", "gyro", "attitude"),
+        "TODO",
+        "TODO",
+        PERIOD,
+    ),
+    begin,
+    step,
+)
