@@ -17,6 +17,7 @@ from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.procedure.law_sample import Eyes
+from equipoise.procedure.tilt_guard import guarded
 
 STILL = np.deg2rad(0.1)  # rad/s, chosen: slower than this it stands, as far as a proof goes
 WANTED = np.deg2rad(0.3)  # rad/s, chosen: 12 deg in a proof of 40 s
@@ -27,14 +28,14 @@ def watched_swing(bench: Bench, eyes: Eyes, duration: float) -> Recording:
     """Return a fresh record of ``duration`` seconds, and of the push before it if it needs one."""
     begun = bench.read(1.0)
     if eyes.attitude is None or float(np.linalg.norm(eyes.attitude.rate)) > STILL:
-        return join(begun, bench.read(duration))
+        return join(begun, guarded(bench, duration))
     names, out = push(bench.testbed, eyes)
     back = {name: float(d) for name, d in zip(names, last(begun, eyes), strict=True)}
     wait = float(np.abs(out - last(begun, eyes)).max()) / slowest(bench.testbed)
     bench.move({name: float(d) for name, d in zip(names, out, strict=True)})
     going = bench.read(wait)
     bench.move(back)
-    return join(join(begun, going), bench.read(wait + duration))
+    return join(join(begun, going), guarded(bench, wait + duration))
 
 
 def last(recording: Recording, eyes: Eyes) -> Floats:
@@ -83,7 +84,8 @@ def direction(testbed: Testbed, eyes: Eyes) -> Vector3:
 
 def within(masses: list[SlidingMass], now: Floats, way: Floats) -> Floats:
     """Return goals (m) a way on, or back if that has more room, in whole steps inside the rails."""
-    low, high = np.array([mass.travel for mass in masses]).T
+    low: Floats = np.array([mass.travel[0] for mass in masses])
+    high: Floats = np.array([mass.travel[1] for mass in masses])
     step = np.array([mass.resolution for mass in masses])
 
     def share(sign: float) -> float:
