@@ -112,7 +112,7 @@ def test_an_integral_whose_command_was_not_delivered_unwinds():
 
 
 def test_a_look_that_sees_nothing_ends_it_level():
-    """The masses go back to where they levelled it, and the sentence says why it is left hanging."""
+    """The masses go back to where they levelled it, and the sentence says why it hangs."""
     state, params = pid.begin(guess(), np.zeros(3))
     loop, zero = Loop(Plant(table(), TURN, RATE)), np.zeros(3)
     level, seen = np.array([1e-6, 2e-6, 3e-6]), loop.sample(zero, zero)
