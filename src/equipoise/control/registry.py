@@ -22,6 +22,8 @@ ALL: tuple[Law[Any, Any], ...] = (
     underactuated.LAW,
     underactuated_integral.LAW,
     planar_magnetic.LAW,
+    coarse_fine.LAW,
+    slew_and_look.LAW,
     impulse_feedback.LAW,
     fully_actuated.LAW,
     momentum_buildup.LAW,
