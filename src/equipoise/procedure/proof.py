@@ -21,21 +21,27 @@ from equipoise.procedure.tilt_guard import guarded
 
 STILL = np.deg2rad(0.1)  # rad/s, chosen: slower than this it stands, as far as a proof goes
 WANTED = np.deg2rad(0.3)  # rad/s, chosen: 12 deg in a proof of 40 s
+BEFORE = 1.0  # s, chosen: seen before a push
 ALIKE = 2.0  # -, chosen: masses that err by up to so many times the least are the finest
 
 
 def watched_swing(bench: Bench, eyes: Eyes, duration: float) -> Recording:
-    """Return a fresh record of ``duration`` seconds, and of the push before it if it needs one."""
-    begun = bench.read(1.0)
+    """Return a fresh record of ``duration`` seconds, with a push at its beginning if it needs one."""
+    begun, left = bench.read(BEFORE), duration - BEFORE
     if eyes.attitude is None or float(np.linalg.norm(eyes.attitude.rate)) > STILL:
-        return join(begun, guarded(bench, duration))
-    names, out = push(bench.testbed, eyes)
-    back = {name: float(d) for name, d in zip(names, last(begun, eyes), strict=True)}
-    wait = float(np.abs(out - last(begun, eyes)).max()) / slowest(bench.testbed)
-    bench.move({name: float(d) for name, d in zip(names, out, strict=True)})
+        return join(begun, guarded(bench, left))
+    here = last(begun, eyes)
+    out = push(bench.testbed, eyes, here)
+    wait = float(np.abs(out - here).max()) / slowest(bench.testbed)
+    bench.move(by_name(bench.testbed, out))
     going = bench.read(wait)
-    bench.move(back)
-    return join(join(begun, going), guarded(bench, wait + duration))
+    bench.move(by_name(bench.testbed, here))
+    return join(join(begun, going), guarded(bench, left - wait))
+
+
+def by_name(testbed: Testbed, displacement: Floats) -> dict[str, float]:
+    """Return displacements (m) by mass."""
+    return dict(zip(testbed.mass_names, map(float, displacement), strict=True))
 
 
 def last(recording: Recording, eyes: Eyes) -> Floats:
@@ -54,9 +60,8 @@ def finest(masses: tuple[SlidingMass, ...]) -> list[int]:
     return [i for i, each in enumerate(error) if each <= ALIKE * min(error)]
 
 
-def push(testbed: Testbed, eyes: Eyes) -> tuple[tuple[str, ...], Floats]:
-    """Return all masses' names, and where they are on the way out, m."""
-    assert eyes.attitude is not None
+def push(testbed: Testbed, eyes: Eyes, here: Floats) -> Floats:
+    """Return where the masses turn back, m, from where they are."""
     masses, chosen = testbed.masses, finest(testbed.masses)
     gain = mass_maps([masses[i] for i in chosen]).first_moment / testbed.body.mass
     way: Floats = np.linalg.pinv(gain.T) @ direction(testbed, eyes)  # m a metre of shift
@@ -64,9 +69,9 @@ def push(testbed: Testbed, eyes: Eyes) -> tuple[tuple[str, ...], Floats]:
     weight = testbed.body.mass * testbed.gravity
     moment = float(np.trace(testbed.body.inertia_P)) / 3
     reach = float(np.sqrt(moment * WANTED * speed / weight))
-    goal = eyes.displacement.copy()
+    goal = here.copy()
     goal[chosen] = within([masses[i] for i in chosen], goal[chosen], reach * way)
-    return testbed.mass_names, goal
+    return goal
 
 
 def direction(testbed: Testbed, eyes: Eyes) -> Vector3:
