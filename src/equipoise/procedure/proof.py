@@ -26,7 +26,7 @@ ALIKE = 2.0  # -, chosen: masses that err by up to so many times the least are t
 
 
 def watched_swing(bench: Bench, eyes: Eyes, duration: float) -> Recording:
-    """Return a fresh record of ``duration`` seconds, with a push at its beginning if it needs one."""
+    """Return a fresh record of ``duration`` seconds; it begins with a push where one is needed."""
     begun, left = bench.read(BEFORE), duration - BEFORE
     if eyes.attitude is None or float(np.linalg.norm(eyes.attitude.rate)) > STILL:
         return join(begun, guarded(bench, left))
