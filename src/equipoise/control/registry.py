@@ -27,7 +27,5 @@ ALL: tuple[Law[Any, Any], ...] = (
     impulse_feedback.LAW,
     fully_actuated.LAW,
     momentum_buildup.LAW,
-    slew_and_look.LAW,
-    coarse_fine.LAW,
 )
 LAWS: dict[str, Law[Any, Any]] = {law.card.name: law for law in ALL}
