@@ -1,21 +1,17 @@
 """Coarse, then fine, by free swings alone (RAMBO).
 
     hang      masses go down until the platform hangs whatever its height is
-    coarse    a short look; a move sideways that levels the platform, made at the best moment of
-              two swings, and one up to COARSE below the pivot
+    coarse    a short look; a move sideways that levels the platform, at a good moment, and
+              one up to COARSE below the pivot
     fine      looks and moves to the target, until one finds it within SURE sds, at most MOST
 
 Between coarse and fine the known way frees r of the factor that it shares with J (``swing_looks``).
 The target is never higher than SAFE below the pivot: what is left of balance keeps the platform
 upright when the law has gone.
 
-Nothing damps a swing, but a move sideways can be made at a moment that leaves little of it: its
-amplitude about the level is then what it is about the lean, less the lean. Watched is
-
-    a^2 = theta^2 + |w_p|^2 / w_n^2,     w_n^2 = m g depth / J     theta: tilt, w_p: horizontal rate
-
-for WATCH swings, and the move is made when it comes near the least again. The way up is slow
-against a swing, which then grows as depth^-1/4, by a half from 250 um to 50 um.
+Nothing damps a swing, but the move sideways is made at the moment that leaves least of it
+(``good_moment``). The way up is slow against a swing, which then grows as depth^-1/4, by a half
+from 250 um to 50 um.
 
 (RAMBO, engrXiv 7342: coarse active stage, fine free-response least squares, negative vertical
 offset. Its coarse stage is a feedback by wheels, and not read in detail; where there are wheels,
@@ -26,6 +22,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.control import good_moment
+from equipoise.control.good_moment import Waiting
 from equipoise.control.law import Law, LawCard
 from equipoise.control.sample import Sample
 from equipoise.control.slew import moment_across
@@ -46,9 +44,6 @@ SURE = 2.0  # sds, chosen: what a look is believed to
 SMALL = 0.1e-6  # m, chosen: what drift undoes in a minute is not worth another look
 MOST = 6  # looks, chosen
 MISSES = 3  # looks in all that show nothing, chosen
-WATCH = 2.0  # swings, chosen
-NEAR = 1.15  # of the least amplitude, chosen: a moment as good
-PATIENCE = 4.0  # swings, chosen: the move is made then in any case
 ARRIVED = 1.0  # s, chosen: masses that stand so long have arrived
 STANDS = 1e-10  # m
 
@@ -61,16 +56,6 @@ class Params:
     target: Vector3  # m
     held: tuple[str, ...]  # elements of J that looks do not estimate
     stiffness: float  # 1/(m s^2), m g / J
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Waiting:
-    """For the moment of a move."""
-
-    shift: Vector3  # m, to ask for
-    swing: float  # rad/s, w_n
-    since: float | None = None  # s
-    least: float = np.inf  # rad, amplitude so far
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,7 +84,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     hang = depth + float(testbed.body.com @ up)
     J = moment_across(testbed.body.inertia_P, up)
     stiffness = testbed.body.mass * testbed.gravity / J
-    return State(-hang * up), Params(up, safe, held(up), stiffness)
+    return State(-hang * up), Params(up, safe, held(testbed), stiffness)
 
 
 def levelling(state: State, r: Vector3, params: Params) -> State:
@@ -110,24 +95,13 @@ def levelling(state: State, r: Vector3, params: Params) -> State:
     return replace(state, waiting=waiting, rise=-COARSE * params.up - r)
 
 
-def amplitude(seen: Sample, up: Vector3, swing: float) -> float:
-    """Return what the swing would be (rad) about the level."""
-    n = -seen.gravity / float(np.linalg.norm(seen.gravity))
-    tilt = float(np.arccos(np.clip(n @ up, -1.0, 1.0)))
-    return float(np.hypot(tilt, np.linalg.norm(np.cross(seen.rate, n)) / swing))
-
-
 def waited(state: State, seen: Sample, params: Params) -> State:
     """Return the state that goes on waiting, or makes the move at a good moment."""
-    waiting = state.waiting
-    assert waiting is not None
-    since = seen.t if waiting.since is None else waiting.since
-    now, swings = amplitude(seen, params.up, waiting.swing), (seen.t - since) * waiting.swing
-    good = swings > 2 * np.pi * WATCH and now < NEAR * waiting.least
-    if good or swings > 2 * np.pi * PATIENCE:
-        return replace(state, shift=waiting.shift, waiting=None, stood=seen.t)
-    least = min(now, waiting.least)
-    return replace(state, waiting=replace(waiting, since=since, least=least))
+    assert state.waiting is not None
+    waiting, shift = good_moment.watched(state.waiting, seen, params.up, state.shift)
+    if all(waiting.done):
+        return replace(state, shift=shift, waiting=None, stood=seen.t)
+    return replace(state, waiting=waiting, shift=shift)
 
 
 def after_look(state: State, seen: Estimate, params: Params) -> State:

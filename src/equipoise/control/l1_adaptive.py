@@ -307,7 +307,9 @@ def look_step(state: State, seen: Estimate, params: Params) -> tuple[State, Comm
     """Return what follows a look."""
     assert state.level is not None
     if not sees(seen):
-        return state, unseen(seen, state.level)
+        assert state.way is not None
+        way = unseen(params.plant, seen, state.way, state.level)
+        return replace(state, way=way), Command(shift=way.goal)
     height = raised(params.plant, state.height, seen, params.target)
     shift = shift_for(params.plant, turned(params.plant, state.level))
     note = f"raised to {height.depth * 1e6:.3g} um below the target"

@@ -73,8 +73,11 @@ LONGEST = 420.0  # s, chosen: with catches that take longer still below eight mi
 FOLLOW = 1.0  # s, chosen: between moves while the masses follow
 UNLOAD = 0.1  # 1/s, chosen: slow against masses that travel 20 um in two seconds
 SOON = 0.2  # chosen: share of 1/UNLOAD in which masses reach what unloads
-FULL, EMPTY = 0.6, 0.15  # of the momentum that wheels can take, chosen
+FULL, EMPTY = 0.45, 0.1  # of the momentum that wheels can take, chosen: a turn needs half
+AHEAD = 60.0  # s, chosen: drift goes on, and is at the goal in the middle of the next two minutes
+LATE = 4  # chosen: holds before which no coarse mass is moved any more
 DOUBT = 2.0  # sds of the goal, chosen: a change that is worth a move during the holds
+COARSE = 0.1e-6  # m, chosen: one sd of a stop that is worth another pair of holds
 PATIENCE = 60.0  # s, chosen: for masses that do not arrive
 SETTLED = 1.0  # s, chosen: masses that then stand have arrived
 
@@ -107,6 +110,7 @@ class State:
     shift: Vector3 | None = None  # m, last asked for
     followed: float = -np.inf  # s, when the masses last followed
     unloading: bool = False
+    again: bool = False  # the last pair of holds is taken a second time
     closing: float | None = None  # s, when the last move was asked for
 
 
@@ -152,7 +156,7 @@ def planned(testbed: Testbed, book: Book, trim: Floats, pace: Pace) -> tuple[Sta
 
 def off_goal(ledger: Ledger, shift: Vector3, trim: Floats, book: Book) -> tuple[Vector3, Matrix3]:
     """Return how far the centre of mass is from what trims the platform, and the covariance."""
-    G = com_map(ledger, book)
+    G = com_map(ledger, book, AHEAD)
     G[:, TERM:] -= trim
     return G @ ledger.x + shift, G @ ledger.P @ G.T
 
@@ -190,27 +194,33 @@ def shift_for(state: State, seen: Sample, params: Params) -> State:
     return replace(state, shift=wanted, followed=seen.t)
 
 
-def retrimmed(state: State, seen: Sample, params: Params, doubt: float) -> State:
+def retrimmed(
+    state: State, seen: Sample, params: Params, doubt: float, late: bool = False
+) -> State:
     """Return the state with the masses sent to the goal, if the change is beyond their errors.
 
-    It must be beyond ``doubt`` sds of the goal, too.
+    It must be beyond ``doubt`` sds of the goal, too; ``late``, no coarse mass must have to move.
     """
     assert state.ledger is not None
     wanted, covariance = home_to_goal(state.ledger, params)
     change: Vector3 = wanted - seen.shift
     stops = float(np.sum(stop_variance(change, params.book)))
-    if change @ change < stops + doubt**2 * float(np.trace(covariance)):
+    unsure = stops + doubt**2 * float(np.trace(covariance))
+    if (late and stops > COARSE**2) or change @ change < unsure:
         return state
     return replace(state, shift=wanted)
 
 
 def guarded(state: State, seen: Sample, params: Params) -> State:
-    """Return the state with the unloading begun, gone on with, or ended; the hold waits for it."""
-    size = float(np.linalg.norm(seen.momentum)) / params.momentum
+    """Return the state with the unloading begun, gone on with, or ended; the hold waits for it.
+
+    What a turn borrows of the wheels' momentum comes back by itself and does not count.
+    """
+    assert state.ledger is not None
+    size = float(np.linalg.norm(state.ledger.x[:2])) / params.momentum
     if not state.unloading:
         return replace(state, unloading=size > FULL)
-    assert state.ledger is not None
-    if size > EMPTY and float(np.linalg.norm(state.ledger.x[:2])) > EMPTY * params.momentum:
+    if size > EMPTY:
         return replace(state, due=state.due + PERIOD)
     return retrimmed(replace(state, unloading=False), seen, params, 0.0)
 
@@ -222,7 +232,8 @@ def entered_stage(state: State, seen: Sample, params: Params) -> State:
     here = seen.q if state.turn is None else reference_at(state.turn, np.inf).q
     way = slew(here, turned(base, stage.turn), seen.t, params.pace)
     state = replace(state, level=base, turn=way, due=end_of(way) + stage.seconds)
-    return state if stage.follows else retrimmed(state, seen, params, DOUBT)
+    late = state.stage >= len(params.stages) - LATE
+    return state if stage.follows else retrimmed(state, seen, params, DOUBT, late)
 
 
 def advanced(state: State, seen: Sample, params: Params) -> State:
@@ -233,7 +244,21 @@ def advanced(state: State, seen: Sample, params: Params) -> State:
         return state
     if state.stage + 1 < len(params.stages):
         return entered_stage(replace(state, stage=state.stage + 1), seen, params)
-    return replace(retrimmed(state, seen, params, 0.0), closing=seen.t)
+    return closed(state, seen, params)
+
+
+def closed(state: State, seen: Sample, params: Params) -> State:
+    """Return the state with the last move asked for, or the last pair of holds taken once more.
+
+    That is when the move would bring in more doubt than is wanted: masses of coarse steps stop
+    where they will. After it only fine ones have to move.
+    """
+    moved = retrimmed(state, seen, params, 0.0)
+    assert moved.shift is not None
+    stops = stop_variance(moved.shift - seen.shift, params.book)
+    if state.again or float(stops.max()) <= COARSE**2:
+        return replace(moved, closing=seen.t)
+    return entered_stage(replace(moved, again=True, stage=state.stage - 1), seen, params)
 
 
 def ended(state: State, seen: Sample) -> bool:

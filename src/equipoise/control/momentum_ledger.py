@@ -200,13 +200,13 @@ def entered(ledger: Ledger, seen: Sample, book: Book) -> Ledger:
     return corrected(arrived(ahead, book), seen, dt, book) if still else ahead
 
 
-def com_map(ledger: Ledger, book: Book) -> Floats:
-    """Return the map (3, n) from x to the centre of mass now, drift counted, masses at home."""
+def com_map(ledger: Ledger, book: Book, ahead: float = 0.0) -> Floats:
+    """Return the map (3, n) from x to the centre of mass, masses at home, ``ahead`` (s) of now."""
     G = np.zeros((3, len(ledger.x)))
     G[:, COM:TERM] = np.eye(3)
     for axis, name in enumerate(("drift_x", "drift_y", "drift_z")):
         if name in book.terms:
-            G[axis, TERM + book.terms.index(name)] = ledger.t - ledger.begin
+            G[axis, TERM + book.terms.index(name)] = ledger.t - ledger.begin + ahead
     return G
 
 

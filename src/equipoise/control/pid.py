@@ -256,7 +256,9 @@ def look_phase(state: State, seen: Estimate, params: Params) -> tuple[State, Com
     """Return what follows a look."""
     assert state.level is not None
     if not sees(seen):
-        return state, unseen(seen, state.level)
+        assert state.way is not None
+        way = unseen(params.plant, seen, state.way, state.level)
+        return replace(state, way=way), Command(shift=way.goal)
     height = raised(params.plant, state.height, seen, params.target)
     state = replace(state, phase="level", height=height, rest=Rest(), way=None)
     assert state.integral is not None

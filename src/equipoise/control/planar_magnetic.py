@@ -1,18 +1,18 @@
 """Planar feedback by masses and coils, then free swings for the height, in turn (Bologna).
 
     hang      the masses go down, so that the platform is a pendulum whatever r_z is
-    feedback  masses integrate the tilt away, coils damp (``planar_feedback``), until it is level
-    kick      the masses lean the platform by KICK; nothing damps it
     look      free swing, least squares for r and one moment of J, another held
-    calm      feedback again, from where the look says that it is level: a swing that is taken up
-              to where the platform is softer would grow
-    ...       feedback, kick, look and calm again at FLOOR, a tenth as deep
-    end       all masses to the target
+    level     masses level the platform as the look says, at a ``good_moment``: what was let go from
+              level is back there at rest once in every swing
+    calm      masses integrate the tilt away, coils damp (``planar_feedback``): a swing taken up to
+              where the platform is softer would grow
+    rise      up to FLOOR, where coils are strong against gravity, and KICK off level
+    ...       look, level and calm again, and again from a new kick while r is not known to ENOUGH
+    end       from where feedback found it level, up to the target
 
-The way between the two depths is known, and frees r of the factor that it shares with J
-(``swing_looks``). Another swing at FLOOR is
-made as
-long as it changes r by more than GAIN sds, at most MOST looks in all.
+The first look takes the swing as it finds it; where that shows nothing, there is feedback and a
+kick before the next. The way between the two depths is known, and frees r of the factor that it
+shares with J (``swing_looks``).
 
 (Bahu and Modenini 2020; the note of 2022 for coils. They fit J and r_z under constraints that could
 not be read, methods.md 5.6. Here what a small swing does not show of J is held, and the least
@@ -24,6 +24,8 @@ from typing import Literal
 
 import numpy as np
 
+from equipoise.control import good_moment
+from equipoise.control.good_moment import Waiting
 from equipoise.control.law import Law, LawCard
 from equipoise.control.planar_feedback import (
     Loop,
@@ -36,29 +38,30 @@ from equipoise.control.planar_feedback import (
 )
 from equipoise.control.sample import Sample
 from equipoise.control.slew import moment_across
-from equipoise.control.swing_looks import METHOD, Shown, believed, held, shown
+from equipoise.control.swing_looks import METHOD, Shown, believed, held, shown, shows
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Look
 from equipoise.model.errors import InputError
-from equipoise.model.estimate import COM, Estimate
+from equipoise.model.estimate import Estimate
 from equipoise.model.testbed import Testbed
 
-Phase = Literal["hang", "feedback", "kick", "calm", "rise", "end"]
+Phase = Literal["hang", "feedback", "kick", "level", "calm", "end"]
 
 PERIOD = 0.2  # s
 SWING = 60.0  # s of a look
 FLOOR = 30e-6  # m, chosen: as shallow as a swing of 60 s still shows, a period of 50 s
 STEEP = 6.0  # chosen: of the sideways sd, so that the platform leans by ten degrees at most
 UNSURE = 2.0  # sds of the height that must still hang
-KICK = float(np.radians(8))  # rad, chosen: well above what drafts do
-LEVEL = float(np.radians(0.3))  # rad, chosen: lean and swing at which the feedback has done
+KICK = float(np.radians(4))  # rad, chosen: well above what drafts do
+LEVEL = float(np.radians(0.5))  # rad, chosen: lean and swing at which the feedback has done
+CALM = float(np.radians(1.5))  # rad, chosen: the same before it rises to where coils are stronger
+UNREST = 0.1  # rad, chosen: what running means begin with
 MEAN = 10.0  # s, chosen: over which these are judged
 LONGEST = 600.0  # s, chosen: feedback is left after that in any case
-GAIN = 3.0  # sds
-MOST = 4  # looks, chosen
-ROUNDING = 1e-6
-MISSES = 2  # looks that show nothing, chosen
+ENOUGH = 1e-6  # m, chosen: one sd of r, a third of a usual tolerance
+MOST = 3  # looks, chosen
+MISSES = 3  # looks that show nothing, chosen
 ARRIVED = 0.5  # s, chosen: masses that stand so long have arrived
 STANDS = 1e-10  # m
 LAG = 2.0  # s of travel, chosen: masses so far behind are not asked for more
@@ -75,6 +78,7 @@ class Params:
     target: Vector3  # m
     depth: float  # m, of the first swing
     speed: float  # m/s, of the shift
+    held: tuple[str, ...]  # what looks do not estimate
     variant: Variant = "sine"
 
 
@@ -86,13 +90,14 @@ class State:
     shift: Vector3  # m, asked for
     loop: Loop
     since: float | None = None  # s, when the phase began
-    lean: float = 1.0  # rad, running mean of the tilt
-    swing: float = 1.0  # rad, running mean of |w across the vertical| / w_n
+    lean: float = UNREST  # rad, running mean of the tilt
+    swing: float = UNREST  # rad, running mean of |w across the vertical| / w_n
     seen_shift: Vector3 = field(default_factory=lambda: np.zeros(3))
     stood: float = 0.0  # s, since when the masses stand
     t: float = 0.0
     looks: tuple[Shown, ...] = ()
     failed: int = 0  # looks that showed nothing
+    waiting: Waiting | None = None  # to level the platform
     goal: Vector3 | None = None  # m, the shift to end with
 
 
@@ -100,11 +105,11 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError where masses are too slow for the feedback."""
     up, sd = testbed.up, testbed.com_sd
     J = moment_across(testbed.body.inertia_P, up)
-    depth = max(STEEP * float(np.linalg.norm(sd - (sd @ up) * up)), 3 * FLOOR)
+    depth = max(STEEP * float(np.linalg.norm(sd - (sd @ up) * up)), 2 * FLOOR)
     hang = depth + UNSURE * float(abs(up @ sd)) + float(testbed.body.com @ up)
     speed = max([m.mass * m.speed / testbed.body.mass for m in testbed.masses], default=0.0)
     plant = Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
-    params = Params(plant, up, target, depth, speed)
+    params = Params(plant, up, target, depth, speed, held(testbed))
     loop = loop_for(plant, depth, params.variant)
     if plant.coils == 0 or loop.integral * TEN_DEGREES > FAST * speed:
         raise InputError("planar_magnetic", f"masses that shift by {1e6 * speed:.3g} um/s and "
@@ -153,7 +158,9 @@ def fed_back(state: State, seen: Sample, params: Params, dt: float) -> State:
 def into(state: State, phase: Phase, shift: Vector3) -> State:
     """Return the state at the beginning of a phase that asks for a shift (m)."""
     since = None if state.since is None else state.t
-    return replace(state, phase=phase, shift=shift, since=since, stood=state.t, lean=1.0, swing=1.0)
+    return replace(
+        state, phase=phase, shift=shift, since=since, stood=state.t, lean=UNREST, swing=UNREST
+    )
 
 
 def kicked(state: State, params: Params) -> State:
@@ -168,45 +175,57 @@ def has_arrived(state: State) -> bool:
     return state.since is not None and state.t >= max(state.stood, state.since) + ARRIVED
 
 
-def is_level(state: State) -> bool:
-    """Say whether the feedback has done what it can."""
+def is_level(state: State, enough: float) -> bool:
+    """Say whether the feedback has done enough (rad), or what it can."""
     assert state.since is not None
-    return state.lean + state.swing < LEVEL or state.t > state.since + LONGEST
+    return state.lean + state.swing < enough or state.t > state.since + LONGEST
 
 
 def after_look(state: State, seen: Estimate, params: Params) -> State:
-    """Return the state after a look: calmed down where it is, with what comes then."""
+    """Return the state after a look: levelled and calmed down where it is."""
     state = replace(state, since=None)  # the clock has gone on
-    if not (seen.outcome.usable and seen.sees(COM)):
+    if not shows(seen):
         return into(replace(state, failed=state.failed + 1), "feedback", state.shift)
-    up, look = params.up, shown(seen, state.shift)
+    look, up = shown(seen, state.shift), params.up
     looks = (*state.looks, look)
     r = believed(looks, up)
     depth = -float(up @ (r + state.shift))
-    gained = len(looks) < 3 or bool(np.any(np.abs(r - believed(looks[:-1], up)) > GAIN * look.sd))
-    goal = -FLOOR * up if len(looks) < MOST and gained else params.target
-    loop = loop_for(params.plant, depth, params.variant)
-    state = replace(state, looks=looks, loop=loop, goal=goal - r)
-    return into(state, "calm", -depth * up - r)
+    last = len(looks) == MOST or (len(looks) > 1 and bool(np.all(look.sd < ENOUGH)))
+    loop = loop_for(params.plant, max(depth, FLOOR), params.variant)
+    goal = params.target - r if last else None
+    waiting = Waiting(-depth * up - r, loop.swing)
+    state = replace(state, looks=looks, loop=loop, goal=goal, waiting=waiting)
+    return into(state, "level", state.shift)
+
+
+def levelled(state: State, seen: Sample, params: Params) -> State:
+    """Return the state that waits for the moment to level the platform, or does it."""
+    assert state.waiting is not None
+    waiting, shift = good_moment.watched(state.waiting, seen, params.up, state.shift)
+    if all(waiting.done):
+        return into(replace(state, waiting=None), "calm", shift)
+    return replace(state, waiting=waiting, shift=shift)
 
 
 def after_calm(state: State, params: Params) -> State:
-    """Return the state on its way up, to FLOOR or to the end."""
-    assert state.goal is not None
-    depth = -float(params.up @ (state.goal + believed(state.looks, params.up)))
-    if depth < FLOOR * (1 - ROUNDING):
-        return into(state, "end", state.goal)
+    """Return the state on its way up: to FLOOR, kicked, or to the end."""
+    if state.goal is not None:
+        # Level: sideways it is where feedback brought it, and masses that stand there do not err.
+        aside = params.target - (params.target @ params.up) * params.up
+        rise = float(params.up @ (state.goal - state.shift))
+        return into(state, "end", state.shift + aside + rise * params.up)
     loop = loop_for(params.plant, FLOOR, params.variant)
-    return into(replace(state, loop=loop), "rise", state.goal)
+    r = believed(state.looks, params.up)
+    return kicked(replace(state, loop=loop, shift=-FLOOR * params.up - r), params)
 
 
 def next_of(state: State, params: Params) -> State:
     """Return the state in the next phase, where one has ended."""
-    if state.phase in ("hang", "rise") and has_arrived(state):
-        return into(state, "feedback", state.shift)
-    if state.phase == "feedback" and is_level(state):
+    if state.phase == "hang" and has_arrived(state):
+        return into(state, "kick", state.shift)
+    if state.phase == "feedback" and is_level(state, LEVEL):
         return kicked(state, params)
-    if state.phase == "calm" and is_level(state):
+    if state.phase == "calm" and is_level(state, LEVEL if state.goal is not None else CALM):
         return after_calm(state, params)
     return state
 
@@ -214,7 +233,7 @@ def next_of(state: State, params: Params) -> State:
 def asked(state: State, seen: Sample, params: Params) -> Command:
     """Return the command of a phase."""
     if state.phase == "kick":
-        look = Look(SWING, METHOD, held(params.up)) if has_arrived(state) else None
+        look = Look(SWING, METHOD, params.held) if has_arrived(state) else None
         return Command(shift=state.shift, look=look)
     done = state.phase == "end" and has_arrived(state)
     text = f"Level, and at its height after {len(state.looks)} looks." if done else ""
@@ -232,6 +251,9 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
     state = watched(state, seen, params)
     if state.phase in ("feedback", "calm"):
         state = fed_back(state, seen, params, dt)
+    if state.phase == "level":
+        state = levelled(state, seen, params)
+        return state, Command(shift=state.shift)
     state = next_of(state, params)
     return state, asked(state, seen, params)
 

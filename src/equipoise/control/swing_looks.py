@@ -10,6 +10,9 @@ factor k, and so r with the masses at home:
 r_i is what look i says of r with the masses at home, s_i the shift at it; the way must be along
 ``up``, where swings are told from one another by their period. All looks must swing about axes
 alike, or they do not share one k.
+
+Sag is held at none: what is seen is the centre of mass of a stiff platform that behaves alike at
+small tilts (``dynamics.sag_trim.acting_com``), and that is what is balanced.
 """
 
 from typing import NamedTuple
@@ -18,6 +21,7 @@ import numpy as np
 
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import COM, Estimate
+from equipoise.model.testbed import Testbed
 
 METHOD = "momentum_corrected"
 
@@ -30,12 +34,13 @@ class Shown(NamedTuple):
     shift: Vector3  # m, at the look
 
 
-def held(up: Vector3) -> tuple[str, ...]:
-    """Return the elements of J that a small swing about horizontal axes does not show, and one."""
-    z = int(np.argmax(np.abs(up)))
+def held(testbed: Testbed) -> tuple[str, ...]:
+    """Return what a small swing about horizontal axes does not show, and one moment of J."""
+    z = int(np.argmax(np.abs(testbed.up)))
     x, y = (i for i in range(3) if i != z)
     pairs = ((x, x), (z, z), (x, z), (y, z))
-    return tuple("inertia_P_" + "".join("xyz"[i] for i in sorted(pair)) for pair in pairs)
+    J = tuple("inertia_P_" + "".join("xyz"[i] for i in sorted(pair)) for pair in pairs)
+    return (*J, *(term for term in testbed.disturbances if term.startswith("sag")))
 
 
 def shows(seen: Estimate) -> bool:

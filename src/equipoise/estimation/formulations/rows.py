@@ -70,16 +70,15 @@ def body_with(testbed: Testbed, found: Mapping[str, float]) -> MassProperties:
 
 
 def held(rows: Rows, testbed: Testbed, names: tuple[str, ...]) -> Rows:
-    """Return the rows with some unknowns at the testbed's value, on the other side."""
-    known = values_of(testbed)
+    """Return the rows with some unknowns at the testbed's value, torques at 0, on the other side."""
+    known = guess_of(rows, testbed)
     keep = [k for k, name in enumerate(rows.names) if name not in names]
     gone = [k for k, name in enumerate(rows.names) if name in names]
-    value = np.array([known[rows.names[k]] for k in gone])
     instruments = None if rows.instruments is None else rows.instruments[:, :, keep]
     return replace(
         rows,
         A=rows.A[:, :, keep],
-        b=rows.b - rows.A[:, :, gone] @ value,
+        b=rows.b - rows.A[:, :, gone] @ known[gone],
         names=tuple(rows.names[k] for k in keep),
         instruments=instruments,
     )

@@ -1,0 +1,63 @@
+"""The moments of moves sideways that leave least of a swing.
+
+A platform swings about where its centre of mass leans it. When masses level it, the swing goes on
+about level, with the amplitude that it has about level at that moment. Along a horizontal axis e,
+with n the vertical in body axes,
+
+    a^2 = (n.e)^2 + ((n x w).e)^2 / w_n^2           n' = n x w: what a body at rest sees turn
+
+which is nothing for a platform let go from level, once in every swing. Swings along both axes are
+out of step, so each axis has a moment of its own. Watched are WATCH swings; an axis is levelled
+when its a comes NEAR the least of them again, and after PATIENCE swings in any case.
+
+(Coupling by products of inertia, and spin, are left out: they make a moment less good.)
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.control.sample import Sample
+from equipoise.maths.attitude import level, to_matrix
+from equipoise.model.arrays import Floats, Series, Vector3
+
+WATCH = 1.2  # swings, chosen: one, and a part for what was taken for one
+NEAR = 1.15  # of the least amplitude, chosen: a moment as good
+SMALL = 0.003  # rad, chosen: and what the integral and coils soon take
+PATIENCE = 4.0  # swings, chosen
+
+
+class Waiting(NamedTuple):
+    """For the moments to level both axes."""
+
+    shift: Vector3  # m, to end with
+    swing: float  # rad/s, w_n
+    since: float | None = None  # s
+    least: tuple[float, float] = (np.inf, np.inf)  # rad, amplitudes so far
+    done: tuple[bool, bool] = (False, False)
+
+
+def across(up: Vector3) -> Series:
+    """Return the two axes that masses level, (2, 3)."""
+    return to_matrix(level(up))[:2]
+
+
+def amplitudes(seen: Sample, up: Vector3, swing: float) -> Floats:
+    """Return what the swings along both axes would be about level, (2,) rad."""
+    n = -seen.gravity / float(np.linalg.norm(seen.gravity))
+    return np.hypot(across(up) @ n, across(up) @ np.cross(n, seen.rate) / swing)
+
+
+def watched(waiting: Waiting, seen: Sample, up: Vector3, shift: Vector3) -> tuple[Waiting, Vector3]:
+    """Return what is remembered, and the shift to ask for (m), ``shift`` being the last."""
+    since = seen.t if waiting.since is None else waiting.since
+    swings = (seen.t - since) * waiting.swing / (2 * np.pi)
+    asked, least, done = shift, list(waiting.least), list(waiting.done)
+    for k, now in enumerate(amplitudes(seen, up, waiting.swing)):
+        good = swings > WATCH and now < max(NEAR * least[k], SMALL)
+        if not done[k] and (good or swings > PATIENCE):
+            axis = across(up)[k]
+            asked, done[k] = asked + axis * (axis @ (waiting.shift - asked)), True
+        least[k] = min(float(now), least[k])
+    remembered = waiting._replace(since=since, least=(least[0], least[1]), done=(done[0], done[1]))
+    return remembered, waiting.shift if all(done) else asked
