@@ -300,7 +300,7 @@ def spinning() -> Course:
 
 
 def test_spin_about_the_vertical_alone_shows_five_of_twelve():
-    """w, and two sums: g mu_y - w^2 J_yz and w^2 J_xz - g mu_x (section 1's Y by hand)."""
+    """w, and two sums: g mu_y - w^2 J_yz and w^2 J_xz - g mu_x (the inertia columns by hand)."""
     null = unseen(WHOLE, spinning())
     assert null.shape == (12, 7)
     names = list(WHOLE.states)
@@ -431,7 +431,7 @@ def test_a_filter_without_its_sensor_is_asked_at_every_node():
 
 
 def test_slopes_are_those_of_published_filters():
-    """F - E over T of the 6-state filter: J^-1([Jw x] - [w x]J) and -m J^-1 [g x] (section 4.2)."""
+    """F - E over T of the 6-state filter: J^-1([Jw x] - [w x]J) and -m J^-1 [g x]."""
     along = free()
     J, w, g = along.inertia[0, 0], along.rate[0, 0], along.gravity[0, 0]
     found = EKF.slopes(along)[0, 0]
