@@ -287,8 +287,8 @@ def test_a_sample_after_a_look_is_of_the_time_since():
 
 
 def ended(law, testbed=None, seed=1, **options):
-    bench = SimulatedBench(platform(HANGING, (0.05, -0.03, 0.2), (0.01, 0.005, 0.0)) if testbed is None else testbed,
-                           seed)  # fmt: skip
+    swinging = platform(HANGING, (0.05, -0.03, 0.2), (0.01, 0.005, 0.0))
+    bench = SimulatedBench(swinging if testbed is None else testbed, seed)
     return list(run_law(bench, law, LawOptions(**options))), bench
 
 
