@@ -21,8 +21,8 @@ TARGET, TILT = np.array([0.0, 0.0, -1e-4]), np.radians(20.0)
 def bench_of(com, torque=None, **of_truth):
     """A platform whose truth is as given; its first guess is not looked at."""
     zero, J = np.zeros(3), np.diag([1.0, 2.0, 2.5])
-    truth = Truth(np.array(com, float), zero, zero, J, 0.0, zero, 0.0, zero, 0.0, torque or {}, 0.0, 30.0,
-                  zero, **of_truth)  # fmt: skip
+    truth = Truth(np.array(com, float), zero, zero, J, 0.0, zero, 0.0, zero, 0.0, torque or {},
+                  0.0, 30.0, zero, **of_truth)  # fmt: skip
     rail = SlidingMass("x", 0.5, np.array([0.0, 0.2, 0.0]), np.eye(3)[0], (-0.05, 0.05), 0.0, 0.0,
                        0.0, 0.01, 0.0, 0.0)  # fmt: skip
     bed = Testbed("plain", MassProperties(10.0, zero, J), 0.1, np.full(3, 1e-4), np.eye(3)[2], 0.5,
