@@ -261,11 +261,13 @@ def test_a_look_since_a_time_takes_in_what_was_done_after_it():
     assert isinstance(seen[-1], Estimate)
 
 
-def test_a_look_since_a_time_knows_the_torque_of_the_wheels():
-    """Driven while it hangs: with the stored momentum in the record, com is found all the same."""
-    driven = [Command(torque=np.array([1e-3, -1e-3, 0.0]))] * 6
-    steps, seen, _ = look_of(*driven, look=Look(15.0, "trajectory", since=1.0, use_prior=True))
+def test_a_look_since_a_time_knows_what_devices_did():
+    """Wheels, coils and jets drive it while it hangs, and com is found all the same."""
+    every = Command(torque=np.array([1e-3, -1e-3, 0.0]), impulse=np.array([0.0, 1e-3, 0.0]),
+                    magnetic=np.array([2e-5, -3e-5, 1e-5]))  # fmt: skip
+    steps, seen, _ = look_of(*[every] * 6, look=Look(15.0, "trajectory", since=1.0, use_prior=True))
     assert np.ptp(steps[0].recording.momentum.values, axis=0)[0] > 2e-3
+    assert steps[0].recording.torque is not None
     sd = np.sqrt(np.diag(seen[-1].covariance_of(COM)))
     assert np.all(np.abs(seen[-1].com - HANGING) < 4 * sd)
 
