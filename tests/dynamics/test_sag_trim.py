@@ -93,11 +93,7 @@ def test_with_two_stiffnesses_it_is_their_mean():
 
 
 def test_the_trim_takes_sag_torque_down_as_published():
-<<<<<<< HEAD
-    """Of a trim along the vertical: at 20 deg to about 1/62 of the greatest; the mean alike."""
-=======
     """Of a trim along the vertical: to 1/62 of the greatest torque at 20 deg; the mean alike."""
->>>>>>> errata5
     sag = np.diag([0, 0, 25e-6])
     before = residual_torque(np.zeros(3), sag, UP, np.radians(20))
     after = residual_torque(trimmed_com(sag, UP, np.radians(20)), sag, UP, np.radians(20))
