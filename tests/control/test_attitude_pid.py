@@ -113,7 +113,6 @@ def test_lees_turn_settles_in_tens_of_seconds():
     The wheels are large. The integral may take 30 mN m, twice what the unbalance needs: without
     that limit the first error winds it up, and the last degrees take a minute more.
     """
-    from equipoise.actuators.sliding_masses import mass_maps
 
     J, moment = np.diag([20.0, 16.0, 14.0]), np.array([-1e-3, 1e-3, 5e-4])
     gains = Gains(J, 0.2, 0.9, 0.1, 0.03)
