@@ -41,6 +41,7 @@ SAFE = 10e-6  # m below the pivot, chosen: 1.4 mN m at 14 kg bring it upright ag
 STEEP = 6.0  # chosen: of the sideways sd, so that the platform leans by ten degrees at most
 UNSURE = 2.0  # sds of the height that must still hang
 SURE = 2.0  # sds, chosen: what a look is believed to
+ENOUGH = 0.5e-6  # m, chosen: one sd at which there is no need to look again
 SMALL = 0.1e-6  # m, chosen: what drift undoes in a minute is not worth another look
 MOST = 6  # looks, chosen
 MISSES = 3  # looks in all that show nothing, chosen
@@ -56,6 +57,7 @@ class Params:
     target: Vector3  # m
     held: tuple[str, ...]  # elements of J that looks do not estimate
     stiffness: float  # 1/(m s^2), m g / J
+    inertia_sd: float  # -, relative
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,7 +86,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     hang = depth + float(testbed.body.com @ up)
     J = moment_across(testbed.body.inertia_P, up)
     stiffness = testbed.body.mass * testbed.gravity / J
-    return State(-hang * up), Params(up, safe, held(testbed), stiffness)
+    return State(-hang * up), Params(up, safe, held(testbed), stiffness, testbed.inertia_sd)
 
 
 def levelling(state: State, r: Vector3, params: Params) -> State:
@@ -112,11 +114,11 @@ def after_look(state: State, seen: Estimate, params: Params) -> State:
         missed = state.missed + 1
         return replace(state, missed=missed, finished=text if missed == MISSES else "")
     looks = (*state.looks, shown(seen, state.shift))
-    r = believed(looks, params.up)
+    r, sd, _ = believed(looks, params.up, params.inertia_sd)
     if len(looks) == 1:
         return levelling(replace(state, looks=looks), r, params)
     off: Vector3 = r + state.shift - params.target
-    there = bool(np.all(np.abs(off) < np.maximum(SURE * looks[-1].sd, SMALL)))
+    there = bool(np.all(np.abs(off) < np.maximum(SURE * sd, SMALL)) and np.all(sd < ENOUGH))
     text = f"At its place after {len(looks)} looks." if there or len(looks) == MOST else ""
     return replace(state, looks=looks, shift=state.shift - off, finished=text)
 

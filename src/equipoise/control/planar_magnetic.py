@@ -10,8 +10,8 @@
     ...       look, level and calm again, and again from a new kick while r is not known to ENOUGH
     end       from where feedback found it level, up to the target
 
-The first look takes the swing as it finds it; where that shows nothing, there is feedback and a
-kick before the next. The way between the two depths is known, and frees r of the factor that it
+The first look takes the swing as it finds it; where one shows nothing, there is feedback and a kick
+before the next. The way between the two depths is known, and frees r of the factor that it
 shares with J (``swing_looks``).
 
 (Bahu and Modenini 2020; the note of 2022 for coils. They fit J and r_z under constraints that could
@@ -79,6 +79,7 @@ class Params:
     depth: float  # m, of the first swing
     speed: float  # m/s, of the shift
     held: tuple[str, ...]  # what looks do not estimate
+    inertia_sd: float  # -, relative
     variant: Variant = "sine"
 
 
@@ -98,6 +99,7 @@ class State:
     looks: tuple[Shown, ...] = ()
     failed: int = 0  # looks that showed nothing
     waiting: Waiting | None = None  # to level the platform
+    flat: Vector3 | None = None  # m, the shift before the last kick
     goal: Vector3 | None = None  # m, the shift to end with
 
 
@@ -109,7 +111,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     hang = depth + UNSURE * float(abs(up @ sd)) + float(testbed.body.com @ up)
     speed = max([m.mass * m.speed / testbed.body.mass for m in testbed.masses], default=0.0)
     plant = Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
-    params = Params(plant, up, target, depth, speed, held(testbed))
+    params = Params(plant, up, target, depth, speed, held(testbed), testbed.inertia_sd)
     loop = loop_for(plant, depth, params.variant)
     if plant.coils == 0 or loop.integral * TEN_DEGREES > FAST * speed:
         raise InputError("planar_magnetic", f"masses that shift by {1e6 * speed:.3g} um/s and "
@@ -167,7 +169,7 @@ def kicked(state: State, params: Params) -> State:
     """Return the state with the masses set to lean the platform, between its axes."""
     x, y = to_matrix(level(params.up))[:2]
     aside = np.tan(KICK) * state.loop.depth * (0.8 * x + 0.6 * y)
-    return into(state, "kick", state.shift + aside)
+    return into(replace(state, flat=state.shift), "kick", state.shift + aside)
 
 
 def has_arrived(state: State) -> bool:
@@ -185,12 +187,15 @@ def after_look(state: State, seen: Estimate, params: Params) -> State:
     """Return the state after a look: levelled and calmed down where it is."""
     state = replace(state, since=None)  # the clock has gone on
     if not shows(seen):
-        return into(replace(state, failed=state.failed + 1), "feedback", state.shift)
-    look, up = shown(seen, state.shift), params.up
-    looks = (*state.looks, look)
-    r = believed(looks, up)
+        state = replace(state, failed=state.failed + 1)
+        if state.flat is None:
+            return into(state, "feedback", state.shift)
+        back = Waiting(state.flat, state.loop.swing)
+        return into(replace(state, waiting=back), "level", state.shift)
+    looks, up = (*state.looks, shown(seen, state.shift)), params.up
+    r, sd, _ = believed(looks, up, params.inertia_sd)
     depth = -float(up @ (r + state.shift))
-    last = len(looks) == MOST or (len(looks) > 1 and bool(np.all(look.sd < ENOUGH)))
+    last = len(looks) == MOST or (len(looks) > 1 and bool(np.all(sd < ENOUGH)))
     loop = loop_for(params.plant, max(depth, FLOOR), params.variant)
     goal = params.target - r if last else None
     waiting = Waiting(-depth * up - r, loop.swing)
@@ -215,7 +220,7 @@ def after_calm(state: State, params: Params) -> State:
         rise = float(params.up @ (state.goal - state.shift))
         return into(state, "end", state.shift + aside + rise * params.up)
     loop = loop_for(params.plant, FLOOR, params.variant)
-    r = believed(state.looks, params.up)
+    r = believed(state.looks, params.up, params.inertia_sd).com
     return kicked(replace(state, loop=loop, shift=-FLOOR * params.up - r), params)
 
 

@@ -1,15 +1,19 @@
-"""What looks at free swings tell, and how a known way between two of them sets their scale.
+"""What looks at free swings tell, and how known ways between them set their scale.
 
 A free swing shows r and J up to one factor, so that r is wrong by as much as the moment of J that
-is held at the drawing's value. The masses' way from one look to another is known, and tells that
-factor k, and so r with the masses at home:
+is held at the drawing's value. The masses' ways from look to look are known, and tell that factor:
+with z_i = up.(r_i + s_i) of look i, r_i being what it says of r with the masses at home and s_i the
+shift at it,
 
-    r_i + s_i = k (r + s_i),     k = up.( r_1 + s_1 - r_2 - s_2 ) / up.( s_1 - s_2 )
-    r = ( r_2 + s_2 ) / k - s_2
+    r_i + s_i = k (r + s_i),     z_i = h + k up.(s_i - s_n),    h = k up.(r + s_n)
 
-r_i is what look i says of r with the masses at home, s_i the shift at it; the way must be along
-``up``, where swings are told from one another by their period. All looks must swing about axes
-alike, or they do not share one k.
+is a straight line in the way to the last look n. Its slope k and its end h are found by weighted
+least squares, k beginning at 1 with the sd of the drawing's inertia; then
+
+    r = (r_n + s_n) / k - s_n        with h for the part of r_n + s_n along ``up``
+
+Ways along ``up`` count, as swings are told from one another by their period. All looks must swing
+about axes alike, or they do not share one k.
 
 Sag is held at none: what is seen is the centre of mass of a stiff platform that behaves alike at
 small tilts (``dynamics.sag_trim.acting_com``), and that is what is balanced.
@@ -19,11 +23,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.model.arrays import Vector3
+from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.estimate import COM, Estimate
 from equipoise.model.testbed import Testbed
 
 METHOD = "momentum_corrected"
+LEAST, LEAST_SCALE = 1e-9, 1e-6  # m, -: no sd is smaller
 
 
 class Shown(NamedTuple):
@@ -53,13 +58,27 @@ def shown(seen: Estimate, shift: Vector3) -> Shown:
     return Shown(seen.com, np.sqrt(np.diag(seen.covariance_of(COM))), shift)
 
 
-def unscaled(first: Shown, last: Shown, up: Vector3) -> Vector3:
-    """Return r (m) with the masses at home, freed of the factor that both looks share."""
-    way = float(up @ (first.shift - last.shift))
-    k = float(up @ (first.com + first.shift - last.com - last.shift)) / way
-    return (last.com + last.shift) / k - last.shift
+def line_of(looks: tuple[Shown, ...], up: Vector3, inertia_sd: float) -> tuple[Floats, Square]:
+    """Return h (m) and k, and their covariance."""
+    way = np.array([up @ (look.shift - looks[-1].shift) for look in looks])
+    z = np.array([up @ (look.com + look.shift) for look in looks])
+    weight = np.array([1.0 / max(float(np.abs(up) @ look.sd), LEAST) ** 2 for look in looks])
+    sure = 1.0 / max(inertia_sd, LEAST_SCALE) ** 2
+    A = np.column_stack([np.ones(len(looks)), way])
+    information = (A * weight[:, None]).T @ A + np.diag([0.0, sure])
+    covariance = np.linalg.inv(information)
+    return covariance @ ((A * weight[:, None]).T @ z + np.array([0.0, sure])), covariance
 
 
-def believed(looks: tuple[Shown, ...], up: Vector3) -> Vector3:
-    """Return r (m) with the masses at home by the last look; a single look's as it is."""
-    return looks[0].com if len(looks) == 1 else unscaled(looks[0], looks[-1], up)
+def believed(looks: tuple[Shown, ...], up: Vector3, inertia_sd: float) -> Shown:
+    """Return r (m) with the masses at home and its sd, by all looks, freed of their factor."""
+    (h, k), covariance = line_of(looks, up, inertia_sd)
+    last, height = looks[-1], h / k
+    across: Vector3 = last.com + last.shift - (up @ (last.com + last.shift)) * up
+    slope = np.array([1.0, -height]) / k
+    sd = float(np.sqrt(slope @ covariance @ slope))
+    return Shown(
+        across / k + height * up - last.shift,
+        last.sd - (np.abs(up) @ last.sd) * np.abs(up) + sd * np.abs(up),
+        last.shift,
+    )
