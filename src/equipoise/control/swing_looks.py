@@ -23,6 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.estimate import COM, Estimate
 from equipoise.model.testbed import Testbed
@@ -66,7 +67,7 @@ def line_of(looks: tuple[Shown, ...], up: Vector3, inertia_sd: float) -> tuple[F
     sure = 1.0 / max(inertia_sd, LEAST_SCALE) ** 2
     A = np.column_stack([np.ones(len(looks)), way])
     information = (A * weight[:, None]).T @ A + np.diag([0.0, sure])
-    covariance: Square = np.linalg.inv(information)
+    covariance = inverse_spd(information)
     return covariance @ ((A * weight[:, None]).T @ z + np.array([0.0, sure])), covariance
 
 
