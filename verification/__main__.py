@@ -24,6 +24,7 @@ from verification import (
     independent_truth,
     laboratories,
     lagging_masses,
+    lee,
     long_record,
     method_intervals,
     method_table,
@@ -67,6 +68,7 @@ CHECKS = {
     "method_table": Check(method_table.measure, 20),
     "method_intervals": Check(method_intervals.measure, 200),
     "robustness": Check(robustness.measure, 20),
+    "lee": Check(lee.measure, 100),
     "real_methods": Check(real_methods.measure, 1),
 }
 

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from scipy.linalg import null_space
 
 from equipoise.actuators import cmg_steering as steering
 from equipoise.actuators.control_moment_gyros import (
@@ -12,6 +13,7 @@ from equipoise.actuators.control_moment_gyros import (
     pyramid,
     rotor_momentum,
     singularity_measure,
+    spin_axes,
 )
 
 H0 = 2 / 3
@@ -68,11 +70,11 @@ def test_preferred_angles_are_reached_the_shorter_way():
 def test_robust_is_exact_where_the_measure_is_good_and_bounded_where_not(x, torque):
     """Bounded by |u| / (2 sqrt(l)) and, where l is 0, by the least singular value that m allows.
 
-    m = product of the singular values, each at most 2 (four unit columns): at m > 0.4 the least is
-    above 0.1, so that 10 |u| / h0 bounds what l does not.
+    m is the product of D's singular values, the squares of which sum up to 4 (four unit columns),
+    so that the least is m / 2 at least: at any m, 10 |u| / h0 is beyond what l and m let through.
     """
     rates = steering.singularity_robust(FOUR, x, torque)
-    assert np.linalg.norm(rates) <= 10 * np.linalg.norm(torque) / H0 * (1 + 1e-9)
+    assert np.linalg.norm(rates) <= 10 * np.linalg.norm(torque) / H0 + 1e-15
     if singularity_measure(FOUR, x) >= 0.4:
         np.testing.assert_allclose(delivered(x, rates), torque, atol=1e-13)
 
@@ -88,10 +90,15 @@ def test_generalised_is_all_but_exact_where_the_measure_is_good(x, torque, t):
 def test_the_lock_is_one():
     """At (-90, 0, 90, 0) deg there is no torque along x, and null motion does not lead away.
 
-    h = (2 / sqrt 3) h0 along x: well inside what the gyros hold.
+    h = (2 / sqrt 3) h0 along x: well inside what the gyros hold. To second order, null
+    motion changes h_x by -1/2 sum (h_i)_x d_i^2: of one sign over D's null space, so elliptic.
     """
     np.testing.assert_allclose(jacobian(FOUR, ELLIPTIC)[0], 0.0, atol=1e-16)
     np.testing.assert_allclose(rotor_momentum(FOUR, ELLIPTIC), [2 * H0 / 3**0.5, 0, 0], atol=1e-15)
+    null = null_space(jacobian(FOUR, ELLIPTIC), rcond=1e-10)
+    assert null.shape == (4, 2)
+    along = H0 * spin_axes(FOUR, ELLIPTIC)[:, 0]
+    assert np.linalg.eigvalsh(null.T @ (along[:, None] * null)).min() > 0.1 * H0
 
 
 def test_robust_is_locked_and_generalised_is_not():

@@ -200,14 +200,13 @@ def test_speeds_are_those_against_the_platform():
 def recorded(given, shown):
     """What tachometers and encoders put down, and the testbed that they belong to."""
     body = given.platform
-    names = tuple(device.name for device in (*given.wheels, *given.gyros))
     values = np.hstack([shown.wheel_speeds, shown.angles])
     testbed = Testbed(
         "oracle", MassProperties(body.mass, body.com, body.inertia_P), 0.1, np.full(3, 1e-4),
         np.array([0.0, 0.0, 1.0]), 1.5, body.gravity,
         wheels=our_wheels(given.wheels), cmgs=our_gyros(given.gyros),
     )  # fmt: skip
-    return Recording(device_names=names, devices=Samples(shown.t, values)), testbed
+    return Recording(device_names=testbed.device_names, devices=Samples(shown.t, values)), testbed
 
 
 def slip(shown):

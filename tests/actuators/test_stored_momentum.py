@@ -35,14 +35,13 @@ COLUMNS = {
     "wx": [0, 10, 20, 30, 40],
     "my": [0, 2, 2, 2, -2],
 }
+NAMES = ("jet:jx", "wheel:wz", "gimbal:g", "wheel:wx", "dipole:my")
 
 
 def recording(**changes):
     values = np.column_stack([np.asarray(c, dtype=float) for c in COLUMNS.values()])
     tilted = np.tile(exponential(np.radians([90.0, 0.0, 0.0])), (5, 1))
-    plain = Recording(
-        attitude=Samples(T, tilted), device_names=tuple(COLUMNS), devices=Samples(T, values)
-    )
+    plain = Recording(attitude=Samples(T, tilted), device_names=NAMES, devices=Samples(T, values))
     return replace(plain, **changes)
 
 
@@ -90,8 +89,8 @@ def test_without_devices_there_is_nothing():
 
 
 def test_a_device_that_does_not_report_is_named():
-    short = recording(device_names=("jx", "wz", "g", "w_x", "my"))
-    with pytest.raises(InputError, match=r"no 'wx'.*did you mean 'w_x'"):
+    short = recording(device_names=(*NAMES[:3], "wheel:w_x", NAMES[4]))
+    with pytest.raises(InputError, match=r"no 'wx'.*did you mean 'wheel:w_x'"):
         stored_momentum(short, TESTBED)
 
 

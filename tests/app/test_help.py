@@ -15,6 +15,8 @@ COMMANDS = (
     "identify",
     "methods",
     "balance",
+    "laws",
+    "compare",
     "reproduce",
 )
 HEAVY = ("numpy", "scipy", "numba", "matplotlib", "pydantic", "pyarrow", "jaxtyping")

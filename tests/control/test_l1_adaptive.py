@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import expm, solve_continuous_lyapunov
 
 from equipoise.control import l1_adaptive as law
-from equipoise.control.hanging import turned
+from equipoise.control.hanging import rate_of, tilt_of, turned
 from equipoise.control.l1_condition import l1_norm
 from equipoise.control.sampled_loop import radius
 from equipoise.model.errors import InputError
@@ -128,6 +128,31 @@ def test_a_platform_that_swings_faster_than_believed_is_stable():
     quick = table(OFFSET - [0, 0, 60e-6], np.diag([0.21, 0.19, 0.3]))
     run = flown(0, 90, quick)
     assert run.tilt[-40:].max() < 2e-3
+
+
+def test_turning_over_by_yaw_is_that_of_the_true_platform():
+    """Nothing hangs: what changes tilt beyond the rate, and the rate, is the spin alone."""
+    true = Plant(table(np.zeros(3)), [0.02, -0.03, 0.0], [0.01, 0.02, 0.3])
+    params = law.begin(table(), np.zeros(3))[1]
+    loop, zero, rows = Loop(true), np.zeros(3), []
+    for _ in range(3):
+        seen = loop.sample(zero, zero)
+        rows.append([tilt_of(params.plant, seen), rate_of(params.plant, seen)])
+        true.go(0.01)
+    before, now, after = np.array(rows).transpose(0, 2, 1)
+    slope = (after - before) / 0.02 - np.column_stack([now[:, 1], np.zeros(2)])
+    expected = law.turned_about_up(now, 0.3, params)
+    np.testing.assert_allclose(slope, expected, atol=3e-5)
+    assert np.abs(expected).min() > 1e-3
+
+
+def test_the_swing_is_that_of_the_height_masses_have_reached():
+    """Asked to hang at 386 um, 286 um of them by masses; they report 200 um: 300 um so far."""
+    state, params = law.begin(guess(), np.zeros(3))
+    seen = Loop(Plant(table(), TURN, RATE)).sample(np.zeros(3), np.zeros(3))
+    seen = replace(seen, shift=np.array([0.0, 0.0, -200e-6]))
+    found = law.frequencies(state, seen, params.plant) ** 2 / params.plant.gain
+    np.testing.assert_allclose(found, 300e-6)
 
 
 def test_a_platform_that_spins_is_balanced():

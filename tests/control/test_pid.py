@@ -112,13 +112,18 @@ def test_an_integral_whose_command_was_not_delivered_unwinds():
 
 
 def test_a_look_that_sees_nothing_ends_it_level():
-    """The platform is left hanging, level, and the sentence says why."""
+    """The masses go back to where they levelled it, and the sentence says why it hangs."""
     state, params = pid.begin(guess(), np.zeros(3))
-    state = replace(state, phase="level", level=np.array([1e-6, 2e-6, 3e-6]))
+    loop, zero = Loop(Plant(table(), TURN, RATE)), np.zeros(3)
+    level, seen = np.array([1e-6, 2e-6, 3e-6]), loop.sample(zero, zero)
+    way = height.once_level(params.plant, state.height, seen, level, zero)
+    state = replace(state, phase="level", level=level, way=way)
     blind = Estimate("trajectory", Outcome(False, "too little motion"), (), np.zeros((0, 0)))
-    _, command = pid.step(state, blind, params)
+    state, command = pid.step(state, blind, params)
+    np.testing.assert_array_equal(command.shift, level)
+    assert not command.finished
+    _, command = pid.step(state, replace(seen, shift=level), params)
     assert "too little motion" in command.finished
-    np.testing.assert_array_equal(command.shift, state.level)
 
 
 def test_looks_go_on_from_further_up_until_the_height_is_known():

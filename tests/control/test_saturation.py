@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from equipoise.control.saturation import (
-    back_calculation,
     filling_time,
     greatest_shift,
     greatest_slew,
@@ -18,11 +17,6 @@ from tests.control.simple_loop import masses, table
 def test_a_limited_vector_keeps_its_direction():
     np.testing.assert_allclose(limited(np.array([3.0, 4.0]), 1.0), [0.6, 0.8])
     np.testing.assert_array_equal(limited(np.array([0.3, 0.4]), 1.0), [0.3, 0.4])
-
-
-def test_back_calculation_drives_the_integral_to_what_was_done():
-    """Asked 5, done 2, over 3 s: minus 1 a second."""
-    np.testing.assert_allclose(back_calculation(np.full(3, 5.0), np.full(3, 2.0), 3.0), -1.0)
 
 
 def test_reach_by_hand():

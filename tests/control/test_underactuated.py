@@ -154,7 +154,8 @@ def test_the_integral_waits_for_late_masses():
     """Anti-windup: masses half a millimetre behind; rh then has the increment of g_b alone."""
     _, params = underactuated_integral.LAW.begin(platform(2e-4), TARGET)
     before = np.array([0.5, 0, -9.7])
-    state = two_steps.State(np.zeros(3), 0.0, gravity=before, asked=np.array([5e-4, 0, 0]))
+    state = two_steps.State(np.zeros(3), 0.0, gravity=before, owed=np.zeros(3),
+                             asked=np.array([5e-4, 0, 0]))  # fmt: skip
     rows, *_ = run(underactuated_integral.LAW, 0.1)
     bench = Bench(platform(), COM)
     seen = closed_loop(bench, lambda s, x, p: (x, rows[0].command), (None, None), 0.1)[0].state
@@ -192,6 +193,14 @@ def test_the_look_is_the_published_filter_only_where_it_can_be_believed():
     assert two_steps.method_for(platform(1e-6)).method == "ukf_4"
     with pytest.raises(InputError, match="gyro"):
         two_steps.method_for(replace(platform(), gyro=None))
+
+
+def test_it_begins_where_the_centre_of_mass_is_believed():
+    """Level: masses at once across, and lower by two sd than the target."""
+    bench = Bench(platform(1e-5, com=(1e-5, 2e-5, -3e-5)), np.zeros(3))
+    begun = underactuated.LAW.begin(bench.testbed, TARGET)
+    first = closed_loop(bench, underactuated.LAW.step, begun, 0.1)[0].command.shift
+    np.testing.assert_allclose(first, [-1e-5, -2e-5, -9e-5], atol=1e-12)
 
 
 def test_a_target_aside_of_up_is_refused():
@@ -269,6 +278,7 @@ def test_the_push_swings_the_platform_as_far_as_was_meant():
     before = rows[rows.index(first) - 1]
     rate = np.linalg.norm(before.rate)
     assert rate == pytest.approx(0.4 * np.radians(30) / 20, rel=0.1)
+    assert before.command.look.since == pytest.approx(ends(rows)[0].t)  # a known change
     np.testing.assert_allclose(before.shift, first.shift, atol=1e-9)  # the masses are back
 
 
@@ -278,3 +288,17 @@ def test_spin_about_up_is_left_and_borne():
         rows, bench, _ = run(law, 600.0, first=(TILTED[0], np.array([0.01, -0.02, 0.2])))
         np.testing.assert_allclose(total(rows, bench)[-1], TARGET, atol=3e-7)
         assert abs(rows[-1].rate[2]) > 0.15
+
+
+def test_the_tilt_at_the_start_is_paid_out_no_faster_than_masses_follow():
+    """10 deg tilted with masses of 18 um/s: 42 um/deg at once would fall over; this settles."""
+    masses = rails(speed=5e-5)
+    rows, _, params = run(
+        underactuated.LAW, 150.0, (exponential(np.array([0.17, 0, 0])), np.zeros(3)),
+        com_sd=5e-6, masses=masses, instant=False, com=np.array([5e-6, 0, -1e-4]),
+    )  # fmt: skip
+    first = ends(rows)[0]
+    assert tilts(rows).max() < np.radians(12)
+    assert tilts([first])[0] < np.radians(0.5)
+    paid = np.diff([r.state.owed for r in rows[:20]], axis=0)
+    assert np.linalg.norm(paid, axis=1).max() <= params.pay * (1 + 1e-9)

@@ -1,4 +1,4 @@
-"""A platform with reaction wheels and gyros, made of MuJoCo bodies. Development only.
+"""A platform with wheels and control moment gyros, made of MuJoCo bodies. Development only.
 
 A wheel is a body on a hinge, turned by a motor. A gyro is a gimbal on a hinge, held by a stiff
 position servo, that carries a rotor on a hinge of its own, held by a stiff velocity servo. Both

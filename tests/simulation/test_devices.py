@@ -130,6 +130,38 @@ def test_a_jet_gives_its_impulse(testbed):
     np.testing.assert_allclose(after - before, [1e-3, 0, 0], atol=5e-7)
 
 
+def test_what_a_jet_reports_adds_up_to_its_impulse(testbed):
+    """The mean since the row before: no pulse is lost between two rows, nor over a read."""
+    bench = SimulatedBench(with_devices(testbed((0.0, 0.0, 0.0), **SENSORS)), 0)
+    bench.read(1.003)
+    for impulse in (1e-3, -4e-4, 2.5e-4):
+        bench.drive({"jx": impulse})
+        rows = np.concatenate([bench.read(0.047).devices.values, bench.read(0.5).devices.values])
+        assert rows[:, -1].sum() / 100.0 == pytest.approx(impulse, rel=1e-9)
+
+
+def test_tachometers_and_encoders_err_by_their_noise_and_not_at_rest(testbed):
+    bed = with_devices(testbed((0.0, 0.0, 0.0), **SENSORS))
+    noisy = replace(
+        bed, wheels=tuple(replace(w, speed_noise=0.3) for w in WHEELS),
+        cmgs=tuple(replace(g, angle_noise=2e-3) for g in GYROS),
+    )  # fmt: skip
+    rows = SimulatedBench(noisy, 0).read(60.0).devices.values
+    np.testing.assert_array_equal(rows[:, 0], 0.0)  # the first wheel stands
+    np.testing.assert_allclose(rows[:, 1:5].mean(axis=0), [100, 200, 0.3, -0.2], atol=0.02)
+    np.testing.assert_allclose(rows[:, 1:5].std(axis=0), [0.3, 0.3, 2e-3, 2e-3], rtol=0.05)
+
+
+def test_coils_are_in_the_field_as_it_really_is(testbed):
+    """Truth has it along y; what is known of it beforehand has not."""
+    start = {"attitude": np.zeros(3), "rate": np.zeros(3), "field_N": np.array([0.0, 5e-5, 0.0])}
+    bench = SimulatedBench(with_devices(testbed((0.0, 0.0, 0.0), truth=start, **SENSORS)), 0)
+    before = momentum_N(bench, bench.read(1.0))[-1]
+    bench.drive({"mx": 0.4})
+    gained = momentum_N(bench, bench.read(2.0))[-1] - before
+    np.testing.assert_allclose(gained, [0.0, 0.0, 0.4 * 5e-5 * 2.0], atol=1e-6)
+
+
 def test_the_motion_does_not_depend_on_how_it_is_read(testbed):
     start = {"attitude": np.array([0.1, 0.0, 0.0]), "rate": np.array([0.01, 0.02, 0.0])}
     bed = with_devices(testbed((1e-5, 0.0, -1e-4), truth=start, **SENSORS))

@@ -6,6 +6,8 @@ another.
 
 from typing import NamedTuple
 
+import numpy as np
+
 from equipoise.model.arrays import Floats, Vector3
 
 
@@ -19,4 +21,7 @@ class Delivered(NamedTuple):
 def scaled(inputs: Floats, most: Floats) -> Floats:
     """Return the inputs times the greatest share up to 1 with which none is beyond ``most``."""
     over = abs(inputs) > most
-    return inputs * float((most[over] / abs(inputs[over])).min()) if over.any() else inputs
+    if not over.any():
+        return inputs
+    share = float((most[over] / abs(inputs[over])).min())
+    return np.clip(share * inputs, -most, most)  # rounding may not go beyond: a bench would refuse

@@ -12,6 +12,7 @@ from equipoise.app.options import one_of
 from equipoise.app.terminal import stderr
 from equipoise.control.law import LawCard
 from equipoise.model.arrays import Vector3
+from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balance import BalanceOptions
 from equipoise.procedure.laws import CARDS
@@ -38,9 +39,13 @@ class Asked:
 
 
 def chosen(testbed: Testbed, only: Sequence[str]) -> list[LawCard]:
-    """Return the laws to run; InputError for one that is unknown or lacks a device."""
+    """Return the laws to run; InputError for one that is unknown or lacks a device, or for none."""
+    able = [card for card in CARDS.values() if not lacking(card, testbed)]
+    if not able:
+        found = "a testbed that has the devices for none of the laws"
+        raise InputError(testbed.name, found, "what `equipoise laws` says that they need")
     if not only:
-        return [card for card in CARDS.values() if not lacking(card, testbed)]
+        return able
     cards = [CARDS[one_of("--only", name, list(CARDS))] for name in only]
     for card in cards:
         check(card, testbed)

@@ -30,10 +30,11 @@ SCHEMA = "equipoise/reproduce-lee/1"
 SHOWN = (*INERTIA, *COM)
 PERCENT = 100.0
 G_CM = 1e5  # g cm in a kg m; the paper has kg cm
-SENSORS = ("printed sensors", "the preset's own")
+SENSORS = ("fine attitude", "the preset's own")
 LEAST = (
-    "Cramer-Rao bound: no unbiased method has a smaller sd. Printed sensors: the gyro of table 1 "
-    "with an attitude of 0.02 deg at 100 Hz; the preset's own: what it assumes of a bench."
+    "Cramer-Rao bound: no unbiased method has a smaller sd. Fine attitude: 0.02 deg at 100 Hz "
+    "beside the gyro of table 1, as simulated here; the preset's own sensors are those it assumes "
+    "of a bench. Percent is of sqrt(J_ii J_jj), or of a component of m r."
 )
 
 
@@ -77,10 +78,8 @@ def sheet_of(done: Manoeuvre) -> Sheet:
     told = "no singularity" if near is None else f"singular from {near[0]:.1f} to {near[1]:.1f} s"
     angles = ", ".join(f"{angle:g}" for angle in done.start)
     remarks = [f"{name}: {estimate.outcome.sentence}" for name, estimate in done.estimates.items()]
-    return Sheet(
-        f"From ({angles}) deg, {told}: value (sd) error; J in kg m2, m r in g cm", ("", "truth", *done.estimates), lines,
-        remarks,
-    )  # fmt: skip
+    title = f"From ({angles}) deg, {told}: value (sd) error; J in kg m2, m r in g cm"
+    return Sheet(title, ("", "truth", *done.estimates), lines, remarks)
 
 
 def bound_sheet(runs: Sequence[Manoeuvre]) -> Sheet:

@@ -1,10 +1,9 @@
 """A bench of which every row is kept, whatever a procedure passes on."""
 
 from collections.abc import Mapping
-from functools import reduce
 
 from equipoise.model.bench import Bench
-from equipoise.model.recording import Recording, join
+from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 
 
@@ -44,4 +43,4 @@ class RecordedBench:
 
     def recording(self) -> Recording | None:
         """Return all that was read, as one; None if nothing was."""
-        return reduce(join, self._parts) if self._parts else None
+        return joined(self._parts) if self._parts else None

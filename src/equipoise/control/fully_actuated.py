@@ -32,7 +32,8 @@ stops with less. A wrong J turns with the cone just as a wrong height does: r_up
 as it will be in the middle of the period for which the torque stands.
 
 The trajectory is chosen from the tilt limit and from the momentum that wheels have left: they carry
-m g |r| 2 zeta / w_a for ever, and J A W + m g |r_up| A / W round the cone.
+m g |r| 2 zeta / w_a for ever, and J A W + m g |r_up| A / W round the cone. Their torque holds r at
+first, and the cone, J A W^2 + m g |r_up| A, once the masses have met r.
 
 Anti-windup: s never leads what masses report by more than ``lead``, and stands still while the
 torque that was measured is not the one that was asked for.
@@ -169,9 +170,9 @@ def cone_for(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
     angle = min(
         CONE * testbed.tilt_limit,
         momentum / (J * W + weight * low / W),
-        (have.torque - weight * offset) / (J * W**2 + weight * low),
+        have.torque / (J * W**2 + weight * low),
     )
-    if angle < NARROWEST:
+    if angle < NARROWEST or have.torque < weight * offset:
         raise InputError(
             testbed.name,
             f"{have.torque:.3g} N m and {have.momentum:.3g} N m s of wheels or gyros to count on, "
@@ -259,7 +260,8 @@ LAW = Law(
         ("masses", "momentum", "gyro", "attitude"),
         "what is along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
         "dJ (20 um for one inertia_sd)",
-        "TODO",
+        "w_a T up to 0.1, w_a |r| / v up to 1; the torque of |r| sideways, and its momentum in "
+        "2 zeta / w_a, within the devices'",
         PERIOD,
     ),
     begin,

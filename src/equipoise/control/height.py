@@ -84,15 +84,17 @@ def once_level(
         last = last_shift(plant, height, level, target)
         return sent(plant, seen, last, Command(shift=last, finished="level, and at the target"))
     kick = shift_for(plant, np.full(2, SWING * height.depth / np.sqrt(2)))
-    look = Look(DURATION, "trajectory", use_prior=True, since=max(seen.t - BEFORE, 0.0))
+    since = max(seen.t - BEFORE, 0.0)
+    look = Look(DURATION, "trajectory", use_prior=True, since=since)
     note = f"level; swings by {np.degrees(SWING):.1f} deg for a look at its height"
     return sent(plant, seen, level + kick, Command(look=look, note=note))
 
 
-def unseen(look: Estimate, level: Vector3) -> Command:
-    """Return the end where a look does not show the centre of mass."""
+def unseen(plant: Hanging, look: Estimate, way: Sent, level: Vector3) -> Sent:
+    """Return the way back to level, and the end, where a look does not show the centre of mass."""
     why = f"level; its height was not seen: {look.outcome.sentence}"
-    return Command(shift=level, finished=why)
+    longest = DURATION + 2 * float(np.linalg.norm(way.goal - level)) / plant.slew + PATIENCE
+    return Sent(level, Command(shift=level, finished=why), way.late + longest)
 
 
 def sent(plant: Hanging, seen: Sample, goal: Vector3, then: Command) -> Sent:

@@ -82,8 +82,8 @@ CARD = LawCard(
     source="Cao and Hovakimyan 2006, 2008; Xuan 2016, Hua 2018 (da Silva et al. 2021, section 5)",
     needs=("masses", "gyro", "attitude"),
     leaves="the height, which it sees by looks at the end only; those know it by the inertia",
-    stable="hanging; sensors and fine masses up to 0.8 s late at 14 kg and steps of 0.25 s, spin to "
-    "17 deg/s, half to twice the stiffness that is believed",
+    stable="hanging; sensors and fine masses up to 0.8 s late at 14 kg and steps of 0.25 s, spin "
+    "to 17 deg/s, half to twice the stiffness that is believed",
     period=PERIOD,
 )
 
@@ -307,7 +307,9 @@ def look_step(state: State, seen: Estimate, params: Params) -> tuple[State, Comm
     """Return what follows a look."""
     assert state.level is not None
     if not sees(seen):
-        return state, unseen(seen, state.level)
+        assert state.way is not None
+        way = unseen(params.plant, seen, state.way, state.level)
+        return replace(state, way=way), Command(shift=way.goal)
     height = raised(params.plant, state.height, seen, params.target)
     shift = shift_for(params.plant, turned(params.plant, state.level))
     note = f"raised to {height.depth * 1e6:.3g} um below the target"

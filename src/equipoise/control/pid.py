@@ -9,9 +9,9 @@ On each of two horizontal axes of a platform that hangs (``hanging``; a = m g / 
 The derivative is the gyro's rate, not a differenced angle. The integral carries v to -c, so the
 tilt goes to zero and with it the sideways part of r + s; its height this loop does not see. v_done
 is the shift that the last Sample reports: an integral whose command was not delivered unwinds
-(back-calculation, T_a = K_p / K_i). f keeps the demand of a large swing as slow as the masses are
-(R, m/s). K_i goes down with the swing's frequency where the platform has been raised, for a shallow
-pendulum does not bear the integral of a deep one.
+(back-calculation: Astrom and Wittenmark; T_a = K_p / K_i). f keeps the demand of a large swing as
+slow as the masses are (R, m/s). K_i goes down with the swing's frequency where the platform has
+been raised, for a shallow pendulum does not bear the integral of a deep one.
 
     1 settle   -f K_d rate, with calculated gains, while masses lower the centre of mass
     2 relay    +-d about the rest tilt, both axes at once: K_u and T_u (``ziegler_nichols``)
@@ -74,8 +74,8 @@ CARD = LawCard(
     source="Ziegler and Nichols 1942; Astrom and Hagglund 1984; da Silva et al. 2021, section 5",
     needs=("masses", "gyro", "attitude"),
     leaves="the height, which it sees by looks at the end only; those know it by the inertia",
-    stable="hanging; sensors and fine masses up to 0.6 s late at 14 kg and steps of 0.25 s, spin to "
-    "17 deg/s; masses of 1.4 um/s too; a swing beyond what masses can follow is damped slowly",
+    stable="hanging; sensors and fine masses up to 0.6 s late at 14 kg and steps of 0.25 s, spin "
+    "to 17 deg/s; masses of 1.4 um/s too; a swing beyond what masses can follow is damped slowly",
     period=PERIOD,
 )
 
@@ -256,7 +256,9 @@ def look_phase(state: State, seen: Estimate, params: Params) -> tuple[State, Com
     """Return what follows a look."""
     assert state.level is not None
     if not sees(seen):
-        return state, unseen(seen, state.level)
+        assert state.way is not None
+        way = unseen(params.plant, seen, state.way, state.level)
+        return replace(state, way=way), Command(shift=way.goal)
     height = raised(params.plant, state.height, seen, params.target)
     state = replace(state, phase="level", height=height, rest=Rest(), way=None)
     assert state.integral is not None

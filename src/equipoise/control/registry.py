@@ -22,10 +22,10 @@ ALL: tuple[Law[Any, Any], ...] = (
     underactuated.LAW,
     underactuated_integral.LAW,
     planar_magnetic.LAW,
+    coarse_fine.LAW,
+    slew_and_look.LAW,
     impulse_feedback.LAW,
     fully_actuated.LAW,
     momentum_buildup.LAW,
-    slew_and_look.LAW,
-    coarse_fine.LAW,
 )
 LAWS: dict[str, Law[Any, Any]] = {law.card.name: law for law in ALL}

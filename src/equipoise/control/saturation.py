@@ -1,4 +1,4 @@
-"""What masses can reach, how fast, and what a law does about it.
+"""What masses can reach, how fast, and how late fine ones are.
 
 The shifts that masses m_i on rails u_i can give are a zonotope, the sum of their rails. The
 largest ball about its centre touches a face, whose normal n is that of two rails:
@@ -9,9 +9,6 @@ with reach_i the half travel (m) for how far, and the speed (m/s) for how fast. 
 direction cannot be reached. Of masses on parallel rails the one that shifts fastest counts for how
 fast: a fine mass then makes up the rest of a coarse one's step, half of it at most, and until it
 has done so the shift is that much off. How long that takes is a delay of small demands.
-
-Where what was done differs from what was asked, an integral unwinds by the difference
-(back-calculation: Fertik and Ross 1967; Astrom and Wittenmark): I' += (done - asked) / T.
 """
 
 from dataclasses import replace
@@ -19,7 +16,7 @@ from itertools import combinations, permutations
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.arrays import Floats
 from equipoise.model.testbed import SlidingMass, Testbed
 
 PARALLEL = 0.99  # cosine, chosen
@@ -30,11 +27,6 @@ def limited(vector: Floats, most: float) -> Floats:
     """Return the vector, shortened to ``most`` where it is longer; its direction is kept."""
     size = float(np.linalg.norm(vector))
     return vector if size <= most else vector * (most / size)
-
-
-def back_calculation(asked: Vector3, done: Vector3, time: float) -> Vector3:
-    """Return what is added to the slope of an integral (m/s) whose command was not delivered."""
-    return (done - asked) / time
 
 
 def ball(testbed: Testbed, reaches: Floats) -> float:

@@ -15,12 +15,12 @@ g_b' = g_b x w, Phi^T w is m g_b': what is called an estimate is
 
 a function of the present tilt and nothing else. Here rh takes the measured increments of g_b, so
 that this holds between samples, too, and nothing winds up however late the masses are. rh(0) is
-free; with
+free. Printed as 0, it leaves |r_up| times the tilt at which the law happened to begin. With
 
     rh(0) = believed + gamma m (g_b(0) + g up)
 
-the same holds as if the law had begun level. (Printed as 0: it then leaves |r_up| times the tilt
-at which it happened to begin.) To first order about level, with tilt a = P_up g_b / g,
+it ends as if it had begun level; the second term, X times the tilt, is ``owed`` and paid out no
+faster than masses follow. To first order about level, with tilt a = P_up g_b / g,
 
     a'' = (m g / J) (r + shift) - w_z^2 a,    shift = -rh - (k_p / m g) a',    w_z^2 = -m g r_up / J
 
@@ -64,7 +64,7 @@ from equipoise.model.testbed import Testbed
 ZETA = 1.0  # chosen: no overshoot; the k_p = 0.5 N m s of published copies at w_a = 1 rad/s
 MOST = 1.0  # rad/s, chosen: above it a gyro's noise moves the masses more than the tilt does
 SAMPLED = 0.2  # rad, chosen: w_a T, of at most 1
-SPEED = 1.0  # chosen: w_a r / v; at 1 the swing is that of masses at once, at 2 it falls over
+SPEED = 0.5  # chosen: w_a |r| / v; up to 1 it is as if masses were at once, from 2 it falls
 TILTED = 0.8  # of the tilt limit, chosen: what a swing may take
 UPRIGHT = 0.5  # of w_a^2, chosen: what an inverted pendulum may take of it
 INTEGRAL = 0.25  # of w_a, chosen: w_i; 2 is the limit
@@ -99,9 +99,9 @@ def frequency_of(gains: Gains, testbed: Testbed) -> float:
     return gains.damping / (2 * ZETA * level_inertia(testbed))
 
 
-def begun_level(gains: Gains, believed: Vector3, gravity: Vector3) -> Vector3:
-    """Return rh(0) (m), by which the law acts as if it had begun level."""
-    return believed + gains.gamma * gains.mass * (gravity + gains.gravity * gains.up)
+def owed(gains: Gains, gravity: Vector3) -> Vector3:
+    """Return what is to be added to rh (m), so that the law ends as if it had begun level."""
+    return gains.gamma * gains.mass * (gravity + gains.gravity * gains.up)
 
 
 def followed(gains: Gains, held: Vector3, before: Vector3, now: Vector3, wait: bool) -> Vector3:
@@ -115,10 +115,9 @@ def followed(gains: Gains, held: Vector3, before: Vector3, now: Vector3, wait: b
 
 def shift_for(gains: Gains, held: Vector3, gravity: Vector3, rate: Vector3) -> Vector3:
     """Return the shift (m) that gives the torque of the law."""
-    square = float(gravity @ gravity)
-    sideways = rate - gravity * float(gravity @ rate) / square
-    torque = gains.mass * np.cross(gravity, held) - gains.damping * sideways
-    return np.cross(gravity, torque) / (gains.mass * square)
+    # The product with g_b leaves of w, too, only what is across gravity.
+    torque = gains.mass * np.cross(gravity, held) - gains.damping * rate
+    return np.cross(gravity, torque) / (gains.mass * float(gravity @ gravity))
 
 
 def left_over(offset: float, height: float, spring: float) -> float:

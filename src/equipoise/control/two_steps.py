@@ -20,8 +20,9 @@ the last one left. Rounds end when the look finds no more than a motor step, or 
 From the look only the height is used. The method is ``ukf_4`` (rate and r_up) when com across up
 is known to ACROSS beforehand: it takes that from the testbed, and knows nothing of what the masses
 did about it in the first step. Else it is ``trajectory`` with the testbed's inertia and its sd,
-which finds all of com: a wrong J makes r_up wrong by the same share, and the next round takes that
-away.
+which finds all of com. The record begins with the push: a known change, by which the scale of J is
+seen. A J that is wrong yet makes r_up wrong by the same share, and the next round takes that away
+but for the share of the target's own depth.
 """
 
 from dataclasses import dataclass, replace
@@ -39,13 +40,13 @@ from equipoise.control.beforehand import (
     likely_height,
 )
 from equipoise.control.sample import Sample
-from equipoise.control.saturation import greatest_shift, greatest_slew
+from equipoise.control.saturation import greatest_shift, greatest_slew, limited
 from equipoise.control.tilt_feedback import (
     Gains,
-    begun_level,
     followed,
     frequency_for,
     gains_at,
+    owed,
     settling,
     shift_for,
     swing_of,
@@ -58,6 +59,7 @@ from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s, chosen: a servo's beat
 SETTLED = 8.0  # time constants, chosen: 3e-4 of the swing is left
+PAY = 0.3  # chosen: of the masses' speed
 MEAN = 1.0  # s, chosen: at the end of a follow, over which the rest is averaged
 PUSH = 1.0  # s
 BACK = 10.0  # s, chosen: masses that are not back by then stand still
@@ -83,6 +85,7 @@ class Params:
     follow: int  # steps until the platform rests
     tolerance: float  # m, what a motor step leaves
     late: float  # m, off what was asked: the masses are on their way
+    pay: float  # m, of what is owed, in a step
     target: float  # m, along up
     tilt_limit: float  # rad
     rounds: int = ROUNDS
@@ -95,11 +98,13 @@ class State:
     held: Vector3  # m, rh; of a round that begins, what is believed
     height: float  # m, shift along up
     gravity: Vector3 | None = None  # m/s^2, at the last step; None: a round begins
+    owed: Vector3 | None = None  # m, what rh has yet to get for the tilt at which the round began
     phase: Phase = "follow"
     step: int = 0  # of the phase
     asked: Vector3 | None = None  # m, shift at the last step
     rest: Vector3 | None = None  # m, sum of shifts asked in the last second of a follow
     level: Vector3 | None = None  # sum of P_up g_b / g then
+    since: float = 0.0  # s, when the push began
     rounds: int = 0  # looks made
     left: float = np.inf  # m, what the last look found
 
@@ -129,7 +134,8 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
     params = Params(
         gains, method_for(testbed), push_for(testbed),
         int(np.ceil(SETTLED * slowest / PERIOD)), max(quantum, LEAST),
-        max(LATE * quantum, NEAR), float(up @ target), testbed.tilt_limit,
+        max(LATE * quantum, NEAR), PAY * greatest_slew(testbed) * PERIOD, float(up @ target),
+        testbed.tilt_limit,
     )  # fmt: skip
     return State(across(up) @ testbed.body.com, height), params
 
@@ -160,10 +166,12 @@ def tilt_of(seen: Sample, gains: Gains) -> float:
 def follow(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     """Level the platform; at the end, push it."""
     gains = params.gains
-    held = held_now(state, seen, params)
+    held, owing = held_now(state, seen, params)
     upward = state.height * gains.up
     shift = shift_for(gains, held, seen.gravity, seen.rate) + upward
-    state = replace(state, held=held, gravity=seen.gravity, asked=shift, step=state.step + 1)
+    paid = float(np.linalg.norm(owing)) < params.tolerance
+    count = state.step + 1 if paid else 0
+    state = replace(state, held=held, gravity=seen.gravity, owed=owing, asked=shift, step=count)
     if state.step > params.follow - round(MEAN / PERIOD):
         still = shift_for(gains, held, seen.gravity, np.zeros(3)) + upward
         tilt = across(gains.up) @ seen.gravity / gains.gravity
@@ -173,16 +181,19 @@ def follow(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     n = round(MEAN / PERIOD)
     assert state.rest is not None
     assert state.level is not None
-    state = replace(state, rest=state.rest / n, level=state.level / n, phase="push", step=0)
+    state = replace(state, rest=state.rest / n, level=state.level / n, phase="push", step=0,
+                    since=seen.t)  # fmt: skip
     return state, Command(shift=state.rest, note="Levelled; now a push, and a look at the swing.")
 
 
-def held_now(state: State, seen: Sample, params: Params) -> Vector3:
-    """Return rh (m): begun anew at the first sample of a round, else a step on."""
-    if state.gravity is None or state.asked is None:
-        return begun_level(params.gains, state.held, seen.gravity)
+def held_now(state: State, seen: Sample, params: Params) -> tuple[Vector3, Vector3]:
+    """Return rh (m), begun anew at the first sample of a round, and what is still owed (m)."""
+    if state.gravity is None or state.asked is None or state.owed is None:
+        return state.held, owed(params.gains, seen.gravity)
     late = float(np.linalg.norm(state.asked - seen.shift)) > params.late
-    return followed(params.gains, state.held, state.gravity, seen.gravity, late)
+    held = followed(params.gains, state.held, state.gravity, seen.gravity, late)
+    paid = limited(state.owed, params.pay)
+    return held + paid, state.owed - paid
 
 
 def added(total: Vector3 | None, vector: Vector3) -> Vector3:
@@ -202,7 +213,9 @@ def swing(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     arrived = float(np.linalg.norm(seen.shift - state.rest)) <= params.late
     if count == 1 or (not arrived and count < round(BACK / PERIOD)):
         return replace(state, step=count), Command(shift=state.rest)
-    return replace(state, phase="look", rest=seen.shift), Command(look=params.look)
+    return replace(state, phase="look", rest=seen.shift), Command(
+        look=replace(params.look, since=state.since)
+    )
 
 
 def trimmed(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:

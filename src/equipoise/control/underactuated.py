@@ -27,7 +27,8 @@ LAW = Law(
         ("masses", "gyro", "attitude"),
         "each round leaves |r_up| / (|r_up| + w_a^2 J / (m g)) of the offset across up; spin about "
         "up; r_up to the share by which J is wrong, times what the last trim moved",
-        "TODO",
+        "w_a T below 1 (0.1 is used); w_a |r| / v below 1 (0.5 is used, at 2.5 it falls); up to "
+        "w_a^2 J / (m g) above P (half is used); spin of 0.2 rad/s",
         PERIOD,
     ),
     begin,

@@ -11,7 +11,7 @@ a tilt of level, each direction counting alike, solves
 
 For sag along the vertical alone, C = c u u^T, a plate that hangs by c when level, this is
 r = u c mean(sin^2 cos) / mean(sin^2): the platform is trimmed as if it sagged alike at every tilt.
-(The trimming of platform deformation, methods.md 5.8; there the maximum is made least.)
+(The trimming of platform deformation; as published the maximum is made least.)
 
 The means are exact: four Gauss points in the cosine of the tilt, eight headings.
 """

@@ -57,14 +57,20 @@ def carried(point: Unknowns, old: Layout, new: Layout) -> Unknowns:
     return replace(point, error=np.array([known.get(name, 0.0) for name in new.errors]))
 
 
-def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowledge:
-    """Return what is known with a fresh record added; the testbed's values are the prior.
+def as_if_stiff(testbed: Testbed) -> Testbed:
+    """Return the testbed without elastic sag among what is estimated.
 
-    Elastic sag is left out: at small tilts nothing tells it from the centre of mass, which then is
-    that of a stiff platform that behaves alike.
+    At small tilts nothing tells it from the centre of mass, which then is that of a stiff platform
+    that behaves alike.
     """
     terms = tuple(term for term in testbed.disturbances if term not in GROUPS["sag"])
-    params = trajectory.Params(terms, use_prior=True)
+    return replace(testbed, disturbances=terms)
+
+
+def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowledge:
+    """Return what is known with a fresh record added; the testbed's values are the prior."""
+    testbed = as_if_stiff(testbed)
+    params = trajectory.Params(testbed.disturbances, use_prior=True)
     if before is None:
         recording, guess = fresh, None
     else:

@@ -83,8 +83,9 @@ def _over(channel: Samples) -> Floats:
     """Return the sum of means since the row before, times how long that is ago."""
     t, values = channel.t, channel.values
     if len(t) < 2:
-        return np.zeros(values.shape[1])
-    whole: Floats = np.diff(t, prepend=2 * t[0] - t[1]) @ values
+        return np.zeros(int(values.shape[1]))
+    since: Floats = np.diff(t, prepend=2 * t[0] - t[1])
+    whole: Floats = np.sum(since[:, None] * values, axis=0)
     return whole
 
 

@@ -11,7 +11,7 @@ from equipoise.procedure.run_law import LawOptions, check, run_law
 
 OWN = LawCard(
     name="look_and_move",
-    idea="fit the whole record, move when the fit says that it pays, prove it on what comes after",
+    idea="Fits the whole record, moves when that pays, and proves it on what comes after.",
     source="Equipoise; Ivanov 2021 section 5, with the trajectory fit instead of a filter",
     needs=("masses", "attitude"),
     leaves="what the motor steps leave; elastic sag only if the testbed considers it",

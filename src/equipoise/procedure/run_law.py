@@ -7,8 +7,7 @@ record alone. A platform that tilts beyond its limit is halted, with the reason.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
-from functools import reduce
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +18,8 @@ from equipoise.actuators.reaction_wheels import span, wheels_span
 from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.control.law import NEEDS, Law, LawCard, Need
 from equipoise.control.sample import Sample
+from equipoise.estimation import trajectory
+from equipoise.estimation.conclusion import conclude
 from equipoise.estimation.method import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.arrays import Vector3
@@ -26,14 +27,16 @@ from equipoise.model.bench import Bench
 from equipoise.model.command import Command, Look
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
-from equipoise.model.recording import Recording, join, window
+from equipoise.model.recording import Recording, joined, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import among
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.knowledge import learn
+from equipoise.procedure.knowledge import as_if_stiff, learn
 from equipoise.procedure.law_devices import Hands, carry_out, let_rest, opened_hands
 from equipoise.procedure.law_sample import Eyes, looked, opened, sample_of
-from equipoise.procedure.tilt_guard import tilted
+from equipoise.procedure.proof import watched_swing
+from equipoise.procedure.tilt_guard import guarded, tilted
 from equipoise.procedure.verify import verdict
 
 UM = 1e-6
@@ -97,6 +100,9 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
         state, command = law.step(state, seen, params)
         if command.note:
             yield Step("control", bench.time, command.note)
+        if command.finished or command.look is not None:
+            hands = carry_out(bench, command, session.eyes, session.hands, law.card.period)
+            session = replace(session, hands=hands)
         if command.finished:
             why = command.finished
             break
@@ -112,8 +118,8 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
     if why == TILTED:
         bench.stop()
         yield stop_step(bench, why)
-        return
-    yield proof(bench, session, options)
+    else:
+        yield proof(bench, session, options)
 
 
 def reason_to_stop(bench: Bench, recording: Recording, end: float) -> str:
@@ -153,7 +159,7 @@ def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recordin
     testbed = bench.testbed
     hands, wait = let_rest(bench, session.eyes, session.hands)
     before = bench.read(wait) if wait > 0 else None
-    fresh = bench.read(asked.duration)
+    fresh = guarded(bench, asked.duration)
     parts = (*session.parts, *(part for part in (before, fresh) if part is not None))
     eyes = session.eyes
     for part in parts[len(session.parts) :]:
@@ -161,15 +167,29 @@ def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recordin
     recording = fresh
     if asked.since is not None:
         recording = with_known_inputs(since(parts, asked.since), testbed)
-    options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
-    estimate = estimated(METHODS[asked.method], recording, testbed, options)
+    estimate = looked_into(recording, testbed, asked)
     return Session(eyes, hands, parts), recording, estimate
+
+
+def looked_into(recording: Recording, testbed: Testbed, asked: Look) -> Estimate:
+    """Return what a method makes of a record, within the patience of somebody at a bench.
+
+    The trajectory fit is taken without the survey that it makes of a recording from elsewhere.
+    """
+    testbed = as_if_stiff(testbed)
+    options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
+    if asked.method != trajectory.METHOD:
+        return estimated(METHODS[asked.method], recording, testbed, options)
+    terms = among((*testbed.disturbances, *options.terms))
+    params = trajectory.Params(terms, use_prior=options.use_prior, hold=options.hold)
+    fitted = trajectory.fit(recording, testbed, params)
+    return conclude(fitted, trajectory.METHOD, recording)
 
 
 def since(parts: tuple[Recording, ...], start: float) -> Recording:
     """Return what was recorded from a time (s) on, as one."""
     recent = [part for part in parts if part.span[1] >= start]
-    return window(reduce(join, recent), start, np.inf)
+    return window(joined(recent), start, np.inf)
 
 
 def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
@@ -178,7 +198,11 @@ def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
     if wait > 0:
         bench.read(wait)
     began = bench.time
-    knowledge = learn(None, bench.read(options.proof), bench.testbed)
+    fresh = watched_swing(bench, session.eyes, options.proof)
+    if tilted(fresh, bench.testbed):
+        bench.stop()
+        return stop_step(bench, TILTED)
+    knowledge = learn(None, fresh, bench.testbed)
     judged = verdict(knowledge, None, began, options.target, options.tolerance)
     kind = "verify" if judged.passed else "stop"
     return Step(kind, bench.time, judged.sentence, knowledge.recording, knowledge.estimate,

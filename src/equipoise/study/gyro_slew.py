@@ -15,7 +15,7 @@ from equipoise.actuators.control_moment_gyros import jacobian, singularity_measu
 from equipoise.control.attitude_pid import Gains, Pid, at_rest, torque, unwound
 from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4
-from equipoise.model.recording import Recording, join
+from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.law_sample import Eyes, looked, opened, sample_of
 from equipoise.simulation.bench import SimulatedBench
@@ -92,11 +92,3 @@ def told(testbed: Testbed, rows: list[Row], parts: list[Recording]) -> Slew:
         np.array(measure),
         joined(parts),
     )
-
-
-def joined(parts: list[Recording]) -> Recording:
-    """Return records as one, two by two: what is copied then grows no faster than the data."""
-    while len(parts) > 1:
-        pairs = [parts[i : i + 2] for i in range(0, len(parts), 2)]
-        parts = [join(*pair) if len(pair) > 1 else pair[0] for pair in pairs]
-    return parts[0]

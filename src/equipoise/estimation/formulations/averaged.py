@@ -5,7 +5,8 @@ As printed, with mean_k of the n rates before t_k and the first noisy rate for t
     [ W(mean_k w) - W(w(t0)) + int w x W(w) ] p - int m r x g_B = -(k - k0) + int known
 
 The mean is (n + 1) / 2 rows late while the integrals are not, which biases J (0.4 to 2.7 % at 100
-Hz), and the first rate's noise is in every row: its intervals are not to be trusted.
+Hz), and the first rate's noise is in every row. What is late is worked out from the testbed's J, as
+far as a mean about the row shows it, and told (``Rows.omitted``).
 
 Corrected: every term of the balance is averaged over the same n rows, and the constants are free.
 
@@ -22,6 +23,7 @@ import numpy as np
 from equipoise.estimation.formulations.columns import columns
 from equipoise.estimation.formulations.momentum import body_axes, by_piece
 from equipoise.estimation.formulations.rows import BODY, Posed, Rows
+from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Ints
 
 ROWS = 20  # in the mean, as methods compare
@@ -55,7 +57,7 @@ def as_printed(posed: Posed) -> Rows:
     at = columns(posed.recording, posed.testbed, motion[:3], posed.terms)
     gyroscopic = np.cross(motion.w[:, :, None], at.momentum, axis=1)
     push = at.shifted - np.cross(motion.w, at.known_momentum)
-    parts = list[tuple[Floats, Floats, Floats]]()
+    parts = list[tuple[Floats, Floats, Floats, Floats]]()
     for k in np.unique(motion.piece):
         rows = np.flatnonzero(motion.piece == k)
         if len(rows) <= n:
@@ -64,11 +66,24 @@ def as_printed(posed: Posed) -> Rows:
         spun, pulled, pushed = (
             by_piece(motion.t[rows], x[rows], one) for x in (gyroscopic, at.torque, push)
         )
-        mean = running_means(at.momentum[rows], n)[:-1]  # of the n rows before each
+        means = running_means(at.momentum[rows], n)
+        mean = means[:-1]  # of the n rows before each
+        late = lateness(means, n) @ pack_symmetric(posed.testbed.body.inertia_P)
         left = mean - at.momentum[rows[0]] + spun[n:]
         known = at.known_momentum[rows] - at.impulse[rows]
         by_unknown = np.concatenate([left, -pulled[n:]], axis=2)
-        parts.append((motion.t[rows[n:]], by_unknown, pushed[n:] - (known[n:] - known[0])))
-    empty = (motion.t[:0], np.zeros((0, 3, 9 + len(posed.terms))), np.zeros((0, 3)))
-    t, A, b = (np.concatenate([part[j] for part in parts or [empty]]) for j in range(3))
-    return Rows(t, A, b, (*BODY, *posed.terms), notes=motion.notes)
+        right = pushed[n:] - (known[n:] - known[0])
+        parts.append((motion.t[rows[n:]], by_unknown, right, late))
+    none = np.zeros((0, 3))
+    empty = (motion.t[:0], np.zeros((0, 3, 9 + len(posed.terms))), none, none)
+    t, A, b, omitted = (np.concatenate([part[j] for part in parts or [empty]]) for j in range(4))
+    return Rows(t, A, b, (*BODY, *posed.terms), omitted=omitted, notes=motion.notes)
+
+
+def lateness(means: Floats, n: int) -> Floats:
+    """Return by how much the mean of the n rows before each row lags behind the row.
+
+    (n + 1) / n of what a mean of n rows about it is ahead; at the end, of the last one there is.
+    """
+    about = np.minimum(np.arange(len(means) - 1) + n // 2 + n % 2, len(means) - 1)
+    return (n + 1) / n * (means[about] - means[:-1])

@@ -70,7 +70,7 @@ def body_with(testbed: Testbed, found: Mapping[str, float]) -> MassProperties:
 
 
 def held(rows: Rows, testbed: Testbed, names: tuple[str, ...]) -> Rows:
-    """Return the rows with some unknowns at the testbed's value, torques at 0, on the other side."""
+    """Return the rows with some unknowns at the testbed's value (torques: 0) on the other side."""
     known = guess_of(rows, testbed)
     keep = [k for k, name in enumerate(rows.names) if name not in names]
     gone = [k for k, name in enumerate(rows.names) if name in names]
