@@ -68,11 +68,7 @@ def test_a_platform_that_hangs_deep_enough_is_left_there():
 
 
 def test_masses_that_cannot_make_it_hang_are_refused():
-<<<<<<< HEAD
     with pytest.raises(InputError, match="masses that shift it by 1"):
-=======
-    with pytest.raises(InputError, match=r"shift it by 1\.03e"):
->>>>>>> lawc
         h.hanging(table(np.array([0.0, 0.0, 900e-6])))
 
 

@@ -66,7 +66,7 @@ def line_of(looks: tuple[Shown, ...], up: Vector3, inertia_sd: float) -> tuple[F
     sure = 1.0 / max(inertia_sd, LEAST_SCALE) ** 2
     A = np.column_stack([np.ones(len(looks)), way])
     information = (A * weight[:, None]).T @ A + np.diag([0.0, sure])
-    covariance = np.linalg.inv(information)
+    covariance: Square = np.linalg.inv(information)
     return covariance @ ((A * weight[:, None]).T @ z + np.array([0.0, sure])), covariance
 
 
