@@ -115,3 +115,19 @@ def test_drift_is_counted_from_the_first_sample_to_the_time_asked_for():
     com, _ = ml.com_now(ledger._replace(x=x), book)
     assert com == pytest.approx([1e-6 + 60 * 2e-9, 0, 0])
     assert ml.com_map(ledger, book, 10.0) @ x == pytest.approx([1e-6 + 70 * 2e-9, 0, 0])
+
+
+def test_play_of_the_air_is_a_torque_on_the_platform_of_a_stated_sd():
+    """It puts +x momentum in where it is positive; without samples it forgets in PLAY_TIME."""
+    bed = platform()
+    book, q = ml.book_of(bed), np.array([1.0, 0, 0, 0])
+    ledger = ml.opened(bed, book, seen_at(q))
+    x, P = ledger.x.copy(), ledger.P.copy()
+    x[ml.PLAY], P[ml.PLAY, ml.PLAY] = 1e-6, 0.0
+    ahead = ledger._replace(x=x, P=P)
+    for k in range(300):
+        ahead = ml.predicted(ahead, seen_at(q, 0.1 * (k + 1)), book)
+    time, spent = ml.PLAY_TIME, 1 - np.exp(-30.0 / ml.PLAY_TIME)
+    assert ahead.x[0] == pytest.approx(1e-6 * time * spent, rel=1e-4)
+    assert ahead.x[ml.PLAY] == pytest.approx(1e-6 * (1 - spent))
+    assert ahead.P[ml.PLAY, ml.PLAY] == pytest.approx(ml.PLAY_SD**2 * (1 - (1 - spent) ** 2))

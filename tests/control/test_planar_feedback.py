@@ -126,7 +126,7 @@ def test_the_amplitude_about_level_does_not_change_along_a_small_swing():
     assert found.std(axis=0) / found.mean(axis=0) == pytest.approx([0, 0], abs=0.1)
 
 
-SHIFTS = [np.array([0, 0, -200e-6]), np.array([-3e-6, 1e-6, 10e-6]), np.array([-3e-6, 2e-6, 0])]
+SHIFTS = [np.array([0, 0, -200e-6]), np.array([-3e-6, 1e-6, 10e-6]), np.array([9e-6, 2e-6, 0])]
 
 
 def test_known_ways_between_looks_free_r_of_the_scale():

@@ -301,8 +301,11 @@ LAW = Law(
         "they take up",
         "methods.md 5.5 and 5.8; Hatcher and Young 1968 with wheels for jets",
         ("masses", "momentum", "gyro", "attitude"),
-        "TODO",
-        "TODO",
+        "what no centre of mass trims of the sag, 12 uN m rms within 20 deg for 25 um; drift after "
+        "the last move; momentum about the vertical. A torque of the air that keeps its sign for "
+        "minutes is taken for an offset",
+        "steps of 0.1 s; offsets whose weight is twice what the wheels can turn against, 75 um at "
+        "14 kg and 5 mN m, on either side of the pivot; wheels of 20 mN m s there",
         PERIOD,
     ),
     begin,
