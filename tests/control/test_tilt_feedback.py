@@ -145,7 +145,7 @@ def test_energy_falls_as_printed():
     [((-0.1, -0.2, -0.5), 48.2, 48.99), ((-0.01, -0.02, -0.05), 0.598, 0.595)],
 )
 def test_the_printed_law_leaves_what_was_published(com_mm, predicted_um, simulated_um):
-    """methods.md 5.3: |r - rh| across up after the run, beside the formula to first order.
+    """|r - rh| across up after the run, beside the formula to first order.
 
     The masses lie across gravity and not across up, so that the centre of mass itself is left at
     |r.n| sin(tilt), 2 % more than |r - rh| in the first case.
