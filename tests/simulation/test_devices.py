@@ -212,3 +212,15 @@ def test_stopping_leaves_wheels_at_their_speed_and_ends_everything_else(testbed)
     np.testing.assert_allclose(rows - rows[0], 0.0, atol=1e-6)
     assert rows[0, 0] > 19.0  # a second of 10 rad/s^2, twice
     np.testing.assert_allclose(rows[:, 5:], 0.0, atol=1e-9)
+
+
+def test_a_magnetometer_sees_the_field_turned_into_the_body(testbed):
+    """Rolled by 90 deg, the laboratory's z is the body's y; noise is as stated."""
+    start = {"attitude": np.array([np.pi / 2, 0.0, 0.0]), "rate": np.zeros(3)}
+    bed = with_devices(testbed((0.0, 0.0, 0.0), truth=start, **SENSORS))
+    bed = replace(bed, magnetic_field=MagneticField(FIELD, noise=1e-7))
+    field = SimulatedBench(bed, 0).read(20.0).field
+    x, y, z = FIELD
+    np.testing.assert_allclose(field.values.mean(axis=0), [x, z, -y], atol=5e-9)
+    assert field.values.std() > 0
+    np.testing.assert_allclose(field.values.std(axis=0), 1e-7, rtol=0.1)

@@ -153,7 +153,7 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
 LAW = Law(
     LawCard(
         "coarse_fine",
-        "a coarse move from a first look, then looks and small moves, always kept hanging",
+        "A coarse move from a first look, then looks and small moves, always kept hanging.",
         "RAMBO, engrXiv 7342, as far as its abstract tells",
         ("masses", "attitude", "gyro"),
         "10 um below the pivot at least, on purpose; 0.3 um of that and sideways, and 4 % of a "

@@ -297,8 +297,8 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
 LAW = Law(
     LawCard(
         "momentum_buildup",
-        "holds tilted attitudes by wheels and reads the centre of mass, sag and drift from what "
-        "they take up",
+        "Holds tilted attitudes by wheels and reads the centre of mass, sag and drift from what "
+        "they take up.",
         "Equipoise; Hatcher and Young 1968 with wheels for jets",
         ("masses", "momentum", "gyro", "attitude"),
         "what no centre of mass trims of the sag, 12 uN m rms within 20 deg for 25 um; drift after "

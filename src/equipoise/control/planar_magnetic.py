@@ -266,7 +266,7 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
 LAW = Law(
     LawCard(
         "planar_magnetic",
-        "masses integrate the tilt away while coils damp, and free swings tell the height",
+        "Masses integrate the tilt away while coils damp, and free swings tell the height.",
         "Bahu and Modenini 2020 and their note of 2022, as far as abstracts tell",
         ("masses", "magnetorquers", "attitude", "gyro"),
         "the height, to 1 um as the swing of a minute shows it; sideways 0.1 to 0.3 um; sag but "

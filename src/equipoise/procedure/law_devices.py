@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.actuators.cmg_steering import generalised_robust, limited_rates
-from equipoise.actuators.jets import pulses_for
+from equipoise.actuators.jets import on_platform, pulses_for
 from equipoise.actuators.magnetorquers import dipoles_for
 from equipoise.actuators.mass_allocation import Rails, rails_of, without_delay
 from equipoise.actuators.reaction_wheels import wheel_torques
@@ -53,7 +53,7 @@ def carry_out(bench: Bench, command: Command, eyes: Eyes, hands: Hands, period: 
         **torquing(testbed, command.torque, eyes, bench.time, period),
         **magnetising(testbed, command.magnetic, eyes.field),
     }
-    pulses, left = pulsing(testbed, command.impulse, hands.left)
+    pulses, left = pulsing(testbed, command.impulse, hands.left, period)
     changed = {name: value for name, value in inputs.items() if value != hands.inputs[name]}
     if changed or pulses:
         bench.drive({**changed, **pulses})
@@ -97,14 +97,20 @@ def magnetising(testbed: Testbed, torque: Vector3 | None, field: Vector3 | None)
     return named(coils, dipoles_for(coils, torque, field).inputs)
 
 
-def pulsing(testbed: Testbed, impulse: Vector3 | None, left: Vector3) -> tuple[Inputs, Vector3]:
-    """Return pulses (N m s) for an impulse and what was left of the last, and what is left now."""
+def pulsing(
+    testbed: Testbed, impulse: Vector3 | None, left: Vector3, period: float
+) -> tuple[Inputs, Vector3]:
+    """Return pulses (N m s) for an impulse and what was left of the last, and what is left now.
+
+    No pulse is longer than the period: the next one would end it.
+    """
     jets = testbed.jets
     if impulse is None or not jets:
         return {}, left
-    pulses = pulses_for(jets, impulse + left)
-    given = named(jets, pulses.impulses)
-    return {name: value for name, value in given.items() if value != 0.0}, pulses.left
+    most = period * np.array([jet.torque for jet in jets])
+    pulses: Floats = np.clip(pulses_for(jets, impulse + left).impulses, -most, most)
+    given = {name: value for name, value in named(jets, pulses).items() if value != 0.0}
+    return given, impulse + left - on_platform(jets, pulses)
 
 
 def named(devices: Sequence[Device], values: Floats) -> Inputs:

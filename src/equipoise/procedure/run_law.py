@@ -106,6 +106,9 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
         if command.finished:
             why = command.finished
             break
+        if command.look is not None and bench.time + command.look.duration > end:
+            why = SPENT
+            break
         if command.look is not None:
             session, recording, estimate = look(bench, session, command.look)
             seen = estimate
@@ -217,7 +220,7 @@ def stop_step(bench: Bench, why: str) -> Step:
 
 def control_step(bench: Bench, card: LawCard, began: float, why: str) -> Step:
     """Return the step that says how long a law was at work and how it ended."""
-    text = f"{card.name} for {bench.time - began:.0f} s of bench time: {why}."
+    text = f"{card.name} for {bench.time - began:.0f} s of bench time: {why.rstrip('.')}."
     return Step("control", bench.time, text)
 
 

@@ -44,6 +44,7 @@ from equipoise.simulation.clock import multiples, samples, tick, tick_one
 from equipoise.simulation.devices import (
     all_off,
     effects,
+    field_rows,
     grid_of,
     inputs_of,
     kept_until,
@@ -67,10 +68,11 @@ class SimulatedBench:
     """A bench made of equations; see ``model.bench.Bench``. ``platform`` is what it really is."""
 
     def __init__(self, testbed: Testbed, seed: int) -> None:
-        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(7)]
+        streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(8)]
         rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
         self._bad_rng, self._bad = streams[5], np.zeros(0)
-        self._states_rng, self._devices = streams[6], started(testbed)
+        self._states_rng, self._field_rng = streams[6:]
+        self._devices = started(testbed)
         self._testbed, self._seed = testbed, seed
         self.platform = draw_truth(testbed, rng)
         truth, masses = self.platform, testbed.masses
@@ -229,7 +231,17 @@ class SimulatedBench:
         seen_so_far = Recording(
             attitude, rate, names, masses, source=f"simulated {testbed.name}, seed {self._seed}"
         )
-        return self._with_devices(seen_so_far, after) if testbed.devices else seen_so_far
+        told = self._with_devices(seen_so_far, after) if testbed.devices else seen_so_far
+        return replace(told, field=self._magnetometer(t, path, after))
+
+    def _magnetometer(self, t: Series1, path: Path, after: float) -> Samples | None:
+        """Return the magnetometer's rows, at the attitude of the node at or before each stamp."""
+        known, field_N = self._testbed.magnetic_field, self.platform.field_N
+        if known is None or known.noise is None or field_N is None:
+            return None
+        stamps = samples(self._reports, after, self._time)
+        q = path.y[np.searchsorted(t, stamps, side="right") - 1, :4]
+        return Samples(stamps, field_rows(q, field_N, known.noise, self._field_rng))
 
     @property
     def _reports(self) -> float:

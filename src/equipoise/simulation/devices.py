@@ -19,7 +19,8 @@ from equipoise.actuators.control_moment_gyros import gimbal_coordinates, rotor_m
 from equipoise.actuators.jets import on_platform
 from equipoise.actuators.magnetorquers import dipole_of
 from equipoise.actuators.reaction_wheels import wheel_momentum
-from equipoise.model.arrays import Floats, Series1, Series3
+from equipoise.maths.attitude import to_matrix
+from equipoise.model.arrays import Floats, Series1, Series3, Series4, Vector3
 from equipoise.model.devices import ControlMomentGyro, Device, JetPair, Magnetorquer, ReactionWheel
 from equipoise.model.errors import DriveRefused, InputError, nearest
 from equipoise.model.testbed import Testbed
@@ -127,6 +128,12 @@ def effects(testbed: Testbed, devices: Followers, t: Series1) -> tuple[Series3, 
         dipole_of(testbed.magnetorquers, y[:, first:split]) if testbed.magnetorquers else none,
         on_platform(testbed.jets, y[:, split:]) if testbed.jets else none,
     )
+
+
+def field_rows(q: Series4, field_N: Vector3, noise: float, rng: np.random.Generator) -> Series3:
+    """Return a magnetometer's rows (n, 3) T, body axes, at attitudes, in a field (T)."""
+    turned: Series3 = field_N @ to_matrix(q)
+    return turned + noise * rng.standard_normal(turned.shape)
 
 
 def reported_states(
