@@ -111,7 +111,7 @@ class State:
     followed: float = -np.inf  # s, when the masses last followed
     unloading: bool = False
     again: bool = False  # the last pair of holds is taken a second time
-    closing: float | None = None  # s, when the last move was asked for
+    closing: float | None = None  # s, when it is level after the last move
 
 
 def reach_of(testbed: Testbed) -> float:
@@ -257,8 +257,15 @@ def closed(state: State, seen: Sample, params: Params) -> State:
     assert moved.shift is not None
     stops = stop_variance(moved.shift - seen.shift, params.book)
     if state.again or float(stops.max()) <= COARSE**2:
-        return replace(moved, closing=seen.t)
+        return homeward(moved, seen, params)
     return entered_stage(replace(moved, again=True, stage=state.stage - 1), seen, params)
+
+
+def homeward(state: State, seen: Sample, params: Params) -> State:
+    """Return the state on its way back to level, where a swing proves most; sag is least there."""
+    assert state.turn is not None and state.level is not None
+    way = slew(reference_at(state.turn, np.inf).q, state.level, seen.t, params.pace)
+    return replace(state, turn=way, closing=end_of(way))
 
 
 def ended(state: State, seen: Sample) -> bool:

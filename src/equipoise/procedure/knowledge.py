@@ -63,7 +63,12 @@ def as_if_stiff(testbed: Testbed) -> Testbed:
     At small tilts nothing tells it from the centre of mass, which then is that of a stiff platform
     that behaves alike.
     """
-    terms = tuple(term for term in testbed.disturbances if term not in GROUPS["sag"])
+    return without(testbed, "sag")
+
+
+def without(testbed: Testbed, group: str) -> Testbed:
+    """Return the testbed without a group of torques among what is estimated."""
+    terms = tuple(term for term in testbed.disturbances if term not in GROUPS[group])
     return replace(testbed, disturbances=terms)
 
 

@@ -20,7 +20,7 @@ from equipoise.procedure.law_sample import Eyes
 from equipoise.procedure.tilt_guard import guarded
 
 STILL = np.deg2rad(0.1)  # rad/s, chosen: slower than this it stands, as far as a proof goes
-WANTED = np.deg2rad(0.3)  # rad/s, chosen: 12 deg in a proof of 40 s
+WANTED = np.deg2rad(0.2)  # rad/s, chosen: 8 deg in a proof of 40 s, where sag hardly bends yet
 BEFORE = 1.0  # s, chosen: seen before a push
 ALIKE = 2.0  # -, chosen: masses that err by up to so many times the least are the finest
 
