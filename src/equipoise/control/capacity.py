@@ -9,7 +9,7 @@ be had in every direction:
 
 For boxes the least is at right angles to two of the axes; directions about three degrees apart are
 looked at beside these, for the momentum of gyros.
-A gyro's is for its angle at the start; gyros in a singularity give less (methods.md 6).
+A gyro's is for its angle at the start; gyros in a singularity give less.
 """
 
 from itertools import combinations

@@ -153,13 +153,13 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
 LAW = Law(
     LawCard(
         "coarse_fine",
-        "a coarse move from a first look, then looks and small moves, always kept hanging",
-        "RAMBO, engrXiv 7342; methods.md 5.7",
+        "A coarse move from a first look, then looks and small moves, always kept hanging.",
+        "RAMBO, engrXiv 7342; the coarse stage is ours",
         ("masses", "attitude", "gyro"),
-        "10 um below the pivot at least, on purpose; 0.3 um of that and sideways, and 4 % of a lower "
-        "target's depth; swing, as nothing damps it; sag but for small tilts",
-        "open loop: always. It must hang within 10 deg of level at first: what swing there is grows "
-        "by a half on the way up",
+        "10 um below the pivot at least, on purpose; 0.3 um sideways and of that height, 4 % of a "
+        "lower one; swing, as nothing damps it; sag but for small tilts",
+        "open loop: always. It must hang within 10 deg of level at first: what swing there is "
+        "grows by a half on the way up",
         PERIOD,
     ),
     begin,

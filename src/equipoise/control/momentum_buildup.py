@@ -21,7 +21,8 @@ horizontal momentum out again, no further than is soon travelled:
 The seconds of a hold are the fewest of CHOICES for which the covariance foreseen leaves the goal
 known to WANTED within LONGEST; else the most that fit into it.
 
-(methods.md 5.5 and 5.8; Hatcher and Young 1968 with wheels for jets.)
+(Hatcher and Young 1968 with wheels for jets; the trim of a deformed platform is in Chinese work on
+three-axis simulators. Account, plan and goal are ours.)
 """
 
 from dataclasses import dataclass, field, replace
@@ -297,9 +298,9 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
 LAW = Law(
     LawCard(
         "momentum_buildup",
-        "holds tilted attitudes by wheels and reads the centre of mass, sag and drift from what "
-        "they take up",
-        "methods.md 5.5 and 5.8; Hatcher and Young 1968 with wheels for jets",
+        "Holds tilted attitudes by wheels, and reads centre of mass, sag and drift from what they "
+        "take up.",
+        "Hatcher and Young 1968 with wheels for jets; account, plan and trim are ours",
         ("masses", "momentum", "gyro", "attitude"),
         "what no centre of mass trims of the sag, 12 uN m rms within 20 deg for 25 um; drift after "
         "the last move; momentum about the vertical. A torque of the air that keeps its sign for "

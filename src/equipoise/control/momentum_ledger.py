@@ -20,7 +20,7 @@ not taken: their momentum is not known.
 A move leaves an error: the accuracy of each mass that may have moved, one whose own step shifts by
 less than twice as much. r walks by CREEP, less where drift is a term, and c are constants.
 
-(Wheel momentum build-up, methods.md 5.5; Hatcher and Young 1968 with wheels for jets.)
+(Wheel momentum build-up: Hatcher and Young 1968 with wheels for jets.)
 
 Cannot see r along gravity's mean direction without tilt; tau that keeps its sign for longer than
 the record is taken for r.
@@ -41,14 +41,14 @@ from equipoise.model.torque_terms import TERMS
 
 L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
 
-PLAY_SD, PLAY_TIME = 2e-6, 30.0  # N m, s, chosen: measured 4e-7 to 3e-6 (methods.md 7.1)
+PLAY_SD, PLAY_TIME = 2e-6, 30.0  # N m, s, chosen: air and bearing of small tables, 4e-7 to 3e-6
 BIAS_SD = 1e-4  # rad/s, chosen: a camera of 0.2 deg and 5 Hz leaves so much after ten seconds
-CREEP = 0.05e-6 / 60**0.5  # m/sqrt(s), chosen: thermal walk of 0.05 um/sqrt(min), methods.md 7.1
+CREEP = 0.05e-6 / 60**0.5  # m/sqrt(s), chosen: thermal walk of 0.05 um/sqrt(min)
 LEFT = 0.2  # of that, chosen: what is left where a constant drift is a term of its own
 SAME_TURN = 10.0  # s, chosen: as long as a turn lasts, in which an error of J w keeps its sign
 STANDS = 1e-10  # m, chosen: less is no travel
 PRIORS = {"viscous": 1e-4, "quadratic": 1e-3, "constant": 1e-5, "swirl": 1e-5, "sag": 3e-5,
-          "drift": 5e-9}  # fmt: skip  # SI, chosen: a few times what methods.md 7.1 lists
+          "drift": 5e-9}  # fmt: skip  # SI, chosen: a few times what tables show
 
 
 class Book(NamedTuple):

@@ -20,7 +20,7 @@ w_i, and beyond that the integral would drive the swing on. So in a swing of amp
 slower, by MARGIN A_s / A: the platform calms down first and is levelled then.
 
 (Bahu and Modenini 2020, and their note of 2022, in which coils damp and masses integrate; the split
-is that of methods.md 5.6.)
+is ours.)
 
 Coils give the part of tau across the field. That takes energy out at any rate, even cut short axis
 by axis, only if all of the rate is damped: with w across the vertical alone, as published, a field

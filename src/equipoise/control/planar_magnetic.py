@@ -15,7 +15,7 @@ before the next. The way between the two depths is known, and frees r of the fac
 shares with J (``swing_looks``).
 
 (Bahu and Modenini 2020; the note of 2022 for coils. They fit J and r_z under constraints that could
-not be read, methods.md 5.6. Here what a small swing does not show of J is held, and the least
+not be read. Here what a small swing does not show of J is held, and the least
 squares are corrected for noise: constrained ones were 0.4 % further off and often not usable.)
 """
 
@@ -266,11 +266,11 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
 LAW = Law(
     LawCard(
         "planar_magnetic",
-        "masses integrate the tilt away while coils damp, and free swings tell the height",
-        "Bahu and Modenini 2020; Bologna note of 2022; methods.md 5.6",
+        "Masses integrate the tilt away while coils damp, and free swings tell the height.",
+        "Bahu and Modenini 2020; their note of 2022 for coils; looks and scale are ours",
         ("masses", "magnetorquers", "attitude", "gyro"),
-        "the height, to 1 um as the swing of a minute shows it; sideways 0.1 to 0.3 um; sag but for "
-        "small tilts. Coils brake no turn about the field",
+        "the height, to 1 um as the swing of a minute shows it; sideways 0.1 to 0.3 um; sag but "
+        "for small tilts. Coils brake no turn about the field",
         "hanging; the integral yields to any swing that coils cannot hold. It is as slow as coils "
         "are weak: 7 to 16 min with 0.25 mN m at 14 kg, 11 min to more than 20 with 0.06 mN m",
         PERIOD,

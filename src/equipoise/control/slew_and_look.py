@@ -202,13 +202,13 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
 LAW = Law(
     LawCard(
         "slew_and_look",
-        "turns far by wheels or gyros, and fits the whole record with what they stored",
+        "Turns far by wheels or gyros, and fits the whole record with what they stored.",
         "Lee et al. Eqs. 1-3 and sections IV, V, with errata L1-L4",
         ("masses", "momentum", "gyro", "attitude"),
-        "0.1 um and what drifts after the last move; half a um of the height on a deck that sags by "
-        "25 um; swing after it",
-        "steps of 0.1 s; wheels or gyros that store m g times the offset's sd while the turns last, "
-        "two minutes; 30 um at 14 kg with 0.4 N m s",
+        "0.1 um and what drifts after the last move; half a um of the height on a deck that sags "
+        "by 25 um; swing after it",
+        "steps of 0.1 s; wheels or gyros that store m g times the offset's sd while the turns "
+        "last, two minutes; 30 um at 14 kg with 0.4 N m s",
         PERIOD,
     ),
     begin,
