@@ -220,7 +220,7 @@ def test_what_the_card_names_is_enough(name):
 
 @every_law
 def test_a_run_ends_with_a_verdict(name):
-    """In time: a look that began in time may end late, by its length.
+    """In time: no look is begun that would overrun; what still travels may arrive.
 
     Cut short, masses may stand so that it topples, which then ends it.
     """
@@ -228,8 +228,7 @@ def test_a_run_ends_with_a_verdict(name):
     last = course.steps[-1]
     assert last.kind in ("verify", "stop")
     assert last.verdict is not None
-    looks = sum(c.look.duration for c in course.commands if c.look is not None)
-    assert 20.0 < last.time < 20.0 + looks + 15.0
+    assert 10.0 < last.time < 20.0 + 15.0
     assert all(step.sentence for step in course.steps)
 
 
