@@ -51,7 +51,13 @@ def laws_json(cards: Sequence[LawCard]) -> View:
 
 def both(values: Middle, factor: float, digits: int = 2) -> str:
     """Return a median, and in brackets what 95 % stay below."""
-    return f"{values.median * factor:.{digits}g} ({values.most * factor:.{digits}g})"
+    middle, most = values.median * factor, values.most * factor
+    return f"{short(middle, digits)} ({short(most, digits)})"
+
+
+def short(value: float, digits: int) -> str:
+    """Return a number with so many digits, or whole where it has more before the point."""
+    return f"{value:.0f}" if abs(value) >= 10.0**digits else f"{value:.{digits}g}"
 
 
 def summary_cells(law: LawSummary) -> tuple[str, ...]:
@@ -74,15 +80,16 @@ def comparison_table(found: Comparison) -> Group:
     table = quiet_table()
     table.add_column("law", style="bold", no_wrap=True)
     heads = ("aside, um", "height, um", "torque, uN m", f"<= {found.required * MICRO:g} uN m",
-             "time, s", "travel, mm", "halted", "false passes")  # fmt: skip
+             "time, s", "travel, mm", "halted", "false")  # fmt: skip
     for head in heads:
-        table.add_column(head, justify="right")
+        table.add_column(head, justify="right", no_wrap=True)
     for law in sorted(found.laws, key=lambda each: each.torque.most):
         table.add_row(*summary_cells(law))
     said = Text(
         f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
         f"the runs stay below. Offsets from the target; torque rms within "
-        f"{found.tilt * PER_DEG:g} deg of level, {both(found.before, MICRO, 3)} uN m before."
+        f"{found.tilt * PER_DEG:.3g} deg of level, {both(found.before, MICRO, 3)} uN m before. "
+        "False: passed by a verdict, and twice the tolerance off."
     )
     refused = [Text(f"{each.law} was refused: {each.why}") for each in found.refusals]
     return Group(table, Text(), said, *refused)
