@@ -15,13 +15,13 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balance import BalanceOptions
+from equipoise.procedure.hold import FIRST_MOVES
 from equipoise.procedure.laws import CARDS
 from equipoise.procedure.run_law import check, lacking
 from equipoise.study.compare_laws import Comparison, LawRun, Refusal, Work, compared
 from equipoise.study.law_run import Task
 
 DEG = math.pi / 180
-MOVES = 10  # of look_and_move, chosen: as before a hold
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,7 +54,7 @@ def chosen(testbed: Testbed, only: Sequence[str]) -> list[LawCard]:
 
 def run(asked: Asked, workers: int) -> Comparison:
     """Return the comparison; runs of one platform by all laws come one after the other."""
-    options = BalanceOptions(asked.target, asked.tolerance, MOVES, asked.max_time)
+    options = BalanceOptions(asked.target, asked.tolerance, FIRST_MOVES, asked.max_time)
     tilt = asked.tilt_deg * DEG
     tasks = [
         Task(card.name, asked.testbed, seed, options, asked.max_time, tilt)

@@ -66,6 +66,18 @@ def within_reach(testbed: Testbed) -> None:
         )
 
 
+def refuse_unless_below(testbed: Testbed, least: float, most: float) -> None:
+    """Raise InputError where a loop's frequencies (rad/s) leave no band between them."""
+    if least > most:
+        raise InputError(
+            testbed.name,
+            about_masses(testbed),
+            f"a loop that is faster than {least:.2g} rad/s, for the tilt limit, and slower than "
+            f"{most:.2g} rad/s, for masses and samples: a coarse balance first, faster or heavier "
+            "masses, or a firmer com_sd",
+        )
+
+
 def about_masses(testbed: Testbed) -> str:
     """Return the likely offset and what masses can do about it, in words."""
     return (

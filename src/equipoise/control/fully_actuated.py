@@ -45,12 +45,12 @@ import numpy as np
 
 from equipoise.control.beforehand import (
     LIKELY,
-    about_masses,
     around,
     coarsest_step,
     height_sd,
     level_inertia,
     likely_offset,
+    refuse_unless_below,
     within_reach,
 )
 from equipoise.control.capacity import Capacity, capacity
@@ -141,14 +141,7 @@ def frequency_for(testbed: Testbed, wish: float) -> float:
     weight = testbed.body.mass * testbed.gravity / level_inertia(testbed)
     least = (weight * offset / (STRAY * testbed.tilt_limit)) ** 0.5
     most = min(MOST, SAMPLED / PERIOD, SPEED * greatest_slew(testbed) / max(offset, 1e-12))
-    if least > most:
-        raise InputError(
-            testbed.name,
-            about_masses(testbed),
-            f"a loop that is faster than {least:.2g} rad/s, for the tilt limit, and slower than "
-            f"{most:.2g} rad/s, for masses and samples: a coarse balance first, faster or heavier "
-            "masses, or a firmer com_sd",
-        )
+    refuse_unless_below(testbed, least, most)
     return float(np.clip(wish, least, most))
 
 

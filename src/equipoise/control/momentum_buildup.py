@@ -263,7 +263,8 @@ def closed(state: State, seen: Sample, params: Params) -> State:
 
 def homeward(state: State, seen: Sample, params: Params) -> State:
     """Return the state on its way back to level, where a swing proves most; sag is least there."""
-    assert state.turn is not None and state.level is not None
+    assert state.turn is not None
+    assert state.level is not None
     way = slew(reference_at(state.turn, np.inf).q, state.level, seen.t, params.pace)
     return replace(state, turn=way, closing=end_of(way))
 

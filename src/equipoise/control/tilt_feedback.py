@@ -49,16 +49,15 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.control.beforehand import (
-    about_masses,
     across,
     level_inertia,
     likely_height,
     likely_offset,
+    refuse_unless_below,
     within_reach,
 )
 from equipoise.control.saturation import greatest_slew
 from equipoise.model.arrays import Floats, Vector3
-from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
 
 ZETA = 1.0  # chosen: no overshoot; the k_p = 0.5 N m s of published copies at w_a = 1 rad/s
@@ -154,14 +153,7 @@ def frequency_for(testbed: Testbed, period: float) -> float:
     offset = likely_offset(testbed)
     least = least_frequency(testbed, offset)
     most = min(MOST, SAMPLED / period, SPEED * greatest_slew(testbed) / max(offset, 1e-12))
-    if least > most:
-        raise InputError(
-            testbed.name,
-            about_masses(testbed),
-            f"a loop that is faster than {least:.2g} rad/s, for the tilt limit, and slower than "
-            f"{most:.2g} rad/s, for masses and samples: a coarse balance first, faster or heavier "
-            "masses, or a firmer com_sd",
-        )
+    refuse_unless_below(testbed, least, most)
     return most
 
 

@@ -21,7 +21,7 @@ from equipoise.procedure.choose_move import DOWN, Option, good_moment, option_fo
 from equipoise.procedure.foresight import Outlook, state_now
 from equipoise.procedure.knowledge import Knowledge, learn, shifted
 from equipoise.procedure.planned_move import planned_move
-from equipoise.procedure.tilt_guard import tilted
+from equipoise.procedure.tilt_guard import TILTED, tilted
 from equipoise.procedure.verify import fresh_enough, is_within, verdict
 
 UM = 1e-6
@@ -101,7 +101,7 @@ def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, be
     """Return why to stop now, or nothing."""
     knowledge = progress.knowledge
     if tilted(knowledge.recording, bench.testbed):
-        return "the platform tilts beyond its limit"
+        return TILTED
     judged = fresh_enough(knowledge, progress.still_since) and not progress.braking
     movable = len(progress.moves) < options.max_moves
     early = bench.time - began < LATEST * (options.max_time - SETTLE)
@@ -239,7 +239,7 @@ def final(bench: Bench, progress: Progress, options: BalanceOptions, why: str) -
     knowledge = progress.knowledge
     last = progress.moves[-1] if progress.moves else None
     judged = verdict(knowledge, last, progress.still_since, options.target, options.tolerance)
-    if why == "the platform tilts beyond its limit":
+    if why == TILTED:
         judged = Verdict(False, f"Stopped: {why}.", knowledge.com, knowledge.sd, halted=True)
     kind = "verify" if judged.passed else "stop"
     text = f"{why[0].upper()}{why[1:]}. {judged.sentence}"

@@ -25,7 +25,7 @@ from equipoise.procedure.balance import UM, BalanceOptions, balance
 from equipoise.procedure.foresight import state_now
 from equipoise.procedure.knowledge import Knowledge
 from equipoise.procedure.planned_move import planned_move
-from equipoise.procedure.tilt_guard import tilted
+from equipoise.procedure.tilt_guard import TILTED, tilted
 
 LOOK = 5.0  # s between decisions
 FINER = 1 / 3  # of the tolerance, chosen: how closely to balance first
@@ -196,7 +196,7 @@ def verdict_step(
     far = ", ".join(f"{1e6 * w:.1f}" for w in worst)
     text = f"Held for {options.duration / 60:.3g} min; at most ({far}) um from the target."
     if tilted_out:
-        text = "Stopped: the platform tilts beyond its limit."
+        text = f"Stopped: {TILTED}."
     verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, *belief,
                       halted=tilted_out)  # fmt: skip
     return Step("verify" if not tilted_out else "stop", bench.time, verdict.sentence,

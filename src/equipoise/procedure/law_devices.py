@@ -75,18 +75,18 @@ def torquing(
     testbed: Testbed, torque: Vector3 | None, eyes: Eyes, now: float, period: float
 ) -> Inputs:
     """Return inputs of wheels, or else of gyros, for a torque (N m) on the platform."""
-    wheels, cmgs, wanted = testbed.wheels, testbed.cmgs, np.zeros(3) if torque is None else torque
+    wheels, cmgs = testbed.wheels, testbed.cmgs
     w, g = len(wheels), len(cmgs)
     if torque is None:
         return dict.fromkeys((device.name for device in (*wheels, *cmgs)), 0.0)
     if wheels:
-        found = wheel_torques(wheels, wanted, eyes.states[:w], period).inputs
+        found = wheel_torques(wheels, torque, eyes.states[:w], period).inputs
         still = dict.fromkeys((cmg.name for cmg in cmgs), 0.0)
         return {**named(wheels, found), **still}
     if not cmgs:
         return {}
     angles = eyes.states[w : w + g]
-    return named(cmgs, limited_rates(cmgs, generalised_robust(cmgs, angles, wanted, now)))
+    return named(cmgs, limited_rates(cmgs, generalised_robust(cmgs, angles, torque, now)))
 
 
 def magnetising(testbed: Testbed, torque: Vector3 | None, field: Vector3 | None) -> Inputs:

@@ -32,15 +32,15 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import among
 from equipoise.model.verdict import Verdict
+from equipoise.procedure.balance import look_step
 from equipoise.procedure.knowledge import as_if_stiff, learn, without
 from equipoise.procedure.law_devices import Hands, carry_out, let_rest, opened_hands
 from equipoise.procedure.law_sample import Eyes, looked, opened, sample_of
 from equipoise.procedure.proof import watched_swing
-from equipoise.procedure.tilt_guard import guarded, tilted
+from equipoise.procedure.tilt_guard import TILTED, guarded, tilted
 from equipoise.procedure.verify import verdict
 
 UM = 1e-6
-TILTED = "the platform tilts beyond its limit"
 SPENT = "the time is used up"
 SETTLE = 1.0  # s, chosen: after it the filter's rate and attitude can be used
 
@@ -225,12 +225,6 @@ def control_step(bench: Bench, card: LawCard, began: float, why: str) -> Step:
     """Return the step that says how long a law was at work and how it ended."""
     text = f"{card.name} for {bench.time - began:.0f} s of bench time: {why.rstrip('.')}."
     return Step("control", bench.time, text)
-
-
-def look_step(bench: Bench, fresh: Recording) -> Step:
-    """Return the step of a look."""
-    start, end = fresh.span
-    return Step("look", bench.time, f"Looked for {end - start:.1f} s.", recording=fresh)
 
 
 def estimate_step(bench: Bench, estimate: Estimate) -> Step:
