@@ -161,7 +161,7 @@ def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recordin
     """Let everything rest, read, and return what a method makes of it."""
     testbed = bench.testbed
     hands, wait = let_rest(bench, session.eyes, session.hands)
-    before = bench.read(wait) if wait > 0 else None
+    before = guarded(bench, wait) if wait > 0 else None
     fresh = guarded(bench, asked.duration)
     parts = (*session.parts, *(part for part in (before, fresh) if part is not None))
     eyes = session.eyes
@@ -202,7 +202,7 @@ def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
     """
     wait = let_rest(bench, session.eyes, session.hands)[1]
     if wait > 0:
-        bench.read(wait)
+        guarded(bench, wait)
     began = bench.time
     fresh = watched_swing(bench, session.eyes, options.proof)
     if tilted(fresh, bench.testbed):
