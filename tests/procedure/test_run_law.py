@@ -365,4 +365,6 @@ def test_the_clock_of_samples_is_the_benchs():
 
 def test_hands_begin_with_everything_off():
     """Three wheels and three coils; a pulse lasts no longer than itself."""
-    assert opened_hands(platform()).inputs == dict.fromkeys(("wx", "wy", "wz", "mx", "my", "mz"), 0)
+    assert opened_hands(platform(), np.zeros(0)).inputs == dict.fromkeys(
+        ("wx", "wy", "wz", "mx", "my", "mz"), 0
+    )

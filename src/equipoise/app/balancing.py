@@ -20,7 +20,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import BalanceOptions
 from equipoise.procedure.hold import HoldOptions, balance_and_hold
-from equipoise.procedure.laws import OWN, balanced_by
+from equipoise.procedure.laws import CARDS, OWN, balanced_and_followed, balanced_by
 from equipoise.simulation.bench import SimulatedBench
 
 HALTED = "every mass was halted where it is"
@@ -94,10 +94,13 @@ def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     balancing = replace(usual, max_moves=moves, max_time=limits.max_time or usual.max_time)
     if limits.hold == 0:
         return balanced_by(limits.law, bench, balancing, limits.max_time)
-    if limits.law != OWN.name:
-        wanted = f"a hold after {OWN.name}, or no hold"
+    if limits.law == OWN.name:
+        return balance_and_hold(bench, balancing, holding)
+    able = [OWN.name, *(card.name for card in CARDS.values() if card.follows)]
+    if limits.law not in able:
+        wanted = f"a hold after {' or '.join(able)}, or no hold"
         raise InputError("--hold-min", f"a hold after {limits.law}", wanted)
-    return balance_and_hold(bench, balancing, holding)
+    return balanced_and_followed(limits.law, bench, balancing, limits.max_time, limits.hold)
 
 
 def at_home(estimate: Estimate) -> Believed | None:

@@ -67,6 +67,7 @@ def summary_cells(law: LawSummary) -> tuple[str, ...]:
         both(law.aside, UM),
         both(law.height, UM),
         both(law.torque, MICRO, 3),
+        "-" if law.followed is None else both(law.followed, MICRO, 3),
         f"{100 * law.within / law.runs:.0f} %",
         both(law.time, 1.0, 3),
         both(law.travel, MM, 3),
@@ -79,7 +80,8 @@ def comparison_table(found: Comparison) -> Group:
     """Return all laws, the one that leaves the least torque first, and who was refused why."""
     table = quiet_table()
     table.add_column("law", style="bold", no_wrap=True)
-    heads = ("aside, um", "height, um", "torque, uN m", f"<= {found.required * MICRO:g} uN m",
+    required = f"<= {found.required * MICRO:g} uN m"
+    heads = ("aside, um", "height, um", "torque, uN m", "following", required,
              "time, s", "travel, mm", "halted", "false")  # fmt: skip
     for head in heads:
         table.add_column(head, justify="right", no_wrap=True)
@@ -88,7 +90,8 @@ def comparison_table(found: Comparison) -> Group:
     said = Text(
         f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
         f"the runs stay below. Offsets from the target; torque rms within "
-        f"{found.tilt * PER_DEG:.3g} deg of level, {both(found.before, MICRO, 3)} uN m before. "
+        f"{found.tilt * PER_DEG:.3g} deg of level, {both(found.before, MICRO, 3)} uN m before; "
+        "following: with masses that follow the tilt by the sag that was found. "
         "False: passed by a verdict, and twice the tolerance off."
     )
     refused = [Text(f"{each.law} was refused: {each.why}") for each in found.refusals]
@@ -120,10 +123,12 @@ def files_of(found: Comparison) -> dict[str, str | bytes]:
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["law", "seed", "offset_x_um", "offset_y_um", "offset_z_um", "torque_uN_m",
-                     "time_s", "travel_mm", "passed", "halted", "verdict"])  # fmt: skip
+                     "followed_uN_m", "time_s", "travel_mm", "passed", "halted",
+                     "verdict"])  # fmt: skip
     for run in found.runs:
         offset = [f"{UM * x:.6g}" for x in run.offset]
-        writer.writerow([run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", f"{run.time:.6g}",
-                         f"{MM * run.travel:.6g}", run.verdict.passed, run.verdict.halted,
-                         run.verdict.sentence])  # fmt: skip
+        followed = "" if run.followed is None else f"{MICRO * run.followed:.6g}"
+        writer.writerow([run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", followed,
+                         f"{run.time:.6g}", f"{MM * run.travel:.6g}", run.verdict.passed,
+                         run.verdict.halted, run.verdict.sentence])  # fmt: skip
     return {"compare.json": dump(comparison_json(found)) + "\n", "laws.csv": text.getvalue()}

@@ -26,6 +26,7 @@ import numpy as np
 
 from equipoise.control.sample import Sample
 from equipoise.control.saturation import filling_time, greatest_shift, greatest_slew
+from equipoise.control.swing_looks import of_group
 from equipoise.model.arrays import Floats, Series, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
@@ -52,6 +53,7 @@ class Hanging(NamedTuple):
     step: float  # m, the finest that masses can shift it sideways
     delay: float  # s, of what is seen
     filling: float  # s, that fine masses take over half a step of coarse ones
+    still: tuple[str, ...] = ()  # torques that a look takes for none: drift
 
     @property
     def frequency(self) -> Floats:
@@ -135,4 +137,5 @@ def hanging(testbed: Testbed) -> Hanging:
         up, axes, body.mass * testbed.gravity / moments, -height - lowered, lowered,
         float(np.abs(up) @ testbed.com_sd), greatest_slew(testbed), reach,
         finest_step(testbed, axes), sensor_delay(testbed), filling_time(testbed),
+        of_group(testbed, "drift"),
     )  # fmt: skip

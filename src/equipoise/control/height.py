@@ -85,7 +85,7 @@ def once_level(
         return sent(plant, seen, last, Command(shift=last, finished="level, and at the target"))
     kick = shift_for(plant, np.full(2, SWING * height.depth / np.sqrt(2)))
     since = max(seen.t - BEFORE, 0.0)
-    look = Look(DURATION, "trajectory", use_prior=True, since=since)
+    look = Look(DURATION, "trajectory", hold=plant.still, use_prior=True, since=since)
     note = f"level; swings by {np.degrees(SWING):.1f} deg for a look at its height"
     return sent(plant, seen, level + kick, Command(look=look, note=note))
 

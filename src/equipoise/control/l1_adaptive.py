@@ -56,7 +56,7 @@ from equipoise.control.hanging import (
 from equipoise.control.height import Height, Sent, on_the_way, once_level, raised, sees, unseen
 from equipoise.control.l1_condition import l1_norm
 from equipoise.control.law import Law, LawCard
-from equipoise.control.quiet import Bounds, Rest, Seen, bounds, is_quiet, settle
+from equipoise.control.quiet import Bounds, Rest, Seen, at_depth, bounds, is_quiet, settle
 from equipoise.control.sample import Sample
 from equipoise.control.sampled_loop import radius, steps_late, swing_input, swing_matrix
 from equipoise.control.saturation import limited
@@ -295,9 +295,10 @@ def sample_step(state: State, seen: Sample, params: Params) -> tuple[State, Comm
     state = learnt(state, x, seen, params)
     state = replace(state, u_ad=filtered(state, x, params))
     now = Seen(seen.t, tilt, rate, seen.shift)
-    rest = settle(state.rest, now, PERIOD, params.quiet, np.zeros(2))
+    quiet = at_depth(params.quiet, plant.depth, state.height.depth)
+    rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
     state = replace(state, rest=rest, before=Before(x, w0, seen.shift, spin))
-    if not is_quiet(rest, seen.t, params.quiet):
+    if not is_quiet(rest, seen.t, quiet):
         return state, Command(shift=controlled(state, x, w0, params))
     way = once_level(plant, state.height, seen, rest.shift, params.target)
     return replace(state, level=rest.shift, way=way), Command(shift=way.goal)

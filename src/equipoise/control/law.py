@@ -42,6 +42,7 @@ class LawCard:
     leaves: str  # what it does not remove, and what it cannot see
     stable: str  # where it is stable: sampling, rate limits, size of the offset
     period: float  # s, between steps
+    follows: bool = False  # it tells what masses can follow when it has ended
 
 
 @dataclass(frozen=True, slots=True)

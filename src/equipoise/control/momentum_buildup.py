@@ -12,7 +12,9 @@ their covariance. Inertia is not needed. The course:
     last     the masses go to the goal as it is known by then
 
 The goal is the target and, on a platform that sags, the height that trims it (``sag_trim``) above
-it: the torque left within RANGE of level is then the least. In the catch, and when wheels have
+it: the torque left within RANGE of level is then the least that masses standing still leave. When
+the law has ended, masses can follow the tilt by the sag that was found, and leave less
+(``control.follow``). In the catch, and when wheels have
 filled to FULL until they are EMPTY, masses are set off the goal so that gravity takes the
 horizontal momentum out again, no further than is soon travelled:
 
@@ -39,6 +41,7 @@ from equipoise.control.momentum_ledger import (
     Ledger,
     book_of,
     com_map,
+    drift_of,
     entered,
     opened,
     sag_of,
@@ -62,6 +65,7 @@ from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.following import Following
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s
@@ -77,7 +81,8 @@ FULL, EMPTY = 0.45, 0.1  # of the momentum that wheels can take, chosen: a turn 
 AHEAD = 60.0  # s, chosen: drift goes on, and is at the goal in the middle of the next two minutes
 LATE = 4  # chosen: holds before which no coarse mass is moved any more
 DOUBT = 2.0  # sds of the goal, chosen: a change that is worth a move during the holds
-COARSE = 0.1e-6  # m, chosen: one sd of a stop that is worth another pair of holds
+COARSE = 0.1e-6  # m, chosen: one sd of a stop that only a coarse mass has
+CLEAR = 0.15e-6  # m, chosen: one sd of the goal at the end; more is worth another pair of holds
 PATIENCE = 60.0  # s, chosen: for masses that do not arrive
 SETTLED = 1.0  # s, chosen: masses that then stand have arrived
 
@@ -154,9 +159,11 @@ def planned(testbed: Testbed, book: Book, trim: Floats, pace: Pace) -> tuple[Sta
     return best
 
 
-def off_goal(ledger: Ledger, shift: Vector3, trim: Floats, book: Book) -> tuple[Vector3, Matrix3]:
+def off_goal(
+    ledger: Ledger, shift: Vector3, trim: Floats, book: Book, ahead: float = AHEAD
+) -> tuple[Vector3, Matrix3]:
     """Return how far the centre of mass is from what trims the platform, and the covariance."""
-    G = com_map(ledger, book, AHEAD)
+    G = com_map(ledger, book, ahead)
     G[:, TERM:] -= trim
     return G @ ledger.x + shift, G @ ledger.P @ G.T
 
@@ -250,13 +257,16 @@ def advanced(state: State, seen: Sample, params: Params) -> State:
 def closed(state: State, seen: Sample, params: Params) -> State:
     """Return the state with the last move asked for, or the last pair of holds taken once more.
 
-    That is when the move would bring in more doubt than is wanted: masses of coarse steps stop
-    where they will. After it only fine ones have to move.
+    That is when the goal is left in more doubt than is wanted, or would be by the move: masses of
+    coarse steps stop where they will, now or when wheels were unloaded late. After it only fine
+    ones have to move.
     """
     moved = retrimmed(state, seen, params, 0.0)
     assert moved.shift is not None
+    assert state.ledger is not None
     stops = stop_variance(moved.shift - seen.shift, params.book)
-    if state.again or float(stops.max()) <= COARSE**2:
+    doubt = np.diag(home_to_goal(state.ledger, params)[1])
+    if state.again or float((stops + doubt).max()) <= CLEAR**2:
         return homeward(moved, seen, params)
     return entered_stage(replace(moved, again=True, stage=state.stage - 1), seen, params)
 
@@ -275,6 +285,14 @@ def ended(state: State, seen: Sample) -> bool:
         return False
     stands = bool(np.linalg.norm(seen.shift - state.ledger.stood) <= STANDS)
     return stands or seen.t > state.closing + PATIENCE
+
+
+def following(ledger: Ledger, params: Params) -> Following:
+    """Return what masses can follow from now on: the sag, and the drift."""
+    book = params.book
+    off, _ = off_goal(ledger, -params.target, params.trim, book, 0.0)
+    sag, trim = sag_of(ledger, book), params.trim @ ledger.x[TERM:]
+    return Following(-off, ledger.t, drift_of(ledger, book), sag, trim)
 
 
 def report(ledger: Ledger, shift: Vector3, params: Params) -> str:
@@ -298,8 +316,11 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
     reference = reference_at(state.turn, seen.t)
     moment = weight_moment(ledger, seen, params)
     pid, u = torque(state.pid, seen, reference, params.gains, moment)
-    done = report(ledger, seen.shift, params) if ended(state, seen) else ""
-    return replace(state, pid=pid), Command(shift=state.shift, torque=u, finished=done)
+    asked = Command(shift=state.shift, torque=u)
+    if ended(state, seen):
+        said = report(ledger, seen.shift, params)
+        asked = replace(asked, finished=said, following=following(ledger, params))
+    return replace(state, pid=pid), asked
 
 
 LAW = Law(
@@ -309,12 +330,13 @@ LAW = Law(
         "they take up.",
         "Equipoise; Hatcher and Young 1968 with wheels for jets",
         ("masses", "momentum", "gyro", "attitude"),
-        "what no centre of mass trims of the sag, 12 uN m rms within 20 deg for 25 um; drift after "
-        "the last move; momentum about the vertical. A torque of the air that keeps its sign for "
-        "minutes is taken for an offset",
+        "what no centre of mass trims of the sag, 12 uN m rms within 20 deg for 25 um, and drift "
+        "after the last move, unless masses follow both; momentum about the vertical. A torque of "
+        "the air that keeps its sign for minutes is taken for an offset",
         "steps of 0.1 s; offsets whose weight is twice what the wheels can turn against, 75 um at "
         "14 kg and 5 mN m, on either side of the pivot; wheels of 20 mN m s there",
         PERIOD,
+        follows=True,
     ),
     begin,
     step,

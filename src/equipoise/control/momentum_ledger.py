@@ -216,6 +216,11 @@ def com_now(ledger: Ledger, book: Book) -> tuple[Vector3, Matrix3]:
     return G @ ledger.x, G @ ledger.P @ G.T
 
 
+def drift_of(ledger: Ledger, book: Book) -> Vector3:
+    """Return the drift of the centre of mass, m/s."""
+    return (com_map(ledger, book, 1.0) - com_map(ledger, book)) @ ledger.x
+
+
 def sag_of(ledger: Ledger, book: Book) -> Matrix3:
     """Return the matrix of sag, m."""
     return sag_matrix(dict(zip(book.terms, ledger.x[TERM:], strict=True)))

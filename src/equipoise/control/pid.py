@@ -35,7 +35,7 @@ import numpy as np
 from equipoise.control.hanging import Hanging, hanging, rate_of, shift_for, spared, tilt_of, turned
 from equipoise.control.height import Height, Sent, on_the_way, once_level, raised, sees, unseen
 from equipoise.control.law import Law, LawCard
-from equipoise.control.quiet import Bounds, Rest, Seen, bounds, is_quiet, settle
+from equipoise.control.quiet import Bounds, Rest, Seen, at_depth, bounds, is_quiet, settle
 from equipoise.control.sample import Sample
 from equipoise.control.sampled_loop import Sampled, closed, radius, steps_late
 from equipoise.control.saturation import limited
@@ -66,6 +66,7 @@ PATIENCE = 3.0  # chosen: of the calculated time, before the relay is given up
 FAR = 2.0  # chosen: a measured gain further than this factor from the calculated one is not taken
 MARGIN = 2.0  # chosen: the gains may be wrong by this factor
 RAISED = 0.1  # chosen: of the swing's frequency, for a platform that has been raised
+ROUGH = 0.005  # chosen: of the depth, an offset that counts as none before the first look
 LEVEL = 1e-7  # m, chosen: an offset that counts as none, 1.4e-5 N m for 14 kg
 
 CARD = LawCard(
@@ -89,7 +90,8 @@ class Params:
     cycles: tuple[Ultimate, Ultimate]  # calculated
     gains: tuple[Gains, Gains]  # calculated
     calm: Bounds  # before the relay
-    quiet: Bounds  # at the end
+    rough: Bounds  # before the first look
+    quiet: Bounds  # after it
     target: Vector3
 
 
@@ -153,7 +155,8 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
         check(loop, gains, plant.delay + plant.filling)
     calm = bounds(plant, 0.3 * loops[0].relay, 0.5)
     quiet = bounds(plant, max(LEVEL, 2 * plant.step), 0.5)
-    params = Params(plant, loops, cycles, (first, second), calm, quiet, target)
+    rough = bounds(plant, max(quiet.shift, ROUGH * plant.depth), 0.5)
+    params = Params(plant, loops, cycles, (first, second), calm, rough, quiet, target)
     return State("settle", params.gains, Rest(), Height(plant.lowered, plant.depth)), params
 
 
@@ -244,9 +247,11 @@ def level_phase(state: State, seen: Sample, params: Params) -> tuple[State, Comm
     integral = state.integral + PERIOD * (f * i * tilt - undelivered * i / p)
     shift = asked_shift(state, plant, -f * (p * tilt + d * rate) - integral)
     now = Seen(seen.t, tilt, rate, seen.shift)
-    rest = settle(state.rest, now, PERIOD, params.quiet, np.zeros(2))
+    wanted = params.quiet if state.height.looks else params.rough
+    quiet = at_depth(wanted, plant.depth, state.height.depth)
+    rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
     state = replace(state, integral=integral, asked=shift, rest=rest)
-    if not is_quiet(rest, seen.t, params.quiet):
+    if not is_quiet(rest, seen.t, quiet):
         return state, Command(shift=shift)
     way = once_level(plant, state.height, seen, rest.shift, params.target)
     return replace(state, level=rest.shift, way=way), Command(shift=way.goal)

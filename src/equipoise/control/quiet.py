@@ -56,6 +56,15 @@ def bounds(plant: Hanging, offset: float, swings: float) -> Bounds:
     return Bounds(tilt, tilt * w, offset, swings * 2 * np.pi / w, swings * 2 * np.pi / w)
 
 
+def at_depth(bounds: Bounds, before: float, now: float) -> Bounds:
+    """Return bounds for a depth (m) for a platform that now hangs at another: the offset is alike.
+
+    The same offset tilts a platform that hangs at half the depth twice as far.
+    """
+    share = before / now
+    return bounds._replace(tilt=bounds.tilt * share, rate=bounds.rate * share**0.5)
+
+
 def settle(rest: Rest, now: Seen, step: float, bounds: Bounds, aim: Floats | None = None) -> Rest:
     """Return the means after another step (s); ``aim`` is the tilt (rad) sought.
 

@@ -36,7 +36,7 @@ from equipoise.control.slew import (
     slew,
     time_for,
 )
-from equipoise.control.swing_looks import shows
+from equipoise.control.swing_looks import of_group, shows
 from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
 from equipoise.model.arrays import Quaternion, Vector3
 from equipoise.model.command import Command, Look
@@ -177,8 +177,7 @@ def watched(state: State, seen: Sample) -> State:
 
 def look_back(state: State, params: Params) -> Look:
     """Return the look at all turns of this round."""
-    sag = tuple(term for term in params.testbed.disturbances if term.startswith("sag"))
-    return Look(AFTER, METHOD, hold=sag, since=state.began)
+    return Look(AFTER, METHOD, hold=of_group(params.testbed, "sag"), since=state.began)
 
 
 def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:

@@ -16,7 +16,8 @@ Ways along ``up`` count, as swings are told from one another by their period. Al
 about axes alike, or they do not share one k.
 
 Sag is held at none: what is seen is the centre of mass of a stiff platform that behaves alike at
-small tilts (``dynamics.sag_trim.acting_com``), and that is what is balanced.
+small tilts (``dynamics.sag_trim.acting_com``), and that is what is balanced. So is drift: in a
+minute it is a tenth of a um, and the swing of a minute tells it from the height to ten.
 """
 
 from typing import NamedTuple
@@ -27,6 +28,7 @@ from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.estimate import COM, Estimate
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import GROUPS
 
 METHOD = "momentum_corrected"
 LEAST, LEAST_SCALE = 1e-9, 1e-6  # m, -: no sd is smaller
@@ -46,7 +48,12 @@ def held(testbed: Testbed) -> tuple[str, ...]:
     x, y = (i for i in range(3) if i != z)
     pairs = ((x, x), (z, z), (x, z), (y, z))
     J = tuple("inertia_P_" + "".join("xyz"[i] for i in sorted(pair)) for pair in pairs)
-    return (*J, *(term for term in testbed.disturbances if term.startswith("sag")))
+    return (*J, *of_group(testbed, "sag"), *of_group(testbed, "drift"))
+
+
+def of_group(testbed: Testbed, group: str) -> tuple[str, ...]:
+    """Return the torques of a group (``model.torque_terms``) that a testbed considers."""
+    return tuple(term for term in testbed.disturbances if term in GROUPS[group])
 
 
 def shows(seen: Estimate) -> bool:

@@ -3,7 +3,8 @@
     follow   the tilt feedback levels the platform: across gravity it is balanced, nearly
     push     the masses go aside for a second, and back: the platform swings
     look     masses still; the swing is recorded and the centre of mass estimated from it
-    trim     the masses move along up by what the look says is missing; then again from the start
+    trim     the masses move along up by what the look says is missing; then again from the start;
+             the last time they level only, and the platform rests
 
 The push moves the centre of mass by d for PUSH seconds, so that the platform turns at
 
@@ -41,6 +42,7 @@ from equipoise.control.beforehand import (
 )
 from equipoise.control.sample import Sample
 from equipoise.control.saturation import greatest_shift, greatest_slew, limited
+from equipoise.control.swing_looks import of_group
 from equipoise.control.tilt_feedback import (
     Gains,
     followed,
@@ -107,6 +109,7 @@ class State:
     since: float = 0.0  # s, when the push began
     rounds: int = 0  # looks made
     left: float = np.inf  # m, what the last look found
+    ending: str = ""  # why this follow is the last
 
 
 def method_for(testbed: Testbed) -> Look:
@@ -116,7 +119,7 @@ def method_for(testbed: Testbed) -> Look:
         raise InputError(testbed.name, "no gyro, or no attitude sensor", "both")
     if float(np.linalg.norm(spread)) <= ACROSS:
         return Look(LOOK, "ukf_4")
-    return Look(LOOK, "trajectory", use_prior=True)
+    return Look(LOOK, "trajectory", hold=of_group(testbed, "drift"), use_prior=True)
 
 
 def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Params]:
@@ -183,6 +186,8 @@ def follow(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     assert state.level is not None
     state = replace(state, rest=state.rest / n, level=state.level / n, phase="push", step=0,
                     since=seen.t)  # fmt: skip
+    if state.ending:
+        return state, Command(shift=state.rest, finished=state.ending)
     return state, Command(shift=state.rest, note="Levelled; now a push, and a look at the swing.")
 
 
@@ -237,12 +242,10 @@ def trimmed(state: State, seen: Estimate, params: Params) -> tuple[State, Comman
         f"about {1e6 * sideways:.2f} um left across."
     )
     over = why_over(left, replace(state, rounds=rounds), params)
-    if over:
-        return replace(state, rounds=rounds, left=left), Command(finished=f"{text} {over}")
-    up = params.gains.up
+    up, ending = params.gains.up, f"{text} {over} Level again." if over else ""
     held, height = -across(up) @ state.rest, float(up @ state.rest) + missing
-    onward = State(held, height, rounds=rounds, left=left)
-    return onward, Command(shift=state.rest + missing * up, note=text)
+    onward = State(held, height, rounds=rounds, left=left, ending=ending)
+    return onward, Command(shift=state.rest + missing * up, note="" if over else text)
 
 
 def height_in(seen: Estimate, up: Vector3) -> float:

@@ -67,6 +67,16 @@ def trimmed_com(sag: Matrix3, up: Vector3, tilt: float) -> Vector3:
     return -np.linalg.inv(across) @ pull
 
 
+def trimming_shift(sag: Matrix3, trim: Vector3, down: Vector3) -> Vector3:
+    """Return what masses must add (m) at one attitude, -(E - n n^T)(trim + C n).
+
+    With it nothing is left across gravity's direction ``down`` (unit) of a platform that has been
+    trimmed; it is the least shift that does so, and nothing where C and trim cancel.
+    """
+    bent: Vector3 = trim + sag @ down
+    return (bent @ down) * down - bent
+
+
 def residual_torque(com: Vector3, sag: Matrix3, up: Vector3, tilt: float) -> float:
     """Return the root mean square of |(r + C n) x n| within a tilt (rad), m: times m g, N m."""
     n, weight = downs(up, tilt)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from equipoise.model.arrays import Vector3
+from equipoise.model.following import Following
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,4 +35,5 @@ class Command:
     impulse: Vector3 | None = None  # N m s on the platform, by jets; None: none
     look: Look | None = None  # the next step is given the Estimate of this look, not a Sample
     finished: str = ""  # why the law has done its work; empty: it has not
+    following: Following | None = None  # with ``finished``: what masses can follow from now on
     note: str = ""  # what people should know of this step

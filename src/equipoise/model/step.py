@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from equipoise.model.estimate import Estimate
+from equipoise.model.following import Following
 from equipoise.model.move import Move
 from equipoise.model.recording import Recording
 from equipoise.model.verdict import Verdict
@@ -22,3 +23,4 @@ class Step:
     estimate: Estimate | None = None
     move: Move | None = None
     verdict: Verdict | None = None
+    following: Following | None = None  # what masses can follow from now on

@@ -36,12 +36,12 @@ class Hands:
     left: Vector3  # N m s, impulse still owed: less than a pulse
 
 
-def opened_hands(testbed: Testbed) -> Hands:
-    """Return hands that have done nothing."""
+def opened_hands(testbed: Testbed, here: Floats) -> Hands:
+    """Return hands that have done nothing; masses stand where they are, m."""
     steady = (*testbed.wheels, *testbed.cmgs, *testbed.magnetorquers)
     off = dict.fromkeys((device.name for device in steady), 0.0)
     rails = rails_of(testbed.masses, testbed.body.mass)
-    return Hands(rails, np.zeros(len(testbed.masses)), off, np.zeros(3))
+    return Hands(rails, here, off, np.zeros(3))
 
 
 def carry_out(bench: Bench, command: Command, eyes: Eyes, hands: Hands, period: float) -> Hands:

@@ -11,6 +11,7 @@ towards where the vertical leans, so that it passes level on its way.
 import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.estimation.attitude_filter import AttitudeState
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
@@ -19,7 +20,7 @@ from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.procedure.law_sample import Eyes
 from equipoise.procedure.tilt_guard import guarded
 
-STILL = np.deg2rad(0.1)  # rad/s, chosen: slower than this it stands, as far as a proof goes
+STILL = np.deg2rad(0.1)  # rad/s, chosen: slower than this it hangs still, as far as a proof goes
 WANTED = np.deg2rad(0.2)  # rad/s, chosen: 8 deg in a proof of 40 s, where sag hardly bends yet
 BEFORE = 1.0  # s, chosen: seen before a push
 ALIKE = 2.0  # -, chosen: masses that err by up to so many times the least are the finest
@@ -28,7 +29,7 @@ ALIKE = 2.0  # -, chosen: masses that err by up to so many times the least are t
 def watched_swing(bench: Bench, eyes: Eyes, duration: float) -> Recording:
     """Return a fresh record of ``duration`` seconds; it begins with a push where one is needed."""
     begun, left = bench.read(BEFORE), duration - BEFORE
-    if eyes.attitude is None or float(np.linalg.norm(eyes.attitude.rate)) > STILL:
+    if eyes.attitude is None or swinging(eyes.attitude) > STILL:
         return join(begun, guarded(bench, left))
     here = last(begun, eyes)
     out = push(bench.testbed, eyes, here)
@@ -37,6 +38,11 @@ def watched_swing(bench: Bench, eyes: Eyes, duration: float) -> Recording:
     going = bench.read(wait)
     bench.move(by_name(bench.testbed, here))
     return join(join(begun, going), guarded(bench, left - wait))
+
+
+def swinging(now: AttitudeState) -> float:
+    """Return the rate at which the vertical turns in the body, rad/s: a spin about it is left out."""
+    return float(np.linalg.norm(np.cross(now.rate, to_matrix(now.q)[2])))
 
 
 def by_name(testbed: Testbed, displacement: Floats) -> dict[str, float]:

@@ -27,10 +27,11 @@ from equipoise.model.bench import Bench
 from equipoise.model.command import Command, Look
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.following import Following
 from equipoise.model.recording import Recording, joined, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.torque_terms import among
+from equipoise.model.torque_terms import TERMS, among
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import look_step
 from equipoise.procedure.knowledge import as_if_stiff, learn, without
@@ -95,7 +96,7 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
     state, params = law.begin(bench.testbed, options.target)
     end = bench.time + options.max_time - options.proof
     session, seen = first_sight(bench)
-    why, began = "", bench.time
+    why, began, following = "", bench.time, None
     while not why:
         state, command = law.step(state, seen, params)
         if command.note:
@@ -104,7 +105,7 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
             hands = carry_out(bench, command, session.eyes, session.hands, law.card.period)
             session = replace(session, hands=hands)
         if command.finished:
-            why = command.finished
+            why, following = command.finished, command.following
             break
         if command.look is not None and bench.time + command.look.duration > end:
             why = SPENT
@@ -117,7 +118,7 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
         else:
             session, seen, recording = control(bench, session, command, law.card.period)
         why = reason_to_stop(bench, recording, end)
-    yield control_step(bench, law.card, began, why)
+    yield control_step(bench, law.card, began, why, following)
     if why == TILTED:
         bench.stop()
         yield stop_step(bench, why)
@@ -141,7 +142,7 @@ def first_sight(bench: Bench) -> tuple[Session, Sample]:
     if seen is None:
         found, wanted = f"no attitude in {SETTLE:g} s", "an attitude sensor that gives rows"
         raise InputError("bench", found, wanted)
-    return Session(eyes, opened_hands(testbed), (fresh,)), seen
+    return Session(eyes, opened_hands(testbed, eyes.displacement), (fresh,)), seen
 
 
 def control(
@@ -183,8 +184,10 @@ def looked_into(recording: Recording, testbed: Testbed, asked: Look) -> Estimate
     options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
     if asked.method != trajectory.METHOD:
         return estimated(METHODS[asked.method], recording, testbed, options)
-    terms = among((*testbed.disturbances, *options.terms))
-    params = trajectory.Params(terms, use_prior=options.use_prior, hold=options.hold)
+    # A torque that is held is none: the trajectory fit is told of it by leaving it out.
+    terms = among({*testbed.disturbances, *asked.terms} - set(asked.hold))
+    hold = tuple(name for name in asked.hold if name not in TERMS)
+    params = trajectory.Params(terms, use_prior=asked.use_prior, hold=hold)
     fitted = trajectory.fit(recording, testbed, params)
     return conclude(fitted, trajectory.METHOD, recording)
 
@@ -221,10 +224,12 @@ def stop_step(bench: Bench, why: str) -> Step:
     return Step("stop", bench.time, verdict.sentence, verdict=verdict)
 
 
-def control_step(bench: Bench, card: LawCard, began: float, why: str) -> Step:
+def control_step(
+    bench: Bench, card: LawCard, began: float, why: str, following: Following | None
+) -> Step:
     """Return the step that says how long a law was at work and how it ended."""
     text = f"{card.name} for {bench.time - began:.0f} s of bench time: {why.rstrip('.')}."
-    return Step("control", bench.time, text)
+    return Step("control", bench.time, text, following=following)
 
 
 def estimate_step(bench: Bench, estimate: Estimate) -> Step:

@@ -43,11 +43,12 @@ class LawSummary:
     law: str
     runs: int
     halted: int  # broken off, for safety
-    within: int  # of the runs, with no more torque than required
+    within: int  # of the runs, with no more torque than required, following or else standing
     false_passes: int  # verdict passed, truth outside twice the tolerance
     aside: Middle  # m, horizontal offset from the target
     height: Middle  # m, |vertical offset|
-    torque: Middle  # N m, rms over the tilt range
+    torque: Middle  # N m, rms over the tilt range, masses standing
+    followed: Middle | None  # N m, the same with masses that follow the tilt, if the law lets them
     time: Middle  # s
     travel: Middle  # m
 
@@ -84,18 +85,20 @@ def summary(runs: Sequence[LawRun], up: Vector3, required: float, near: Vector3)
     offset = np.array([run.offset for run in runs])
     height: Floats = offset @ up
     aside = np.linalg.norm(offset - height[:, None] * up, axis=1)
-    torque = np.array([run.torque for run in runs])
+    followed = np.array([run.followed for run in runs if run.followed is not None])
+    left = np.array([run.left for run in runs])
     passed = np.array([run.verdict.passed for run in runs])
     far = np.any(np.abs(offset) > 2 * near, axis=1)
     return LawSummary(
         law=runs[0].law,
         runs=len(runs),
         halted=sum(run.verdict.halted for run in runs),
-        within=int(np.count_nonzero(torque <= required)),
+        within=int(np.count_nonzero(left <= required)),
         false_passes=int(np.count_nonzero(passed & far)),
         aside=middle(aside),
         height=middle(np.abs(height)),
-        torque=middle(torque),
+        torque=middle(np.array([run.torque for run in runs])),
+        followed=middle(followed) if len(followed) else None,
         time=middle(np.array([run.time for run in runs])),
         travel=middle(np.array([run.travel for run in runs])),
     )

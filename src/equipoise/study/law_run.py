@@ -1,7 +1,9 @@
 """One balancing run of one law on a simulated platform, judged by the truth.
 
     offset     |r - target| of the centre of mass as the masses stand, and its part along up
-    torque     root mean square of m g |(r + C n) x n| over directions within a tilt of level
+    torque     root mean square of m g |(r + C n) x n| over directions within a tilt of level, n
+    followed   the same with masses that follow the tilt: sent, at each direction, to where
+               ``control.follow`` wants them, by the real ones' steps and errors
     travel     sum of what the masses report to have gone
 
 The law, and the verdict it ends with, know none of this.
@@ -12,15 +14,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.dynamics.sag_trim import residual_torque
+from equipoise.control.follow import shift_at
+from equipoise.dynamics.sag_trim import downs, residual_torque
 from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.following import Following
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import BalanceOptions
+from equipoise.procedure.law_devices import opened_hands, send
 from equipoise.procedure.laws import balanced_by
 from equipoise.simulation.bench import SimulatedBench
+
+STOPPED = 0.2  # s, chosen: masses that should have arrived, have
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,10 +38,16 @@ class LawRun:
     seed: int
     offset: Vector3  # m, from the target
     torque: float  # N m, rms over the tilt range
-    torque_before: float  # N m, the same before the run
+    followed: float | None  # N m, with masses that follow; None: the law does not tell them what
+    torque_before: float  # N m, standing, before the run
     time: float  # s on the bench's clock
     travel: float  # m
     verdict: Verdict
+
+    @property
+    def left(self) -> float:
+        """The torque that the procedure leaves, N m: with masses that follow, if they can."""
+        return self.torque if self.followed is None else self.followed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,14 +88,48 @@ def rms_torque(bench: SimulatedBench, tilt: float) -> float:
     return weight * residual_torque(bench.com, bench.sag, testbed.up, tilt)
 
 
+def followed_torque(bench: SimulatedBench, following: Following, tilt: float) -> float:
+    """Return the torque (N m) really left, rms within a tilt (rad), by masses that follow."""
+    testbed, square = bench.testbed, 0.0
+    here = standing_at(bench.read(STOPPED))
+    hands = opened_hands(testbed, here)
+    directions, weights = downs(testbed.up, tilt)
+    for down, weight in zip(directions, weights, strict=True):
+        hands = send(bench, shift_at(following, down, bench.time), here, hands)
+        here = standing_at(bench.read(time_to(hands.goal, here, testbed) + STOPPED))
+        lever: Floats = cross_matrix(bench.com + bench.sag @ down) @ down
+        square += float(weight[0]) * float(lever @ lever)
+    return testbed.body.mass * testbed.gravity * square**0.5
+
+
+def standing_at(recording: Recording) -> Floats:
+    """Return where the masses stand at the end of a record, m."""
+    assert recording.masses is not None
+    return recording.masses.values[-1]
+
+
+def time_to(goal: Floats, here: Floats, testbed: Testbed) -> float:
+    """Return how long the masses travel, s."""
+    speed = np.array([mass.speed for mass in testbed.masses])
+    return float((np.abs(goal - here) / speed).max())
+
+
 def law_run(task: Task) -> LawRun:
     """Return what one run comes to."""
     bench = CountedBench(task.testbed, task.seed)
     before = rms_torque(bench, task.tilt)
     steps: Iterator[Step] = balanced_by(task.law, bench, task.options, task.max_time)
-    verdict = Verdict(False, "no verdict", sure=False)
+    verdict, following = Verdict(False, "no verdict", sure=False), None
     for step in steps:
-        verdict = step.verdict or verdict
-    offset: Floats = bench.truth().com - task.options.target
-    after = rms_torque(bench, task.tilt)
-    return LawRun(task.law, task.seed, offset, after, before, bench.time, bench.travel, verdict)
+        verdict, following = step.verdict or verdict, step.following or following
+    return LawRun(
+        law=task.law,
+        seed=task.seed,
+        offset=bench.truth().com - task.options.target,
+        torque=rms_torque(bench, task.tilt),
+        torque_before=before,
+        time=bench.time,
+        travel=bench.travel,
+        verdict=verdict,
+        followed=None if following is None else followed_torque(bench, following, task.tilt),
+    )

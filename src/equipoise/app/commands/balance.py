@@ -41,8 +41,9 @@ def balance(
     max_time_s
         Bench time before giving up: 120, or 600 before a hold or with another law.
     hold_min
-        Then follow the drift and hold the balance for so many minutes. The balance before it is to
-        a third of the tolerance, since its errors stay.
+        Then follow the drift and hold the balance for so many minutes. After look_and_move, which
+        balances to a third of the tolerance before, since its errors stay; after momentum_buildup,
+        whose masses follow the tilt too, by the sag that it found.
     json
         Print one JSON document instead.
     out
