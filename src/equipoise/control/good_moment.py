@@ -24,7 +24,7 @@ from equipoise.model.arrays import Floats, Series, Vector3
 WATCH = 1.2  # swings, chosen: one, and a part for what was taken for one
 NEAR = 1.15  # of the least amplitude, chosen: a moment as good
 SMALL = 0.003  # rad, chosen: and what the integral and coils soon take
-PATIENCE = 4.0  # swings, chosen
+PATIENCE = 2.5  # swings, chosen
 
 
 class Waiting(NamedTuple):

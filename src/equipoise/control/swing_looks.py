@@ -30,7 +30,7 @@ from equipoise.model.estimate import COM, Estimate
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS
 
-METHOD = "momentum_corrected"
+METHOD = "trajectory"
 LEAST, LEAST_SCALE = 1e-9, 1e-6  # m, -: no sd is smaller
 
 
