@@ -11,8 +11,6 @@ import numpy as np
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.control.sample import Sample
 from equipoise.dynamics.propagation import body_of, stacked
-from equipoise.estimation.method import Options, estimated
-from equipoise.estimation.methods.registry import METHODS
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.command import Command
@@ -20,6 +18,7 @@ from equipoise.model.devices import ReactionWheel
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
+from equipoise.procedure.run_law import looked_into
 from equipoise.simulation.motion import run
 
 MASS, GRAVITY = 14.0, 9.81
@@ -223,7 +222,7 @@ def looked(course: Course, command: Command, rng: np.random.Generator):
     )  # fmt: skip
     bed = replace(bed, gyro=replace(bed.gyro, rate=1 / NODES, noise=noise))
     record = window(record, since, course.now.t)
-    return estimated(METHODS[look.method], record, bed, Options(look.terms, look.hold))
+    return looked_into(record, bed, look)
 
 
 def close(law, testbed: Testbed, truth: Truth, target: np.ndarray, limit: float) -> Course:

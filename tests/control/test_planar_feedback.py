@@ -160,10 +160,10 @@ def test_the_height_found_by_looks_is_as_far_off_as_it_says():
     assert np.std(errors) == pytest.approx(1.0, abs=0.12)
 
 
-def test_looks_hold_one_level_moment_what_a_swing_does_not_show_and_sag():
+def test_looks_hold_one_level_moment_what_a_swing_does_not_show_sag_and_drift():
     names = held(platform(disturbances=("sag_xx", "drift_x")))
     assert set(names) == {
-        "inertia_P_xx", "inertia_P_zz", "inertia_P_xz", "inertia_P_yz", "sag_xx"
+        "inertia_P_xx", "inertia_P_zz", "inertia_P_xz", "inertia_P_yz", "sag_xx", "drift_x"
     }  # fmt: skip
 
 

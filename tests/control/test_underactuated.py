@@ -245,12 +245,22 @@ def test_a_look_trims_the_height_alone():
 def test_rounds_end_when_nothing_is_gained_or_they_are_used_up():
     state, params = looked()
     far = told(com_x=0.0, com_y=0.0, com_z=-1e-3)
-    gained = two_steps.step(replace(state, left=6e-4), far, params)[1]
-    assert not gained.finished
-    stuck = two_steps.step(replace(state, left=4.1e-4), far, params)[1]
-    assert "gained nothing" in stuck.finished
-    spent = two_steps.step(replace(state, rounds=params.rounds - 1), far, params)[1]
-    assert "used up" in spent.finished
+    gained = two_steps.step(replace(state, left=6e-4), far, params)[0]
+    assert not gained.ending
+    stuck = two_steps.step(replace(state, left=4.1e-4), far, params)[0]
+    assert "gained nothing" in stuck.ending
+    spent = two_steps.step(replace(state, rounds=params.rounds - 1), far, params)[0]
+    assert "used up" in spent.ending
+
+
+def test_after_the_last_look_it_levels_once_more_and_rests():
+    """The push of the look is gone when the law ends: no tilt, no rate."""
+    rows, *_ = run(underactuated.LAW)
+    assert "Level again." in rows[-1].command.finished
+    pushed = max(i for i, row in enumerate(rows) if row.state.phase == "push" and row.state.step)
+    assert np.degrees(tilts(rows)[pushed:].max()) > 0.5
+    assert np.degrees(tilts(rows)[-1]) < 0.01
+    assert np.degrees(np.linalg.norm(rows[-1].rate[:2])) < 0.01
 
 
 def test_a_look_that_cannot_be_used_is_repeated_and_said():

@@ -16,9 +16,9 @@ UP, NEAR = np.array([0.0, 0.0, 1.0]), np.full(3, 2e-6)
 
 
 def made_up(law="pid", seed=1, offset=(0.0, 0.0, 0.0), torque=1e-6, verdict=None, **more):
-    given = {"torque_before": 1e-3, "time": 100.0, "travel": 0.01} | more
-    return LawRun(law, seed, np.array(offset), torque, given["torque_before"], given["time"],
-                  given["travel"], verdict or Verdict(False, "said"))  # fmt: skip
+    given = {"torque_before": 1e-3, "time": 100.0, "travel": 0.01, "followed": None} | more
+    return LawRun(law=law, seed=seed, offset=np.array(offset), torque=torque, **given,
+                  verdict=verdict or Verdict(False, "said"))  # fmt: skip
 
 
 def task(law="pid", seed=1):
@@ -46,6 +46,16 @@ def test_runs_count_that_leave_no_more_than_the_required_torque():
     told = summary(runs, UP, 1e-5, NEAR)
     assert (told.runs, told.within) == (4, 2)
     assert told.torque.median == pytest.approx(1.05e-5)
+
+
+def test_masses_that_follow_count_as_they_follow():
+    """12 and 13 uN m standing are 9 and 11 following: one of two within 10."""
+    runs = [made_up(torque=12e-6, followed=9e-6), made_up(torque=13e-6, followed=11e-6)]
+    told = summary(runs, UP, 1e-5, NEAR)
+    assert told.within == 1
+    assert told.torque.median == pytest.approx(12.5e-6)
+    assert told.followed.median == pytest.approx(10e-6)
+    assert summary([made_up()], UP, 1e-5, NEAR).followed is None
 
 
 def test_a_pass_is_false_when_the_truth_is_beyond_twice_the_tolerance_on_any_axis():

@@ -1,21 +1,24 @@
 """Large turns by wheels or gyros, and one fit of all that was recorded (Lee's procedure).
 
+    swing     where wheels cannot hold what the testbed leaves open of r: free swings, hanging, a
+              look at each, and the masses closer to the target, until wheels can
     turn      from where the platform is to A, B and C, far apart and tilted, by ``attitude_pid``
     look      all since the first turn is fitted at once: the momentum that wheels or gyros stored
               is known and sets the scale, so that J and r come out together
     move      the masses go to the target; then all of it once more
 
 Gravity's torque on an unknown r is not fed forward; the integral takes it. Wheels must take all of
-it while the turns last, so ``begin`` asks for
+it while the turns last, so they are begun where
 
-    m g |com_sd| T < momentum,     T: all the turns
+    m g |sd| T < momentum,     T: all the turns,  sd: of r
 
 Sag is held at none: turns at one tilt hardly tell it from the height, and what is seen is the
 height of a stiff platform that behaves alike in such turns, nearly that which trims the sag.
 
-(Lee et al. sections IV and V: start at (70, 30, -30) deg, one turn to level. Their integrated
-regression, here with free constants and corrected for noise, is made once, at the end. Fitting the
-trajectory of two minutes under torque took minutes and left three times the error.)
+(Lee et al. sections IV and V, who had balanced by hand: start at (70, 30, -30) deg, one turn to
+level. Their integrated regression, here with free constants and corrected for noise, is made once,
+at the end. Fitting the trajectory of two minutes under torque took minutes and left three times the
+error.)
 """
 
 from dataclasses import dataclass, field, replace
@@ -24,6 +27,7 @@ import numpy as np
 
 from equipoise.control.attitude_pid import Gains, Pid, gains_for, torque, unwound
 from equipoise.control.capacity import capacity
+from equipoise.control.hanging import hanging
 from equipoise.control.law import Law, LawCard
 from equipoise.control.sample import Sample
 from equipoise.control.slew import (
@@ -36,12 +40,13 @@ from equipoise.control.slew import (
     slew,
     time_for,
 )
+from equipoise.control.swing_looks import METHOD as FREE
 from equipoise.control.swing_looks import of_group, shows
 from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
 from equipoise.model.arrays import Quaternion, Vector3
 from equipoise.model.command import Command, Look
 from equipoise.model.errors import InputError
-from equipoise.model.estimate import Estimate
+from equipoise.model.estimate import COM, Estimate
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s
@@ -50,6 +55,9 @@ HEADING = float(
     np.radians(60)
 )  # rad, chosen: between one and the next, to see J about the vertical
 METHOD, AFTER = "momentum_corrected", 5.0  # s, chosen: of the look after the last turn
+SWING, SWINGS = 40.0, 3  # s, -, chosen: of a free look, and how many at most
+CLOSE = 0.5e-6  # m, chosen: one sd of r that such looks reach
+SURE = 3.0  # sds that the platform hangs below the target between them, chosen
 ROUNDS = 2  # turns, look and move, and once more
 REST = 3.0  # s after a turn, chosen: until its error has settled
 STANDS, ARRIVED = 1e-10, 1.0  # m, s: masses that stand so long have arrived
@@ -64,6 +72,8 @@ class Params:
     pace: Pace
     target: Vector3  # m
     turns: tuple[Quaternion, ...]  # A, B and C, from level with the first heading
+    bearable: float  # m, the sd of r with which turns can be begun
+    held: tuple[str, ...]  # torques that a free look takes for none
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,7 +85,8 @@ class State:
     base: Quaternion | None = None  # level, with the first heading
     way: Slew | None = None
     at: int = 0  # which turn
-    round: int = 1
+    round: int = 1  # 0: swings before the first
+    swings: int = 0
     began: float = 0.0  # s, of this round's turns
     t: float = 0.0  # s, of the last sample
     shift: Vector3 | None = None  # m, asked for
@@ -115,13 +126,19 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
         raise InputError("slew_and_look", "a testbed without them",
                          "sliding masses, and wheels or gyros along all axes")  # fmt: skip
     pace = pace_for(float(np.linalg.eigvalsh(J)[-1]), can)
-    params = Params(testbed, gains_for(J, can.torque), pace, target, attitudes(testbed))
-    weight = testbed.body.mass * testbed.gravity * float(np.linalg.norm(testbed.com_sd))
-    needed = weight * sum(ways(params))
-    if can.momentum < needed:
+    held = (*of_group(testbed, "sag"), *of_group(testbed, "drift"))
+    loop = gains_for(J, can.torque)
+    params = Params(testbed, loop, pace, target, attitudes(testbed), 0.0, held)
+    needed = testbed.body.mass * testbed.gravity * sum(ways(params))  # N m s per m
+    params = replace(params, bearable=can.momentum / needed)
+    if params.bearable < CLOSE:
         raise InputError("slew_and_look", f"wheels or gyros that store {can.momentum:.3g} N m s",
-                         f"{needed:.3g} N m s: m g com_sd while the turns last")  # fmt: skip
-    return State(testbed.body.com), params
+                         f"{needed * CLOSE:.3g} N m s: m g {1e6 * CLOSE:g} um while the turns last"
+                         )  # fmt: skip
+    if float(np.linalg.norm(testbed.com_sd)) <= params.bearable:
+        return State(testbed.body.com), params
+    lowered = hanging(testbed).lowered * testbed.up
+    return State(testbed.body.com, round=0, shift=lowered, moving=True), params
 
 
 def turning(state: State, seen: Sample, params: Params) -> State:
@@ -147,6 +164,32 @@ def driven(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     moment = params.testbed.body.mass * (state.com + seen.shift)
     pid, u = torque(state.pid, seen, reference, params.gains, moment)
     return replace(state, pid=pid), Command(shift=state.shift, torque=u)
+
+
+def after_swing(state: State, seen: Estimate, params: Params) -> State:
+    """Return the state with the masses on their way closer to the target; to it, if that will do.
+
+    Wheels hold the platform meanwhile, and let it go again to swing.
+    """
+    swings, up = state.swings + 1, params.testbed.up
+    state = replace(state, seen_shift=None, pid=unwound(), way=None, swings=swings)
+    if not shows(seen):
+        text = f"The swing did not show the centre of mass: {seen.outcome.sentence}"
+        return replace(state, finished=text if swings == SWINGS else "")
+    sd = float(np.sqrt(np.trace(seen.covariance_of(COM))))
+    will_do = sd <= params.bearable
+    text = (
+        f"After {swings} swings r is known to {1e6 * sd:.2g} um, {1e6 * params.bearable:.2g} asked."
+    )
+    below = 0.0 if will_do else SURE * sd
+    return replace(
+        state,
+        com=seen.com,
+        shift=params.target - seen.com - below * up,
+        moving=True,
+        round=1 if will_do else 0,
+        finished=text if swings == SWINGS and not will_do else "",
+    )
 
 
 def after_look(state: State, seen: Estimate, params: Params) -> State:
@@ -183,7 +226,7 @@ def look_back(state: State, params: Params) -> Look:
 def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and the command: torque while turning, then a look at all of it."""
     if isinstance(seen, Estimate):
-        state = after_look(state, seen, params)
+        state = (after_look if state.round else after_swing)(state, seen, params)
         return state, Command(shift=state.shift)
     state = watched(state, seen)
     if state.finished and not state.moving:
@@ -192,6 +235,10 @@ def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, 
         state = replace(state, way=Slew(seen.q, np.zeros(3), seen.t, 0.0))
     if state.moving or state.finished:
         return driven(state, seen, params)
+    if state.round == 0:
+        return state, Command(
+            shift=state.shift, look=Look(SWING, FREE, params.held, use_prior=True)
+        )
     state = turning(state, seen, params)
     if state.at == len(params.turns):
         return state, Command(shift=state.shift, look=look_back(state, params))
@@ -206,8 +253,8 @@ LAW = Law(
         ("masses", "momentum", "gyro", "attitude"),
         "0.1 um and what drifts after the last move; half a um of the height on a deck that sags "
         "by 25 um; swing after it",
-        "steps of 0.1 s; wheels or gyros that store m g times the offset's sd while the turns "
-        "last, two minutes; 30 um at 14 kg with 0.4 N m s",
+        "steps of 0.1 s; wheels or gyros that store m g times half a um while the turns last, two "
+        "minutes; it swings freely first where they cannot hold the offset's sd, hanging",
         PERIOD,
     ),
     begin,

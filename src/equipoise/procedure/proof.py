@@ -41,7 +41,7 @@ def watched_swing(bench: Bench, eyes: Eyes, duration: float) -> Recording:
 
 
 def swinging(now: AttitudeState) -> float:
-    """Return the rate at which the vertical turns in the body, rad/s: a spin about it is left out."""
+    """Return the rate (rad/s) at which the vertical turns in the body: no spin about it."""
     return float(np.linalg.norm(np.cross(now.rate, to_matrix(now.q)[2])))
 
 

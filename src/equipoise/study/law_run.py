@@ -16,6 +16,7 @@ import numpy as np
 
 from equipoise.control.follow import shift_at
 from equipoise.dynamics.sag_trim import downs, residual_torque
+from equipoise.maths.linalg import skew
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.following import Following
 from equipoise.model.recording import Recording, Samples
@@ -97,7 +98,7 @@ def followed_torque(bench: SimulatedBench, following: Following, tilt: float) ->
     for down, weight in zip(directions, weights, strict=True):
         hands = send(bench, shift_at(following, down, bench.time), here, hands)
         here = standing_at(bench.read(time_to(hands.goal, here, testbed) + STOPPED))
-        lever: Floats = cross_matrix(bench.com + bench.sag @ down) @ down
+        lever: Floats = skew(bench.com + bench.sag @ down) @ down
         square += float(weight[0]) * float(lever @ lever)
     return testbed.body.mass * testbed.gravity * square**0.5
 
