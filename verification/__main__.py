@@ -24,6 +24,7 @@ from verification import (
     independent_truth,
     laboratories,
     lagging_masses,
+    laws,
     lee,
     long_record,
     method_intervals,
@@ -68,6 +69,7 @@ CHECKS = {
     "method_table": Check(method_table.measure, 20),
     "method_intervals": Check(method_intervals.measure, 200),
     "robustness": Check(robustness.measure, 20),
+    "laws": Check(laws.measure, 100),
     "lee": Check(lee.measure, 100),
     "real_methods": Check(real_methods.measure, 1),
 }

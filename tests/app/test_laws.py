@@ -118,7 +118,8 @@ def test_a_comparison_is_one_document_and_a_line_a_run(equipoise, strict_json, t
 
 def made_up(law, seed, torque):
     verdict = Verdict(True, "Said so.")
-    return LawRun(law, seed, np.array([3e-6, 4e-6, -9e-6]), torque, 1e-3, 90.0, 0.02, verdict)
+    offset, followed = np.array([3e-6, 4e-6, -9e-6]), torque / 2 if law == "l1_adaptive" else None
+    return LawRun(law, seed, offset, torque, followed, 1e-3, 90.0, 0.02, False, verdict)
 
 
 @pytest.fixture
@@ -152,15 +153,17 @@ def test_the_table_has_the_least_torque_first_and_refusals_below(equipoise):
     assert "slew_and_look was refused: it does not like it" in told_of(done)
     assert "3 platforms of reference table" in told_of(done)
     pid = next(line for line in done.out.splitlines() if line.startswith("pid")).split()
-    # 5 um aside, 9 um high; 5, 10 and 15 uN m, of which two are within 10.
-    assert pid[1:7] == ["5", "(5)", "9", "(9)", "10", "(14.5)"]
+    # 5 um aside, 9 um high; 5, 10 and 15 uN m, of which two are within 10; no mass follows.
+    assert pid[1:8] == ["5", "(5)", "9", "(9)", "10", "(14.5)", "-"]
     assert "67 %" in done.out
+    other = next(line for line in done.out.splitlines() if line.startswith("l1")).split()
+    assert other[5:9] == ["4", "(5.8)", "2", "(2.9)"]
 
 
 @pytest.mark.usefixtures("without_work")
-@pytest.mark.parametrize(("required", "code"), [("6.1e-6", 0), ("5.9e-6", 1)])
+@pytest.mark.parametrize(("required", "code"), [("3.1e-6", 0), ("2.9e-6", 1)])
 def test_it_ends_with_1_when_no_law_reaches_the_torque(equipoise, required, code):
-    """The better law leaves 2, 4 and 6 uN m."""
+    """The better law leaves 2, 4 and 6 uN m standing, and half of it following."""
     assert equipoise(*THREE, "--require-torque", required).code == code
 
 

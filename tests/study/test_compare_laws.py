@@ -16,7 +16,8 @@ UP, NEAR = np.array([0.0, 0.0, 1.0]), np.full(3, 2e-6)
 
 
 def made_up(law="pid", seed=1, offset=(0.0, 0.0, 0.0), torque=1e-6, verdict=None, **more):
-    given = {"torque_before": 1e-3, "time": 100.0, "travel": 0.01, "followed": None} | more
+    given = {"torque_before": 1e-3, "time": 100.0, "travel": 0.01, "late": False} | more
+    given = {"followed": None} | given
     return LawRun(law=law, seed=seed, offset=np.array(offset), torque=torque, **given,
                   verdict=verdict or Verdict(False, "said"))  # fmt: skip
 
@@ -68,10 +69,11 @@ def test_a_pass_is_false_when_the_truth_is_beyond_twice_the_tolerance_on_any_axi
     assert summary(runs, UP, 1.0, NEAR).false_passes == 1
 
 
-def test_halted_runs_are_counted():
+def test_halted_and_late_runs_are_counted_once():
     halted = Verdict(False, "Stopped.", halted=True)
-    told = summary([made_up(verdict=halted), made_up(), made_up(verdict=halted)], UP, 1.0, NEAR)
-    assert told.halted == 2
+    runs = [made_up(verdict=halted), made_up(late=True), made_up(verdict=halted, late=True)]
+    told = summary(runs, UP, 1.0, NEAR)
+    assert (told.halted, told.late) == (2, 1)
 
 
 def test_time_and_travel_are_those_of_the_runs():

@@ -72,6 +72,7 @@ def summary_cells(law: LawSummary) -> tuple[str, ...]:
         both(law.time, 1.0, 3),
         both(law.travel, MM, 3),
         f"{law.halted}",
+        f"{law.late}",
         f"{law.false_passes}",
     )
 
@@ -82,17 +83,18 @@ def comparison_table(found: Comparison) -> Group:
     table.add_column("law", style="bold", no_wrap=True)
     required = f"<= {found.required * MICRO:g} uN m"
     heads = ("aside, um", "height, um", "torque, uN m", "following", required,
-             "time, s", "travel, mm", "halted", "false")  # fmt: skip
+             "time, s", "travel, mm", "halted", "late", "false")  # fmt: skip
     for head in heads:
         table.add_column(head, justify="right", no_wrap=True)
-    for law in sorted(found.laws, key=lambda each: each.torque.most):
+    for law in sorted(found.laws, key=lambda each: (each.followed or each.torque).most):
         table.add_row(*summary_cells(law))
     said = Text(
         f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
         f"the runs stay below. Offsets from the target; torque rms within "
         f"{found.tilt * PER_DEG:.3g} deg of level, {both(found.before, MICRO, 3)} uN m before; "
         "following: with masses that follow the tilt by the sag that was found. "
-        "False: passed by a verdict, and twice the tolerance off."
+        "Halted: broken off for safety; late: out of time; false: passed by a verdict, and twice "
+        "the tolerance off."
     )
     refused = [Text(f"{each.law} was refused: {each.why}") for each in found.refusals]
     return Group(table, Text(), said, *refused)
@@ -124,11 +126,11 @@ def files_of(found: Comparison) -> dict[str, str | bytes]:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["law", "seed", "offset_x_um", "offset_y_um", "offset_z_um", "torque_uN_m",
                      "followed_uN_m", "time_s", "travel_mm", "passed", "halted",
-                     "verdict"])  # fmt: skip
+                     "late", "verdict"])  # fmt: skip
     for run in found.runs:
         offset = [f"{UM * x:.6g}" for x in run.offset]
         followed = "" if run.followed is None else f"{MICRO * run.followed:.6g}"
         writer.writerow([run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", followed,
                          f"{run.time:.6g}", f"{MM * run.travel:.6g}", run.verdict.passed,
-                         run.verdict.halted, run.verdict.sentence])  # fmt: skip
+                         run.verdict.halted, run.late, run.verdict.sentence])  # fmt: skip
     return {"compare.json": dump(comparison_json(found)) + "\n", "laws.csv": text.getvalue()}

@@ -43,6 +43,7 @@ class LawSummary:
     law: str
     runs: int
     halted: int  # broken off, for safety
+    late: int  # not broken off, but out of time
     within: int  # of the runs, with no more torque than required, following or else standing
     false_passes: int  # verdict passed, truth outside twice the tolerance
     aside: Middle  # m, horizontal offset from the target
@@ -93,6 +94,7 @@ def summary(runs: Sequence[LawRun], up: Vector3, required: float, near: Vector3)
         law=runs[0].law,
         runs=len(runs),
         halted=sum(run.verdict.halted for run in runs),
+        late=sum(run.late and not run.verdict.halted for run in runs),
         within=int(np.count_nonzero(left <= required)),
         false_passes=int(np.count_nonzero(passed & far)),
         aside=middle(aside),

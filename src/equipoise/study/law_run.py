@@ -43,6 +43,7 @@ class LawRun:
     torque_before: float  # N m, standing, before the run
     time: float  # s on the bench's clock
     travel: float  # m
+    late: bool  # its time was used up
     verdict: Verdict
 
     @property
@@ -131,6 +132,7 @@ def law_run(task: Task) -> LawRun:
         torque_before=before,
         time=bench.time,
         travel=bench.travel,
+        late=bench.time >= task.max_time,
         verdict=verdict,
         followed=None if following is None else followed_torque(bench, following, task.tilt),
     )
