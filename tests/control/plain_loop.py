@@ -15,6 +15,7 @@ from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.command import Command
 from equipoise.model.devices import ReactionWheel
+from equipoise.model.following import Following
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
@@ -100,6 +101,7 @@ class Course:
     tau: list[np.ndarray] = field(default_factory=list)
     d: list[np.ndarray] = field(default_factory=list)
     finished: str = ""
+    following: Following | None = None
     states: list[object] = field(default_factory=list)
 
     @property
@@ -239,7 +241,7 @@ def carried_on(law, beginning: tuple, course: Course, limit: float) -> Course:
         state, command = law.step(state, seen, params)
         course.states.append(state)
         if command.finished:
-            course.finished = command.finished
+            course.finished, course.following = command.finished, command.following
             break
         if command.look is not None:
             seen = looked(course, command, rng)

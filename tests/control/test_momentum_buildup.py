@@ -9,7 +9,8 @@ from control.plain_loop import GRAVITY, MASS, UP, Truth, close, platform, wheels
 
 from equipoise.control import momentum_buildup as mb
 from equipoise.control.buildup_plan import stages_of
-from equipoise.dynamics.sag_trim import residual_torque, trimmed_com
+from equipoise.control.follow import shift_at
+from equipoise.dynamics.sag_trim import downs, residual_torque, trimmed_com
 from equipoise.maths.attitude import exponential, tilt, to_matrix
 from equipoise.model.errors import InputError
 
@@ -53,6 +54,21 @@ def test_what_is_left_on_a_platform_that_sags_is_what_no_centre_of_mass_can_take
     least = weight * residual_torque(trimmed_com(SAG, UP, TWENTY), SAG, UP, TWENTY)
     assert least == pytest.approx(1.19e-5, rel=0.02)  # 25 um of sag over 20 deg
     assert left < 1.7 * least
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_masses_that_follow_what_it_tells_leave_a_third(seed):
+    """Weight times |(r + s + C n) x n| over the cap, s as the law's last word asks for it."""
+    course = run(seed, True)
+    told = course.following
+    here = course.truth.com + course.truth.drift * course.now.t
+    directions, weights = downs(UP, TWENTY)
+    square = 0.0
+    for n, weight in zip(directions, weights[:, 0], strict=True):
+        acting = here + shift_at(told, n, course.now.t) + SAG @ n
+        square += weight * np.sum(np.cross(acting, n) ** 2)
+    assert MASS * GRAVITY * square**0.5 < 1.19e-5 / 2
+    np.testing.assert_allclose(told.drift, course.truth.drift, atol=0.5e-9)
 
 
 def test_wheels_are_not_filled():

@@ -100,7 +100,8 @@ def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     if limits.law not in able:
         wanted = f"a hold after {' or '.join(able)}, or no hold"
         raise InputError("--hold-min", f"a hold after {limits.law}", wanted)
-    return balanced_and_followed(limits.law, bench, balancing, limits.max_time, limits.hold)
+    own = BalanceOptions(goal.target, goal.tolerance)
+    return balanced_and_followed(limits.law, bench, own, limits.max_time, limits.hold)
 
 
 def at_home(estimate: Estimate) -> Believed | None:
@@ -144,15 +145,20 @@ def inertia_known(done: Balancing) -> tuple[Matrix3, float]:
 
 
 def change_of(done: Balancing) -> Change | None:
-    """Return before and after: the first estimate, and the verdict or else the last estimate."""
-    seen = looks(done)
+    """Return before and after: the first estimate, and the verdict or else the last estimate.
+
+    A law that estimates nothing before it moves is told by the testbed's own guess.
+    """
+    seen, testbed = looks(done), done.testbed
     if not seen:
         return None
+    known = any(step.kind == "estimate" for step in done.steps)
+    first = Believed(*seen[0][1:]) if known else Believed(testbed.body.com, testbed.com_sd)
     return Change(
         done.testbed,
         *inertia_known(done),
         done.goal.target,
-        done.before or Believed(*seen[0][1:]),
+        done.before or first,
         Believed(*seen[-1][1:]),
         done.truth_before,
         done.truths[-1] if done.truths else None,
