@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from control.plain_loop import Truth, close, platform
+from control.plain_loop import GRAVITY, MASS, Truth, close, platform
 
 from equipoise.control.follow import following_law, shift_at
 from equipoise.control.sample import Sample
@@ -87,3 +87,14 @@ def test_it_asks_for_the_shift_of_the_attitude_that_it_sees():
     command = law.step(state, seen, params)[1]
     assert command.shift == pytest.approx(shift_at(following, down, 59.9), abs=1e-15)
     assert not command.finished
+
+
+def test_wheels_carry_the_weight_of_a_target_aside():
+    """Level and at rest, 5 um aside: -m r* x g, 0.69 mN m about y."""
+    target, zero = np.array([5e-6, 0.0, 0.0]), np.zeros(3)
+    law = following_law(Following(zero, 0.0, zero, np.zeros((3, 3)), zero), 60.0)
+    state, params = law.begin(platform(), target)
+    q = np.array([1.0, 0.0, 0.0, 0.0])
+    seen = Sample(0.0, q, zero, -GRAVITY * UP, zero, zero, zero, zero, None)
+    torque = law.step(state, seen, params)[1].torque
+    assert torque == pytest.approx([0.0, -MASS * GRAVITY * 5e-6, 0.0], abs=1e-12)

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from control.plain_loop import GRAVITY, MASS, UP, Truth, close, platform, wheels
+from control.plain_loop import GRAVITY, MASS, UP, Truth, close, platform, sample, wheels
 
 from equipoise.control import momentum_buildup as mb
 from equipoise.control.buildup_plan import stages_of
@@ -69,6 +69,19 @@ def test_masses_that_follow_what_it_tells_leave_a_third(seed):
         square += weight * np.sum(np.cross(acting, n) ** 2)
     assert MASS * GRAVITY * square**0.5 < 1.19e-5 / 2
     np.testing.assert_allclose(told.drift, course.truth.drift, atol=0.5e-9)
+
+
+@pytest.mark.parametrize(("doubt", "again"), [(1.0, False), (10.0, True)])
+def test_a_goal_in_doubt_at_the_end_is_held_for_once_more(doubt, again):
+    """One sd of 0.08 um will do; ten times that is worth another pair of holds, once."""
+    course = run(0, False)
+    last = next(state for state in course.states if state.closing is not None)
+    before = replace(last, closing=None, ledger=last.ledger._replace(P=doubt**2 * last.ledger.P))
+    params = mb.begin(course.testbed, np.zeros(3))[1]
+    seen = sample(course, 0.1, np.random.default_rng(1))
+    after = mb.closed(before, seen, params)
+    assert (after.again, after.closing is None) == (again, again)
+    assert mb.closed(replace(before, again=True), seen, params).closing is not None
 
 
 def test_wheels_are_not_filled():
