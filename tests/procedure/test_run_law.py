@@ -18,7 +18,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed, Truth
 from equipoise.procedure.law_devices import opened_hands
 from equipoise.procedure.law_sample import looked, opened, sample_of
-from equipoise.procedure.run_law import LawOptions, control, first_sight, run_law
+from equipoise.procedure.run_law import LawOptions, control, first_sight, looked_into, run_law
 from equipoise.simulation.bench import SimulatedBench
 
 EYE = np.eye(3)
@@ -361,6 +361,28 @@ def test_the_clock_of_samples_is_the_benchs():
     _, second, fresh = control(bench, session, Command(), 0.25)
     assert second.t == pytest.approx(1.25, abs=0.05)
     assert fresh.span[1] == pytest.approx(1.25, abs=0.05)
+
+
+def test_masses_that_stand_away_from_home_at_first_are_brought_where_a_law_wants_them():
+    """5 mm along x, and a law that asks for no shift: home."""
+    bench = SimulatedBench(platform(), 1)
+    bench.move({"x": 5e-3})
+    bench.read(2.0)
+    steps = run_law(bench, told(*[Command(shift=np.zeros(3))] * 4), LawOptions(max_time=1e3))
+    assert DONE in next(steps).sentence
+    assert bench.displacements == pytest.approx(np.zeros(3), abs=1e-12)
+
+
+def test_a_torque_that_a_look_holds_is_taken_for_none():
+    """Of drift and swirl, which the testbed considers, the look is asked to hold the drift."""
+    bed = platform(HANGING, (0.05, -0.03, 0.2), disturbances=("swirl", "drift_x", "drift_z"))
+    swing = SimulatedBench(bed, 1).read(20.0)
+    look = Look(20.0, "trajectory", hold=("drift_x", "drift_z", "inertia_P_zz"), use_prior=True)
+    estimate = looked_into(swing, bed, look)
+    assert estimate.has("swirl")
+    assert not estimate.has("drift_x")
+    assert not estimate.has("drift_z")
+    assert looked_into(swing, bed, replace(look, hold=())).has("drift_z")
 
 
 def test_hands_begin_with_everything_off():

@@ -15,6 +15,7 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import SlidingMass, Testbed, Truth
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import BalanceOptions
+from equipoise.procedure.run_law import SPENT
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.study import law_run as law_run_module
 from equipoise.study.law_run import CountedBench, Task, followed_torque, gone, law_run, rms_torque
@@ -186,3 +187,6 @@ def test_the_law_that_follows_is_counted_with_its_masses_following(monkeypatch):
     assert run.followed is None
     assert run.left == run.torque > 1e-5
     assert not run.late
+    spent = Step("control", 1.0, f"pid for 20 s of bench time: {SPENT}.")
+    monkeypatch.setattr(law_run_module, "balanced_by", lambda *_: iter([spent, last]))
+    assert law_run(task).late

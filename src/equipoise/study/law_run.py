@@ -26,6 +26,7 @@ from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import BalanceOptions
 from equipoise.procedure.law_devices import opened_hands, send
 from equipoise.procedure.laws import balanced_by
+from equipoise.procedure.run_law import SPENT
 from equipoise.simulation.bench import SimulatedBench
 
 STOPPED = 0.2  # s, chosen: masses that should have arrived, have
@@ -121,8 +122,9 @@ def law_run(task: Task) -> LawRun:
     bench = CountedBench(task.testbed, task.seed)
     before = rms_torque(bench, task.tilt)
     steps: Iterator[Step] = balanced_by(task.law, bench, task.options, task.max_time)
-    verdict, following = Verdict(False, "no verdict", sure=False), None
+    verdict, following, late = Verdict(False, "no verdict", sure=False), None, False
     for step in steps:
+        late = late or SPENT in step.sentence
         verdict, following = step.verdict or verdict, step.following or following
     return LawRun(
         law=task.law,
@@ -132,7 +134,7 @@ def law_run(task: Task) -> LawRun:
         torque_before=before,
         time=bench.time,
         travel=bench.travel,
-        late=bench.time >= task.max_time,
+        late=late or bench.time >= task.max_time,
         verdict=verdict,
         followed=None if following is None else followed_torque(bench, following, task.tilt),
     )
