@@ -2,7 +2,7 @@
 
 One step per interval of ``problem.grid_of`` (0.2 s at 5 Hz; its error is 1e-8 rad, the bench's
 ``simulate`` says so), double precision, and a closed-form solution of the 3 x 3 system: with
-``jnp.linalg.inv`` there a batch is nine times slower (peers.md section 3).
+``jnp.linalg.inv`` there a batch is nine times slower.
 """
 
 import time

@@ -41,6 +41,7 @@ def test_a_balancing_run(equipoise, strict_json):
     document = strict_json(done.out)
     assert document["schema"] == "equipoise/balance/1"
     assert done.code == (0 if document["verdict"]["passed"] else 1)
+    assert document["verdict"]["halted"] is False
     assert len(document["verdict"]["com_um"]) == len(document["verdict"]["sd_um"]) == 3
     assert len(document["truth"]["com_um"]) == 3
     assert np.shape(document["truth"]["inertia_P_kg_m2"]) == (3, 3)

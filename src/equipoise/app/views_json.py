@@ -162,6 +162,7 @@ def verdict_json(verdict: Verdict) -> View:
     return {
         "passed": verdict.passed,
         "sure": verdict.sure,
+        "halted": verdict.halted,
         "sentence": verdict.sentence,
         "com_um": numbers(verdict.com, UM),
         "sd_um": numbers(verdict.sd, UM),

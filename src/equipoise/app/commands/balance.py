@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.commands.kinds import Flag, Triple
+from equipoise.app.commands.kinds import Flag, Triple, Whole
 from equipoise.app.terminal import busy, tell_paths
 
 
@@ -11,10 +11,10 @@ def balance(
     /,
     *,
     law: str = "look_and_move",
-    seed: int = 1,
+    seed: Whole = 1,
     target_um: Triple = (0.0, 0.0, -100.0),
     tolerance_um: Triple = (2.0, 2.0, 3.0),
-    max_moves: int | None = None,
+    max_moves: Whole | None = None,
     max_time_s: float | None = None,
     hold_min: float = 0.0,
     json: Flag = False,

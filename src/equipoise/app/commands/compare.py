@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.commands.kinds import Flag, Names, Triple
+from equipoise.app.commands.kinds import Flag, Names, Triple, Whole
 from equipoise.app.terminal import busy, stdout, tell_paths
 
 
@@ -12,14 +12,14 @@ def compare(
     *,
     laws: Flag = False,
     only: Names = (),
-    runs: int = 20,
-    seed: int = 1,
+    runs: Whole = 20,
+    seed: Whole = 1,
     target_um: Triple = (0.0, 0.0, 0.0),
     tolerance_um: Triple = (2.0, 2.0, 3.0),
     tilt_deg: float = 20.0,
     require_torque: float = 1e-5,
     max_time_s: float = 600.0,
-    workers: int = 2,
+    workers: Whole = 2,
     json: Flag = False,
     out: Path | None = None,
 ) -> int:

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
+from equipoise.app.commands.kinds import Whole
 from equipoise.app.terminal import busy, stdout, tell_paths
 
 
-def demo(*, out: Path = Path("equipoise-out/demo"), seed: int = 1) -> int:
+def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
     """Identify a simulated mock-up, balance it, test the result, and write a report.
 
     Parameters

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag
+from equipoise.app.commands.kinds import Flag, Whole
 from equipoise.app.terminal import busy, tell_paths
 
 if TYPE_CHECKING:
@@ -12,7 +12,9 @@ if TYPE_CHECKING:
 PAPERS = ("lee",)
 
 
-def reproduce(paper: str, /, *, seed: int = 1, out: Path | None = None, json: Flag = False) -> int:
+def reproduce(
+    paper: str, /, *, seed: Whole = 1, out: Path | None = None, json: Flag = False
+) -> int:
     """Run a paper's simulation again, beside what this program makes of it.
 
     lee: two slews by control moment gyros, a large and a small one; the averaged integral as

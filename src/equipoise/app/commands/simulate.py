@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.commands.kinds import Names
+from equipoise.app.commands.kinds import Names, Whole
 from equipoise.app.terminal import busy, stdout
 
 
@@ -13,7 +13,7 @@ def simulate(
     out: Path,
     duration_s: float = 120.0,
     move: Names = (),
-    seed: int = 1,
+    seed: Whole = 1,
 ) -> int:
     """Simulate a platform in free motion, and write what its sensors record.
 
