@@ -45,6 +45,7 @@ class Balancing:
     truth_before: MassProperties | None = None
     truths: Sequence[MassProperties] = ()
     before: Believed | None = None  # as known otherwise; None: the first estimate's
+    law: str = OWN.name
 
     @property
     def verdict(self) -> Verdict:
@@ -83,7 +84,8 @@ def run(
     except KeyboardInterrupt as by_hand:
         bench.stop()
         raise KeyboardInterrupt(HALTED) from by_hand
-    return Balancing(bench.testbed, goal, steps, recorded.recording(), before, truths)
+    whole = recorded.recording()
+    return Balancing(bench.testbed, goal, steps, whole, before, truths, law=limits.law)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
@@ -147,13 +149,13 @@ def inertia_known(done: Balancing) -> tuple[Matrix3, float]:
 def change_of(done: Balancing) -> Change | None:
     """Return before and after: the first estimate, and the verdict or else the last estimate.
 
-    A law that estimates nothing before it moves is told by the testbed's own guess.
+    Before a law of its own, the testbed's guess: a look of a law's may hold what is not known.
     """
     seen, testbed = looks(done), done.testbed
     if not seen:
         return None
-    known = any(step.kind == "estimate" for step in done.steps)
-    first = Believed(*seen[0][1:]) if known else Believed(testbed.body.com, testbed.com_sd)
+    guess = Believed(testbed.body.com, testbed.com_sd)
+    first = Believed(*seen[0][1:]) if done.law == OWN.name else guess
     return Change(
         done.testbed,
         *inertia_known(done),
