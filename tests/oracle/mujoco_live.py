@@ -2,7 +2,8 @@
 
 Masses are points on slide joints whose servos follow a motor at constant speed; wheels are rotors
 on hinges, turned by torque. Masses report what their motors were told, as stepper boards do; wheels
-report the speed that they have. The camera and the gyro add white noise and a bias.
+report the speed that they have. Jets and coils are torques on the bearing's ball joint, in body
+axes. The camera and the gyro add white noise and a bias.
 
 Servos give way by g / SERVO^2, alike along three rails at right angles with alike masses: an
 isotropic sag, which turns nothing.
@@ -56,6 +57,9 @@ class MujocoBench:
         self._data.qpos[:4], self._data.qvel[:3] = platform.q, platform.rate
         self._steps, self._goal = 0, np.zeros(len(testbed.masses))
         self._told = self._goal.copy()
+        self._dipole = np.zeros(len(testbed.magnetorquers))
+        self._pulse = np.zeros(len(testbed.jets))  # N m s that is left of the last pulses
+        self._given = np.zeros(len(testbed.jets))  # N m s since the last row of devices
         self._bias = np.deg2rad([0.02, -0.01, 0.015])
         self._rows = self._empty()
         self._look()
@@ -97,16 +101,19 @@ class MujocoBench:
             self._goal[self._testbed.mass_names.index(name)] = goal
 
     def drive(self, inputs: Mapping[str, float]) -> None:
-        """Give wheels their torques."""
-        names = [w.name for w in self._testbed.wheels]
-        for name, torque in inputs.items():
-            if name in names:
-                self._data.ctrl[names.index(name)] = torque
+        """Give wheels their torques, coils their dipoles, jets their pulses."""
+        bed = self._testbed
+        kinds = ((bed.wheels, self._data.ctrl), (bed.magnetorquers, self._dipole),
+                 (bed.jets, self._pulse))  # fmt: skip
+        for devices, told in kinds:
+            for k, device in enumerate(devices):
+                told[k] = inputs.get(device.name, told[k])
 
     def stop(self) -> None:
         """Halt everything."""
         self._goal = self._told.copy()
         self._data.ctrl[: len(self._testbed.wheels)] = 0.0
+        self._dipole[:], self._pulse[:] = 0.0, 0.0
 
     def read(self, duration: float) -> Recording:
         """Let time pass and return what was seen since the last read."""
@@ -115,10 +122,29 @@ class MujocoBench:
             way = self._goal - self._told
             self._told += np.clip(way, -speed * STEP, speed * STEP)
             self._data.ctrl[self._slides] = self._told
+            self._data.qfrc_applied[:3] = self._from_coils() + self._from_jets()
             mujoco.mj_step(self._model, self._data)
             self._steps += 1
             self._look()
         return self._recording()
+
+    def _from_coils(self) -> Array:
+        """Return the torque of the coils in the laboratory's field, N m, body axes."""
+        bed = self._testbed
+        if bed.magnetic_field is None:
+            return np.zeros(3)
+        dipole = sum((d * c.axis for d, c in zip(self._dipole, bed.magnetorquers, strict=True)),
+                     np.zeros(3))  # fmt: skip
+        return np.cross(dipole, matrix(self._data.qpos[:4]).T @ bed.magnetic_field.field_N)
+
+    def _from_jets(self) -> Array:
+        """Return the mean torque of the jets over this step, N m; spent pulses end."""
+        most = STEP * np.array([jet.torque for jet in self._testbed.jets])
+        now = np.clip(self._pulse, -most, most)
+        self._pulse -= now
+        self._given += now
+        pushes = (p * jet.axis for p, jet in zip(now, self._testbed.jets, strict=True))
+        return sum(pushes, np.zeros(3)) / STEP
 
     def _look(self) -> None:
         """Add the rows that are due."""
@@ -133,8 +159,9 @@ class MujocoBench:
             self._add("rate", self._data.qvel[:3] + self._bias + noise)
             self._add("masses", self._told.copy())
             speeds = [self._data.joint(w.name).qvel[0] for w in self._testbed.wheels]
-            others = len(self._testbed.devices) - len(speeds)
-            self._add("devices", np.array([*speeds, *np.zeros(others)]))
+            thrust = self._given * gyro.rate
+            self._given = np.zeros_like(self._given)
+            self._add("devices", np.array([*speeds, *self._dipole, *thrust]))
 
     def _add(self, channel: str, row: Array) -> None:
         self._rows[channel].append((self.time, row))

@@ -20,13 +20,14 @@ from tests.oracle.mujoco_live import MujocoBench, platform_of
 
 LEVEL = np.zeros(3)
 ASIDE, HEIGHT = 0.15e-6, 1.0e-6  # m
-OTHER_DEVICES = {"impulse_feedback", "planar_magnetic"}  # jets and coils, which MuJoCo has not here
-SLOW = {"fully_actuated"}  # an hour with the preset's wheels
+AN_HOUR = {"fully_actuated"}  # with the preset's wheels
+LONGEST = {"planar_magnetic": 1500.0}  # s, its coils are weak
 
 
 def bench_of(seed):
     bed = read_preset("reference-table")
-    bed = replace(bed, magnetorquers=(), jets=(), magnetic_field=None)
+    assert bed.magnetic_field is not None
+    bed = replace(bed, magnetic_field=replace(bed.magnetic_field, noise=None))
     rng = np.random.default_rng(seed)
     com = rng.uniform([-8e-6, -8e-6, -140e-6], [8e-6, 8e-6, -80e-6])
     off = 1 + 0.03 * rng.normal(size=(3, 3))
@@ -39,10 +40,10 @@ def test_it_is_a_bench():
     assert isinstance(bench_of(0), Bench)
 
 
-@pytest.mark.parametrize("law", sorted(set(CARDS) - OTHER_DEVICES - SLOW))
+@pytest.mark.parametrize("law", sorted(set(CARDS) - AN_HOUR))
 def test_it_balances_and_its_verdict_is_true(law):
     bench = bench_of(sum(map(ord, law)))
-    *_, last = balanced_by(law, bench, BalanceOptions(LEVEL), 600.0)
+    *_, last = balanced_by(law, bench, BalanceOptions(LEVEL), LONGEST.get(law, 600.0))
     wanted = LEVEL - ([0.0, 0.0, SAFE] if law == "coarse_fine" else 0.0)
     off = np.abs(bench.com - wanted)
     assert off[:2].max() < ASIDE
