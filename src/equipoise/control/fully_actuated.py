@@ -254,7 +254,8 @@ LAW = Law(
         "what is along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
         "dJ (20 um for one inertia_sd)",
         "w_a T up to 0.1, w_a |r| / v up to 1; the torque of |r| sideways, and its momentum in "
-        "2 zeta / w_a, within the devices'",
+        "2 zeta / w_a, within the devices'. It is as slow as they are weak: an hour at 14 kg, "
+        "110 um and 5 mN m",
         PERIOD,
     ),
     begin,
