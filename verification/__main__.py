@@ -25,6 +25,7 @@ from verification import (
     laboratories,
     lagging_masses,
     laws,
+    laws_on_mujoco,
     lee,
     long_record,
     method_intervals,
@@ -70,6 +71,7 @@ CHECKS = {
     "method_intervals": Check(method_intervals.measure, 200),
     "robustness": Check(robustness.measure, 20),
     "laws": Check(laws.measure, 100),
+    "laws_on_mujoco": Check(laws_on_mujoco.measure, 3),
     "lee": Check(lee.measure, 100),
     "real_methods": Check(real_methods.measure, 1),
 }

@@ -5,4 +5,4 @@ from verification import laws
 
 def test_the_best_procedure_leaves_what_is_wanted():
     some = ("momentum_buildup", "impulse_feedback", "underactuated")
-    assert laws.measure(range(3), laws=some).missed == ()
+    assert laws.measure(range(2), laws=some).missed == ()
