@@ -156,7 +156,7 @@ LAW = Law(
         "A coarse move from a first look, then looks and small moves, always kept hanging.",
         "RAMBO, engrXiv 7342, as far as its abstract tells",
         ("masses", "attitude", "gyro"),
-        "10 um below the pivot at least, on purpose; 0.3 um of that and sideways, and 4 % of a "
+        "10 um below the pivot at least, on purpose; 1 um of that, 0.1 um sideways, and 4 % of a "
         "lower target's depth; swing, as nothing damps it; sag but for small tilts",
         "open loop: always. It must hang within 10 deg of level at first: what swing there is "
         "grows by a half on the way up",
