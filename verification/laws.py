@@ -69,7 +69,7 @@ def measure(
     rows.append(at_most("verdict passes what is twice the tolerance off", false, WRONG, ".1%"))
     refused = ", ".join(each.law for each in found.refusals) or "none"
     rows.append(Row("laws refused", refused, "none", not found.refusals))
-    for law in sorted(found.laws, key=lambda each: (each.followed or each.torque).most):
+    for law in sorted(found.laws, key=lambda each: each.left.most):
         rows += law_rows(law)
     below = [law.law for law in found.laws if law.torque.median <= PUBLISHED]
     claim = (

@@ -10,6 +10,7 @@ isotropic sag, which turns nothing.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -175,11 +176,7 @@ class MujocoBench:
             found["attitude"], found["rate"], bed.mass_names, found["masses"],
             device_names=bed.device_names, devices=found["devices"], source="MuJoCo",
         )  # fmt: skip
-        return Recording(
-            seen.attitude, seen.rate, seen.mass_names, seen.masses,
-            stored_momentum(seen, bed), device_names=seen.device_names, devices=seen.devices,
-            source=seen.source,
-        )  # fmt: skip
+        return replace(seen, momentum=stored_momentum(seen, bed))
 
     @staticmethod
     def _samples(rows: list[tuple[float, Array]]) -> Samples | None:

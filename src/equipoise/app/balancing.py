@@ -45,7 +45,6 @@ class Balancing:
     truth_before: MassProperties | None = None
     truths: Sequence[MassProperties] = ()
     before: Believed | None = None  # as known otherwise; None: the first estimate's
-    law: str = OWN.name
 
     @property
     def verdict(self) -> Verdict:
@@ -84,8 +83,10 @@ def run(
     except KeyboardInterrupt as by_hand:
         bench.stop()
         raise KeyboardInterrupt(HALTED) from by_hand
-    whole = recorded.recording()
-    return Balancing(bench.testbed, goal, steps, whole, before, truths, law=limits.law)
+    # A look of a law's may hold what is not known; its estimate is no belief to begin with.
+    body, sd = bench.testbed.body, bench.testbed.com_sd
+    known = None if limits.law == OWN.name else Believed(body.com, sd)
+    return Balancing(bench.testbed, goal, steps, recorded.recording(), before, truths, known)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
@@ -147,20 +148,15 @@ def inertia_known(done: Balancing) -> tuple[Matrix3, float]:
 
 
 def change_of(done: Balancing) -> Change | None:
-    """Return before and after: the first estimate, and the verdict or else the last estimate.
-
-    Before a law of its own, the testbed's guess: a look of a law's may hold what is not known.
-    """
-    seen, testbed = looks(done), done.testbed
+    """Return before and after: the first estimate, and the verdict or else the last estimate."""
+    seen = looks(done)
     if not seen:
         return None
-    guess = Believed(testbed.body.com, testbed.com_sd)
-    first = Believed(*seen[0][1:]) if done.law == OWN.name else guess
     return Change(
         done.testbed,
         *inertia_known(done),
         done.goal.target,
-        done.before or first,
+        done.before or Believed(*seen[0][1:]),
         Believed(*seen[-1][1:]),
         done.truth_before,
         done.truths[-1] if done.truths else None,

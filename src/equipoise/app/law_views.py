@@ -86,7 +86,7 @@ def comparison_table(found: Comparison) -> Group:
              "time, s", "travel, mm", "halted", "late", "false")  # fmt: skip
     for head in heads:
         table.add_column(head, justify="right", no_wrap=True)
-    for law in sorted(found.laws, key=lambda each: (each.followed or each.torque).most):
+    for law in sorted(found.laws, key=lambda each: each.left.most):
         table.add_row(*summary_cells(law))
     said = Text(
         f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "

@@ -108,13 +108,13 @@ def attitudes(testbed: Testbed) -> tuple[Quaternion, ...]:
     )
 
 
-def ways(params: Params) -> list[float]:
+def ways(up: Vector3, turns: tuple[Quaternion, ...], pace: Pace) -> list[float]:
     """Return how long each turn lasts (s), the first from level."""
-    here, found = level(params.testbed.up), list[float]()
-    for turn in params.turns:
-        there = multiply(level(params.testbed.up), turn)
+    here, found = level(up), list[float]()
+    for turn in turns:
+        there = multiply(level(up), turn)
         angle = float(np.linalg.norm(difference(there, here)))
-        found.append(time_for(angle, params.pace) + REST)
+        found.append(time_for(angle, pace) + REST)
         here = there
     return found
 
@@ -126,16 +126,17 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
         raise InputError("slew_and_look", "a testbed without them",
                          "sliding masses, and wheels or gyros along all axes")  # fmt: skip
     pace = pace_for(float(np.linalg.eigvalsh(J)[-1]), can)
-    held = (*of_group(testbed, "sag"), *of_group(testbed, "drift"))
-    loop = gains_for(J, can.torque)
-    params = Params(testbed, loop, pace, target, attitudes(testbed), 0.0, held)
-    needed = testbed.body.mass * testbed.gravity * sum(ways(params))  # N m s per m
-    params = replace(params, bearable=can.momentum / needed)
-    if params.bearable < CLOSE:
+    turns, held = attitudes(testbed), of_group(testbed, "drift")
+    lasting = sum(ways(testbed.up, turns, pace))
+    needed = testbed.body.mass * testbed.gravity * lasting  # N m s per m
+    bearable = can.momentum / needed
+    if bearable < CLOSE:
         raise InputError("slew_and_look", f"wheels or gyros that store {can.momentum:.3g} N m s",
                          f"{needed * CLOSE:.3g} N m s: m g {1e6 * CLOSE:g} um while the turns last"
                          )  # fmt: skip
-    if float(np.linalg.norm(testbed.com_sd)) <= params.bearable:
+    loop = gains_for(J, can.torque)
+    params = Params(testbed, loop, pace, target, turns, bearable, held)
+    if float(np.linalg.norm(testbed.com_sd)) <= bearable:
         return State(testbed.body.com), params
     lowered = hanging(testbed).lowered * testbed.up
     return State(testbed.body.com, round=0, shift=lowered, moving=True), params

@@ -17,13 +17,13 @@ from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import INERTIA
 from equipoise.model.move import Move
-from equipoise.model.recording import Recording, Samples
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import UM, BalanceOptions, balance
 from equipoise.procedure.foresight import state_now
 from equipoise.procedure.knowledge import Knowledge
+from equipoise.procedure.law_sample import last_row
 from equipoise.procedure.planned_move import planned_move
 from equipoise.procedure.tilt_guard import TILTED, tilted
 
@@ -146,7 +146,7 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
     while bench.time < end - 1e-9:
         fresh = bench.read(min(LOOK, end - bench.time))
         state = tracker.track(fresh, testbed, params, state).end
-        displacement = last_of(fresh, displacement)
+        displacement = last_row(fresh.masses, displacement)
         com, _ = standing(state, testbed, displacement)
         worst = np.maximum(worst, np.abs(com - options.target))
         if tilted(fresh, testbed):
@@ -170,12 +170,6 @@ def without_drift(torque: Floats) -> Floats:
     kept = torque.copy()
     kept[-3:] = 0.0
     return kept
-
-
-def last_of(fresh: Recording, before: Floats) -> Floats:
-    """Return the reported displacements at the end of a record."""
-    masses: Samples | None = fresh.masses
-    return before if masses is None or not len(masses) else masses.values[-1]
 
 
 def sentence_of(move: Move, com: Vector3) -> str:

@@ -123,7 +123,12 @@ def let_rest(bench: Bench, eyes: Eyes, hands: Hands) -> tuple[Hands, float]:
     on = {name: 0.0 for name, value in hands.inputs.items() if value != 0.0}
     if on:
         bench.drive(on)
-    speed = np.array([mass.speed for mass in bench.testbed.masses])
-    wait = float((np.abs(hands.goal - eyes.displacement) / speed).max(initial=0.0))
+    wait = travel_time(bench.testbed, hands.goal, eyes.displacement)
     still = dict.fromkeys(hands.inputs, 0.0)
     return replace(hands, inputs=still, left=np.zeros(3)), wait
+
+
+def travel_time(testbed: Testbed, goal: Floats, here: Floats) -> float:
+    """Return how long the masses travel from ``here`` to a goal (m), s."""
+    speed = np.array([mass.speed for mass in testbed.masses])
+    return float((np.abs(goal - here) / speed).max(initial=0.0))

@@ -17,7 +17,7 @@ from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import SlidingMass, Testbed
-from equipoise.procedure.law_sample import Eyes
+from equipoise.procedure.law_sample import Eyes, last_row
 from equipoise.procedure.tilt_guard import guarded
 
 STILL = np.deg2rad(0.1)  # rad/s, chosen: slower than this it hangs still, as far as a proof goes
@@ -31,7 +31,7 @@ def watched_swing(bench: Bench, eyes: Eyes, duration: float) -> Recording:
     begun, left = bench.read(BEFORE), duration - BEFORE
     if eyes.attitude is None or swinging(eyes.attitude) > STILL:
         return join(begun, guarded(bench, left))
-    here = last(begun, eyes)
+    here = last_row(begun.masses, eyes.displacement)
     out = push(bench.testbed, eyes, here)
     wait = float(np.abs(out - here).max()) / slowest(bench.testbed)
     bench.move(by_name(bench.testbed, out))
@@ -48,11 +48,6 @@ def swinging(now: AttitudeState) -> float:
 def by_name(testbed: Testbed, displacement: Floats) -> dict[str, float]:
     """Return displacements (m) by mass."""
     return dict(zip(testbed.mass_names, map(float, displacement), strict=True))
-
-
-def last(recording: Recording, eyes: Eyes) -> Floats:
-    """Return where the masses stand, m."""
-    return eyes.displacement if recording.masses is None else recording.masses.values[-1]
 
 
 def slowest(testbed: Testbed) -> float:

@@ -53,6 +53,11 @@ class LawSummary:
     time: Middle  # s
     travel: Middle  # m
 
+    @property
+    def left(self) -> Middle:
+        """The torque that the procedure leaves, N m: with masses that follow, if they can."""
+        return self.followed or self.torque
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Comparison:

@@ -24,7 +24,8 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import BalanceOptions
-from equipoise.procedure.law_devices import opened_hands, send
+from equipoise.procedure.law_devices import opened_hands, send, travel_time
+from equipoise.procedure.law_sample import last_row
 from equipoise.procedure.laws import balanced_by
 from equipoise.procedure.run_law import SPENT
 from equipoise.simulation.bench import SimulatedBench
@@ -94,27 +95,16 @@ def rms_torque(bench: SimulatedBench, tilt: float) -> float:
 def followed_torque(bench: SimulatedBench, following: Following, tilt: float) -> float:
     """Return the torque (N m) really left, rms within a tilt (rad), by masses that follow."""
     testbed, square = bench.testbed, 0.0
-    here = standing_at(bench.read(STOPPED))
+    here = last_row(bench.read(STOPPED).masses, np.zeros(len(testbed.masses)))
     hands = opened_hands(testbed, here)
     directions, weights = downs(testbed.up, tilt)
     for down, weight in zip(directions, weights, strict=True):
         hands = send(bench, shift_at(following, down, bench.time), here, hands)
-        here = standing_at(bench.read(time_to(hands.goal, here, testbed) + STOPPED))
+        wait = travel_time(testbed, hands.goal, here) + STOPPED
+        here = last_row(bench.read(wait).masses, here)
         lever: Floats = skew(bench.com + bench.sag @ down) @ down
         square += float(weight[0]) * float(lever @ lever)
     return testbed.body.mass * testbed.gravity * square**0.5
-
-
-def standing_at(recording: Recording) -> Floats:
-    """Return where the masses stand at the end of a record, m."""
-    assert recording.masses is not None
-    return recording.masses.values[-1]
-
-
-def time_to(goal: Floats, here: Floats, testbed: Testbed) -> float:
-    """Return how long the masses travel, s."""
-    speed = np.array([mass.speed for mass in testbed.masses])
-    return float((np.abs(goal - here) / speed).max())
 
 
 def law_run(task: Task) -> LawRun:
