@@ -11,6 +11,7 @@ from datetime import datetime
 from equipoise import __version__
 from equipoise.app.change import Change
 from equipoise.app.pictures import Picture
+from equipoise.app.sheet import Sheet
 from equipoise.assessment.finding import Finding
 from equipoise.model.estimate import Estimate
 from equipoise.model.step import Step
@@ -18,16 +19,6 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 
 LIBRARIES = ("numpy", "scipy", "numba", "matplotlib")
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Sheet:
-    """A table of a report's own, with what is said below it."""
-
-    title: str
-    heads: Sequence[str]
-    lines: Sequence[Sequence[str]]
-    remarks: Sequence[str] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

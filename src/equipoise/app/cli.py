@@ -12,6 +12,7 @@ from io import TextIOWrapper
 from cyclopts import App, CycloptsError, Parameter
 
 from equipoise import __version__
+from equipoise.app.commands.assess import assess
 from equipoise.app.commands.balance import balance
 from equipoise.app.commands.compare import compare
 from equipoise.app.commands.demo import demo
@@ -39,7 +40,8 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 COMMANDS = (
-    demo, new, simulate, inspect, observe, identify, methods, balance, laws, compare, reproduce,
+    demo, new, simulate, inspect, observe, identify, assess, methods, balance, laws,
+    compare, reproduce,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command)

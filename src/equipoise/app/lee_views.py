@@ -1,14 +1,12 @@
 """The reproduction of Lee et al. for terminal, JSON and report."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-from rich.text import Text
-
-from equipoise.app.account import Account, Sheet, origin
+from equipoise.app.account import Account, origin
 from equipoise.app.lee_pictures import pictures_of
 from equipoise.app.numbers import with_sd
-from equipoise.app.tables import quiet_table, titled
-from equipoise.app.terminal import stdout
+from equipoise.app.sheet import Sheet
+from equipoise.app.tables import show_sheet
 from equipoise.app.views_json import View, estimate_json
 from equipoise.estimation.fisher import Observability
 from equipoise.estimation.methods.registry import METHODS
@@ -103,20 +101,6 @@ def show_result(runs: Sequence[Manoeuvre]) -> None:
     for run in runs:
         show_sheet(sheet_of(run), {k: warns(e) for k, e in run.estimates.items()})
     show_sheet(bound_sheet(runs), {})
-
-
-def show_sheet(sheet: Sheet, bad: Mapping[str, bool]) -> None:
-    """Print a table; remarks of what warns stand out."""
-    table, console = quiet_table(), stdout()
-    for k, head in enumerate(sheet.heads):
-        table.add_column(head, justify="right" if k else "left", style="" if k else "bold")
-    for line in sheet.lines:
-        table.add_row(*map(Text, line))
-    console.print()
-    console.print(titled(sheet.title, table))
-    for remark in sheet.remarks:
-        style = "yellow" if bad.get(remark.split(":")[0]) else ""
-        console.print(remark, style=style, markup=False)
 
 
 def document_of(runs: Sequence[Manoeuvre], seed: int) -> View:

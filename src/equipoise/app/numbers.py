@@ -5,6 +5,7 @@ import math
 DIGITS = 2  # of the sd; the second keeps its rounding below 5 %
 EXACT = 1e-6  # chosen: an sd below this share of the value is none; the value was held
 FINEST = 1e-10  # chosen: an sd below this, in any unit that is shown, is none, at zero too
+LEAST, MOST = 1e-3, 1e6  # numbers that people read without an exponent
 FEW = 4  # significant digits of a number without an sd
 
 
@@ -18,6 +19,13 @@ def fixed(value: float, decimals: int) -> str:
     """Return a number with so many decimals; negative ones round left of the point."""
     text = f"{round(value, decimals):.{max(decimals, 0)}f}"
     return text.removeprefix("-") if not float(text) else text
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """Return a number with so many digits that count, without an exponent if it is of the bench."""
+    if value == 0 or not math.isfinite(value) or not LEAST <= abs(value) < MOST:
+        return f"{value:.{digits}g}"
+    return fixed(value, digits - 1 - math.floor(math.log10(abs(value))))
 
 
 def is_known(value: float, sd: float) -> bool:

@@ -20,6 +20,13 @@ def not_negative(option: str, value: float) -> float:
     return value
 
 
+def between(option: str, value: float, low: float, high: float) -> float:
+    """Return a number above ``low`` and at most ``high``."""
+    if not (low < value <= high):
+        raise InputError(option, f"{value:g}", f"a number above {low:g}, at most {high:g}")
+    return value
+
+
 def seed_of(value: int) -> int:
     """Return a seed that every generator takes."""
     if not 0 <= value < 2**63:

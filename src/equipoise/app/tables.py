@@ -1,6 +1,6 @@
 """Estimates, findings and steps as tables and lines for the terminal."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from rich.console import Group
 from rich.table import Table
@@ -8,6 +8,8 @@ from rich.text import Text
 
 from equipoise.app.change import HEADS, Change, rows
 from equipoise.app.numbers import fixed, interval, with_sd
+from equipoise.app.sheet import Sheet
+from equipoise.app.terminal import stdout
 from equipoise.app.units import PER_DEG, unit_for
 from equipoise.assessment.finding import Finding
 from equipoise.maths.whiteness import WHITE
@@ -66,6 +68,20 @@ def named_rows(texts: Sequence[tuple[str, str]]) -> Table:
 def titled(title: str, table: Table) -> Group:
     """Return a table under its title, which may be the wider one."""
     return Group(Text(title, style="bold"), table)
+
+
+def show_sheet(sheet: Sheet, bad: Mapping[str, bool] | None = None) -> None:
+    """Print a table; remarks of what warns stand out."""
+    table, console = quiet_table(), stdout()
+    for k, head in enumerate(sheet.heads):
+        table.add_column(head, justify="right" if k else "left", style="" if k else "bold")
+    for line in sheet.lines:
+        table.add_row(*map(Text, line))
+    console.print()
+    console.print(titled(sheet.title, table))
+    for remark in sheet.remarks:
+        style = "yellow" if (bad or {}).get(remark.split(":")[0]) else ""
+        console.print(remark, style=style, markup=False)
 
 
 def cells(parameter: Parameter) -> tuple[str, str, str, str, str]:

@@ -1,7 +1,7 @@
 """What a centre of mass off the pivot does to a platform: torque when level, and swing.
 
     |tau| = m g |r_h|                 r_h: the horizontal part of r when level
-    T = 2 pi sqrt( J / (m g h) )      h = -r.up > 0, J: greatest moment about a horizontal axis
+    T                                 of the slow swing of ``swing_modes``, m g h with h = -r.up > 0
 
 The torque is what attitude actuators have to hold against; at a small tilt it grows by m g h sin.
 The period is that of the slowest small swing; without h > 0 it topples instead.
@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.assessment.swing_modes import swing_rates
 from equipoise.model.arrays import Matrix3, Vector3
 
 
@@ -37,9 +38,7 @@ def swing_period(
     height = -float(com @ up)
     if height <= 0:
         return Uncertain(np.inf, np.inf)
-    level = np.eye(3) - np.outer(up, up)
-    moment = float(np.linalg.eigvalsh(level @ inertia_P @ level)[-1])
-    period = 2 * np.pi * np.sqrt(moment / (weight * height))
+    period = 2 * np.pi / float(swing_rates(weight * height, inertia_P, -up)[0])
     return Uncertain(period, period / 2 * float(np.linalg.norm(sd * up)) / height)
 
 

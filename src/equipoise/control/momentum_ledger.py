@@ -37,7 +37,7 @@ from equipoise.maths.attitude import to_matrix
 from equipoise.maths.compiled import kernel
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.testbed import SlidingMass, Testbed
-from equipoise.model.torque_terms import TERMS
+from equipoise.model.torque_terms import TERMS, typical
 
 L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
 
@@ -47,8 +47,6 @@ CREEP = 0.05e-6 / 60**0.5  # m/sqrt(s), chosen: thermal walk of 0.05 um/sqrt(min
 LEFT = 0.2  # of that, chosen: what is left where a constant drift is a term of its own
 SAME_TURN = 10.0  # s, chosen: as long as a turn lasts, in which an error of J w keeps its sign
 STANDS = 1e-10  # m, chosen: less is no travel
-PRIORS = {"viscous": 1e-4, "quadratic": 1e-3, "constant": 1e-5, "swirl": 1e-5, "sag": 3e-5,
-          "drift": 5e-9}  # fmt: skip  # SI, chosen: a few times what benches have
 
 
 class Book(NamedTuple):
@@ -118,7 +116,7 @@ def rows_at(seen: Sample, book: Book, begin: float) -> Floats:
 
 def opened(testbed: Testbed, book: Book, seen: Sample) -> Ledger:
     """Return the account at the first sample; the testbed's first guess is its beginning."""
-    priors = [PRIORS[term.split("_")[0]] for term in book.terms]
+    priors = [typical(term) for term in book.terms]
     sd = np.concatenate(
         [np.full(3, 1.0), np.full(3, PLAY_SD), np.full(3, BIAS_SD), testbed.com_sd, priors]
     )

@@ -31,7 +31,7 @@ from equipoise.estimation.unknowns import (
     unknowns_of,
 )
 from equipoise.maths.attitude import logarithm
-from equipoise.maths.linalg import lag_one
+from equipoise.maths.linalg import inverse_spd, lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import COM, END, Estimate, Parameter, Residual
@@ -191,6 +191,23 @@ def visibility_of(fitted: Fitted, values: Floats) -> Visibility:
     )
     view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
     return without_scale(view, layout) if problem.scale_open else view
+
+
+def spread_of(fitted: Fitted, coloured: float = 1.0) -> tuple[tuple[Parameter, ...], Floats]:
+    """Return named values and their covariance with every prior counted, and nothing hidden.
+
+    What the data do not see is as uncertain as the priors leave it: a number for whoever asks what
+    a combination of parameters may be, where ``conclude`` says that it is not seen.
+    """
+    held = fitted.problem.prior.held
+    free = np.flatnonzero(~held)
+    covariance = np.zeros_like(fitted.at.normal)
+    covariance[np.ix_(free, free)] = inverse_spd(fitted.at.normal[np.ix_(free, free)])
+    covariance += by_sag(fitted, covariance)
+    view = Visibility(covariance, np.zeros_like(held), (), False, np.zeros((len(held), 0)))
+    after = smooth_at(fitted) if fitted.problem.jumps else None
+    residual = residual_of(fitted, freedom(fitted, after) if after else 0.0)
+    return parameters_of(fitted, view, max(widening(residual), coloured), after)
 
 
 def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float = 1.0) -> Estimate:

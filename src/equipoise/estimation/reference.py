@@ -155,7 +155,11 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
 
 def estimate_of(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
     """Return the estimate of rows that are all to be used."""
-    belief = surveyed(recording, testbed, params)
+    return told_by(surveyed(recording, testbed, params), recording, params)
+
+
+def told_by(belief: Believed, recording: Recording, params: Params) -> Estimate:
+    """Return the estimate that a belief about a record comes to."""
     concluded = conclude(belief.fitted, METHOD, recording, belief.coloured)
     if not np.isfinite(belief.fitted.at.cost) or not (len(belief.cuts) or concluded.outcome.usable):
         return concluded

@@ -35,6 +35,7 @@ from equipoise.estimation.trajectory_problem import (
     longest_step,
     pose,
     prior_of,
+    with_typical_torques,
 )
 from equipoise.estimation.unknowns import Layout, Unknowns, core_of
 from equipoise.model.arrays import Floats
@@ -66,6 +67,7 @@ class Params:
     robust: bool = False  # Huber's loss
     fineness: float = 1.0  # by which integration steps are shorter than estimates need
     hold_out: float = 0.25  # share of the record to predict instead of fit, for the residual
+    typical: bool = False  # torques are as large as benches have them (``model.torque_terms``)
 
 
 def layout_of(recording: Recording, testbed: Testbed, params: Params) -> Layout:
@@ -122,6 +124,8 @@ def problem_of(
     scale_open = is_scale_open(recording, testbed, params)
     hold = held_names(recording, testbed, params)
     prior = prior_of(testbed, errors, layout, params.use_prior, hold, torque_anchor)
+    if params.typical:
+        prior = with_typical_torques(prior, layout)
     limit = HUBER if params.robust else 0.0
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     longest = longest_step(testbed, fastest_rate(recording), rows) / params.fineness

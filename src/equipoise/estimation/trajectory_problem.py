@@ -1,6 +1,6 @@
 """A recording as a least-squares problem: residuals in units of their noise, and priors."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats, Series, Square, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import typical
 from equipoise.sensors.timing import seen_at, spread_of
 
 COARSE = 1e-4  # rad: what a camera of 0.2 deg makes of a thousand rows
@@ -130,6 +131,14 @@ def prior_of(
     anchor = anchors(testbed, layout, torque_anchor)
     held = np.array([name in hold for name in names])
     return Prior(mean, sd**-2 + anchor, anchor, held)
+
+
+def with_typical_torques(prior: Prior, layout: Layout) -> Prior:
+    """Return a prior that also knows how large torques are on benches."""
+    weight = prior.weight.copy()
+    last = FIXED + len(layout.terms)
+    weight[FIXED:last] += np.array([typical(term) for term in layout.terms]) ** -2.0
+    return replace(prior, weight=weight)
 
 
 def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:

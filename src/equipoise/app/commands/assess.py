@@ -1,0 +1,114 @@
+"""`equipoise assess`: what a recording proves about a platform."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Flag, Triple
+from equipoise.app.commands.reading import WHOLE, Reading
+from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
+from equipoise.app.terminal import busy, tell_paths, watched
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from equipoise.model.recording import Recording
+    from equipoise.model.step import Step
+    from equipoise.model.testbed import Testbed
+    from equipoise.procedure.assess import Assessment, AssessOptions
+
+
+def assess(
+    file: str,
+    /,
+    *,
+    testbed: str,
+    before: str | None = None,
+    tilt_deg: float = 20.0,
+    target_um: Triple = (0.0, 0.0, 0.0),
+    require_torque: float | None = None,
+    require_offset_um: float | None = None,
+    seeking: Seeking = NOTHING_TOLD,
+    reading: Reading = WHOLE,
+    json: Flag = False,
+    out: Path | None = None,
+) -> int:
+    """Say what gravity still does to a platform, how surely, and whether that is good enough.
+
+    Ends with 1 when the platform does not meet what is required, or the recording cannot tell.
+
+    Parameters
+    ----------
+    file
+        Recording of the platform swinging freely, as CSV or Parquet.
+    testbed
+        Testbed file, or a preset's name. Its inertia counts as known to its sd.
+    before
+        A recording made before balancing, to compare with.
+    tilt_deg
+        Torque counts over directions within so many degrees of level.
+    target_um
+        Where the centre of mass is wanted, from the centre of rotation, body axes.
+    require_torque
+        Torque of gravity that is allowed, rms over that range, N m.
+    require_offset_um
+        Distance of the centre of mass from its target that is allowed.
+    json
+        Print one JSON document instead.
+    out
+        Folder for figures, report.html and assess.json.
+    """
+    from equipoise.app.options import between, positive, vector
+    from equipoise.app.units import PER_DEG, UM
+    from equipoise.app.wiring import fitting_recording_of, spelt_out, testbed_of
+    from equipoise.io.whole_folder import check_folder
+
+    bed, seeking = testbed_of(testbed), spelt_out(seeking)
+    torque = None if require_torque is None else positive("--require-torque", require_torque)
+    offset = None
+    if require_offset_um is not None:
+        offset = positive("--require-offset-um", require_offset_um) / UM
+    tilt = between("--tilt-deg", tilt_deg, 0.0, 90.0) / PER_DEG
+    goal = vector("--target-um", target_um, 1 / UM)
+    if out is not None:
+        check_folder(out)
+    recording = fitting_recording_of(file, reading, bed)
+    earlier = None if before is None else fitting_recording_of(before, WHOLE, bed)
+    with busy("assessing", announce=False):
+        from equipoise.app.archive import write_account
+        from equipoise.app.assess_json import document_of
+        from equipoise.app.assess_views import account_of, show_result
+        from equipoise.app.views_json import dump
+        from equipoise.assessment.record_findings import findings
+        from equipoise.procedure.assess import AssessOptions
+
+        options = AssessOptions(goal, tilt, torque, offset, seeking.term, seeking.hold)
+    found = findings(recording, bed)
+    done, steps = _carried_out(recording, bed, options)
+    past = None if earlier is None else _carried_out(earlier, bed, options)[0]
+    document = document_of(done, past, steps, found)
+    if json:
+        print(dump(document))
+    else:
+        show_result(done, past, steps, found)
+    if out is not None:
+        with busy("drawing"):
+            paths = write_account(account_of(done, past, steps, found), document, "assess", out)
+        tell_paths(paths, json)
+    verdict = steps[-1].verdict
+    good = done.estimate.outcome.usable if verdict is None else verdict.passed
+    return 0 if good else 1
+
+
+def _carried_out(
+    recording: "Recording", testbed: "Testbed", options: "AssessOptions"
+) -> "tuple[Assessment, list[Step]]":
+    """Return the assessment and its steps, with a sign of life."""
+    from equipoise.procedure.assess import assess as procedure
+
+    found: list[Assessment] = []
+
+    def steps() -> "Iterator[Step]":
+        found.append((yield from procedure(recording, testbed, options)))
+
+    taken = list(watched(steps(), "assessing"))
+    return found[0], taken
