@@ -37,6 +37,7 @@ from verification import (
     starts,
     tracker_honesty,
     tracker_knows,
+    verdicts,
 )
 from verification.document import page, section, table_of
 from verification.result import Result, Spread
@@ -64,6 +65,7 @@ CHECKS = {
     "tracker_knows": Check(tracker_knows.measure, 200),
     "defective_logs": Check(defective_logs.measure, 200),
     "balanced": Check(balanced.measure, 200),
+    "verdicts": Check(verdicts.measure, 500),
     "drift": Check(drift.measure, 20),
     "long_record": Check(long_record.measure, 5),
     "real_record": Check(real_record.measure, 1),

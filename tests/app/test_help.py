@@ -13,6 +13,7 @@ COMMANDS = (
     "inspect",
     "observe",
     "identify",
+    "assess",
     "methods",
     "balance",
     "laws",

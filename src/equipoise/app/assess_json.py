@@ -1,27 +1,19 @@
 """An assessment as one JSON document, SI units."""
 
-from collections.abc import Sequence
-
+from equipoise.app.assess_views import Told
 from equipoise.app.views_json import View, estimate_json, numbers
-from equipoise.assessment.finding import Finding
 from equipoise.assessment.swing_height import Hanging
 from equipoise.estimation.felt import Felt
 from equipoise.model.estimate import COM, Estimate
-from equipoise.model.step import Step
 from equipoise.procedure.assess import Assessment
 from equipoise.procedure.requirement import Judged
 
 SCHEMA = "equipoise/assess/1"
 
 
-def document_of(
-    done: Assessment,
-    before: Assessment | None,
-    steps: Sequence[Step],
-    found: Sequence[Finding],
-) -> View:
+def document_of(told: Told) -> View:
     """Return the assessment; what the recording before showed beside it."""
-    verdict = steps[-1].verdict
+    done, before, verdict = told.done, told.before, told.steps[-1].verdict
     return {
         "schema": SCHEMA,
         "verdict": None
@@ -30,7 +22,7 @@ def document_of(
         "required": [judged_json(each) for each in done.judged],
         **platform_json(done),
         "before": None if before is None else platform_json(before),
-        "estimate": estimate_json(done.estimate, found),
+        "estimate": estimate_json(done.estimate, told.findings),
     }
 
 
@@ -73,7 +65,7 @@ def judged_json(judged: Judged) -> View:
 
 
 def felt_json(seen: Felt | None, fit: Estimate | None) -> View | None:
-    """Return what was felt, and the centre of mass (masses at home) that it tells."""
+    """Return what was felt, and the centre of mass that it tells, as the masses stand."""
     if seen is None:
         return None
     usable = fit is not None and fit.outcome.usable

@@ -1,6 +1,7 @@
 """An assessment for terminal, JSON and report."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,13 +18,23 @@ from equipoise.assessment.finding import Finding
 from equipoise.assessment.swing_height import Hanging
 from equipoise.maths.gaussian_length import Bounded
 from equipoise.model.arrays import Floats, Matrix3, Vector3
-from equipoise.model.estimate import COM, Estimate
+from equipoise.model.estimate import COM
 from equipoise.model.step import Step
 from equipoise.procedure.assess import Assessment
 
 MODES = {0: "slow swing", 1: "quick swing", None: "both swings, as one"}
 PERCENT = 100.0
 Row = tuple[str, str, str, str, str, str]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Told:
+    """What is told of an assessment."""
+
+    done: Assessment
+    before: Assessment | None  # of a recording made earlier
+    steps: Sequence[Step]
+    findings: Sequence[Finding]
 
 
 def sheets_of(done: Assessment) -> list[Sheet]:
@@ -84,7 +95,7 @@ def look_rows(done: Assessment) -> Iterator[Row]:
              ("energy", looks.energy_fit))  # fmt: skip
     for name, fit in named:
         if fit is not None and fit.outcome.usable:
-            com, covariance = standing(done, fit), fit.covariance_of(COM)
+            com, covariance = fit.com, fit.covariance_of(COM)
             off = (com - done.com) / np.sqrt(np.diag(covariance + done.com_unscaled))
             yield (name, *components(com, covariance), length_text(*distance(com, covariance)),
                    f"{np.abs(off).max():.1f}")  # fmt: skip
@@ -100,11 +111,6 @@ def period_row(done: Assessment, hanging: Hanging) -> Row:
     name = f"{MODES[hanging.mode]}, {' +/- '.join(with_sd(period, sd))} s"
     off = abs(value - fit) / float(np.hypot(spread, fit_sd))
     return name, "", "", "", length_text(value, spread), f"{off:.1f}"
-
-
-def standing(done: Assessment, fit: Estimate) -> Vector3:
-    """Return a look's centre of mass with the masses as they stand, m."""
-    return fit.com + (done.com - done.estimate.com)
 
 
 def distance(com: Vector3, covariance: Matrix3) -> tuple[float, float]:
@@ -148,22 +154,18 @@ def felt_sheet(done: Assessment) -> Sheet:
     return Sheet("Along the record: all torques together, and energy", heads, lines, remarks)
 
 
-def show_result(
-    done: Assessment,
-    before: Assessment | None,
-    steps: Sequence[Step],
-    found: Sequence[Finding],
-) -> None:
+def show_result(told: Told) -> None:
     """Print what the recording holds, steps, tables and the verdict."""
-    console, verdict = stdout(), steps[-1].verdict
-    show_findings(found)
+    console, done, steps = stdout(), told.done, told.steps
+    verdict = steps[-1].verdict
+    show_findings(told.findings)
     console.print()
     for step in steps[:-1]:
         console.print(step_line(step))
     for sheet in sheets_of(done):
         show_sheet(sheet)
-    if before is not None:
-        show_sheet(change_sheet(before, done))
+    if told.before is not None:
+        show_sheet(change_sheet(told.before, done))
     console.print()
     for sentence in done.estimate.unobservable:
         console.print(f"! {sentence}", style="yellow", markup=False)
@@ -198,14 +200,9 @@ def fall(before: Bounded, after: Bounded) -> str:
     return "no change that the recordings show"
 
 
-def account_of(
-    done: Assessment,
-    before: Assessment | None,
-    steps: Sequence[Step],
-    found: Sequence[Finding],
-) -> Account:
+def account_of(told: Told) -> Account:
     """Return the assessment as a report."""
-    options = done.options
+    done, before, options = told.done, told.before, told.done.options
     asked = {
         "recording": done.recording.source,
         "target": f"({', '.join(f'{UM * x:g}' for x in options.target)}) um",
@@ -219,11 +216,11 @@ def account_of(
         title="Assessment",
         asked=asked,
         testbed=done.testbed,
-        chapters={"Steps": steps},
+        chapters={"Steps": told.steps},
         origin=origin(sha256=done.recording.sha256),
-        findings=found,
+        findings=told.findings,
         estimate=done.estimate,
-        verdict=steps[-1].verdict,
+        verdict=told.steps[-1].verdict,
         pictures=list(pictures_of(done)),
         sheets=(*changed, *sheets_of(done)),
     )

@@ -8,7 +8,8 @@ by the residual's own spectrum. A swing of amplitude a is slower than a small on
 
     f_small = f (1 + a^2 / 16)
 
-with all of that correction added to the sd, as swings about two axes bend one another.
+Half of that goes into the sd. A swing of amplitude b about the other axis bends this one, between
+-b^2 / 16 (in one plane) and 5 b^2 / 16 (round a cone: f = f_small / sqrt(cos a)): 3 b^2 / 16 more.
 
 Cannot see a swing of which less than one period was recorded.
 """
@@ -127,12 +128,12 @@ def described(t: Series1, s: Series, unknowns: Floats) -> tuple[Swing, ...]:
     variance = float(np.sum(left**2)) / freedom * max(spectral_peak(left), 1.0)
     sd: Floats = np.sqrt(np.diag(variance * np.linalg.inv(slope.T @ slope)))
     size, axes = amplitudes(t, s, unknowns)
-    bend = float(np.sum(size**2)) / 16
+    own, other = size**2 / 16, 3 * (np.sum(size**2) - size**2) / 16
     order = np.argsort(unknowns[::2])
     return tuple(
         Swing(
-            float(unknowns[2 * k] * (1 + bend)),
-            float(np.hypot(sd[2 * k], bend * unknowns[2 * k])),
+            float(unknowns[2 * k] * (1 + own[k])),
+            float(np.hypot(sd[2 * k], np.hypot(0.5 * own[k], other[k]) * unknowns[2 * k])),
             float(size[k]),
             float(unknowns[2 * k + 1]),
             (float(axes[k, 0]), float(axes[k, 1])),

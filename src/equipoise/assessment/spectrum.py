@@ -39,11 +39,12 @@ def is_even(t: Series1) -> bool:
     return bool(np.abs(off).max() < EVEN * period)
 
 
-def decimated(t: Series1, s: Series) -> tuple[Series1, Series]:
-    """Return means of so many neighbours that about ROWS are left, none over a gap's edge."""
+def decimated(t: Series1, s: Series) -> tuple[Floats, Floats]:
+    """Return means of so many neighbours that about ROWS are left."""
     group = max(len(t) // ROWS, 1)
-    n = len(t) // group * group
-    return t[:n].reshape(-1, group).mean(axis=1), s[:n].reshape(-1, group, s.shape[1]).mean(axis=1)
+    n = len(t) // group
+    at = t[: n * group].reshape(n, group).mean(axis=1)
+    return at, s[: n * group].reshape(n, group, s.shape[1]).mean(axis=1)
 
 
 def spectrum(t: Series1, s: Series) -> Spectrum:

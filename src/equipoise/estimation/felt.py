@@ -48,8 +48,8 @@ def side_of(formulation: Formulation, posed: Posed) -> tuple[Series1, Series]:
 
 
 def mean_square(values: Series) -> float:
-    """Return the mean square of a vector that varies, without a constant of one column."""
-    return float(np.mean(np.sum(values**2, axis=1)))
+    """Return the mean square of a vector's length."""
+    return float(np.mean(np.square(values))) * values.shape[1]
 
 
 def felt(formulation: Formulation, posed: Posed, draws: Draws, about_mean: bool = False) -> Felt:
@@ -66,5 +66,5 @@ def felt(formulation: Formulation, posed: Posed, draws: Draws, about_mean: bool 
     square, spread = here - noise, float(again.std())
     rms = max(square, 0.0) ** 0.5
     floor = max(rms, spread**0.5, 1e-300)
-    squares: Series1 = np.sum(values**2, axis=1)
+    squares: Series1 = (values**2).sum(axis=1)
     return Felt(t, values, noise**0.5, rms, spread / (2 * floor), float(squares.max()) ** 0.5)

@@ -97,6 +97,18 @@ def assess(
     """Yield Steps; the last has the verdict if there is a requirement. Returns the Assessment."""
     start, end = recording.span
     yield Step("look", end, f"Read {end - start:.4g} s of recording.", recording=recording)
+    believed = believed_of(recording, testbed, options)
+    estimate = believed[0]
+    yield Step("estimate", end, f"{estimate.method}: {estimate.outcome.sentence}",
+               estimate=estimate)  # fmt: skip
+    body = replace(testbed.body, com=estimate.com, inertia_P=estimate.inertia_P)
+    found = assessment_of(replace(testbed, body=body), recording, options, believed)
+    yield verification(found, end)
+    return found
+
+
+def believed_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Believed:
+    """Return what the trajectory fit makes of a record, the testbed's inertia being known."""
     recording, testbed = sound(arranged(recording, testbed.mass_names), testbed)
     params = Params(
         among({*testbed.disturbances, *options.terms}),
@@ -108,13 +120,7 @@ def assess(
     reference.check_sensors(recording, unbalanced)
     belief = reference.surveyed(recording, unbalanced, params)
     estimate = reference.told_by(belief, recording, params)
-    yield Step("estimate", end, f"{estimate.method}: {estimate.outcome.sentence}",
-               estimate=estimate)  # fmt: skip
-    body = replace(testbed.body, com=estimate.com, inertia_P=estimate.inertia_P)
-    believed = estimate, spread_of(belief.fitted, belief.coloured)
-    found = assessment_of(replace(testbed, body=body), recording, options, believed)
-    yield verification(found, end)
-    return found
+    return estimate, spread_of(belief.fitted, belief.coloured)
 
 
 def assessment_of(
@@ -135,7 +141,7 @@ def assessment_of(
         inertia_doubt(*spread),
         offset,
         torque,
-        looked_at(recording, testbed),
+        looked_at(*sound(recording, testbed)),
         answers_of(options, torque, offset) if estimate.outcome.usable else (),
     )
 

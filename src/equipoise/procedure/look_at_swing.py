@@ -33,7 +33,6 @@ from equipoise.estimation.replicates import Drawn, pairs
 from equipoise.estimation.solvers.least_squares import least_squares
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import unpack_symmetric
-from equipoise.model.arrays import Matrix3
 from equipoise.model.estimate import INERTIA, Estimate
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
@@ -42,6 +41,7 @@ SHARP = 0.99  # chosen: of a swing, what a filter must leave
 LONGEST = 0.25  # of the record, the longest window
 SHORTEST = 0.51  # s, the window of ``torque_savitzky_golay``
 FOR_NOISE = 8  # pairs of draws, chosen: the sd of what is felt is known to a fifth
+STANDS = 5e-4  # m, chosen: a soft drive that gives way by less stands still
 FEWEST = 12  # rows, as for every linear method
 
 
@@ -65,18 +65,23 @@ def standing_part(recording: Recording) -> Recording:
     masses = recording.masses
     if masses is None or len(masses) < 2:
         return recording
-    moving = np.flatnonzero(np.any(np.diff(masses.values, axis=0) != 0, axis=1))
-    if not len(moving):
+    away = np.flatnonzero(np.any(np.abs(masses.values - masses.values[-1]) > STANDS, axis=1))
+    if not len(away):
         return recording
-    return window(recording, float(masses.t[moving[-1] + 1]), recording.span[1])
+    return window(recording, float(masses.t[away[-1] + 1]), recording.span[1])
 
 
-def inertia_now(recording: Recording, testbed: Testbed) -> Matrix3:
-    """Return the inertia about P with the masses where they stand at the end, kg m^2."""
-    J, masses = testbed.body.inertia_P, recording.masses
-    if masses is None or not len(masses) or not testbed.masses:
-        return J
-    return J + unpack_symmetric(inertia_shift(mass_maps(testbed.masses), masses.values[-1]))
+def as_one_body(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:
+    """Return the record and the testbed of a platform whose masses belong to it where they stand.
+
+    The testbed's inertia is then that of the whole, and what is found its centre of mass.
+    """
+    body, masses = testbed.body, recording.masses
+    if masses is not None and len(masses) and testbed.masses:
+        moved = inertia_shift(mass_maps(testbed.masses), masses.values[-1])
+        body = replace(body, inertia_P=body.inertia_P + unpack_symmetric(moved))
+    whole = replace(testbed, body=body, masses=(), disturbances=())
+    return replace(recording, masses=None, mass_names=()), whole
 
 
 def is_driven(recording: Recording) -> bool:
@@ -88,13 +93,12 @@ def is_driven(recording: Recording) -> bool:
 def looked_at(recording: Recording, testbed: Testbed) -> SwingLook:
     """Return what simple looks say; the testbed's inertia counts as known."""
     part = standing_part(arranged(recording, testbed.mass_names))
-    bare = replace(testbed, disturbances=())
-    posed = posed_of(part, bare, Options())
     start, end = part.span
+    posed = posed_of(*as_one_body(part, testbed), Options())
     if len(posed.motion.t) < FEWEST:
         few = f"only {len(posed.motion.t)} rows since the masses stopped"
         return SwingLook(end - start, 0.0, None, None, None, None, None, (), few)
-    found, seen, quiet = periods(posed, inertia_now(part, testbed))
+    found, seen, quiet = periods(posed)
     seconds = window_for(found, end - start, posed)
     draws = tuple(pairs(posed, Drawn()))
     slopes, some = torque(partial(savitzky_golay, seconds=seconds)), draws[:FOR_NOISE]
@@ -121,9 +125,9 @@ def fit(name: str, formulation: Formulation, posed: Posed, draws: Draws) -> Esti
     return estimate(METHODS[name].card, Linear(formulation, least_squares), posed, INERTIA, draws)
 
 
-def periods(posed: Posed, inertia_P: Matrix3) -> tuple[tuple[Hanging, ...], Spectrum, str]:
+def periods(posed: Posed) -> tuple[tuple[Hanging, ...], Spectrum, str]:
     """Return what the swings say, their spectrum, and why there are none."""
-    motion = posed.motion
+    motion, inertia_P = posed.motion, posed.testbed.body.inertia_P
     n = -to_matrix(motion.q)[:, 2, :]
     down = n.mean(axis=0) / np.linalg.norm(n.mean(axis=0))
     tilts = n @ across(down).T

@@ -11,6 +11,7 @@ from equipoise.app.terminal import busy, tell_paths, watched
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from equipoise.app.assess_views import Told
     from equipoise.model.recording import Recording
     from equipoise.model.step import Step
     from equipoise.model.testbed import Testbed
@@ -63,10 +64,11 @@ def assess(
     from equipoise.io.whole_folder import check_folder
 
     bed, seeking = testbed_of(testbed), spelt_out(seeking)
-    torque = None if require_torque is None else positive("--require-torque", require_torque)
-    offset = None
-    if require_offset_um is not None:
-        offset = positive("--require-offset-um", require_offset_um) / UM
+    torque, offset = require_torque, require_offset_um
+    if torque is not None:
+        positive("--require-torque", torque)
+    if offset is not None:
+        offset = positive("--require-offset-um", offset) / UM
     tilt = between("--tilt-deg", tilt_deg, 0.0, 90.0) / PER_DEG
     goal = vector("--target-um", target_um, 1 / UM)
     if out is not None:
@@ -74,29 +76,36 @@ def assess(
     recording = fitting_recording_of(file, reading, bed)
     earlier = None if before is None else fitting_recording_of(before, WHOLE, bed)
     with busy("assessing", announce=False):
-        from equipoise.app.archive import write_account
-        from equipoise.app.assess_json import document_of
-        from equipoise.app.assess_views import account_of, show_result
-        from equipoise.app.views_json import dump
+        from equipoise.app.assess_views import Told
         from equipoise.assessment.record_findings import findings
         from equipoise.procedure.assess import AssessOptions
 
         options = AssessOptions(goal, tilt, torque, offset, seeking.term, seeking.hold)
-    found = findings(recording, bed)
     done, steps = _carried_out(recording, bed, options)
     past = None if earlier is None else _carried_out(earlier, bed, options)[0]
-    document = document_of(done, past, steps, found)
-    if json:
-        print(dump(document))
-    else:
-        show_result(done, past, steps, found)
-    if out is not None:
-        with busy("drawing"):
-            paths = write_account(account_of(done, past, steps, found), document, "assess", out)
-        tell_paths(paths, json)
+    told = Told(done, past, steps, findings(recording, bed))
+    _tell(told, json, out)
     verdict = steps[-1].verdict
     good = done.estimate.outcome.usable if verdict is None else verdict.passed
     return 0 if good else 1
+
+
+def _tell(told: "Told", json: bool, out: Path | None) -> None:
+    """Print the result, and write it down if that is asked for."""
+    from equipoise.app.archive import write_account
+    from equipoise.app.assess_json import document_of
+    from equipoise.app.assess_views import account_of, show_result
+    from equipoise.app.views_json import dump
+
+    document = document_of(told)
+    if json:
+        print(dump(document))
+    else:
+        show_result(told)
+    if out is not None:
+        with busy("drawing"):
+            paths = write_account(account_of(told), document, "assess", out)
+        tell_paths(paths, json)
 
 
 def _carried_out(
