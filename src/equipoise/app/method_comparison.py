@@ -137,7 +137,8 @@ def com_sheet(found: MethodComparison) -> Sheet:
             lines.append([method.method, *(figure(float(x)) for x in columns.ravel()), whole])
     remark = (
         "sd: of the errors over the runs. RMSE: of the vector, of what is stated of it. Bounds are "
-        "root mean squares over the records."
+        "root mean squares over the records. Masses at home; a method that tells com only as the "
+        "masses stand at the end, such as the tracker, is judged by that, and by its bound."
     )
     return Sheet("Errors of the centre of mass, um", heads, lines, (remark,))
 

@@ -77,7 +77,7 @@ def numbers(method: MethodSummary, group: Group) -> str:
         f"RMSE {ratios_of(method, group).rmse:.2g} times the bound, 95 % intervals that hold "
         f"{percent(method.coverage.value)} of {method.coverage.of} (chance leaves "
         f"{percent(least_share(method.believed))} or more), no failure in {method.runs} runs, "
-        f"{1e3 * method.time:.2g} ms"
+        f"{float(f'{1e3 * method.time:.2g}'):g} ms"
     )
 
 
