@@ -13,8 +13,9 @@ from equipoise.app import comparing
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.study.method_run import JUDGED, Cost
 
+MOVE = ("--move", "15: x1=50 z1=-50 z2=-50")
 LITTLE = ("compare", "sputnix", "--methods", "--only", "trajectory,ekf_12", "--only", "tracker",
-          "--runs", 2, "--duration-s", 30, "--move", "15: x1=50 z1=-50 z2=-50", "--workers", 1)  # fmt: skip
+          "--runs", 2, "--duration-s", 30, *MOVE, "--workers", 1)  # fmt: skip
 WEIGHT = Cost(0.02, 3_000_000)
 
 
@@ -55,7 +56,9 @@ def test_methods_are_compared_and_written_down(equipoise, strict_json, tmp_path)
         rows = [row for row in csv.DictReader(file) if row["method"] == "trajectory"]
     assert [row["seed"] for row in rows] == ["1", "2"]
     squares = [float(row["com_z_error_um"]) ** 2 for row in rows]
-    assert told["trajectory"]["rmse"][2] == pytest.approx(1e-6 * (sum(squares) / 2) ** 0.5, rel=1e-4)
+    assert told["trajectory"]["rmse"][2] == pytest.approx(
+        1e-6 * (sum(squares) / 2) ** 0.5, rel=1e-4
+    )
     page = (folder / "compare.html").read_text("utf-8")
     assert "http" not in re.sub(r"data:image/png;base64,[^\"]*", "", page)
     parser = Balanced()

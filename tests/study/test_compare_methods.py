@@ -30,7 +30,10 @@ def test_each_error_counts_in_units_of_its_own_records_bound():
 
     Means 2.5 and 0: bias / bound sqrt(6.25 / 2).
     """
-    runs = [made_up([2.0, -4.0], [1.0, 1.0], [1.0, 4.0]), made_up([6.0, 4.0], [1.0, 1.0], [2.0, 4.0])]
+    runs = [
+        made_up([2.0, -4.0], [1.0, 1.0], [1.0, 4.0]),
+        made_up([6.0, 4.0], [1.0, 1.0], [2.0, 4.0]),
+    ]
     told = summary(runs)
     assert told.com.rmse == pytest.approx((15 / 4) ** 0.5)
     assert told.com.bias == pytest.approx((6.25 / 2) ** 0.5)

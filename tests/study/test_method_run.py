@@ -1,4 +1,4 @@
-"""One method on one record: errors by hand, the record's truth, and every method of the registry."""
+"""One method on one record: errors by hand, the truth, and every method of the registry."""
 
 from dataclasses import replace
 
@@ -32,17 +32,19 @@ TRUTH = dict.fromkeys((*COM, *END, *INERTIA), 0.0)
 
 
 def record(truth=None, testbed=BED, recording=None, options=None, bound=None):
-    return JudgedRecord(recording, testbed, options or Options(), TRUTH | (truth or {}), bound or {})
+    return JudgedRecord(
+        recording, testbed, options or Options(), TRUTH | (truth or {}), bound or {}
+    )
 
 
-def estimate(values, covariance, method="tracker", usable=True, sentence="Done.", course=None):
+def estimate(values, covariance, usable=True, sentence="Done.", course=None):
     """Return an estimate of named values in um, covariance in um^2."""
     P = np.array(covariance, dtype=float) * UM**2
     parameters = tuple(
         Parameter(name, "m", value * UM, float(np.sqrt(P[k, k])), bool(np.isfinite(P[k, k])))
         for k, (name, value) in enumerate(values.items())
     )
-    return Estimate(method, Outcome(usable, sentence), parameters, P, course=course)
+    return Estimate("tracker", Outcome(usable, sentence), parameters, P, course=course)
 
 
 def test_error_sd_and_bound_stand_in_their_places():
@@ -71,7 +73,9 @@ def test_what_is_held_or_not_seen_is_not_stated():
 
 def test_com_as_masses_stand_is_judged_by_the_end():
     found = estimate(dict.fromkeys(END, 7.0), np.eye(3))
-    run = judged("tracker", 1, found, record({"com_end_x": 5 * UM}, bound={"com_end_x": 3.0}), NOTHING)
+    run = judged(
+        "tracker", 1, found, record({"com_end_x": 5 * UM}, bound={"com_end_x": 3.0}), NOTHING
+    )
     assert run.error[0] == pytest.approx(2 * UM)
     assert run.bound[0] == 3.0
     both = estimate({**dict.fromkeys(COM, 1.0), **dict.fromkeys(END, 7.0)}, np.eye(6))
@@ -144,7 +148,9 @@ def test_the_truth_is_the_benchs_at_the_beginning_and_at_the_end():
     bench.move(MOVES[0][1])
     bench.read(15.0)
     assert [told.truth[n] for n in END] == pytest.approx(bench.truth().com)
-    assert told.truth["com_end_z"] - told.truth["com_z"] == pytest.approx(-0.05 * 15.6e-3 / 14.24, rel=0.05)
+    assert told.truth["com_end_z"] - told.truth["com_z"] == pytest.approx(
+        -0.05 * 15.6e-3 / 14.24, rel=0.05
+    )
 
 
 def test_sag_is_part_of_com_unless_it_is_sought():

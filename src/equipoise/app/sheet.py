@@ -12,4 +12,4 @@ class Sheet:
     heads: Sequence[str]
     lines: Sequence[Sequence[str]]
     remarks: Sequence[str] = ()
-    words: Sequence[int] = (0,)  # columns of words: on the left; folded in a report but for the first
+    words: Sequence[int] = (0,)  # columns of words, on the left; others of them may be folded
