@@ -3,12 +3,14 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag, Names, Triple, Whole
+from equipoise.app.commands.judging_laws import AS_THEY_ARE, JudgingLaws
+from equipoise.app.commands.kinds import Flag, Names, Whole
 from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
 from equipoise.app.terminal import busy, tell_paths
 
 if TYPE_CHECKING:
     from equipoise.app.comparison_report import Compared
+    from equipoise.model.arrays import Vector3
 
 
 def compare(
@@ -23,11 +25,7 @@ def compare(
     duration_s: float = 120.0,
     move: Names = (),
     seeking: Seeking = NOTHING_TOLD,
-    target_um: Triple = (0.0, 0.0, 0.0),
-    tolerance_um: Triple = (2.0, 2.0, 3.0),
-    tilt_deg: float = 20.0,
-    require_torque: float = 1e-5,
-    max_time_s: float = 600.0,
+    judging: JudgingLaws = AS_THEY_ARE,
     workers: Whole = 2,
     json: Flag = False,
     out: Path | None = None,
@@ -56,16 +54,6 @@ def compare(
         Methods: length of each record.
     move
         Methods: move of masses, "seconds: mass=mm mass=mm" from home. May be repeated.
-    target_um
-        Laws: where the centre of mass is wanted, from the centre of rotation, body axes.
-    tolerance_um
-        Laws: how near to the target is near enough, along each axis; verdicts are about it.
-    tilt_deg
-        Laws: torque counts over directions within so many degrees of level.
-    require_torque
-        Laws: torque that is wanted at most, rms over that range, N m.
-    max_time_s
-        Laws: bench time that each run may take, its proof included.
     workers
         Processes to spread the runs over.
     json
@@ -73,8 +61,7 @@ def compare(
     out
         Folder for compare.html, compare.json, figures, and methods.csv or laws.csv, a line a run.
     """
-    from equipoise.app.options import not_negative, positive, seed_of, tolerance, vector
-    from equipoise.app.units import UM
+    from equipoise.app.options import positive, seed_of
     from equipoise.app.wiring import move_of, spelt_out, testbed_of
     from equipoise.io.whole_folder import check_folder
     from equipoise.model.errors import InputError
@@ -85,12 +72,7 @@ def compare(
     seeds = range(first, first + int(positive("--runs", runs)))
     moves = [move_of(text, bed) for text in move]
     duration, seeking = positive("--duration-s", duration_s), spelt_out(seeking)
-    goal = (
-        vector("--target-um", target_um, 1 / UM),
-        tolerance("--tolerance-um", tolerance_um, 1 / UM),
-    )
-    limits = (not_negative("--tilt-deg", tilt_deg), positive("--require-torque", require_torque))
-    longest, many = positive("--max-time-s", max_time_s), int(positive("--workers", workers))
+    many, goal = int(positive("--workers", workers)), _goal(judging)
     if out is not None:
         check_folder(out)
     with busy("preparing", announce=False):
@@ -102,19 +84,32 @@ def compare(
         kinds = comparing.by_kind(only, methods, laws)
         names = comparing.chosen_methods(kinds[0]) if methods else ()
         cards = comparing.chosen(bed, kinds[1]) if laws else []
-        options = Options(seeking.term, seeking.hold, seeking.prior)
-    asked = {"platforms": f"{len(seeds)}, seeds {seeds[0]} to {seeds[-1]}"}
-    measured = balanced = None
-    if methods:
-        scene = Scene(bed, duration, moves, options)
-        measured = comparing.run_methods(scene, names, seeds, many)
-        asked |= {"records": f"{duration:g} s; moves: {', '.join(move) or 'none'}"}
-    if laws:
-        balanced = comparing.run(comparing.Asked(bed, cards, seeds, *goal, *limits, longest), many)
-        asked |= {"balancing": f"{longest:g} s at most, {require_torque:g} N m required"}
+        scene = Scene(bed, duration, moves, Options(seeking.term, seeking.hold, seeking.prior))
+    measured = comparing.run_methods(scene, names, seeds, many) if methods else None
+    task = comparing.Asked(bed, cards, seeds, *goal)
+    balanced = comparing.run(task, many) if laws else None
+    asked = {
+        "platforms": f"{len(seeds)}, seeds {seeds[0]} to {seeds[-1]}",
+        "records": f"{duration:g} s; moves: {', '.join(move) or 'none'}",
+        "laws": f"{goal[-1]:g} s at most, {goal[-2]:g} N m required",
+    }
     done = Compared(bed, asked, measured, balanced)
     _tell(done, json, out)
     return _code(done)
+
+
+def _goal(judging: JudgingLaws) -> "tuple[Vector3, Vector3, float, float, float]":
+    """Return target and tolerance (m), tilt (deg), torque (N m) and time (s), checked."""
+    from equipoise.app.options import not_negative, positive, tolerance, vector
+    from equipoise.app.units import UM
+
+    return (
+        vector("--target-um", judging.target_um, 1 / UM),
+        tolerance("--tolerance-um", judging.tolerance_um, 1 / UM),
+        not_negative("--tilt-deg", judging.tilt_deg),
+        positive("--require-torque", judging.require_torque),
+        positive("--max-time-s", judging.max_time_s),
+    )
 
 
 def _tell(done: "Compared", json: bool, out: Path | None) -> None:
