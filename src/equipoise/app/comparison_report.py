@@ -110,9 +110,11 @@ def files_of(done: Compared) -> dict[str, str | bytes]:
     drawn = list(pictures(done))
     images = {picture.name: rendered(picture.figure) for picture in drawn}
     told = advice(done)
+    parts = {"records": done.methods, "laws": done.laws}
+    left_out = {key for key, found in parts.items() if found is None}
     account = Account(
         title="Methods and laws compared",
-        asked=done.asked,
+        asked={key: text for key, text in done.asked.items() if key not in left_out},
         testbed=done.testbed,
         chapters={},
         origin=origin(),
