@@ -14,12 +14,12 @@ from equipoise.estimation.method import REGIMES, Method, Options, Regime
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.replicates import Drawn, pairs
 from equipoise.model.estimate import Estimate
+from equipoise.study.candour import warns
 from verification.chance import share_band
 from verification.method_records import Record, regime
 from verification.result import Result, Row, Spread, in_turn
 
 WANTED = (0.90, 0.99)
-CANDID = ("not trustworthy", "do not trust")
 MOSTLY = 0.5  # of the records: a method that warns there has said so
 SOME = 0.05  # fewer warnings are chance
 
@@ -29,12 +29,6 @@ class Held(NamedTuple):
 
     inside: tuple[bool, ...]  # of each parameter that is stated
     candid: bool  # it says that its interval is not to be trusted, or refuses
-
-
-def candid(estimate: Estimate) -> bool:
-    """Say whether a method warns of its own interval."""
-    text = estimate.outcome.sentence
-    return not estimate.outcome.usable or any(word in text for word in CANDID)
 
 
 def remembered(formulation: Formulation, known: dict[tuple[int, int], Rows]) -> Formulation:
@@ -72,7 +66,7 @@ def held(name: Regime, seed: int) -> dict[str, Held]:
     for method, estimate in zip(methods, estimates(record, methods), strict=True):
         stated = [p for p in estimate.parameters if p.name in true and np.isfinite(p.sd) and p.sd]
         inside = tuple(bool(p.low95 <= true[p.name] <= p.high95) for p in stated)
-        found[method.card.name] = Held(inside, candid(estimate))
+        found[method.card.name] = Held(inside, warns(estimate))
     return found
 
 

@@ -25,7 +25,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS
 from equipoise.procedure.identify import IdentifyOptions, identify
 from equipoise.procedure.sound_rows import sound
-from verification.method_intervals import candid
+from equipoise.study.candour import warns
 from verification.real_record import CALM_FROM, HELD, RECORD, TESTBED, WHOLE
 from verification.result import Result, Row, Spread, at_most, in_turn
 
@@ -63,7 +63,7 @@ def judged(name: str) -> tuple[str, float | None]:
     body = body_with(testbed, {p.name: p.value for p in estimate.parameters})
     if not is_possible(body):
         return "no body can have the inertia found, and it says so", None
-    said = "warns of its intervals" if candid(estimate) else "usable"
+    said = "warns of its intervals" if warns(estimate) else "usable"
     if not estimate.outcome.usable:
         said = f"not usable: {first}"
     return said, left_by(testbed, body)

@@ -17,11 +17,11 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.procedure.identify import IdentifyOptions, identify
 from equipoise.procedure.sound_rows import sound as made_sound
+from equipoise.study.candour import warns
 
 every_method = pytest.mark.parametrize("name", METHODS)
 TRUTH = dict(zip((*COM, *INERTIA), (*TRUE_COM, *TRUE_INERTIA), strict=True))
 FARTHEST = 6.0  # sd
-CANDID = ("not trustworthy", "do not trust")
 ASKED = {
     "term": Options(terms=("viscous_x",)),
     "hold": Options(hold=("inertia_P_zz",)),
@@ -123,7 +123,7 @@ def test_trouble_is_met_or_told(name, trouble):
     record = sound() if trouble == "none" else AWKWARD[trouble]()
     estimate = identified(name, record, bed())
     assert estimate.outcome.sentence
-    if not estimate.outcome.usable or any(word in estimate.outcome.sentence for word in CANDID):
+    if warns(estimate):
         return
     off = {p.name: (p.value - TRUTH[p.name]) / p.sd for p in estimate.parameters
            if p.observable and p.name in TRUTH and p.sd > 0

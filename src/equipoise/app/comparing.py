@@ -1,16 +1,14 @@
-"""Laws compared: runs spread over processes, with a sign of life."""
+"""What laws and methods are compared by, as it is asked for, and the comparison carried out."""
 
 import math
-from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Sequence
 from dataclasses import dataclass
-from multiprocessing import get_context
 
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
+from equipoise.app.metering import metered
 from equipoise.app.options import one_of
-from equipoise.app.terminal import stderr
+from equipoise.app.spreading import spread_over
 from equipoise.control.law import LawCard
+from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
@@ -18,15 +16,18 @@ from equipoise.procedure.balance import BalanceOptions
 from equipoise.procedure.hold import FIRST_MOVES
 from equipoise.procedure.laws import CARDS
 from equipoise.procedure.run_law import check, lacking
-from equipoise.study.compare_laws import Comparison, LawRun, Refusal, Work, compared
+from equipoise.study.compare_laws import Comparison, compared
+from equipoise.study.compare_methods import MethodComparison, compared_methods
 from equipoise.study.law_run import Task
+from equipoise.study.method_record import Scene
+from equipoise.study.method_run import MethodTask
 
 DEG = math.pi / 180
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Asked:
-    """What is to be compared."""
+    """Which laws are to be compared, and how."""
 
     testbed: Testbed
     cards: Sequence[LawCard]
@@ -52,6 +53,23 @@ def chosen(testbed: Testbed, only: Sequence[str]) -> list[LawCard]:
     return cards
 
 
+def chosen_methods(only: Sequence[str]) -> tuple[str, ...]:
+    """Return the methods to run, all when none is named; InputError for one that is unknown."""
+    return tuple(one_of("--only", name, list(METHODS)) for name in only) or tuple(METHODS)
+
+
+def by_kind(only: Sequence[str], methods: bool, laws: bool) -> tuple[list[str], list[str]]:
+    """Return the names of methods and of laws among those given, one by one or with commas.
+
+    InputError for a name that neither of the kinds has that are compared.
+    """
+    names = [name.strip() for words in only for name in words.split(",")]
+    known = [*(METHODS if methods else ()), *(CARDS if laws else ())]
+    for name in names:
+        one_of("--only", name, known)
+    return [n for n in names if methods and n in METHODS], [n for n in names if n in CARDS]
+
+
 def run(asked: Asked, workers: int) -> Comparison:
     """Return the comparison; runs of one platform by all laws come one after the other."""
     options = BalanceOptions(asked.target, asked.tolerance, FIRST_MOVES, asked.max_time)
@@ -61,14 +79,18 @@ def run(asked: Asked, workers: int) -> Comparison:
         for seed in asked.seeds
         for card in asked.cards
     ]
+    return compared(tasks, asked.cards, asked.required, spread_over(workers, "balancing"))
 
-    def spread(work: Work, items: Sequence[Task]) -> Iterator[LawRun | Refusal]:
-        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
-                   TimeElapsedColumn())  # fmt: skip
-        with (
-            Progress(*columns, console=stderr(), transient=True) as progress,
-            ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool,
-        ):
-            yield from progress.track(pool.map(work, items), len(items), description="balancing")
 
-    return compared(tasks, asked.cards, asked.required, spread)
+def run_methods(
+    scene: Scene, methods: tuple[str, ...], seeds: Sequence[int], workers: int
+) -> MethodComparison:
+    """Return the comparison; memory is measured on as many records as there are processes.
+
+    So most processes have loaded their compiled kernels before they measure times.
+    """
+    tasks = [
+        MethodTask(scene, methods, seed, metered, weighed=k < workers)
+        for k, seed in enumerate(seeds)
+    ]
+    return compared_methods(tasks, spread_over(workers, "estimating"))

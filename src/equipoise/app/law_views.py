@@ -5,15 +5,15 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from io import StringIO
 
-from rich.console import Group
 from rich.table import Table
-from rich.text import Text
 
+from equipoise.app.sheet import Sheet
 from equipoise.app.tables import named_rows, quiet_table
 from equipoise.app.units import MICRO, MM, PER_DEG, UM
-from equipoise.app.views_json import View, dump
+from equipoise.app.views_json import View
 from equipoise.control.law import NEEDS, LawCard
 from equipoise.study.compare_laws import Comparison, LawSummary, Middle
+from equipoise.study.recommend import advised_law
 
 SCHEMA = "equipoise/laws/1"
 
@@ -77,18 +77,13 @@ def summary_cells(law: LawSummary) -> tuple[str, ...]:
     )
 
 
-def comparison_table(found: Comparison) -> Group:
+def laws_sheet(found: Comparison) -> Sheet:
     """Return all laws, the one that leaves the least torque first, and who was refused why."""
-    table = quiet_table()
-    table.add_column("law", style="bold", no_wrap=True)
     required = f"<= {found.required * MICRO:g} uN m"
-    heads = ("aside, um", "height, um", "torque, uN m", "following", required,
+    heads = ("law", "aside, um", "height, um", "torque, uN m", "following", required,
              "time, s", "travel, mm", "halted", "late", "false")  # fmt: skip
-    for head in heads:
-        table.add_column(head, justify="right", no_wrap=True)
-    for law in sorted(found.laws, key=lambda each: each.left.most):
-        table.add_row(*summary_cells(law))
-    said = Text(
+    lines = [summary_cells(law) for law in sorted(found.laws, key=lambda each: each.left.most)]
+    said = (
         f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
         f"the runs stay below. Offsets from the target; torque rms within "
         f"{found.tilt * PER_DEG:.3g} deg of level, {both(found.before, MICRO, 3)} uN m before; "
@@ -96,8 +91,8 @@ def comparison_table(found: Comparison) -> Group:
         "Halted: broken off for safety; late: out of time; false: passed by a verdict, and twice "
         "the tolerance off."
     )
-    refused = [Text(f"{each.law} was refused: {each.why}") for each in found.refusals]
-    return Group(table, Text(), said, *refused)
+    refused = [f"{each.law} was refused: {each.why}" for each in found.refusals]
+    return Sheet(f"Laws on {found.testbed.name}", heads, lines, (said, *refused))
 
 
 def comparison_json(found: Comparison) -> View:
@@ -111,6 +106,7 @@ def comparison_json(found: Comparison) -> View:
         "torque_before": found.before._asdict(),
         "laws": [_summary_json(law) for law in found.laws],
         "refused": [asdict(each) for each in found.refusals],
+        "recommended": asdict(advised_law(found)),
     }
 
 
@@ -120,8 +116,8 @@ def _summary_json(law: LawSummary) -> View:
             for key, value in cells.items()}  # fmt: skip
 
 
-def files_of(found: Comparison) -> dict[str, str | bytes]:
-    """Return compare.json, and laws.csv with one line a run."""
+def laws_csv(found: Comparison) -> str:
+    """Return one line a run."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["law", "seed", "offset_x_um", "offset_y_um", "offset_z_um", "torque_uN_m",
@@ -133,4 +129,4 @@ def files_of(found: Comparison) -> dict[str, str | bytes]:
         writer.writerow([run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", followed,
                          f"{run.time:.6g}", f"{MM * run.travel:.6g}", run.verdict.passed,
                          run.verdict.halted, run.late, run.verdict.sentence])  # fmt: skip
-    return {"compare.json": dump(comparison_json(found)) + "\n", "laws.csv": text.getvalue()}
+    return text.getvalue()

@@ -103,7 +103,7 @@ def _steps(account: Account) -> Iterator[str]:
 def _sheets(account: Account) -> Iterator[str]:
     for sheet in account.sheets:
         remarks = "".join(f"<p>{escape(remark)}</p>" for remark in sheet.remarks)
-        yield _section(sheet.title, _table(sheet.heads, sheet.lines) + remarks)
+        yield _section(sheet.title, _table(sheet.heads, sheet.lines, sheet.words[1:]) + remarks)
 
 
 def _mass_properties(account: Account) -> Iterator[str]:
@@ -167,11 +167,17 @@ def _pairs(pairs: Mapping[str, str]) -> str:
     return f"<dl>{''.join(cells_)}</dl>"
 
 
-def _table(heads: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
+def _table(heads: Sequence[str], lines: Iterable[Sequence[str]], words: Sequence[int] = ()) -> str:
+    """Return a table; columns of ``words`` may be folded."""
     head = "".join(f"<th>{escape(h)}</th>" for h in heads) if any(heads) else ""
     body = "".join(
-        "<tr>" + "".join(f"<td>{escape(TYPESET.get(c, c))}</td>" for c in line) + "</tr>"
+        "<tr>" + "".join(_cell(c, k in words) for k, c in enumerate(line)) + "</tr>"
         for line in lines
     )
     top = f"<thead><tr>{head}</tr></thead>" if head else ""
     return f'<div class="wide"><table>{top}<tbody>{body}</tbody></table></div>'
+
+
+def _cell(text: str, words: bool) -> str:
+    kind = ' class="words"' if words else ""
+    return f"<td{kind}>{escape(TYPESET.get(text, text))}</td>"

@@ -12,3 +12,4 @@ class Sheet:
     heads: Sequence[str]
     lines: Sequence[Sequence[str]]
     remarks: Sequence[str] = ()
+    words: Sequence[int] = (0,)  # columns of words, on the left; others of them may be folded

@@ -74,7 +74,8 @@ def show_sheet(sheet: Sheet, bad: Mapping[str, bool] | None = None) -> None:
     """Print a table; remarks of what warns stand out."""
     table, console = quiet_table(), stdout()
     for k, head in enumerate(sheet.heads):
-        table.add_column(head, justify="right" if k else "left", style="" if k else "bold")
+        justify = "left" if k in sheet.words else "right"
+        table.add_column(head, justify=justify, style="" if k else "bold")
     for line in sheet.lines:
         table.add_row(*map(Text, line))
     console.print()

@@ -4,10 +4,24 @@ Poor data is not an error but an outcome (see ``outcome``); these are for wrong 
 """
 
 from difflib import get_close_matches
+from typing import Any
 
 
 class EquipoiseError(Exception):
     """Anything the user can mend; its text says what was found, where, and what was wanted."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return how to make it anew in another process, whatever it was made from."""
+        return _made_anew, (type(self), self.args, self.__dict__)
+
+
+def _made_anew(
+    kind: type[EquipoiseError], args: tuple[str, ...], state: dict[str, Any]
+) -> EquipoiseError:
+    error = kind.__new__(kind)
+    error.args = args
+    error.__dict__.update(state)
+    return error
 
 
 class InputError(EquipoiseError):

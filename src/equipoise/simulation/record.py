@@ -12,7 +12,11 @@ Moves = Sequence[tuple[float, Mapping[str, float]]]
 
 def record(testbed: Testbed, duration: float, moves: Moves, seed: int) -> Recording:
     """Return ``duration`` seconds with masses sent to targets (m) at times (s) in order."""
-    bench = SimulatedBench(testbed, seed)
+    return recorded(SimulatedBench(testbed, seed), duration, moves)
+
+
+def recorded(bench: SimulatedBench, duration: float, moves: Moves) -> Recording:
+    """Return the same of a bench that has not been read yet."""
     recording = bench.read(0.0)
     for time, targets in moves:
         if not bench.time <= time <= duration:

@@ -35,6 +35,7 @@ from equipoise.model.arrays import Quaternion, Series3
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Testbed
+from equipoise.study import candour
 from equipoise.study.gyro_slew import Slew, slewed
 
 LARGE, SMALL = (70.0, 30.0, -30.0), (30.0, 10.0, -10.0)  # deg: roll, pitch, yaw
@@ -144,10 +145,8 @@ def warns(estimate: Estimate) -> bool:
 
     No interval, or an infinite one, counts: nobody can take a number for known that has none.
     """
-    text = estimate.outcome.sentence
-    worded = any(word in text for word in ("not trustworthy", "do not trust"))
     open_ended = not all(estimate.has(name) and estimate.sees((name,)) for name in SOUGHT)
-    return not estimate.outcome.usable or worded or open_ended
+    return candour.warns(estimate) or open_ended
 
 
 def true_values(testbed: Testbed) -> dict[str, float]:

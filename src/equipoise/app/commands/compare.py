@@ -1,91 +1,136 @@
-"""`equipoise compare`: every law on the same platforms."""
+"""`equipoise compare`: methods on the same records, laws on the same platforms."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag, Names, Triple, Whole
-from equipoise.app.terminal import busy, stdout, tell_paths
+from equipoise.app.commands.judging_laws import AS_THEY_ARE, JudgingLaws
+from equipoise.app.commands.kinds import Flag, Names, Whole
+from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
+from equipoise.app.terminal import busy, tell_paths
+
+if TYPE_CHECKING:
+    from equipoise.app.comparison_report import Compared
+    from equipoise.model.arrays import Vector3
 
 
 def compare(
     testbed: str,
     /,
     *,
+    methods: Flag = False,
     laws: Flag = False,
     only: Names = (),
     runs: Whole = 20,
     seed: Whole = 1,
-    target_um: Triple = (0.0, 0.0, 0.0),
-    tolerance_um: Triple = (2.0, 2.0, 3.0),
-    tilt_deg: float = 20.0,
-    require_torque: float = 1e-5,
-    max_time_s: float = 600.0,
+    duration_s: float = 120.0,
+    move: Names = (),
+    seeking: Seeking = NOTHING_TOLD,
+    judging: JudgingLaws = AS_THEY_ARE,
     workers: Whole = 2,
     json: Flag = False,
     out: Path | None = None,
 ) -> int:
-    """Run balancing laws on the same simulated platforms, and tell what each leaves.
+    """Run methods on the same records, or laws on the same platforms, and say which to take.
 
-    Ends with 1 when no law reaches the required torque in 95 % of its runs.
+    Platforms are simulated, and their truth judges. Ends with 1 when no method, or no law, can be
+    recommended for the centre of mass.
 
     Parameters
     ----------
     testbed
         Testbed file, or a preset's name. Its [truth] says what the simulated platforms are like.
+    methods
+        Compare methods of `equipoise methods`.
     laws
-        Compare balancing laws.
+        Compare laws of `equipoise laws`.
     only
-        Laws to compare. Left out: all that the testbed has the devices for.
+        Methods and laws to compare, one or several with commas; may be repeated. Of a kind that
+        none is named of: all, of laws those that the testbed has the devices for.
     runs
-        Platforms that each law balances.
+        Platforms, each with one record for all methods and one balancing by each law.
     seed
         Seed of the first platform; the others follow.
-    target_um
-        Where the centre of mass is wanted, from the centre of rotation, body axes.
-    tolerance_um
-        How near to the target is near enough, along each axis; verdicts are about it.
-    tilt_deg
-        Torque counts over directions within so many degrees of level.
-    require_torque
-        Torque that is wanted at most, rms over that range, N m.
-    max_time_s
-        Bench time that each run may take, its proof included.
+    duration_s
+        Methods: length of each record.
+    move
+        Methods: move of masses, "seconds: mass=mm mass=mm" from home. May be repeated.
     workers
         Processes to spread the runs over.
     json
         Print one JSON document instead.
     out
-        Folder for compare.json and laws.csv, one line a run.
+        Folder for compare.html, compare.json, figures, and methods.csv or laws.csv, a line a run.
     """
-    from equipoise.app.options import not_negative, positive, seed_of, tolerance, vector
-    from equipoise.app.units import UM
-    from equipoise.app.wiring import testbed_of
+    from equipoise.app.options import positive, seed_of
+    from equipoise.app.wiring import move_of, spelt_out, testbed_of
     from equipoise.io.whole_folder import check_folder
     from equipoise.model.errors import InputError
 
-    if not laws:
-        raise InputError("compare", "nothing to compare", "--laws")
+    if not (methods or laws):
+        raise InputError("compare", "nothing to compare", "--methods or --laws")
     bed, first = testbed_of(testbed), seed_of(seed)
-    count = int(positive("--runs", runs))
-    goal = (
-        vector("--target-um", target_um, 1 / UM),
-        tolerance("--tolerance-um", tolerance_um, 1 / UM),
-    )
-    limits = (not_negative("--tilt-deg", tilt_deg), positive("--require-torque", require_torque))
-    longest, many = positive("--max-time-s", max_time_s), int(positive("--workers", workers))
+    seeds = range(first, first + int(positive("--runs", runs)))
+    moves = [move_of(text, bed) for text in move]
+    duration, seeking = positive("--duration-s", duration_s), spelt_out(seeking)
+    many, goal = int(positive("--workers", workers)), _goal(judging)
     if out is not None:
         check_folder(out)
     with busy("preparing", announce=False):
-        from equipoise.app.comparing import Asked, chosen, run
-        from equipoise.app.law_views import comparison_json, comparison_table, files_of
-        from equipoise.app.views_json import dump
-        from equipoise.io.whole_folder import write_folder
+        from equipoise.app import comparing
+        from equipoise.app.comparison_report import Compared
+        from equipoise.estimation.method import Options
+        from equipoise.study.method_record import Scene
 
-        asked = Asked(bed, chosen(bed, only), range(first, first + count), *goal, *limits, longest)
-    found = run(asked, many)
+        kinds = comparing.by_kind(only, methods, laws)
+        names = comparing.chosen_methods(kinds[0]) if methods else ()
+        cards = comparing.chosen(bed, kinds[1]) if laws else []
+        scene = Scene(bed, duration, moves, Options(seeking.term, seeking.hold, seeking.prior))
+    measured = comparing.run_methods(scene, names, seeds, many) if methods else None
+    task = comparing.Asked(bed, cards, seeds, *goal)
+    balanced = comparing.run(task, many) if laws else None
+    asked = {
+        "platforms": f"{len(seeds)}, seeds {seeds[0]} to {seeds[-1]}",
+        "records": f"{duration:g} s; moves: {', '.join(move) or 'none'}",
+        "laws": f"{goal[-1]:g} s at most, {goal[-2]:g} N m required",
+    }
+    done = Compared(bed, asked, measured, balanced)
+    _tell(done, json, out)
+    return _code(done)
+
+
+def _goal(judging: JudgingLaws) -> "tuple[Vector3, Vector3, float, float, float]":
+    """Return target and tolerance (m), tilt (deg), torque (N m) and time (s), checked."""
+    from equipoise.app.options import not_negative, positive, tolerance, vector
+    from equipoise.app.units import UM
+
+    return (
+        vector("--target-um", judging.target_um, 1 / UM),
+        tolerance("--tolerance-um", judging.tolerance_um, 1 / UM),
+        not_negative("--tilt-deg", judging.tilt_deg),
+        positive("--require-torque", judging.require_torque),
+        positive("--max-time-s", judging.max_time_s),
+    )
+
+
+def _tell(done: "Compared", json: bool, out: Path | None) -> None:
+    """Print the result, and write it down if that is asked for."""
+    from equipoise.app.comparison_report import document, files_of, show
+    from equipoise.app.views_json import dump
+    from equipoise.io.whole_folder import write_folder
+
     if json:
-        print(dump(comparison_json(found)))
+        print(dump(document(done)))
     else:
-        stdout().print(comparison_table(found))
+        show(done)
     if out is not None:
-        tell_paths(write_folder(out, files_of(found)), json)
-    return 0 if any(law.within >= 0.95 * law.runs for law in found.laws) else 1
+        with busy("drawing"):
+            files = files_of(done)
+        tell_paths(write_folder(out, files), json)
+
+
+def _code(done: "Compared") -> int:
+    """Return 0 if something can be recommended of each kind that was compared."""
+    from equipoise.study.recommend import advised_method, reached
+
+    methods = done.methods is None or advised_method(done.methods.methods, "com").name is not None
+    return 0 if methods and (done.laws is None or reached(done.laws)) else 1

@@ -1,0 +1,89 @@
+"""A record for methods to be compared on: one platform of a testbed, its truth, and its bound.
+
+The platform is drawn by the seed within what the testbed's [truth] says, as `equipoise simulate`
+does. Rows are prepared as `equipoise identify` prepares them (``procedure.sound_rows``).
+
+    truth   com with the masses at home when the record begins, com as they stand when it ends, and
+            the inertia about P with the masses at home; elastic sag is part of com unless it is
+            sought (``SimulatedBench.truth``)
+    bound   the Cramer-Rao bound at that truth, for a fit that is asked the same
+
+No method is told any of this.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.dynamics.sag_trim import SAG_TERMS
+from equipoise.estimation.bound_at_truth import least_sd
+from equipoise.estimation.method import Options
+from equipoise.estimation.methods.trajectory import params_of
+from equipoise.estimation.trajectory import Params
+from equipoise.estimation.unknowns import Unknowns
+from equipoise.maths import pseudo_inertia
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model import sensor_terms
+from equipoise.model.arrays import Vector3
+from equipoise.model.estimate import COM, END, INERTIA
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+from equipoise.procedure.sound_rows import sound
+from equipoise.simulation.bench import SimulatedBench
+from equipoise.simulation.draw_truth import SimulatedPlatform
+from equipoise.simulation.record import Moves, recorded
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scene:
+    """What is recorded of each platform, and what is asked of methods."""
+
+    testbed: Testbed
+    duration: float  # s
+    moves: Moves  # s, m
+    options: Options
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JudgedRecord:
+    """What methods get, and what they are judged by."""
+
+    recording: Recording
+    testbed: Testbed  # sensors as the rows show them
+    options: Options
+    truth: Mapping[str, float]  # by parameter, SI
+    bound: Mapping[str, float]  # sd by parameter, SI; infinite: the record does not show it
+
+
+def judged_record(scene: Scene, seed: int) -> JudgedRecord:
+    """Return the record of a seed; InputError for moves that the platform cannot make."""
+    bench = SimulatedBench(scene.testbed, seed)
+    params = params_of(scene.testbed, scene.options)
+    sags = bool(set(SAG_TERMS) & set(params.terms))
+    home, inertia = com_of(bench, sags), pack_symmetric(bench.truth().inertia_P)
+    whole = recorded(bench, scene.duration, scene.moves)
+    values = map(float, (*home, *com_of(bench, sags), *inertia))
+    truth = dict(zip((*COM, *END, *INERTIA), values, strict=True))
+    recording, testbed = sound(whole, scene.testbed)
+    bound = bounds(recording, testbed, params, bench.platform)
+    return JudgedRecord(recording, testbed, scene.options, truth, bound)
+
+
+def com_of(bench: SimulatedBench, sags: bool) -> Vector3:
+    """Return the centre of mass now, m; of a fit that seeks sag too, or of one that does not."""
+    return bench.com if sags else bench.truth().com
+
+
+def bounds(
+    recording: Recording, testbed: Testbed, params: Params, platform: SimulatedPlatform
+) -> dict[str, float]:
+    """Return the bound of centre of mass, at home and at the end, and of inertia."""
+    six = pseudo_inertia.from_inertia(platform.body.inertia_C)
+    truth = Unknowns(
+        platform.attitude, platform.rate, six, platform.body.com, platform.torque,
+        np.zeros(len(sensor_terms.TERMS)), np.zeros(0), platform.gyro_bias,
+    )  # fmt: skip
+    found = least_sd(recording, testbed, params, truth)
+    found = dict(zip(END, (found[name] for name in COM), strict=True)) | found
+    return {name: found[name] for name in (*COM, *END, *INERTIA) if name not in params.hold}

@@ -1,0 +1,163 @@
+"""Which method or law to take, and why: a sentence, of what was measured and nothing else.
+
+A method qualifies for a group of parameters (com, inertia) if on all records
+
+    it failed in no run and missed by more than 5 sd in none,
+    it stated everything in the group that the record shows, and believed its intervals in at least
+    nine runs of ten (``MOSTLY``),
+    its coverage is not below what chance leaves of 95 % once in a hundred times (``RARE``).
+
+Chance is that of as many draws as there are runs: parameters of one run err together. Intervals
+that are too wide are honest. The one with the least RMSE / bound is recommended, and of those
+within 1.5 times of it (``NEAR``) the quickest.
+
+A law qualifies if it leaves the required torque in 95 % of its runs and no verdict passed what is
+wrong. Of those with the fewest halts, the one whose torque 95 % of runs stay below is least.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from scipy.stats import binom
+
+from equipoise.study.compare_laws import Comparison, LawSummary
+from equipoise.study.compare_methods import WRONG, MethodSummary, Ratios
+
+Group = Literal["com", "inertia"]
+COVER, RARE, MOSTLY, NEAR = 0.95, 0.01, 0.9, 1.5
+WITHIN = 0.95  # of a law's runs
+FEW = 20  # runs, chosen: with fewer, coverage of 80 % passes for chance
+CALLED: dict[Group, str] = {"com": "the centre of mass", "inertia": "the inertia"}
+MICRO = 1e6  # uN m in sentences
+
+
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """What is recommended, if anything is, and why."""
+
+    name: str | None
+    sentence: str
+
+
+def least_share(runs: int) -> float:
+    """Return the least coverage of so many runs that may be chance for intervals of 95 %."""
+    return float(binom.ppf(RARE, runs, COVER)) / runs if runs else 1.0
+
+
+def percent(share: float) -> str:
+    """Return a share as a sentence has it."""
+    return f"{100 * share:.0f} %"
+
+
+def ratios_of(method: MethodSummary, group: Group) -> Ratios:
+    """Return a method's errors in a group."""
+    return method.com if group == "com" else method.inertia
+
+
+def lacks(method: MethodSummary, group: Group) -> str:
+    """Return why a method does not qualify, "" if it does."""
+    stated, cover, runs = ratios_of(method, group).stated, method.coverage, method.runs
+    warned, least = method.warned, least_share(method.believed)
+    reasons = (
+        (not stated.part, "states nothing"),
+        (method.failed > 0, f"fails in {method.failed} of {runs} runs"),
+        (stated.part < stated.of, f"states {stated.part} of {stated.of} values"),
+        (method.confident_wrong > 0,
+         f"misses by more than {WRONG:g} sd in {method.confident_wrong} of {runs} runs"),
+        (method.believed < MOSTLY * runs, f"warns of its intervals in {warned} of {runs} runs"),
+        (not cover.value >= least, f"has 95 % intervals that hold {percent(cover.value)}"),
+    )  # fmt: skip
+    return next((reason for lacking, reason in reasons if lacking), "")
+
+
+def numbers(method: MethodSummary, group: Group) -> str:
+    """Return what a recommendation rests on."""
+    return (
+        f"RMSE {ratios_of(method, group).rmse:.2g} times the bound, 95 % intervals that hold "
+        f"{percent(method.coverage.value)} of {method.coverage.of} (chance leaves "
+        f"{percent(least_share(method.believed))} or more), no failure in {method.runs} runs, "
+        f"{float(f'{1e3 * method.time:.2g}'):g} ms"
+    )
+
+
+def advised_method(methods: Sequence[MethodSummary], group: Group) -> Advice:
+    """Return which method to take for a group, and why."""
+
+    def ratio(method: MethodSummary) -> float:
+        return ratios_of(method, group).rmse
+
+    good = [method for method in methods if not lacks(method, group)]
+    if not good:
+        return Advice(None, nobody(methods, group, ratio))
+    best = min(good, key=ratio)
+    sentence = f"For {CALLED[group]} take {best.method}: {numbers(best, group)}."
+    quick = min((m for m in good if ratio(m) <= NEAR * ratio(best)), key=lambda m: m.time)
+    if quick is not best:
+        sentence += f" Quicker and within {NEAR:g} times its error: {quick.method}, "
+        sentence += f"{numbers(quick, group)}."
+    if best.runs < FEW:
+        sentence += f" {best.runs} runs are few: more of them tell better who is honest."
+    return Advice(best.method, sentence)
+
+
+def nobody(
+    methods: Sequence[MethodSummary], group: Group, ratio: Callable[[MethodSummary], float]
+) -> str:
+    """Say that no method qualifies, and what keeps the nearest ones from it."""
+    stating = sorted((m for m in methods if ratios_of(m, group).stated.part), key=ratio)
+    if not stating:
+        return f"For {CALLED[group]} there is no method to recommend: none states it."
+    told = "; ".join(f"{m.method} {lacks(m, group)}" for m in stating[:3])
+    return (
+        f"For {CALLED[group]} there is no method to recommend: none is honest on all records. "
+        f"The most accurate: {told}."
+    )
+
+
+def advised_law(found: Comparison) -> Advice:
+    """Return which law to take, and why."""
+    required = f"{MICRO * found.required:.3g} uN m"
+    good = [law for law in found.laws if law_qualifies(law)]
+    if not good:
+        near = min(
+            found.laws, key=lambda law: (-law.within / law.runs, law.left.most), default=None
+        )
+        told = "" if near is None else f" The nearest: {near.law}, {law_numbers(near)}."
+        wrong = "leaves the required torque in 95 % of runs without passing what is wrong"
+        return Advice(
+            None, f"There is no law to recommend: none {wrong} (at most {required}).{told}"
+        )
+    best = min(good, key=lambda law: (law.halted / law.runs, law.left.most))
+    return Advice(best.law, f"Take {best.law}: {law_numbers(best)}; {required} was required.")
+
+
+def no_law(laws: Sequence[LawSummary], required: str) -> str:
+    """Say that no law qualifies, and which comes nearest."""
+    text = (
+        f"There is no law to recommend: none leaves {required} or less in {percent(WITHIN)} of its "
+        "runs without a verdict that passed what is wrong."
+    )
+    if not laws:
+        return text
+    near = min(laws, key=lambda law: (-law.within / law.runs, law.left.most))
+    return f"{text} The nearest: {near.law}, {law_numbers(near)}."
+
+
+def reached(found: Comparison) -> bool:
+    """Say whether some law leaves the required torque in enough of its runs."""
+    return any(law.within >= WITHIN * law.runs for law in found.laws)
+
+
+def law_qualifies(law: LawSummary) -> bool:
+    """Say whether a law leaves what is required, and never says so wrongly."""
+    return law.within >= WITHIN * law.runs and law.false_passes == 0
+
+
+def law_numbers(law: LawSummary) -> str:
+    """Return what a recommendation of a law rests on."""
+    return (
+        f"{MICRO * law.left.median:.3g} uN m left, {MICRO * law.left.most:.3g} uN m in the worst "
+        f"of 95 % of runs, within the required torque in {law.within} of {law.runs}, "
+        f"{law.halted} halted, {law.false_passes} passed wrongly, {law.time.median:.0f} s"
+    )
