@@ -149,7 +149,7 @@ def nearest(lever: Floats, rest: Vector3) -> Iterator[list[int]]:
         yield from best(steps, np.linalg.norm(reached - rest, axis=1))
     for others, reached in ((one, lever), (two, sums)):
         far, which = KDTree(reached).query(rest - sums)
-        yield from best(np.hstack([two, others[which]]), far)
+        yield from best(np.hstack([two, others[which]]), np.asarray(far))
 
 
 def unlike(steps: Ints, reached: Floats) -> tuple[Ints, Floats]:

@@ -20,6 +20,7 @@ import numpy as np
 from equipoise.estimation import trajectory
 from equipoise.estimation.conclusion import conclude, residual_of, widening
 from equipoise.estimation.fitted import Fitted
+from equipoise.estimation.smoother import levelled
 from equipoise.estimation.unknowns import CORE, core_of
 from equipoise.maths.linalg import inverse_spd, symmetrise
 from equipoise.model.arrays import Floats, Square
@@ -39,6 +40,7 @@ class Shown(NamedTuple):
 def shown_by(recording: Recording, testbed: Testbed) -> Shown:
     """Return what a recording says of a platform that is about as the testbed has it."""
     params = trajectory.Params(testbed.disturbances, use_prior=True)
+    params = levelled(recording, testbed, params)
     fitted = trajectory.fit(recording, testbed, params)
     information, pull = without_prior(fitted)
     factor = widening(residual_of(fitted)) ** 2

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from equipoise.model.arrays import Ints, Matrix3, Vector3
 
 
@@ -16,5 +18,7 @@ class Placing:
 
     @property
     def handled(self) -> int:
-        """Return how many weights are put on or taken off; a moved one counts twice."""
-        return int(abs(self.after - self.before).sum())
+        """Return how many weights are in the person's hands: a moved one counts once."""
+        change = self.after - self.before
+        off, on = (np.maximum(way * change, 0).sum(axis=0) for way in (-1, 1))
+        return int(np.maximum(off, on).sum())

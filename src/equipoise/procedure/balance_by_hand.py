@@ -9,6 +9,7 @@ A recording that does not fit where the weights should have left the centre of m
 a weight is not where it was asked for, or something slipped.
 """
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
@@ -148,24 +149,29 @@ def sentence_of(placing: Placing, testbed: Testbed, options: HandOptions) -> str
     leaves = f"should leave {_um(placing.predicted_com, sd)} um"
     if not placing.handled:
         return f"Nothing to place: {leaves}. Let go once more."
-    text = f"{'; '.join(errands(placing, testbed))}: {leaves}."
-    beyond = np.abs(placing.predicted_com - options.target) > options.tolerance
+    text = f"{'. '.join(errands(placing, testbed))}: {leaves}."
+    beyond = np.abs(placing.predicted_com - options.target) > np.hypot(options.tolerance, sd)
     if not beyond.any():
         return text
     axes = ", ".join("xyz"[k] for k in np.flatnonzero(beyond))
     return f"{text} Stock and places do not reach the target along {axes}."
 
 
-def errands(placing: Placing, testbed: Testbed) -> Iterator[str]:
-    """Yield what to take off, then what to put on, place by place."""
+def errands(placing: Placing, testbed: Testbed) -> list[str]:
+    """Return what to move, to take off and to put on, place by place."""
     change, places = placing.after - placing.before, places_of(testbed.grids)
-    for verb, way in (("take off", -1), ("put on", 1)):
-        parts = [
-            f"{abs(change[p, k])} x {testbed.weights[k].name} at {places[p].name}"
-            for p, k in np.argwhere(np.sign(change) == way)
-        ]
-        if parts:
-            yield f"{verb.capitalize()} {', '.join(parts)}"
+    moves, off, on = list[str](), list[str](), list[str]()
+    for k, weight in enumerate(testbed.weights):
+        givers = [p for p in range(len(places)) for _ in range(-change[p, k])]
+        takers = [p for p in range(len(places)) for _ in range(change[p, k])]
+        both = min(len(givers), len(takers))
+        ways = Counter(zip(givers[:both], takers[:both], strict=True))
+        for (a, b), n in ways.items():
+            moves.append(f"{n} x {weight.name} from {places[a].name} to {places[b].name}")
+        for rest, found in ((givers[both:], off), (takers[both:], on)):
+            found += [f"{n} x {weight.name} at {places[p].name}" for p, n in Counter(rest).items()]
+    deeds = (("Move", moves), ("Take off", off), ("Put on", on))
+    return [f"{verb} {', '.join(what)}" for verb, what in deeds if what]
 
 
 def final_step(hands: Hands, verdict: Verdict, fresh: Recording, loading: Ints) -> Step:

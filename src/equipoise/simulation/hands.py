@@ -31,9 +31,11 @@ class SimulatedHands:
         self._testbed, self._seed, self._swings, self._time = testbed, seed, 0, 0.0
         self._platform = SimulatedBench(testbed, seed).platform.body
         rng = np.random.default_rng(np.random.SeedSequence(seed).spawn(9)[-1])
-        self._box = [list(rng.normal(w.mass, w.mass_sd, w.count)) for w in testbed.weights]
+        self._box: list[list[float]] = [
+            list(map(float, rng.normal(w.mass, w.mass_sd, w.count))) for w in testbed.weights
+        ]
         places = places_of(testbed.grids)
-        self._piles = [[list[float]() for _ in testbed.weights] for _ in places]
+        self._piles: list[list[list[float]]] = [[[] for _ in testbed.weights] for _ in places]
         self._off = [
             p.grid.place_sd * (a * p.grid.letter_axis + b * p.grid.number_axis)
             for p, (a, b) in zip(places, rng.normal(size=(len(places), 2)), strict=True)
@@ -69,7 +71,7 @@ class SimulatedHands:
         change = wanted - self._loading
         for way in (-1, 1):
             for p, k in np.argwhere(np.sign(change) == way):
-                pile, box = self._piles[p][k], self._box[k]
+                pile, box = self._piles[int(p)][int(k)], self._box[int(k)]
                 giver, taker = (pile, box) if way < 0 else (box, pile)
                 taker.extend(giver.pop() for _ in range(abs(int(change[p, k]))))
         self._loading = wanted.copy()
