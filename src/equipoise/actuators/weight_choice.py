@@ -10,7 +10,8 @@ Two steps, as whole numbers on a lattice are hard and only the last few weights 
 
 1. the bulk, by a linear programme in real counts at the middle of each pile, rounded towards n0;
 2. up to four weights more, on or off: every single one, every pair, and the best of pairs of pairs
-   by a tree of what pairs do (the lightest kind, and whatever lies there already).
+   by a tree of what pairs do (the lightest kind, and whatever lies there already); again until
+   nothing is won.
 
 The answer is not proved to be the best. With weights of mass m on a grid of step s, it cannot be
 nearer than half of m s / M along each axis: 0.9 um for 1 g, 25 mm and 14 kg.
@@ -28,12 +29,13 @@ from equipoise.actuators.placed_weights import load_of, refusal
 from equipoise.model.arrays import Floats, Ints, Vector3
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
-from equipoise.model.weights import places_of
+from equipoise.model.weights import places_of, rack_of
 
 STRICT = 100.0  # weights, chosen: an error of a tenth of the spread is worth one weight handled
 MISSED = 1e4  # weights a spread, chosen: the bulk comes as near as it can
 ALIKE = 1e-3  # spreads, chosen: a hundredth of what a placing leaves
 KEYS = np.array([1, 1_000_003, 1_000_003**2])  # primes: three whole numbers as one
+ROUNDING = 1e-6  # weights, chosen: what the programme leaves of whole numbers
 SHORTLIST = 20  # chosen: of each number of weights, compared exactly
 
 
@@ -71,37 +73,42 @@ def price(testbed: Testbed, wanted: Wanted, loading: Ints) -> float:
 
 def chosen(testbed: Testbed, wanted: Wanted) -> Ints:
     """Return the loading to ask for; ``left_by`` tells what it leaves."""
-    bulk = bulk_of(testbed, wanted)
-    found = [loading for loading in nearby(testbed, wanted, bulk) if not refusal(testbed, loading)]
-    return min([wanted.loading, *found], key=lambda loading: price(testbed, wanted, loading))
+
+    def cost(loading: Ints) -> float:
+        return price(testbed, wanted, loading)
+
+    best = min([wanted.loading, bulk_of(testbed, wanted)], key=cost)
+    while True:
+        around = [loading for loading in nearby(testbed, wanted, best)
+                  if not refusal(testbed, loading)]  # fmt: skip
+        better = min([best, *around], key=cost)
+        if better is best:
+            return best
+        best = better
 
 
 def bulk_of(testbed: Testbed, wanted: Wanted) -> Ints:
     """Return the loading of the linear programme, rounded towards the present one."""
-    places, weights, now = places_of(testbed.grids), testbed.weights, wanted.loading
-    room = np.array([place.grid.capacity for place in places]) - now.sum(axis=1)
-    feet = np.array([p.foot for p in places])[:, None] - wanted.target
-    mass = np.array([w.mass for w in weights])
-    half = np.array([[p.grid.capacity * w.height / 2 for w in weights] for p in places])
-    up = np.array([place.up for place in places])[:, None]
+    rack, weights, now = rack_of(testbed.grids), testbed.weights, wanted.loading
+    room, mass = rack.capacity - now.sum(axis=1), np.array([w.mass for w in weights])
+    half = np.outer(rack.capacity, [w.height for w in weights]) / 2
+    lever = rack.foot[:, None] + half[..., None] * rack.up[:, None] - wanted.target
     unit = mass[:, None] / (wanted.body.mass * wanted.spread)
-    gain = ((feet + half[..., None] * up) * unit).reshape(-1, 3).T
+    gain = (lever * unit).reshape(-1, 3).T
     n, goal = now.size, (wanted.target - wanted.body.com) / wanted.spread
     cost = np.concatenate([np.ones(2 * n), np.full(6, MISSED)])
     balance = np.hstack([gain, -gain, np.eye(3), -np.eye(3)])
-    k = len(weights)
-    of_pile = np.kron(np.eye(len(places)), np.ones(k))
-    of_kind = np.tile(np.eye(k), len(places))
-    piles = np.hstack([of_pile, -of_pile, np.zeros((len(places), 6))])
-    stock = np.hstack([of_kind, -of_kind, np.zeros((k, 6))])
+    of_pile = np.kron(np.eye(len(room)), np.ones(len(mass)))
+    of_kind = np.tile(np.eye(len(mass)), len(room))
+    limits = np.vstack([of_pile, of_kind])
+    within = np.hstack([limits, -limits, np.zeros((len(limits), 6))])
     spare = np.array([weight.count for weight in weights]) - now.sum(axis=0)
     limit = [(0, None)] * n + [(0, float(c)) for c in now.ravel()] + [(0, None)] * 6
-    answer = linprog(
-        cost, np.vstack([piles, stock]), np.append(room, spare), balance, goal, limit, "highs"
-    )
+    answer = linprog(cost, within, np.append(room, spare), balance, goal, limit, "highs")
     assert answer.x is not None  # to leave everything where it is, is always allowed
-    change = np.trunc(answer.x[:n] - answer.x[n : 2 * n] + 1e-9 * np.sign(answer.x[:n] - 0.5))
-    return now + change.astype(np.int64).reshape(now.shape)
+    change = answer.x[:n] - answer.x[n : 2 * n]
+    whole = np.trunc(change + ROUNDING * np.sign(change))
+    return now + whole.astype(np.int64).reshape(now.shape)
 
 
 def actions_of(testbed: Testbed, wanted: Wanted, loading: Ints) -> Actions:
@@ -126,15 +133,14 @@ def actions_of(testbed: Testbed, wanted: Wanted, loading: Ints) -> Actions:
     return Actions(where[:, 0], where[:, 1], where[:, 2], lever)
 
 
-def nearby(testbed: Testbed, wanted: Wanted, bulk: Ints) -> Iterator[Ints]:
-    """Yield loadings up to four weights from the bulk that come nearest to the target."""
-    yield bulk
-    actions = actions_of(testbed, wanted, bulk)
+def nearby(testbed: Testbed, wanted: Wanted, here: Ints) -> Iterator[Ints]:
+    """Yield loadings up to four weights from one that come nearest to the target."""
+    actions = actions_of(testbed, wanted, here)
     if not len(actions.way):
         return
-    rest = -left_by(testbed, wanted, bulk) / wanted.spread
+    rest = -left_by(testbed, wanted, here) / wanted.spread
     for steps in nearest(actions.lever, rest):
-        loading = bulk.copy()
+        loading = here.copy()
         for step in steps:
             loading[actions.place[step], actions.kind[step]] += actions.way[step]
         yield loading

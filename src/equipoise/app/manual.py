@@ -116,13 +116,10 @@ def told(
 
 def begun(testbed: str, bed: Testbed, goal: Goal, rounds: int) -> Filed:
     """Return a new session."""
-    target, tolerance = (
-        [round(float(x) * UM, 9) for x in v] for v in (goal.target, goal.tolerance)
-    )
-    return Filed(
-        Session(testbed=testbed, target_um=target, tolerance_um=tolerance, max_rounds=rounds),
-        bed, (), (),
-    )  # fmt: skip
+    target, tolerance = numbers(goal.target, UM), numbers(goal.tolerance, UM)
+    session = Session(testbed=testbed, target_um=target, tolerance_um=tolerance,
+                      max_rounds=rounds, round=[])  # fmt: skip
+    return Filed(session, bed, (), ())
 
 
 def opened(session: Session, bed: Testbed, asked: Session, where: str) -> Filed:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.model.arrays import Ints, Vector3
+from equipoise.model.arrays import Floats, Ints, Vector3
 
 LETTERS = 26  # A to Z
 
@@ -70,6 +70,22 @@ def places_of(grids: tuple[WeightGrid, ...]) -> tuple[Place, ...]:
             if name not in grid.taken:
                 found.append(Place(f"{grid.name}:{name}", foot, up, grid))
     return tuple(found)
+
+
+class Rack(NamedTuple):
+    """The same as arrays, a row a place."""
+
+    foot: Floats  # (p, 3) m
+    up: Floats  # (p, 3)
+    capacity: Ints  # (p,)
+
+
+@lru_cache(maxsize=8)
+def rack_of(grids: tuple[WeightGrid, ...]) -> Rack:
+    """Return every free place, grid by grid, as arrays."""
+    places = places_of(grids)
+    foot, up = (np.array([place[k] for place in places]).reshape(-1, 3) for k in (1, 2))
+    return Rack(foot, up, np.array([p.grid.capacity for p in places], dtype=np.int64))
 
 
 def unloaded(grids: tuple[WeightGrid, ...], weights: tuple[Weight, ...]) -> Ints:
