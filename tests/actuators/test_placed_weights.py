@@ -8,7 +8,14 @@ import pytest
 
 from builders import platform
 from equipoise.actuators.placed_weights import handling_covariance, load_of, refusal
-from equipoise.actuators.weight_choice import Wanted, chosen, left_by, price
+from equipoise.actuators.weight_choice import (
+    Wanted,
+    actions_of,
+    bulk_of,
+    chosen,
+    left_by,
+    price,
+)
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
 from equipoise.model.weights import Weight, WeightGrid, places_of, unloaded
@@ -151,3 +158,31 @@ def test_nothing_is_moved_where_nothing_helps():
     body = MassProperties(14.0, target + 0.2 * UM, testbed.body.inertia_P)
     now = unloaded(testbed.grids, testbed.weights)
     assert not chosen(testbed, Wanted(body, now, target, np.full(3, 3 * UM))).any()
+
+
+def test_every_single_step_does_what_is_told_of_it():
+    """On or off, of either kind: against the loading with and without it, to the added mass."""
+    testbed = bed()
+    now = loading_of(testbed, A1=(2, 1), B3=(1, 0))
+    body = MassProperties(14.0, np.array([3.0, -2.0, 1.0]) * UM, testbed.body.inertia_P)
+    wanted = Wanted(body, now, np.array([0.0, 0.0, -100 * UM]), np.array([2.0, 2.0, 3.0]) * UM)
+    found, before = actions_of(testbed, wanted, now), left_by(testbed, wanted, now)
+    assert set(found.way) == {-1, 1}
+    for p, k, way, lever in zip(*found, strict=True):
+        if way < 0 and k == 0 and now[p, 1]:
+            continue  # from below another: the programme takes it for the top one
+        after = now.copy()
+        after[p, k] += way
+        if way > 0 and now[p].any():
+            continue  # onto another kind: the order of the stock puts it below
+        change = left_by(testbed, wanted, after) - before
+        np.testing.assert_allclose(lever * wanted.spread, change, rtol=2e-3, atol=2e-8)
+
+
+def test_the_bulk_counts_the_mass_that_is_added():
+    """8 kg at 0 and n of 1 kg 0.1 m up, wanted 20 mm up: n 0.08 = 0.16, two of them."""
+    one = deck(first=np.array([0.0, 0.0, 0.1]), letters=1, numbers=1, taken=(), capacity=9)
+    testbed = bed(one, weights=(Weight("kg", 1.0, 9, 0.0, 0.0),))
+    body = MassProperties(8.0, np.zeros(3), np.eye(3))
+    wanted = Wanted(body, np.zeros((1, 1), np.int64), np.array([0.0, 0.0, 0.02]), np.full(3, 1e-4))
+    assert bulk_of(testbed, wanted).item() == 2

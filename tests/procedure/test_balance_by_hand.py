@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from equipoise.actuators.placed_weights import load_of
+from equipoise.actuators.placed_weights import handling_covariance, load_of
 from equipoise.estimation.lone_record import shown_by
 from equipoise.io.presets import read_preset
 from equipoise.maths.attitude import tilt
@@ -71,8 +71,10 @@ def test_weights_added_to_a_belief_are_added_to_its_body():
     np.testing.assert_allclose(after.com, both.com, rtol=1e-12)
     np.testing.assert_allclose(after.body.inertia_P, both.inertia_P, rtol=1e-12, atol=1e-15)
     share = before.mass / after.mass
-    placing = after.com_covariance - share**2 * before.com_covariance
-    assert np.all(np.linalg.eigvalsh(placing) > -1e-20)
+    none = unloaded(BED.grids, BED.weights)
+    handling = handling_covariance(BED, none, loading) / after.mass**2
+    stated = share**2 * before.com_covariance + handling
+    np.testing.assert_allclose(after.com_covariance, stated, rtol=1e-9, atol=1e-18)
     there = reloaded(after, BED, loading, unloaded(BED.grids, BED.weights))
     np.testing.assert_allclose(there.mean, before.mean, rtol=1e-9, atol=1e-15)
 
@@ -100,6 +102,33 @@ def test_a_free_swing_leaves_the_scale_open_and_a_known_load_closes_it():
     assert sd[0] == pytest.approx(0.06, rel=1e-6)
     assert sd[1] > 0.03
     assert sd[2] < 0.02
+
+
+def test_what_a_recording_says_does_not_depend_on_the_prior_it_was_fitted_with():
+    """Guesses 8 % and 100 um apart, the same belief to add it to: the same within a tenth sd."""
+    hands = SimulatedHands(half_a_millimetre_off(BED, 5), 5)
+    fresh, belief = caught(hands.swing(), BED), first_belief(BED)
+    other = MassProperties(14.0, np.array([60.0, -80.0, 20.0]) * UM, 1.08 * BED.body.inertia_P)
+    one, two = (
+        taught(belief, shown_by(fresh, replace(BED, body=body))) for body in (BED.body, other)
+    )
+    sd = np.sqrt(np.diag(one.covariance))
+    assert np.abs((one.mean - two.mean) / sd).max() < 0.25
+    np.testing.assert_allclose(np.sqrt(np.diag(two.covariance)), sd, rtol=0.25)
+
+
+def test_what_hands_do_wrong_is_as_large_as_is_stated():
+    """Chi-square of the first moment over 60 people: 3 a person, by chance 2.05 to 3.95 (3 sd)."""
+    loading, none = at(BED, deck_A1=8, left_C5=3, right_B2=5), unloaded(BED.grids, BED.weights)
+    nominal, square = load_of(BED, loading).first_moment, 0.0
+    weight = np.linalg.inv(handling_covariance(BED, none, loading))
+    for seed in range(60):
+        hands = SimulatedHands(BED, seed)
+        before = hands.truth().first_moment
+        hands.place(loading)
+        off = hands.truth().first_moment - before - nominal
+        square += off @ weight @ off
+    assert 2.05 < square / 60 < 3.95
 
 
 class Clumsy(SimulatedHands):
