@@ -1,12 +1,12 @@
-"""First moment, inertia and covariance of weights by hand; which ones are chosen, by brute force."""
+"""Moments, inertia and covariance of weights by hand; which ones are chosen, by brute force."""
 
 import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
-
 from builders import platform
+
 from equipoise.actuators.placed_weights import handling_covariance, load_of, refusal
 from equipoise.actuators.weight_choice import (
     Wanted,
