@@ -22,6 +22,7 @@ STEP_STYLE = {
     "look": "dim",
     "estimate": "",
     "move": "cyan",
+    "place": "bold cyan",
     "control": "cyan",
     "verify": "bold",
     "stop": "bold",

@@ -12,6 +12,7 @@ from equipoise.model.estimate import Course, Estimate, Parameter, Residual
 from equipoise.model.event import UNITS, Event
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.move import Move
+from equipoise.model.placing import Placing
 from equipoise.model.recording import CHANNELS, Recording
 from equipoise.model.step import Step
 from equipoise.model.verdict import Verdict
@@ -141,13 +142,16 @@ def findings_json(recording: Recording, findings: Sequence[Finding]) -> View:
 
 
 def balance_json(
-    steps: Sequence[Step], verdict: Verdict, truth: MassProperties | None, provenance: View
+    steps: Sequence[Step], verdict: Verdict | None, truth: MassProperties | None, provenance: View
 ) -> View:
-    """Return a balancing run, schema equipoise/balance/1; truth only when it was simulated."""
+    """Return a balancing run, schema equipoise/balance/1; truth only when it was simulated.
+
+    A run that waits for a person has no verdict yet.
+    """
     document: View = {
         "schema": BALANCE,
         "steps": [step_json(step) for step in steps],
-        "verdict": verdict_json(verdict),
+        "verdict": None if verdict is None else verdict_json(verdict),
     }
     if truth is not None:
         document["truth"] = {
@@ -176,9 +180,20 @@ def step_json(step: Step) -> View:
         view["estimate"] = estimate_json(step.estimate)
     if step.move is not None:
         view["move"] = move_json(step.move)
+    if step.placing is not None:
+        view["placing"] = placing_json(step.placing)
     if step.verdict is not None:
         view["verdict"] = verdict_json(step.verdict)
     return view
+
+
+def placing_json(placing: Placing) -> View:
+    """Return a placing and what it should leave; the step's sentence says what goes where."""
+    return {
+        "handled": placing.handled,
+        "predicted_com_um": numbers(placing.predicted_com, UM),
+        "predicted_covariance_um2": numbers(placing.predicted_covariance, UM**2),
+    }
 
 
 def move_json(move: Move) -> View:

@@ -82,7 +82,7 @@ def _gyro(gyro: schema.ControlMomentGyro, where: str) -> ControlMomentGyro:
     return ControlMomentGyro(
         name=gyro.name,
         gimbal_axis=gimbal,
-        spin_axis=square_axis(gyro.spin_axis, gimbal, f"{where}.spin_axis"),
+        spin_axis=square_axis(gyro.spin_axis, gimbal, f"{where}.spin_axis", "gimbal axis"),
         momentum=gyro.momentum_N_m_s,
         max_rate=gyro.max_rate_deg_s * DEG,
         angle=gyro.angle_deg * DEG,

@@ -19,12 +19,12 @@ def unit_vector(axis: list[float], where: str) -> Vector3:
     return np.array(axis, float) / length
 
 
-def square_axis(axis: list[float], gimbal: Vector3, where: str) -> Vector3:
-    """Return a spin axis, made exactly square to its gimbal axis; it must be nearly so."""
+def square_axis(axis: list[float], to: Vector3, where: str, named: str) -> Vector3:
+    """Return an axis, made exactly square to one that is ``named``; it must be nearly so."""
     unit = unit_vector(axis, where)
-    square = unit - (unit @ gimbal) * gimbal
-    angle = math.degrees(math.atan2(float(np.linalg.norm(square)), float(unit @ gimbal)))
+    square = unit - (unit @ to) * to
+    angle = math.degrees(math.atan2(float(np.linalg.norm(square)), float(unit @ to)))
     if abs(angle - 90) > RIGHT_ANGLE:
         wanted = f"a right angle, within {RIGHT_ANGLE:g} deg"
-        raise InputError(where, f"an axis at {angle:.4g} deg to the gimbal axis", wanted)
+        raise InputError(where, f"an axis at {angle:.4g} deg to the {named}", wanted)
     return square / np.linalg.norm(square)

@@ -10,6 +10,7 @@ from equipoise.io.devices_build import devices_of
 from equipoise.io.directions import unit_vector
 from equipoise.io.inertia_check import check_inertia
 from equipoise.io.truth_build import truth_of
+from equipoise.io.weights_build import grids_of, weights_of
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.mass_properties import MassProperties, from_centre
@@ -46,6 +47,8 @@ def testbed_of(table: schema.TestbedFile, source: str) -> Testbed:
         magnetorquers=devices.magnetorquers,
         jets=devices.jets,
         magnetic_field=devices.magnetic_field,
+        weights=weights_of(table, source),
+        grids=grids_of(table, source),
     )
 
 

@@ -26,6 +26,7 @@ from equipoise.io.table_keys import (
     Table,
     Triple,
 )
+from equipoise.io.weights_schema import Weight, WeightGrid
 from equipoise.model.testbed import LAG_SD, PLUMB_SD, SAG_SD
 
 Point = Literal["C", "P"]
@@ -204,6 +205,8 @@ class TestbedFile(Table):
     magnetorquer: list[Magnetorquer] = Field([])
     jet_pair: list[JetPair] = Field([])
     magnetic_field: MagneticField | None = None
+    weight: list[Weight] = Field([])
+    weight_grid: list[WeightGrid] = Field([])
     sensor: Sensors = Sensors()
     disturbance: Disturbance = Disturbance()
     truth: Truth | None = None

@@ -6,6 +6,7 @@ import math
 from equipoise.io.devices_text import text_of_devices
 from equipoise.io.toml_text import Value, number, numbers, table
 from equipoise.io.truth_text import text_of_truth
+from equipoise.io.weights_text import text_of_weights
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
 
 PER_UM, PER_MM, PER_MS, PER_GRAM = 1e6, 1e3, 1e3, 1e3
@@ -22,6 +23,7 @@ def text_of_testbed(testbed: Testbed) -> str:
         table("[platform]", _platform(testbed)),
         *(table("[[sliding_mass]]", _mass(mass)) for mass in testbed.masses),
         text_of_devices(testbed),
+        text_of_weights(testbed),
         table("[sensor.attitude]", _attitude(testbed.attitude)),
         table("[sensor.gyro]", _gyro(testbed.gyro)),
         table("[disturbance]", {"consider": list(testbed.disturbances)}),

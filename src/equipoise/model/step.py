@@ -6,10 +6,11 @@ from typing import Literal
 from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
 from equipoise.model.move import Move
+from equipoise.model.placing import Placing
 from equipoise.model.recording import Recording
 from equipoise.model.verdict import Verdict
 
-Kind = Literal["look", "estimate", "move", "control", "verify", "stop"]
+Kind = Literal["look", "estimate", "move", "place", "control", "verify", "stop"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,3 +25,4 @@ class Step:
     move: Move | None = None
     verdict: Verdict | None = None
     following: Following | None = None  # what masses can follow from now on
+    placing: Placing | None = None  # of weights, by hand

@@ -19,6 +19,7 @@ from equipoise.model.devices import (
     recorded_name,
 )
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.weights import Weight, WeightGrid
 
 SAG_SD = 0.001  # m, chosen: g / w^2 of a servo of w = 100 rad/s
 PLUMB_SD = math.radians(0.3)  # chosen: a camera levelled by eye, or a floor for the vertical
@@ -127,6 +128,8 @@ class Testbed:
     magnetorquers: tuple[Magnetorquer, ...] = ()
     jets: tuple[JetPair, ...] = ()
     magnetic_field: MagneticField | None = None
+    weights: tuple[Weight, ...] = ()  # to be placed by hand
+    grids: tuple[WeightGrid, ...] = ()  # where they can be placed
 
     @property
     def devices(self) -> tuple[Device, ...]:

@@ -50,8 +50,6 @@ def verdict(
 ) -> Verdict:
     """Return the verdict on the record since the last move (ended at ``since``, s)."""
     com, sd = knowledge.com, knowledge.sd
-    where = ", ".join(f"{1e6 * c:.2f} +/- {1e6 * s:.2f}" for c, s in zip(com, sd, strict=True))
-    found = f"the centre of mass is at ({where}) um"
     if not knowledge.estimate.outcome.usable:
         return Verdict(False, f"Cannot tell: {knowledge.estimate.outcome.sentence}", com, sd,
                        sure=False)  # fmt: skip
@@ -62,8 +60,20 @@ def verdict(
         off = com - move.predicted_com - drift_since(knowledge, since)
         spread = np.sqrt(np.diag(move.predicted_covariance))
         if np.any(np.abs(off) > CONTRADICTION * np.hypot(spread, sd)):
-            text = f"Failed: {found}, which is not where the last move should have left it."
+            text = f"Failed: {at(com, sd)}, which is not where the last move should have left it."
             return Verdict(False, text, com, sd)
+    return judged(com, sd, target, tolerance)
+
+
+def at(com: Vector3, sd: Vector3) -> str:
+    """Return where a centre of mass is, in words."""
+    where = ", ".join(f"{1e6 * c:.2f} +/- {1e6 * s:.2f}" for c, s in zip(com, sd, strict=True))
+    return f"the centre of mass is at ({where}) um"
+
+
+def judged(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Verdict:
+    """Return the verdict on a centre of mass that is found beyond doubt as far as its sd goes."""
+    found = at(com, sd)
     sure = probability_within(com, sd, target, tolerance)
     if np.all(sure >= SURE):
         return Verdict(True, f"Passed: {found}, within tolerance on every axis.", com, sd)

@@ -2,7 +2,16 @@
 
 from pathlib import Path
 
+from equipoise.app.commands.by_hand import (
+    MOVED,
+    Asked,
+    Manual,
+    balance_by_hand,
+    check_by_hand,
+    is_by_hand,
+)
 from equipoise.app.commands.kinds import Flag, Triple, Whole
+from equipoise.app.commands.reading import WHOLE, Reading
 from equipoise.app.terminal import busy, tell_paths
 
 
@@ -17,12 +26,15 @@ def balance(
     max_moves: Whole | None = None,
     max_time_s: float | None = None,
     hold_min: float = 0.0,
+    by_hand: Manual = MOVED,
+    reading: Reading = WHOLE,
     json: Flag = False,
     out: Path | None = None,
 ) -> int:
     """Balance a simulated platform: look, move masses, look again; then test the result.
 
-    Ends with 1 when the verdict is that the platform is not balanced.
+    With --manual a person places weights instead of masses that move, on a real platform if a
+    --session is named. Ends with 1 when the verdict is that the platform is not balanced.
 
     Parameters
     ----------
@@ -59,6 +71,14 @@ def balance(
     moves = None if max_moves is None else int(not_negative("--max-moves", max_moves))
     longest = None if max_time_s is None else positive("--max-time-s", max_time_s)
     hold = not_negative("--hold-min", hold_min) * 60
+    if is_by_hand(by_hand, reading):
+        others = {"--law": law != "look_and_move", "--max-moves": moves is not None,
+                  "--max-time-s": longest is not None, "--hold-min": hold > 0}  # fmt: skip
+        check_by_hand(by_hand, reading, [name for name, given in others.items() if given])
+        from equipoise.app.balancing import Goal
+
+        goal, seed = Goal(target, near), seed_of(seed)
+        return balance_by_hand(Asked(testbed, goal, seed, by_hand, reading, json, out))
     bed, seed = testbed_of(testbed), seed_of(seed)
     if out is not None:
         check_folder(out)

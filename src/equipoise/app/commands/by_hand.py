@@ -1,0 +1,138 @@
+"""Options of a balancing by hand, and how `balance --manual` carries it out."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cyclopts import Parameter
+
+from equipoise.app.commands.kinds import Flag, Whole
+from equipoise.app.commands.reading import WHOLE, Reading
+from equipoise.app.terminal import busy, stdout, tell_paths
+
+if TYPE_CHECKING:
+    from equipoise.app.balancing import Goal
+    from equipoise.app.manual import ByHand
+    from equipoise.model.testbed import Testbed
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True)
+class Manual:
+    """Balancing by a person, for platforms without actuators.
+
+    Attributes
+    ----------
+    manual
+        Tell a person which weights to put where, recording by recording. Without --session the
+        person is simulated.
+    session
+        File in which a real balancing by hand is kept; it is made if there is none.
+    recording
+        The next free swing of that session, as CSV or Parquet.
+    max_rounds
+        Placings of weights before giving up.
+    """
+
+    manual: Flag = False
+    session: Path | None = None
+    recording: str | None = None
+    max_rounds: Whole = 4
+
+
+MOVED = Manual()
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """All that was asked."""
+
+    testbed: str
+    goal: "Goal"
+    seed: int
+    by: Manual
+    reading: Reading
+    json: bool
+    out: Path | None
+
+
+def is_by_hand(by: Manual, reading: Reading) -> bool:
+    """Say whether any option is for a balancing by hand."""
+    return bool(by.manual or by.session or by.recording or reading != WHOLE)
+
+
+def check_by_hand(by: Manual, reading: Reading, others: list[str]) -> None:
+    """Raise InputError for options that do not go together."""
+    from equipoise.model.errors import InputError
+
+    if not by.manual:
+        raise InputError("balance", "options of --manual", "--manual with them")
+    if by.recording is None and reading != WHOLE:
+        raise InputError("balance", "how to read a recording, but none", "--recording FILE")
+    if by.recording is not None and by.session is None:
+        raise InputError("--recording", "no --session", "the session's file, --session FILE")
+    if others:
+        raise InputError(", ".join(others), "--manual", "one of them: nothing moves by itself")
+
+
+def balance_by_hand(asked: Asked) -> int:
+    """Carry a balancing by hand out, or one step of it, and return the exit code."""
+    from equipoise.app.options import positive
+    from equipoise.app.wiring import testbed_of
+    from equipoise.io.whole_folder import check_folder
+    from equipoise.procedure.balance_by_hand import check
+
+    rounds = int(positive("--max-rounds", asked.by.max_rounds))
+    bed = testbed_of(asked.testbed)
+    check(bed)
+    if asked.out is not None:
+        check_folder(asked.out)
+    if asked.by.session is not None:
+        return _a_persons(asked, asked.by.session, bed, rounds)
+    with busy("preparing the bench", announce=False):
+        from equipoise.app.balance_views import show_step
+        from equipoise.app.manual import run
+        from equipoise.simulation.hands import SimulatedHands
+
+        hands = SimulatedHands(bed, asked.seed)
+    done = run(hands, asked.goal, rounds, None if asked.json else show_step)
+    return _tell(done, {"testbed": bed.source, "seed": str(asked.seed)}, asked)
+
+
+def _a_persons(asked: Asked, path: Path, bed: "Testbed", rounds: int) -> int:
+    """Take the next recording of a session, and say what to do next."""
+    from equipoise.app.balance_views import show_step
+    from equipoise.app.manual import begun, next_deed, noted, opened, resume, with_recording
+    from equipoise.io.hand_session import read_session, write_session
+    from equipoise.io.whole_file import check_writable
+
+    check_writable(path)
+    filed = begun(asked.testbed, bed, asked.goal, rounds)
+    if path.exists():
+        filed = opened(read_session(path), bed, filed.session, str(path))
+    if asked.by.recording is not None:
+        filed = with_recording(filed, asked.by.recording, asked.reading)
+    done, placed = resume(filed, asked.goal, None if asked.json else show_step)
+    write_session(noted(filed, placed), path)
+    code = _tell(done, {"testbed": bed.source, "session": str(path)}, asked)
+    if not done.ended and not asked.json:
+        stdout().print(next_deed(asked.testbed, path, len(placed) + 1), markup=False)
+    return code
+
+
+def _tell(done: "ByHand", of: dict[str, str], asked: Asked) -> int:
+    """Print the result, write it down if that is asked for, and return the exit code."""
+    from equipoise.app.archive import write_account
+    from equipoise.app.manual_views import account_of, document_of, show_result
+    from equipoise.app.views_json import dump
+
+    document = document_of(done, of)
+    if asked.json:
+        print(dump(document))
+    else:
+        show_result(done)
+    if asked.out is not None:
+        with busy("drawing"):
+            paths = write_account(account_of(done, of), document, "balance", asked.out)
+        tell_paths(paths, asked.json)
+    return 0 if done.verdict is None or done.verdict.passed else 1

@@ -1,0 +1,60 @@
+"""What one recording says of the body by itself, to be put together with others.
+
+A trajectory fit with the testbed's prior ends at x, where the information A (data and prior) and
+the pull of the prior are known. Of inertia and centre of mass, all else marginalised, with W the
+prior's weight and m its mean:
+
+    Lambda = A_cc - A_co A_oo^-1 A_oc - W,      eta = Lambda x + W (x - m)
+
+is what the recording adds, near x: it says Lambda y = eta. Along the scale of J and com, which a
+free swing does not show, x only says which ratios hold, and Lambda x = 0 there at every scale: so
+recordings at different loads tell the scale together that none tells alone.
+
+Taken to be Gauss-Newton's parabola at x; the prior should not be narrower than what is sought.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.estimation import trajectory
+from equipoise.estimation.conclusion import conclude, residual_of, widening
+from equipoise.estimation.fitted import Fitted
+from equipoise.estimation.smoother import levelled
+from equipoise.estimation.unknowns import CORE, core_of
+from equipoise.maths.linalg import inverse_spd, symmetrise
+from equipoise.model.arrays import Floats, Square
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+
+class Shown(NamedTuple):
+    """What a recording says of J_P (6) and com (3), without any prior."""
+
+    information: Square
+    pull: Floats  # information times what it says
+    estimate: Estimate  # with the prior
+
+
+def shown_by(recording: Recording, testbed: Testbed) -> Shown:
+    """Return what a recording says of a platform that is about as the testbed has it."""
+    params = trajectory.Params(testbed.disturbances, use_prior=True)
+    params = levelled(recording, testbed, params)
+    fitted = trajectory.fit(recording, testbed, params)
+    information, pull = without_prior(fitted)
+    factor = widening(residual_of(fitted)) ** 2
+    estimate = conclude(fitted, trajectory.METHOD, recording)
+    return Shown(information / factor, pull / factor, estimate)
+
+
+def without_prior(fitted: Fitted) -> tuple[Square, Floats]:
+    """Return Lambda and eta."""
+    A, prior, mass = fitted.at.normal, fitted.problem.prior, fitted.problem.mass
+    c = np.arange(len(A))[CORE]
+    o = np.setdiff1d(np.arange(len(A)), c)
+    cross = A[np.ix_(c, o)]
+    marginal = A[np.ix_(c, c)] - cross @ inverse_spd(A[np.ix_(o, o)]) @ cross.T
+    weight, x = prior.weight[CORE], core_of(fitted.point.body(mass))
+    information = symmetrise(marginal) - np.diag(weight)
+    return information, information @ x + weight * (x - prior.mean[CORE])

@@ -1,0 +1,101 @@
+"""Balancing by hand a platform that other code moves: every weight a body welded to another.
+
+MuJoCo adds the weights to the platform; where each lies is worked out here from the drawing of the
+grid, with no word from `actuators.placed_weights`.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
+
+from equipoise.io.presets import read_preset
+from equipoise.model.hands import Hands
+from equipoise.model.mass_properties import parallel_axis
+from equipoise.model.weights import places_of
+from equipoise.procedure.balance_by_hand import HandOptions, balance_by_hand
+from tests.oracle import mujoco_bench as oracle
+
+UM = 1e-6
+BED = read_preset("weights-by-hand")
+TARGET = np.array([0.0, 0.0, -100 * UM])
+GROW = {"deck": [0, 0, 1], "left": [0, 1, 0], "right": [0, -1, 0]}  # piles, away from the frame
+
+
+class MujocoHands:
+    """A platform 500 um off with an inertia 10 % off, and 1 g weights 1.6 mm high on it."""
+
+    def __init__(self, seed: int) -> None:
+        self.rng = np.random.default_rng(seed)
+        direction = self.rng.normal(size=3)
+        self.com = 500 * UM * direction / np.linalg.norm(direction)
+        J = np.diag(np.diag(BED.body.inertia_C) * self.rng.uniform(0.9, 1.1, 3))
+        self.J_P = J + parallel_axis(14.0, self.com)
+        self.slides: tuple[oracle.Slide, ...] = ()
+        self.time = 0.0
+
+    @property
+    def testbed(self):
+        return BED
+
+    def place(self, wanted):
+        slides = []
+        for place, (count,) in zip(places_of(BED.grids), wanted, strict=True):
+            up = np.array(GROW[place.grid.name], float)
+            for i in range(count):
+                x = place.foot + (0.8e-3 + 1.6e-3 * i) * up
+                mass = 1e-3 + self.rng.normal(0, 1e-5)
+                slides.append(oracle.Slide(f"w{len(slides)}", mass, x, up))
+        self.slides = tuple(slides)
+        return wanted
+
+    def loaded(self):
+        """Return the platform with its weights, let go about level."""
+        points = [(s.mass, s.home) for s in self.slides]
+        mass = 14.0 + sum(m for m, _ in points)
+        moment = 14.0 * self.com + sum((m * x for m, x in points), np.zeros(3))
+        weights = (parallel_axis(m, x) + oracle.POINT * np.eye(3) for m, x in points)
+        J = self.J_P + sum(weights, np.zeros((3, 3)))
+        q, _ = oracle._random_start(self.rng, np.radians(2.0))
+        rate = np.radians(self.rng.uniform(-0.3, 0.3, 3))
+        return oracle.Platform(mass, J, moment / mass, self.slides, BED.gravity, q, rate)
+
+    def swing(self):
+        run = oracle.simulate(self.loaded(), duration=60.0, dt=0.01, locked=True)
+        lean = np.arccos(np.clip(1 - 2 * (run.q[:, 1] ** 2 + run.q[:, 2] ** 2), -1, 1))
+        beyond = np.flatnonzero(lean > BED.tilt_limit)
+        end = run.t[beyond[0]] if len(beyond) else run.t[-1]
+        log = oracle.sensor_log(
+            run, self.rng, 10.0, BED.attitude.noise, 50.0, BED.gyro.noise,
+            self.rng.normal(0.0, 0.002, 3),
+        )  # fmt: skip
+        seen = log.attitude.t <= end, log.rate.t <= end
+        self.time += end
+        rows = [
+            type(c)(c.t[keep], c.values[keep])
+            for c, keep in zip((log.attitude, log.rate), seen, strict=True)
+        ]
+        return replace(log, attitude=rows[0], rate=rows[1], mass_names=(), masses=None)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_half_a_millimetre_becomes_five_micrometres_on_mujoco(seed):
+    """Within four rounds, and what is stated of com and J on the way covers the truth."""
+    hands = MujocoHands(seed)
+    assert isinstance(hands, Hands)
+    errors, rounds = [], 0
+    for step in balance_by_hand(hands, HandOptions(TARGET)):
+        if step.estimate is not None and step.kind == "estimate":
+            real = hands.loaded()
+            found, sd = step.estimate.com, np.sqrt(np.diag(step.estimate.covariance))
+            errors += [*(found - real.com) / sd[:3]]
+            errors += [*np.diag(step.estimate.inertia_P - real.inertia_P) / sd[3:6]]
+        rounds += step.placing is not None
+        last = step
+    assert rounds <= 4
+    assert last.verdict.passed
+    assert np.linalg.norm(hands.loaded().com - TARGET) < 5 * UM
+    assert np.abs(errors).max() < 4.0
+    assert np.sqrt(np.mean(np.square(errors))) < 1.8
