@@ -73,7 +73,7 @@ def test_two_recordings_are_compared_and_the_document_holds_both(records, tmp_pa
     [
         (("--require-torque", "0"), "--require-torque"),
         (("--tilt-deg", "91"), "at most 90"),
-        (("--hold", "com_q"), "com_x"),
+        (("--hold", "com_q"), "com_z"),
     ],
 )
 def test_wrong_use_is_told(records, capsys, words, told):
