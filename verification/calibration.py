@@ -96,7 +96,9 @@ def true_values(drives: Sequence[TrueDrive], masses: Sequence[SlidingMass]) -> d
     """Return what a calibration should say of drives and camera."""
     found: dict[str, float] = {}
     for drive, mass in zip(drives, masses, strict=True):
-        assert drive.gain is not None and drive.axis is not None and drive.backlash is not None
+        assert drive.gain is not None
+        assert drive.axis is not None
+        assert drive.backlash is not None
         found[f"gain_{mass.name}"] = drive.gain
         found[f"backlash_{mass.name}"] = drive.backlash
         for letter, component in zip("xyz", drive.axis, strict=True):
@@ -187,7 +189,8 @@ def moved_by_mujoco(platform: oracle.Platform, testbed: Testbed, seed: int) -> R
     ])  # fmt: skip
     run = oracle.driven(platform, wanted, np.zeros((len(t), 3)))
     seen = oracle.sensor_log(run, rng, CAMERA.rate, CAMERA.noise, GYRO.rate, GYRO.noise)
-    assert seen.attitude is not None and seen.rate is not None
+    assert seen.attitude is not None
+    assert seen.rate is not None
     turned = oracle.product(oracle.rotation(PLUMB)[None], seen.attitude.values)
     rows = np.arange(0, len(t), 20)
     return replace(
