@@ -108,7 +108,7 @@ def true_values(drives: Sequence[TrueDrive], masses: Sequence[SlidingMass]) -> d
 
 def judged(found: Estimate, truth: dict[str, float]) -> Found:
     """Return errors in stated sd; of an axis the two components across it count."""
-    names = [name for name in truth if has_error(found, name)]
+    names = [name for name in truth if found.has(name) and has_error(found, name)]
     at = [found.index(name) for name in names]
     error = np.array([found.parameters[i].value - truth[n] for i, n in zip(at, names, strict=True)])
     spread = found.covariance[np.ix_(at, at)]
@@ -171,10 +171,12 @@ def stated_bed(
     return replace(bed, masses=masses), drives
 
 
-def moved_by_mujoco(platform: oracle.Platform, testbed: Testbed, seed: int) -> Recording:
+def moved_by_mujoco(
+    platform: oracle.Platform, testbed: Testbed, seed: int, among: tuple[str, ...]
+) -> Recording:
     """Return the record of the recommended moves, with columns of commands."""
     rng = np.random.default_rng([seed, 9])
-    moves, duration = calibration_moves(replace(testbed, tilt_limit=0.5))
+    moves, duration = calibration_moves(replace(testbed, tilt_limit=0.5), among)
     goals, ramps = np.zeros(3), list[oracle.Ramp]()
     for t, targets in moves:
         goals = goals.copy()
@@ -212,12 +214,12 @@ def stop_errors(command: Array, rng: np.random.Generator) -> Array:
     return np.interp(np.arange(len(command)), knots, levels)
 
 
-def by_mujoco(seed: int) -> Found:
-    """Calibrate by a record of MuJoCo's."""
+def by_mujoco(seed: int, among: tuple[str, ...] = ()) -> Found:
+    """Calibrate all masses, or those named, by a record of MuJoCo's."""
     rng = np.random.default_rng([seed, 8])
     platform = oracle.random_platform(rng, 14.0, 1, 5 * DEG)
     testbed, drives = stated_bed(platform, rng)
-    recording = moved_by_mujoco(platform, testbed, seed)
+    recording = moved_by_mujoco(platform, testbed, seed, among)
     found = calibrate(recording, testbed, CalibrateOptions(testbed.mass_names[-1:]))
     truth = true_values(drives, testbed.masses)
     truth |= {f"gyro_turn_{a}": v for a, v in zip("xyz", TURN, strict=True)}
