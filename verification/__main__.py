@@ -18,6 +18,7 @@ from equipoise.io.whole_file import check_writable, write_whole
 from equipoise.model.errors import InputError
 from verification import (
     balanced,
+    calibration,
     defective_logs,
     drift,
     efficiency,
@@ -65,6 +66,7 @@ CHECKS = {
     "tracker_honesty": Check(tracker_honesty.measure, 200),
     "tracker_knows": Check(tracker_knows.measure, 200),
     "defective_logs": Check(defective_logs.measure, 200),
+    "calibration": Check(calibration.measure, calibration.STATED),
     "balanced": Check(balanced.measure, 200),
     "verdicts": Check(verdicts.measure, 500),
     "drift": Check(drift.measure, 20),

@@ -14,6 +14,7 @@ COMMANDS = (
     "observe",
     "identify",
     "assess",
+    "calibrate",
     "methods",
     "balance",
     "laws",

@@ -2,15 +2,17 @@
 
     d_i(t) = d_i,log(t) + sum_j felt_ij(t) x_j
 
-One unknown x_j may be felt by one mass (where it stopped: ``stops``) or by several (how late they
-follow what they were told: ``lags``).
+One unknown x_j may be felt by one mass (where it stopped: ``stops``), by several (how late they
+follow what they were told: ``lags``), or along rails of its own (``drive_errors``). d_i is a
+displacement along one of the ``rails``: the masses' own, and those across drives in doubt.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.lags import kinds_of, lag_errors, lag_times, sags, told
+from equipoise.actuators.drive_errors import ACROSS, GAIN, drive_errors, rails_of
+from equipoise.actuators.lags import LAG, kinds_of, lag_errors, lag_times, sags, told
 from equipoise.actuators.stops import stop_errors
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
@@ -22,20 +24,28 @@ class MassErrors:
     """The unknowns, and where each of them is felt."""
 
     felt: Samples | None  # (n, f) displacement by unknown, straight between rows
-    owner: Ints  # (f, 2) index of the mass that feels it, and of the unknown
-    sd: Floats  # (e,) m of a stop, s of a lag
+    owner: Ints  # (f, 2) index of the rail along which it is felt, and of the unknown
+    sd: Floats  # (e,) in the units of ``unit_of``
     names: tuple[str, ...]
-    sag: Floats  # (k,) m, one sd of how far a mass hangs below a command along an upright rail
+    sag: Floats  # (rails,) m, one sd of how far a mass hangs below a command, rail upright
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of an unknown: of a lag, a gain, a rail across; else a displacement's."""
+    if name.startswith(LAG):
+        return "s"
+    return {GAIN: "1", ACROSS: "rad"}.get(name.split("_")[0], "m")
 
 
 def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassErrors:
-    """Return the unknowns of a recording: an error for each stop, a lag for each kind of drive."""
+    """Return the unknowns of a recording: stops, lags of kinds of drives, drives in doubt."""
     if track is None or not len(track):
         return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), (), np.zeros(0))
     commands = told(track, masses)
     kinds = kinds_of(commands, masses)
     t = lag_times(track, [sd for sd, kind in kinds.items() if kind])
     found = [*stop_errors(t, track, masses), *lag_errors(t, track, kinds)]
+    found += drive_errors(t, track, masses)
     columns: list[Series1] = [column for each in found for _, column in each.felt]
     pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.felt]
     return MassErrors(
@@ -43,5 +53,5 @@ def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassE
         np.array(pairs, dtype=np.int64).reshape(-1, 2),
         np.array([each.sd for each in found]),
         tuple(each.name for each in found),
-        sags(commands, masses),
+        np.append(sags(commands, masses), np.zeros(len(rails_of(masses)) - len(masses))),
     )

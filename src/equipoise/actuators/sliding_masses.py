@@ -8,6 +8,10 @@ corrected: all about P, identity matrices restored, sign of the sum plus):
           = J0  + sum (d_i A_i + d_i^2 B_i)
     h(d') = sum m_i d_i' rho_i x u_i          momentum of masses travelling along their rails
 
+with d_i = gain_i times the command, which is what counts as displacement everywhere else. (Where
+a gain is really a wrong weight, B_i has it once too often, by gain (gain - 1) m d^2: nothing
+beside J.)
+
 The way back, from a wanted shift of the centre of mass to whole steps of the motors, is a mixed
 integer linear programme: least error, then least travel, inside the rails.
 """
@@ -26,15 +30,16 @@ from equipoise.model.testbed import SlidingMass
 class MassMaps(NamedTuple):
     """The coefficients of the three sums above, one row a mass."""
 
-    first_moment: Floats  # (k, 3) kg       m_i u_i
-    inertia_1: Floats  # (k, 6) kg m        A_i, xx yy zz xy xz yz
-    inertia_2: Floats  # (k, 6) kg          B_i
-    momentum: Floats  # (k, 3) kg m         m_i rho_i x u_i
+    first_moment: Floats  # (k, 3) kg       m_i u_i, times the gain
+    inertia_1: Floats  # (k, 6) kg m        A_i, xx yy zz xy xz yz, times the gain
+    inertia_2: Floats  # (k, 6) kg          B_i, times its square
+    momentum: Floats  # (k, 3) kg m         m_i rho_i x u_i, times the gain
 
 
 def mass_maps(masses: Sequence[SlidingMass]) -> MassMaps:
     """Return the coefficients of these masses, in their order."""
-    m = np.array([mass.mass for mass in masses]).reshape(-1, 1)
+    gain = np.array([mass.gain for mass in masses]).reshape(-1, 1)
+    m = gain * np.array([mass.mass for mass in masses]).reshape(-1, 1)
     u = np.array([mass.axis for mass in masses]).reshape(-1, 3)
     rho = np.array([mass.home for mass in masses]).reshape(-1, 3)
     (i, j), a, b = np.array(PAIRS).T, (1, 2, 0), (2, 0, 1)
@@ -42,7 +47,7 @@ def mass_maps(masses: Sequence[SlidingMass]) -> MassMaps:
     return MassMaps(
         m * u,
         m * (2 * dot * unit - rho[:, i] * u[:, j] - u[:, i] * rho[:, j]),
-        m * (unit - u[:, i] * u[:, j]),
+        gain * m * (unit - u[:, i] * u[:, j]),
         m * (rho[:, a] * u[:, b] - rho[:, b] * u[:, a]),
     )
 

@@ -20,8 +20,8 @@ class MassError(NamedTuple):
     """One unknown, and by which masses it is felt."""
 
     name: str
-    sd: float  # m of a stop, s of a lag
-    felt: list[tuple[int, Series1]]  # index of the mass; displacement by unknown
+    sd: float  # in its unit: m of a stop, s of a lag
+    felt: list[tuple[int, Series1]]  # index of the rail; displacement by unknown
 
 
 def is_travelling(t: Series1, d: Series1, speed: float) -> Bools:

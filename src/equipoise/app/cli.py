@@ -14,6 +14,7 @@ from cyclopts import App, CycloptsError, Parameter
 from equipoise import __version__
 from equipoise.app.commands.assess import assess
 from equipoise.app.commands.balance import balance
+from equipoise.app.commands.calibrate import calibrate
 from equipoise.app.commands.compare import compare
 from equipoise.app.commands.demo import demo
 from equipoise.app.commands.identify import identify
@@ -40,7 +41,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 COMMANDS = (
-    demo, new, simulate, inspect, observe, identify, assess, methods, balance, laws,
+    demo, new, simulate, inspect, observe, identify, calibrate, assess, methods, balance, laws,
     compare, reproduce,
 )  # fmt: skip
 for command in COMMANDS:

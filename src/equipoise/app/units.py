@@ -32,7 +32,7 @@ LATE = Unit("ms", 1e3)
 
 def unit_for(name: str, si: str) -> Unit:
     """Return the unit in which to show a parameter; where masses stop in mm, their lag in ms."""
-    if si == "m" and name.startswith("error_"):
+    if si == "m" and name.startswith(("error_", "backlash_", "play_", "scatter_")):
         return TRAVEL
     if si == "s" and name.startswith("mass_lag"):
         return LATE

@@ -11,7 +11,7 @@ from equipoise.app.options import one_of
 from equipoise.io.column_map import ColumnMap
 from equipoise.io.column_map_file import read_column_map
 from equipoise.io.frame_check import check_frame
-from equipoise.io.presets import preset_names, read_preset
+from equipoise.io.presets import preset_names, preset_text, read_preset
 from equipoise.io.recording_file import read_recording
 from equipoise.io.testbed_file import read_testbed
 from equipoise.model.errors import InputError, nearest
@@ -33,6 +33,11 @@ def testbed_of(name: str) -> Testbed:
         wanted = f"a testbed file, or a preset ({nearest(name, list(preset_names()))})"
         raise InputError("testbed", f"'{name}', which is no file", wanted)
     return read_testbed(name)
+
+
+def testbed_text_of(name: str) -> str:
+    """Return the text of a testbed that ``testbed_of`` has read."""
+    return Path(name).read_text(encoding="utf-8") if Path(name).exists() else preset_text(name)
 
 
 def recording_of(file: str, reading: Reading) -> Recording:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.lags import LAG
+from equipoise.actuators.mass_errors import unit_of
 from equipoise.estimation.unknowns import FIXED, JP, RATE, TURN, Layout, R, Unknowns, term_sizes
 from equipoise.maths.linalg import symmetrise
 from equipoise.model.arrays import Bools, Floats, Square
@@ -51,8 +51,8 @@ def natural_sizes(point: Unknowns, mass: float, layout: Layout) -> Floats:
 
 
 def error_sizes(names: tuple[str, ...]) -> Floats:
-    """Return a size for each error of the masses: 1 mm of a stop, 1 s of a lag."""
-    return np.array([1.0 if name.startswith(LAG) else 1e-3 for name in names])
+    """Return a size for each error of the masses: 1 mm, 1 s of a lag, all of a gain, a radian."""
+    return np.array([1e-3 if unit_of(name) == "m" else 1.0 for name in names])
 
 
 def scale_of(values: Floats, size: Floats) -> Floats:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.actuators.lags import LAG
+from equipoise.actuators.drive_errors import on_rails, rails_of
 from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import body_of, propagate
@@ -43,28 +43,28 @@ def run(
     q0: Quaternion,
     w0: Vector3,
     torque: Floats,
-    late: Mapping[str, float],
+    found: Mapping[str, float],
 ) -> Prediction:
-    """Return the motion of a body through the record's moves; ``late`` are errors of masses."""
+    """Return the motion of a body through the record's moves; errors of masses are in ``found``."""
     recording = arranged(recording, testbed.mass_names)
     rows, sensor = recording.attitude, testbed.attitude
     if rows is None or not len(rows):
         rows, sensor = recording.rate, testbed.gyro
     assert rows is not None
     t = seen_at(rows.t, sensor)
-    errors = mass_errors(recording.masses, testbed.masses)
+    errors, rails = mass_errors(recording.masses, testbed.masses), rails_of(testbed.masses)
     line = timeline(
-        t, np.zeros(0), recording.masses, len(testbed.masses),
+        t, np.zeros(0), on_rails(recording.masses, len(rails)), len(rails),
         min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
         recording.momentum, recording.torque, errors.felt, errors.owner,
     )  # fmt: skip
-    first = KNOWN_D + len(testbed.masses)
-    off = [late.get(name, 0.0) for name in errors.names]
+    first = KNOWN_D + len(rails)
+    off = [found.get(name, 0.0) for name in errors.names]
     for j, (owner, error) in enumerate(errors.owner):
         line.known[:, KNOWN_D + owner] += off[error] * line.known[:, first + j]
     rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment,
                     torque)  # fmt: skip
-    motion = propagate(rigid, mass_maps(testbed.masses), line, q0, w0)
+    motion = propagate(rigid, mass_maps(rails), line, q0, w0)
     return Prediction(rows.t, motion.q[line.attitude_node], motion.rate[line.attitude_node])
 
 
@@ -74,8 +74,8 @@ def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Predi
     torque = np.array([estimate.values((t,))[0] if estimate.has(t) else 0.0 for t in TERMS])
     body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
     q0 = exponential(estimate.values(ATTITUDE))
-    late = {p.name: p.value for p in estimate.parameters if p.name.startswith(("error_", LAG))}
-    return run(recording, testbed, body, q0, estimate.values(RATE), torque, late)
+    found = {p.name: p.value for p in estimate.parameters}
+    return run(recording, testbed, body, q0, estimate.values(RATE), torque, found)
 
 
 def before(recording: Recording, testbed: Testbed) -> Prediction:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from equipoise.actuators.drive_errors import on_rails, rails_of
 from equipoise.actuators.mass_errors import MassErrors, mass_errors
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.dynamics import sensitivities
@@ -204,12 +205,12 @@ def pose(
 ) -> Problem:
     """Return the problem of a recording, integrated in steps of ``longest`` seconds at most."""
     attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
-    jumps = inside(jumps, *recording.span)
+    jumps, rails = inside(jumps, *recording.span), rails_of(testbed.masses)
     line = timeline(
         seen_at(attitude.t, testbed.attitude),
         seen_at(rate.t, testbed.gyro),
-        recording.masses,
-        len(testbed.masses),
+        on_rails(recording.masses, len(rails)),
+        len(rails),
         longest,
         recording.momentum,
         recording.torque,
@@ -232,7 +233,7 @@ def pose(
         forward_of(testbed.up),
         np.array(layout.sensor_index, dtype=np.int64),
     )
-    maps = mass_maps(testbed.masses)
+    maps = mass_maps(rails)
     columns = columns_of(layout)
     return Problem(testbed.body.mass, testbed.gravity, maps, errors, line, seen, layout, columns,
                    prior, limit, scale_open, jumps)  # fmt: skip

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.lags import LAG
+from equipoise.actuators.mass_errors import unit_of
 from equipoise.estimation import point_steps
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric
@@ -59,7 +59,7 @@ class Layout:
         """Return their units."""
         first = ("rad",) * 3 + ("rad/s",) * 3 + ("kg m2",) * 6 + ("m",) * 3
         terms = tuple(torque_terms.unit_of(term) for term in self.terms)
-        errors = tuple("s" if name.startswith(LAG) else "m" for name in self.errors)
+        errors = tuple(unit_of(name) for name in self.errors)
         bias = ("rad/s",) * (3 * self.bias)
         return first + terms + errors + self.sensor_units + bias
 
@@ -103,7 +103,7 @@ class Unknowns:
     com: Vector3  # m, masses at home
     torque: Floats  # (16,)
     sensor: Floats  # (24,)
-    error: Floats  # (e,) m, s
+    error: Floats  # (e,) in the units of ``mass_errors.unit_of``
     bias: Vector3  # rad/s
 
     @property

@@ -106,6 +106,7 @@ def _mass(mass: schema.SlidingMass, where: str) -> SlidingMass:
         speed=mass.speed_mm_s * MM,
         lag_sd=mass.lag_sd_ms * MS,
         sag_sd=mass.sag_sd_mm * MM,
+        gain=mass.gain,
     )
 
 

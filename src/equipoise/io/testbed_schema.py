@@ -72,6 +72,11 @@ class SlidingMass(Table):
         description="one sd of how far it hangs below a command on an upright rail, chosen: a "
         "soft servo's; 0: a stiff drive, a lead screw's",
     )
+    gain: Positive = Field(
+        1.0,
+        description="first moment that it really gives, over mass_g times the commanded "
+        "displacement; equipoise calibrate finds it",
+    )
 
 
 class Attitude(Table):
@@ -121,6 +126,19 @@ class Fault(Table):
     kind: Literal["stuck", "slip"] = "stuck"
     gain: float | None = Field(None, description="slip: share of the distance really gone")
     from_move: Annotated[int, Field(ge=1)] = 1
+
+
+class Drive(Table):
+    """What a mass's drive really is, all its life; what is left out is as the testbed states it.
+
+    Nothing here is relative to what is stated, so that it stays true when that is calibrated.
+    """
+
+    mass: str
+    gain: Positive | None = Field(None, description="as the mass's own key")
+    axis: Triple | None = Field(None, description="direction of the rail, body axes")
+    backlash_mm: NotNegative | None = None
+    accuracy_mm: NotNegative | None = Field(None, description="one sd of where it really stops")
 
 
 class Contact(Table):
@@ -187,6 +205,7 @@ class Truth(Table):
     mass_lag_s: NotNegative = Field(0.0, description="masses are so far behind their report")
     field_uT: Triple | None = Field(None, description="magnetic, laboratory axes, as it really is")
     fault: list[Fault] = Field([])
+    drive: list[Drive] = Field([])
     contact: list[Contact] = Field([])
     com_step: list[ComStep] = Field([])
     gap: list[Gap] = Field([])

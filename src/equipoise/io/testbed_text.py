@@ -60,6 +60,7 @@ def _mass(mass: SlidingMass) -> dict[str, Value]:
         "speed_mm_s": number(mass.speed, PER_MM),
         "lag_sd_ms": number(mass.lag_sd, PER_MS),
         "sag_sd_mm": number(mass.sag_sd, PER_MM),
+        "gain": number(mass.gain),
     }
 
 

@@ -12,14 +12,15 @@ from equipoise.io.defects_build import (
     gaps_of,
     gyro_errors_of,
 )
+from equipoise.io.directions import unit_vector
 from equipoise.io.inertia_check import check_inertia
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.mass_properties import MassProperties, from_centre
-from equipoise.model.testbed import Fault, Truth
+from equipoise.model.testbed import Fault, TrueDrive, Truth
 from equipoise.model.torque_terms import GROUPS
 
-UM, UT, PERCENT, DEG = 1e-6, 1e-6, 1e-2, math.pi / 180
+UM, MM, UT, PERCENT, DEG = 1e-6, 1e-3, 1e-6, 1e-2, math.pi / 180
 # Key of the file, group of terms, factor to SI.
 TORQUES = (
     ("viscous_N_m_s", "viscous", 1.0),
@@ -65,6 +66,7 @@ def truth_of(table: schema.TestbedFile, guess: MassProperties, where: str) -> Tr
         camera=camera_errors_of(truth),
         gyro=gyro_errors_of(truth),
         field_N=_scaled(truth.field_uT, UT),
+        drives=_drives(table, truth, where),
     )
 
 
@@ -107,15 +109,39 @@ def _torque(truth: schema.Truth) -> dict[str, float]:
 
 def _faults(table: schema.TestbedFile, truth: schema.Truth, where: str) -> tuple[Fault, ...]:
     return tuple(
-        _fault(fault, [mass.name for mass in table.sliding_mass], f"{where}.fault[{i + 1}]")
-        for i, fault in enumerate(truth.fault)
+        _fault(fault, f"{where}.fault[{i + 1}]", table) for i, fault in enumerate(truth.fault)
     )
 
 
-def _fault(fault: schema.Fault, known: list[str], where: str) -> Fault:
-    if fault.mass not in known:
-        wanted = nearest(fault.mass, known) if known else "a testbed with sliding masses"
-        raise InputError(f"{where}.mass", f"'{fault.mass}'", wanted)
+def _known(name: str, table: schema.TestbedFile, where: str) -> str:
+    """Return the name of a mass that there is."""
+    known = [mass.name for mass in table.sliding_mass]
+    if name not in known:
+        wanted = nearest(name, known) if known else "a testbed with sliding masses"
+        raise InputError(f"{where}.mass", f"'{name}'", wanted)
+    return name
+
+
+def _drives(table: schema.TestbedFile, truth: schema.Truth, where: str) -> tuple[TrueDrive, ...]:
+    found: dict[str, TrueDrive] = {}
+    for i, drive in enumerate(truth.drive):
+        here = f"{where}.drive[{i + 1}]"
+        name = _known(drive.mass, table, here)
+        if name in found:
+            raise InputError(f"{here}.mass", f"a second '{name}'", "one table for each mass")
+        found[name] = _drive(drive, here)
+    return tuple(found.values())
+
+
+def _drive(drive: schema.Drive, where: str) -> TrueDrive:
+    axis = None if drive.axis is None else unit_vector(drive.axis, f"{where}.axis")
+    backlash = None if drive.backlash_mm is None else drive.backlash_mm * MM
+    accuracy = None if drive.accuracy_mm is None else drive.accuracy_mm * MM
+    return TrueDrive(drive.mass, drive.gain, axis, backlash, accuracy)
+
+
+def _fault(fault: schema.Fault, where: str, table: schema.TestbedFile) -> Fault:
+    _known(fault.mass, table, where)
     if fault.kind == "stuck":
         if fault.gain:
             raise InputError(f"{where}.gain", f"{fault.gain:g}", "no gain for a stuck mass")

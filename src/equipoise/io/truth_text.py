@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from equipoise.io.toml_text import Value, number, numbers, table
 from equipoise.io.truth_build import TORQUES
 from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
-from equipoise.model.testbed import Fault, Truth
+from equipoise.model.testbed import Fault, TrueDrive, Truth
 from equipoise.model.torque_terms import GROUPS
 
-PER_UM, PER_UT, PER_PERCENT, PER_DEG = 1e6, 1e6, 1e2, 180 / math.pi
+PER_UM, PER_MM, PER_UT, PER_PERCENT, PER_DEG = 1e6, 1e3, 1e6, 1e2, 180 / math.pi
 
 
 def text_of_truth(truth: Truth | None) -> str:
@@ -35,10 +35,20 @@ def _lists(truth: Truth) -> list[str]:
     """Return a table for each thing that may happen more than once."""
     return [
         *(table("[[truth.fault]]", _fault(each)) for each in truth.faults),
+        *(table("[[truth.drive]]", _drive(each)) for each in truth.drives),
         *(table("[[truth.contact]]", _contact(each)) for each in truth.contacts),
         *(table("[[truth.com_step]]", _com_step(each)) for each in truth.com_steps),
         *(table("[[truth.gap]]", _gap(each)) for each in truth.gaps),
     ]
+
+
+def _drive(drive: TrueDrive) -> dict[str, Value]:
+    keys: dict[str, Value] = {"mass": drive.mass}
+    if drive.axis is not None:
+        keys["axis"] = numbers(drive.axis)
+    told = (("gain", drive.gain, 1.0), ("backlash_mm", drive.backlash, PER_MM),
+            ("accuracy_mm", drive.accuracy, PER_MM))  # fmt: skip
+    return keys | {key: number(value, unit) for key, value, unit in told if value is not None}
 
 
 def _contact(contact: Contact) -> dict[str, Value]:

@@ -26,9 +26,22 @@ PLUMB_SD = math.radians(0.3)  # chosen: a camera levelled by eye, or a floor for
 LAG_SD = 0.03  # s, chosen: a soft servo's 25 ms, or a row of a log at 50 Hz
 
 
+@dataclass(frozen=True, slots=True)
+class DriveDoubt:
+    """How far a drive may be off what is stated of it, one sd each: what a calibration seeks."""
+
+    gain: float  # -, 0: trusted
+    across: float  # rad, of the rail, about each of two directions
+    backlash: float  # m
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class SlidingMass:
-    """A mass on a rail. Its displacement is zero at home and counts along ``axis``."""
+    """A mass on a rail. Its displacement is zero at home and counts along ``axis``, as commanded.
+
+    Told to go d, it changes the first moment by ``mass * gain * d * axis``. What a balance feels
+    is that product alone: a gain stands for wrong steps and for a wrong weight alike.
+    """
 
     name: str
     mass: float  # kg, with what moves with it; part of the platform's mass
@@ -41,6 +54,8 @@ class SlidingMass:
     speed: float  # m/s
     lag_sd: float = LAG_SD  # s, one sd of how late it follows a recorded command; 0: at once
     sag_sd: float = SAG_SD  # m, one sd of how far it hangs below a command, rail upright; 0: stiff
+    gain: float = 1.0  # -, first moment given over that stated, mass * command
+    doubt: DriveDoubt | None = None  # not of a file: a calibration's own; None: as stated
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,6 +92,20 @@ class Fault:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class TrueDrive:
+    """What a mass's drive really is, all its life; None: as the testbed states it.
+
+    Not told as a difference, so that it stays true when a calibration mends what is stated.
+    """
+
+    mass: str
+    gain: float | None = None  # -, of the stated mass and the command
+    axis: Vector3 | None = None  # unit vector
+    backlash: float | None = None  # m
+    accuracy: float | None = None  # m, one sd of where it really stops
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Truth:
     """What the simulated bench is made of. What is not given is drawn with the run's seed."""
 
@@ -101,6 +130,7 @@ class Truth:
     camera: CameraErrors = field(default_factory=CameraErrors)
     gyro: GyroErrors = field(default_factory=GyroErrors)
     field_N: Vector3 | None = None  # T, laboratory axes; None: as the testbed has it
+    drives: tuple[TrueDrive, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -75,7 +75,7 @@ class SimulatedBench:
         self._devices = started(testbed)
         self._testbed, self._seed = testbed, seed
         self.platform = draw_truth(testbed, rng)
-        truth, masses = self.platform, testbed.masses
+        truth, masses = self.platform, self.platform.masses
         inertia = pack_symmetric(truth.body.inertia_P)
         moment = truth.body.first_moment
         self._body = body_of(truth.body.mass, testbed.gravity, inertia, moment, truth.torque)
@@ -117,7 +117,7 @@ class SimulatedBench:
 
     def move(self, targets: Mapping[str, float]) -> None:
         """Set masses on their way to displacements from home (m); all of them or none."""
-        masses, faults = self._testbed.masses, self.platform.faults
+        masses, faults = self.platform.masses, self.platform.faults
         goals = actuator.checked(self._travel, self._time, targets, masses)
         travel = actuator.sent(self._travel, self._time, goals, masses, faults, self._stops_rng)
         self._command(travel)

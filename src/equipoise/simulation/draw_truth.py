@@ -10,7 +10,7 @@ What is given does not change what is drawn for the rest. The errors are laid on
 the centre of mass, as a drawn centre of mass would otherwise be paid for by the inertia.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import pi
 
 import numpy as np
@@ -19,7 +19,7 @@ from equipoise.maths.attitude import exponential, from_euler321, level, multiply
 from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
 from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
 from equipoise.model.mass_properties import MassProperties, from_centre, smallest_second_moment
-from equipoise.model.testbed import Fault, Testbed, Truth
+from equipoise.model.testbed import Fault, SlidingMass, Testbed, TrueDrive, Truth
 from equipoise.model.torque_terms import TERMS
 
 LITTLE = 0.05  # -, chosen: of the moments' geometric mean, what CAD may miss in a product
@@ -37,6 +37,7 @@ class SimulatedPlatform:
     rate: Vector3  # rad/s
     torque: Floats  # (16,) coefficients in the order of TERMS, SI
     gyro_bias: Vector3  # rad/s
+    masses: tuple[SlidingMass, ...] = ()  # with the drives that they really have
     noise_torque: float = 0.0  # N m, one sd per axis
     noise_correlation: float = 30.0  # s
     faults: tuple[Fault, ...] = ()
@@ -85,6 +86,25 @@ def field_of(testbed: Testbed) -> Vector3 | None:
     return None if testbed.magnetic_field is None else testbed.magnetic_field.field_N
 
 
+def real_masses(
+    stated: tuple[SlidingMass, ...], drives: tuple[TrueDrive, ...]
+) -> tuple[SlidingMass, ...]:
+    """Return the masses with the drives that they really have, the stated where nothing is told."""
+    told = {drive.mass: drive for drive in drives}
+    return tuple(really(m, told[m.name]) if m.name in told else m for m in stated)
+
+
+def really(mass: SlidingMass, drive: TrueDrive) -> SlidingMass:
+    """Return a mass with its true drive."""
+    return replace(
+        mass,
+        gain=mass.gain if drive.gain is None else drive.gain,
+        axis=mass.axis if drive.axis is None else drive.axis,
+        backlash=mass.backlash if drive.backlash is None else drive.backlash,
+        accuracy=mass.accuracy if drive.accuracy is None else drive.accuracy,
+    )
+
+
 def coefficients(torque: dict[str, float]) -> Floats:
     """Return the torque coefficients in the order of TERMS; those not named are zero."""
     return np.array([torque.get(term, 0.0) for term in TERMS])
@@ -107,6 +127,7 @@ def draw_truth(testbed: Testbed, rng: np.random.Generator) -> SimulatedPlatform:
         rate=rate if truth.rate is None else truth.rate,
         torque=coefficients(dict(truth.torque)),
         gyro_bias=truth.gyro_bias,
+        masses=real_masses(testbed.masses, truth.drives),
         noise_torque=truth.noise_torque,
         noise_correlation=truth.noise_correlation,
         faults=truth.faults,

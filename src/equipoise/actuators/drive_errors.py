@@ -1,0 +1,130 @@
+"""How far drives may be off what is stated of them: gain, rail and backlash, as unknowns.
+
+A mass m that is told to stand at d, on a rail along u, with v and w across it, stands at
+
+    e = d [ (1 + x_g) u + x_v v + x_w w ] + [ x_p p(t) - x_b s(t) / 2 ] u
+
+x_g    gain           relative, of the product m d: weight and steps are felt as one
+x_v,w  rail           tangents of its misalignment about w and v
+x_b    backlash       lost motion when the direction changes; s: direction of the last travel
+x_p    play at home   how far, of what the backlash leaves open, the first travel began off; p: 1
+                      from the first travel on
+
+s and p are 0 before the first travel and pass over with the travels, as errors of stops do. The
+rails across begin at the same home and carry the same mass: two more coordinates of the
+propagator, displaced by nothing but these unknowns. The inertia of a displacement along both,
+-m (e_u e_v^T + e_v e_u^T), is left out: it is of second order, m d^2 x, 1e-5 of J.
+
+Only masses with a ``doubt`` (``model.testbed.DriveDoubt``) that travel in the record have unknowns.
+
+Cannot see a travel shorter than the backlash for what it is; nor a rail that is bent.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.stops import MassError, is_travelling
+from equipoise.model.arrays import Series1, Vector3
+from equipoise.model.recording import Samples
+from equipoise.model.testbed import SlidingMass
+
+GAIN, ACROSS, BACKLASH, PLAY = "gain", "across", "backlash", "play"
+SIDES = 2  # directions across a rail
+
+
+class DriveNames(NamedTuple):
+    """What the unknowns of one mass are called."""
+
+    gain: str
+    across: tuple[str, str]
+    backlash: str
+    play: str
+
+
+def drive_names(mass: str) -> DriveNames:
+    """Return the names of the unknowns of a mass."""
+    sides = (f"{ACROSS}_{mass}_1", f"{ACROSS}_{mass}_2")
+    return DriveNames(f"{GAIN}_{mass}", sides, f"{BACKLASH}_{mass}", f"{PLAY}_{mass}")
+
+
+def across(axis: Vector3) -> tuple[Vector3, Vector3]:
+    """Return two unit vectors across a rail, v first: near the body axis farthest from it."""
+    far = np.eye(3)[int(np.argmin(np.abs(axis)))]
+    square: Vector3 = far - float(far @ axis) * axis
+    v: Vector3 = square / np.linalg.norm(square)
+    return v, np.cross(axis, v)
+
+
+def rails_of(masses: Sequence[SlidingMass]) -> tuple[SlidingMass, ...]:
+    """Return the masses, and behind them the rails across those whose drive is in doubt."""
+    beside = [
+        replace(mass, name=name, axis=axis, doubt=None)
+        for mass in masses
+        if mass.doubt is not None
+        for name, axis in zip(drive_names(mass.name).across, across(mass.axis), strict=True)
+    ]
+    return (*masses, *beside)
+
+
+def on_rails(track: Samples | None, rails: int) -> Samples | None:
+    """Return a track of masses with columns for the rails across, along which nothing is told."""
+    if track is None or track.values.shape[1] == rails:
+        return track
+    more = np.zeros((len(track), rails - track.values.shape[1]))
+    return Samples(track.t, np.hstack([track.values, more]))
+
+
+def directions(t: Series1, d: Series1, speed: float) -> list[tuple[int, int, float]]:
+    """Return first row, last row and direction (1 or -1) of every travel; a reversal ends one."""
+    way = np.sign(np.diff(d)) * is_travelling(t, d, speed)
+    turns = [0, *(np.flatnonzero(np.diff(way)) + 1), len(way)]
+    return [(int(a), int(b), float(way[a])) for a, b in pairwise(turns) if b > a and way[a] != 0]
+
+
+def last_direction(t: Series1, ways: list[tuple[int, int, float]]) -> Series1:
+    """Return s(t) at the rows."""
+    knots, levels, level = [t[0]], [0.0], 0.0
+    for first, last, way in ways:
+        knots += [t[first], t[last]]
+        levels, level = [*levels, level, way], way
+    return np.interp(t, knots, levels)
+
+
+def drive_errors(t: Series1, track: Samples, masses: tuple[SlidingMass, ...]) -> list[MassError]:
+    """Return the unknowns of drives in doubt that travel, felt at the times ``t``."""
+    found: list[MassError] = []
+    side = len(masses)
+    for i, mass in enumerate(masses):
+        if mass.doubt is None:
+            continue
+        ways = directions(track.t, track.values[:, i], mass.speed)
+        if ways:
+            found += of_one(t, track, (i, side), mass, ways)
+        side += SIDES
+    return found
+
+
+def of_one(
+    t: Series1,
+    track: Samples,
+    rail: tuple[int, int],
+    mass: SlidingMass,
+    ways: list[tuple[int, int, float]],
+) -> list[MassError]:
+    """Return the unknowns of one drive; ``rail`` are its rail and the first of those across."""
+    assert mass.doubt is not None
+    (along, side), names, doubt = rail, drive_names(mass.name), mass.doubt
+    d = np.interp(t, track.t, track.values[:, along])
+    s = np.interp(t, track.t, last_direction(track.t, ways))
+    p = np.interp(t, track.t[list(ways[0][:2])], [0.0, 1.0])
+    found = [
+        MassError(names.gain, doubt.gain, [(along, d)]),
+        *(MassError(n, doubt.across, [(side + k, d)]) for k, n in enumerate(names.across)),
+        MassError(names.backlash, doubt.backlash, [(along, -s / 2)]),
+        MassError(names.play, doubt.backlash / 2, [(along, p)]),
+    ]
+    return [each for each in found if each.sd > 0]

@@ -1,0 +1,120 @@
+"""`equipoise calibrate`: what masses really do for their commands, and how sensors stand."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Flag, Names
+from equipoise.app.commands.reading import WHOLE, Reading
+from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
+from equipoise.app.terminal import busy, stdout
+from equipoise.model.errors import InputError
+
+if TYPE_CHECKING:
+    from equipoise.estimation.calibration import CalibrateOptions
+    from equipoise.model.estimate import Estimate
+    from equipoise.model.testbed import Testbed
+
+
+def calibrate(
+    file: str | None = None,
+    /,
+    *,
+    testbed: str,
+    moves: Flag = False,
+    reference: Names = (),
+    seeking: Seeking = NOTHING_TOLD,
+    reading: Reading = WHOLE,
+    write: Path | None = None,
+    json: Flag = False,
+) -> int:
+    """Calibrate masses by a recording of commanded moves: gain, rail, backlash; sensors too.
+
+    Ends with 1 when the calibration is not usable; then nothing is written.
+
+    Parameters
+    ----------
+    file
+        Recording, as CSV or Parquet. Left out with --moves.
+    testbed
+        Testbed file, or a preset's name.
+    moves
+        Print the moves to command for such a recording, and calibrate nothing.
+    reference
+        Mass whose weight and steps you trust, which fixes the scale. May be repeated.
+    write
+        Testbed file to write with what was found; comments of the old one stay.
+    json
+        Print one JSON document instead.
+    """
+    from equipoise.app.wiring import spelt_out, testbed_of
+    from equipoise.estimation.calibration import CalibrateOptions
+    from equipoise.io.whole_file import check_writable
+
+    bed = testbed_of(testbed)
+    if moves:
+        return _tell_moves(bed, testbed)
+    if file is None:
+        raise InputError("calibrate", "no recording", "a file, or --moves to see which to make")
+    if write is not None:
+        check_writable(write)
+    seeking = spelt_out(seeking)
+    options = CalibrateOptions(reference, seeking.term, seeking.hold, seeking.prior)
+    found = _carried_out(file, bed, reading, options)
+    _tell(found, bed, json)
+    if not found.outcome.usable:
+        return 1
+    if write is not None:
+        _write(found, bed, testbed, write, quiet=json)
+    return 0
+
+
+def _carried_out(
+    file: str, bed: "Testbed", reading: Reading, options: "CalibrateOptions"
+) -> "Estimate":
+    """Return the calibration."""
+    from equipoise.app.wiring import fitting_recording_of
+
+    recording = fitting_recording_of(file, reading, bed)
+    with busy("calibrating"):
+        from equipoise.procedure.calibrate import calibrate as procedure
+
+        return procedure(recording, bed, options)
+
+
+def _tell(found: "Estimate", bed: "Testbed", json: bool) -> None:
+    """Print the calibration."""
+    from equipoise.app.calibration_views import show_calibration
+    from equipoise.app.views_json import dump, estimate_json
+
+    if json:
+        print(dump(estimate_json(found)))
+    else:
+        show_calibration(found, bed)
+
+
+def _write(found: "Estimate", bed: "Testbed", name: str, path: Path, quiet: bool) -> None:
+    """Write the calibrated testbed."""
+    from equipoise.app.calibration_views import remarks_of
+    from equipoise.app.wiring import testbed_text_of
+    from equipoise.estimation.calibration import calibrated
+    from equipoise.io.testbed_edit import with_drives
+    from equipoise.io.whole_file import write_whole
+
+    text = testbed_text_of(name)
+    write_whole(path, with_drives(text, calibrated(bed, found), remarks_of(found, bed), name))
+    if not quiet:
+        stdout().print(f"wrote {path}", markup=False)
+
+
+def _tell_moves(bed: "Testbed", name: str) -> int:
+    """Print the moves that show most, as a command for the simulated bench."""
+    from equipoise.procedure.calibration_moves import calibration_moves
+
+    plan, duration = calibration_moves(bed)
+    lines = [f"equipoise simulate {name} --out run.csv --duration-s {duration:g}"]
+    lines += [
+        f'--move "{t:g}: ' + " ".join(f"{m}={1e3 * d:.4g}" for m, d in goals.items()) + '"'
+        for t, goals in plan
+    ]
+    print(" \\\n  ".join(lines))
+    return 0

@@ -1,0 +1,117 @@
+"""What a fit with drives in doubt says of each drive.
+
+With x_g, x_v, x_w, x_b as in ``actuators.drive_errors``, and k = (1 + x_g) u + x_v v + x_w w,
+
+    gain     = gain0 |k|
+    axis     = k / |k|
+    across   = atan2(k.v0, k.u0), atan2(k.w0, k.u0)        off the rail as it is stated, u0
+    product  = m gain                                      first moment per metre of command
+    backlash = x_b / |k|                                   in command
+    scatter  = sqrt( sum error^2 / n ) / |k|               n = sum (1 - posterior / prior variance)
+
+The fit is about a rail u near the true one: errors of stops are felt along u, and a rail that is
+3 deg off would throw 1/20 of them aside, unexplained (0.05 um of com for 20 um of 0.7 kg in 14).
+
+Cannot see weight and steps apart; nor a scatter of the first stop at home, which defines home.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.actuators.drive_errors import across, directions, drive_names
+from equipoise.model.arrays import Floats, Ints, Series1, Vector3
+from equipoise.model.estimate import Estimate, Parameter
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import SlidingMass
+
+NUMBERS = 8  # that a drive has
+SHOWN = 0.9  # of its prior's sd, chosen: what the record leaves wider it did not show
+FEWEST = 1.0  # stops' worth of freedom, chosen, from which a scatter is told
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drive:
+    """A drive in doubt that travelled, and where the fit has its unknowns."""
+
+    mass: SlidingMass  # as stated
+    rail: Vector3  # unit vector u, about which it was fitted
+    columns: Ints  # (4,) gain, across, across, backlash among the parameters; -1: not sought
+    reverses: bool  # it came to stops from both sides
+
+    @property
+    def trusted(self) -> bool:
+        """Say whether its weight and steps are believed."""
+        return self.columns[0] < 0
+
+
+def drives_of(
+    stated: tuple[SlidingMass, ...],
+    rails: list[Vector3],
+    recording: Recording,
+    estimate: Estimate,
+) -> tuple[Drive, ...]:
+    """Return the drives in doubt of which a fit about these rails says something.
+
+    The recording's columns are the masses'.
+    """
+    index = {p.name: i for i, p in enumerate(estimate.parameters)}
+    found: list[Drive] = []
+    for i, (mass, rail) in enumerate(zip(stated, rails, strict=True)):
+        names = drive_names(mass.name)
+        if names.across[0] in index:
+            assert recording.masses is not None
+            ways = directions(recording.masses.t, recording.masses.values[:, i], mass.speed)
+            columns = [index.get(n, -1) for n in (names.gain, *names.across, names.backlash)]
+            both = len({way for *_, way in ways}) > 1
+            found.append(Drive(mass, rail, np.array(columns), both))
+    return tuple(found)
+
+
+def pull(drive: Drive, x: Floats) -> Vector3:
+    """Return k, body axes."""
+    g, v, w = (x[c] if c >= 0 else 0.0 for c in drive.columns[:3])
+    across_1, across_2 = across(drive.rail)
+    k: Vector3 = (1.0 + g) * drive.rail + v * across_1 + w * across_2
+    return k
+
+
+def of_drive(drive: Drive, x: Floats) -> Floats:
+    """Return gain, product, axis (3), across (2), backlash, (8,), SI, by the fit's parameters."""
+    k, u, (v, w) = pull(drive, x), drive.mass.axis, across(drive.mass.axis)
+    size, b = np.sqrt(k @ k), drive.columns[3]
+    gain = drive.mass.gain * (1.0 if drive.trusted else size)
+    off = np.arctan2([k @ v, k @ w], k @ u)
+    backlash = x[b] / size if b >= 0 else 0.0
+    return np.array([gain, drive.mass.mass * gain, *k / size, *off, backlash])
+
+
+def labels_of(drive: Drive) -> list[tuple[str, str]]:
+    """Return name and unit of each of these."""
+    mass, names = drive.mass.name, drive_names(drive.mass.name)
+    axis = [(f"axis_{mass}_{letter}", "1") for letter in "xyz"]
+    angles = [(name, "rad") for name in names.across]
+    return [(names.gain, "1"), (f"product_{mass}", "kg"), *axis, *angles, (names.backlash, "m")]
+
+
+def shown(drive: Drive, sd: Series1) -> list[bool]:
+    """Say of each of these whether the record shows it, given the sd of all eight."""
+    doubt = drive.mass.doubt
+    assert doubt is not None
+    gain = drive.trusted or bool(sd[0] < SHOWN * doubt.gain * drive.mass.gain)
+    rail = bool(np.all(sd[5:7] < SHOWN * doubt.across))
+    backlash = drive.reverses and bool(sd[7] < SHOWN * doubt.backlash)
+    return [gain, gain, rail, rail, rail, rail, rail, backlash]
+
+
+def scatter_of(drive: Drive, estimate: Estimate, size: float) -> Parameter:
+    """Return how far the stops of a mass scatter, in command, with an sd for so few."""
+    mass, name = drive.mass, f"scatter_{drive.mass.name}"
+    stem = f"error_{mass.name}_"
+    stops = [p for p in estimate.parameters if p.name.rpartition("_")[0] + "_" == stem]
+    left = np.array([1.0 - (p.sd / mass.accuracy) ** 2 for p in stops])
+    freedom = float(np.maximum(left, 0.0).sum())
+    if freedom < FEWEST:
+        return Parameter(name, "m", mass.accuracy, float("inf"), False)
+    value = float(np.sqrt(sum(p.value**2 for p in stops) / freedom)) / size
+    return Parameter(name, "m", value, max(value, mass.accuracy) / np.sqrt(2 * freedom))

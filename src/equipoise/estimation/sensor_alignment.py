@@ -1,0 +1,31 @@
+"""How a gyro's axes stand to the body axes of the camera, from the fit's 3 x 3 matrix.
+
+    w_said = A w + b,     A = E + M = S Q          S symmetric, Q a rotation (polar decomposition)
+
+``turn`` is the rotation vector from body axes to the gyro's, Q = R(turn)^T, and S - E holds its
+scale errors on the diagonal and beside it how far its axes are from square to each other. To first
+order turn = ( M_yz - M_zy, M_zx - M_xz, M_xy - M_yx ) / 2.
+
+Body axes are those of the camera's markers: how these stand to the structure no motion tells. The
+rails, which are found in the same axes, do.
+"""
+
+import numpy as np
+from scipy.linalg import polar
+from scipy.spatial.transform import Rotation
+
+from equipoise.model import sensor_terms
+from equipoise.model.arrays import Floats
+
+GYRO = (*sensor_terms.GROUPS["gyro_scale"], *sensor_terms.GROUPS["gyro_cross"])
+ALIGNMENT = tuple(f"gyro_turn_{axis}" for axis in "xyz")
+SCALES = tuple(f"gyro_scale_{axis}" for axis in "xyz")
+AT = ([0, 1, 2, 0, 0, 1, 1, 2, 2], [0, 1, 2, 1, 2, 0, 2, 0, 1])  # of xx yy zz xy xz yx yz zx zy
+
+
+def alignment_of(coefficients: Floats) -> Floats:
+    """Return turn (3) rad and scale errors (3) of the nine coefficients in the order of GYRO."""
+    A = np.eye(3)
+    A[AT] += coefficients
+    Q, S = polar(A, side="left")
+    return np.append(-Rotation.from_matrix(Q).as_rotvec(), np.diag(S) - 1.0)

@@ -1,0 +1,91 @@
+"""Which moves to command so that a record calibrates the masses.
+
+Each mass in turn goes half way, all the way, home, all the way to the other side, half way back,
+home, and stands for half a swing after each:
+
+    d / d_max = 1/2, 1, 0, -1, -1/2, 0
+
+Half and whole on both sides show the gain (sum of d^2: 5/2 d_max^2), stops at half way and at home
+that are reached from either side the backlash, and six stops against three unknowns along the rail
+the scatter. d_max is as far as the rail goes and the platform, as it is guessed, may lean at rest:
+``LEAN`` of its limit, because it swings about as far beyond, and not above ``HEIGHT`` of its depth.
+
+Cannot see how far the guess is off: identify and balance roughly first.
+"""
+
+import math
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.model.arrays import Vector3
+from equipoise.model.errors import InputError
+from equipoise.model.testbed import SlidingMass, Testbed
+
+COURSE = (0.5, 1.0, 0.0, -1.0, -0.5, 0.0)
+LEAN = 0.4  # of the tilt limit, chosen: twice that in the swing, and some for a rough guess
+HEIGHT = 0.5  # of the guessed depth of com below P, chosen: that is left at least
+SHARES = 0.85 ** np.arange(50)  # of the travel, chosen: tried from all of it to 0.03 %
+ROUND = 5.0  # s, chosen: times a person can follow
+
+Moves = list[tuple[float, dict[str, float]]]
+
+
+def calibration_moves(testbed: Testbed, names: tuple[str, ...] = ()) -> tuple[Moves, float]:
+    """Return times (s) and targets (m), and the time to record; all masses unless named.
+
+    InputError for a platform whose guessed centre of mass does not hang.
+    """
+    moves, t = Moves(), stand(testbed)
+    for mass in testbed.masses:
+        if not names or mass.name in names:
+            before = 0.0
+            for goal in course_of(mass, testbed):
+                moves.append((t, {mass.name: goal}))
+                way = abs(goal - before) / mass.speed
+                t, before = t + ROUND * math.ceil((stand(testbed) + way) / ROUND), goal
+    return moves, t
+
+
+def stand(testbed: Testbed) -> float:
+    """Return half a period of swing as guessed, s, in whole ROUNDs."""
+    body = testbed.body
+    depth = -float(body.com @ testbed.up)
+    if depth <= 0:
+        where = f"{testbed.source or testbed.name}: platform.com_um"
+        raise InputError(where, "a centre of mass that is not below P", "one that hangs")
+    stiffness = body.mass * testbed.gravity * depth
+    half = math.pi * math.sqrt(float(np.trace(body.inertia_P)) / 3 / stiffness)
+    return ROUND * math.ceil(half / ROUND)
+
+
+def course_of(mass: SlidingMass, testbed: Testbed) -> list[float]:
+    """Return the targets of one mass, m, in whole steps."""
+    low, high = (share_of(mass, end, testbed) * end for end in mass.travel)
+    ends = [high if share > 0 else -low for share in COURSE]
+    goals = [in_steps(share * end, mass) for share, end in zip(COURSE, ends, strict=True)]
+    return [goal for k, goal in enumerate(goals) if goal != (goals[k - 1] if k else 0.0)]
+
+
+def share_of(mass: SlidingMass, end: float, testbed: Testbed) -> float:
+    """Return the greatest share of the way to one end of the rail at which the guess hangs well."""
+    shift: Vector3 = mass_maps([mass]).first_moment[0] * end / testbed.body.mass
+    return next((float(f) for f in SHARES if hangs(f * shift, testbed)), 0.0)
+
+
+def hangs(shift: Vector3, testbed: Testbed) -> bool:
+    """Say whether the guessed platform leans little enough with its centre of mass shifted (m)."""
+    com, up = testbed.body.com + shift, testbed.up
+    depth, before = -float(com @ up), -float(testbed.body.com @ up)
+    aside = float(np.linalg.norm(com + depth * up))
+    return depth >= HEIGHT * before and aside <= math.tan(LEAN * lean_limit(testbed)) * depth
+
+
+def lean_limit(testbed: Testbed) -> float:
+    """Return the tilt limit, or that of a table that could turn over, rad."""
+    return min(testbed.tilt_limit, math.pi / 3)
+
+
+def in_steps(goal: float, mass: SlidingMass) -> float:
+    """Return a target in whole steps, towards home."""
+    return goal if mass.resolution == 0 else math.trunc(goal / mass.resolution) * mass.resolution

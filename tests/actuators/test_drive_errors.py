@@ -1,0 +1,89 @@
+"""Drives in doubt: how gain, rail and backlash are felt."""
+
+import numpy as np
+import pytest
+
+from equipoise.actuators.drive_errors import across, directions, drive_errors, rails_of
+from equipoise.actuators.mass_errors import mass_errors, unit_of
+from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
+from equipoise.model.recording import Samples
+from equipoise.model.testbed import DriveDoubt, SlidingMass
+
+DOUBT = DriveDoubt(0.1, 0.1, 1e-3)
+HOME = np.array([0.0, 0.2, -0.05])
+
+
+def rail(axis, doubt=DOUBT, gain=1.0):
+    return SlidingMass("x1", 0.5, HOME, np.array(axis), (-0.05, 0.05), 0.0, 0.0, 0.0, 0.01, 0.0,
+                       0.0, gain, doubt)  # fmt: skip
+
+
+# Out by 20 mm from 10 to 12 s, back by 10 mm from 20 to 21 s.
+TRACK = Samples(
+    np.array([0.0, 10.0, 12.0, 20.0, 21.0, 30.0]),
+    np.array([0.0, 0.0, 0.02, 0.02, 0.01, 0.01])[:, None],
+)
+
+
+def felt_at(name, t):
+    errors = mass_errors(TRACK, (rail([1.0, 0.0, 0.0]),))
+    index = list(errors.names).index(name)
+    (column,) = np.flatnonzero(errors.owner[:, 1] == index)
+    return np.interp(t, errors.felt.t, errors.felt.values[:, column]), errors.owner[column, 0]
+
+
+@pytest.mark.parametrize(
+    ("name", "owner", "expected"),
+    [
+        ("gain_x1", 0, [0.0, 0.01, 0.02, 0.01]),
+        ("across_x1_1", 1, [0.0, 0.01, 0.02, 0.01]),
+        ("across_x1_2", 2, [0.0, 0.01, 0.02, 0.01]),
+        ("backlash_x1", 0, [0.0, -0.25, -0.5, 0.5]),
+        ("play_x1", 0, [0.0, 0.5, 1.0, 1.0]),
+    ],
+)
+def test_each_unknown_is_felt_as_derived(name, owner, expected):
+    """At home, half way out, out, and back."""
+    values, where = felt_at(name, [5.0, 11.0, 15.0, 25.0])
+    assert where == owner
+    np.testing.assert_allclose(values, expected, atol=1e-12)
+
+
+def test_rails_across_are_square_and_right_handed():
+    for axis in ([1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [-0.48, 0.6, 0.64]):
+        v, w = across(np.array(axis))
+        frame = np.array([axis, v, w])
+        np.testing.assert_allclose(frame @ frame.T, np.eye(3), atol=1e-12)
+        assert np.linalg.det(frame) == pytest.approx(1.0)
+
+
+def test_a_turn_back_without_rest_ends_a_travel():
+    t, d = np.arange(5.0), np.array([0.0, 0.01, 0.02, 0.01, 0.01])
+    assert directions(t, d, 0.01) == [(0, 2, 1.0), (2, 3, -1.0)]
+
+
+def test_a_mass_that_is_trusted_has_no_gain_and_one_that_stands_nothing():
+    trusted = rail([1.0, 0.0, 0.0], DriveDoubt(0.0, 0.1, 0.0))
+    assert [e.name for e in drive_errors(TRACK.t, TRACK, (trusted,))] == [
+        "across_x1_1", "across_x1_2",
+    ]  # fmt: skip
+    still = Samples(TRACK.t, np.zeros((6, 1)))
+    assert drive_errors(still.t, still, (rail([1.0, 0.0, 0.0]),)) == []
+    assert len(rails_of((rail([1.0, 0.0, 0.0], None),))) == 1
+
+
+def test_units_are_those_of_the_unknowns():
+    units = [unit_of(n) for n in ("gain_x1", "across_x1_1", "backlash_x1", "error_x1_1")]
+    assert units == ["1", "rad", "m", "m"]
+
+
+def test_a_gain_moves_a_mass_so_much_further():
+    """Hand-worked: 0.5 kg told 20 mm with gain 1.1 goes 22 mm: 0.011 kg m, and its inertia."""
+    maps, d = mass_maps([rail([1.0, 0.0, 0.0], None, 1.1)]), np.array([0.02])
+    np.testing.assert_allclose(d @ maps.first_moment, [0.011, 0.0, 0.0])
+    there = HOME + np.array([0.022, 0.0, 0.0])
+    about = [r @ r * np.eye(3) - np.outer(r, r) for r in (HOME, there)]
+    change = 0.5 * (about[1] - about[0])
+    found = inertia_shift(maps, d)
+    np.testing.assert_allclose(found, change[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]], atol=1e-15)
+    np.testing.assert_allclose(maps.momentum[0], 0.55 * np.cross(HOME, [1.0, 0.0, 0.0]))
