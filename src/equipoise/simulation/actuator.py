@@ -47,6 +47,13 @@ def at_home(masses: Sequence[SlidingMass]) -> Travel:
     return Travel(np.zeros(k), np.zeros(k), np.zeros((4, k)), np.zeros((4, k)))
 
 
+def standing(masses: Sequence[SlidingMass], at: Mapping[str, float]) -> Travel:
+    """Return masses that stand exactly at displacements (m), at home where none is told."""
+    k, d = len(masses), np.array([at.get(mass.name, 0.0) for mass in masses])
+    here = np.tile(d, (4, 1))
+    return Travel(np.zeros(k), np.zeros(k), here, here)
+
+
 def displacement(travel: Travel, t: float) -> Floats:
     """Return where the masses are at a time not before their last command, (4, k) m."""
     length = np.maximum(travel.arrive - travel.start, 1e-12)
