@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.actuators.square_waves import inputs_along
 from equipoise.actuators.stored_momentum import stored_momentum
 from equipoise.dynamics.propagation import Motion, body_of, propagate
 from equipoise.dynamics.timeline import timeline
@@ -21,7 +22,7 @@ from equipoise.maths.attitude import leaning
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Series1
 from equipoise.model.devices import recorded_name
-from equipoise.model.manoeuvre import Manoeuvre, SquareWave
+from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
@@ -49,7 +50,7 @@ def mass_track(testbed: Testbed, manoeuvre: Manoeuvre) -> Samples | None:
     if not masses:
         return None
     unused = np.random.default_rng(0)  # of where masses stop, which is not reported
-    travel = actuator.standing(masses, manoeuvre.standing)
+    travel = actuator.left_at(masses, manoeuvre.standing, unused)
     track = actuator.retracked(actuator.track_home(masses), travel, 0.0)
     for t, targets in manoeuvre.moves:
         goals = actuator.checked(travel, t, targets, masses)
@@ -58,30 +59,13 @@ def mass_track(testbed: Testbed, manoeuvre: Manoeuvre) -> Samples | None:
     return actuator.reported_rows(track, 0.0, manoeuvre.duration)
 
 
-def switchings(wave: SquareWave, duration: float) -> list[tuple[float, float]]:
-    """Return when a wave gives its device another input before the end: times (s) and inputs."""
-    halves = np.arange(np.ceil(2 * wave.phase + 1e-9), 2 * (duration / wave.period + wave.phase))
-    times = [0.0, *(0.5 * halves - wave.phase) * wave.period]
-    first = 1.0 if np.floor(2 * wave.phase + 1e-9) % 2 == 0 else -1.0
-    return [(tick_one(float(t)), first * (-1) ** k * wave.amplitude) for k, t in enumerate(times)]
-
-
-def inputs_along(manoeuvre: Manoeuvre) -> list[tuple[float, dict[str, float]]]:
-    """Return what devices are given and when, in order of time; nothing at the end."""
-    found: dict[float, dict[str, float]] = {}
-    for wave in manoeuvre.waves:
-        for t, value in switchings(wave, manoeuvre.duration):
-            found.setdefault(t, {})[wave.device] = value
-    return sorted(found.items())
-
-
 def device_rows(testbed: Testbed, manoeuvre: Manoeuvre, t: Series1) -> Samples | None:
     """Return what wheels and gyros would report at times (s) without noise; others stand at 0."""
     if not (testbed.wheels or testbed.cmgs):
         return None
     devices = started(testbed)
-    for when, inputs in inputs_along(manoeuvre):
-        devices = driven(devices, when, *inputs_of(testbed, inputs))
+    for when, inputs in inputs_along(manoeuvre.waves, manoeuvre.duration):
+        devices = driven(devices, tick_one(when), *inputs_of(testbed, inputs))
     rows = followed(devices, t)[1]
     rows[:, len(testbed.wheels) + len(testbed.cmgs) :] = 0.0
     return Samples(t, rows)

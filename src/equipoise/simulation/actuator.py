@@ -47,11 +47,16 @@ def at_home(masses: Sequence[SlidingMass]) -> Travel:
     return Travel(np.zeros(k), np.zeros(k), np.zeros((4, k)), np.zeros((4, k)))
 
 
-def standing(masses: Sequence[SlidingMass], at: Mapping[str, float]) -> Travel:
-    """Return masses that stand exactly at displacements (m), at home where none is told."""
-    k, d = len(masses), np.array([at.get(mass.name, 0.0) for mass in masses])
-    here = np.tile(d, (4, 1))
-    return Travel(np.zeros(k), np.zeros(k), here, here)
+def left_at(
+    masses: Sequence[SlidingMass], at: Mapping[str, float], rng: np.random.Generator
+) -> Travel:
+    """Return masses that were sent to displacements (m) before time zero, or else stand at home."""
+    k, travel = len(masses), at_home(masses)
+    end = travel.end.copy()
+    for i, mass in enumerate(masses):
+        if at.get(mass.name, 0.0) != 0.0:
+            end[:, i] = stop_of(end[:, i], at[mass.name], mass, 1.0, rng.standard_normal())
+    return Travel(np.zeros(k), np.zeros(k), end, end)
 
 
 def displacement(travel: Travel, t: float) -> Floats:
