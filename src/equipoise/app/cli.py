@@ -22,6 +22,7 @@ from equipoise.app.commands.laws import laws
 from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
+from equipoise.app.commands.plan import plan
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
@@ -40,7 +41,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 COMMANDS = (
-    demo, new, simulate, inspect, observe, identify, assess, methods, balance, laws,
+    demo, new, plan, simulate, inspect, observe, identify, assess, methods, balance, laws,
     compare, reproduce,
 )  # fmt: skip
 for command in COMMANDS:

@@ -71,8 +71,8 @@ def predicted(
 ) -> Predicted:
     """Return what a manoeuvre of a platform with this body will tell."""
     seen = imagined(testbed, body, manoeuvre)
-    fitted = at_truth(seen, testbed, body, manoeuvre, params)
-    return prediction(informed(fitted, known), seen, testbed)
+    problem = posed(seen, testbed, params, known)
+    return prediction(at_truth(problem, seen, body, manoeuvre, known), seen, testbed)
 
 
 def followed_truth(
@@ -80,21 +80,32 @@ def followed_truth(
 ) -> Followed:
     """Return the motion as ``fisher.seen_along`` takes it."""
     seen = imagined(testbed, body, manoeuvre)
-    fitted = at_truth(seen, testbed, body, manoeuvre, params)
+    fitted = at_truth(posed(seen, testbed, params, None), seen, body, manoeuvre, None)
     return Followed(fitted, testbed, params, ())
 
 
+def posed(seen: Imagined, testbed: Testbed, params: Params, known: Known | None) -> Problem:
+    """Return the problem of a noiseless recording.
+
+    What is known already fixes the scale too; nothing is held then but what is asked.
+    """
+    problem = problem_of(seen.recording, testbed, with_plumb(seen, testbed, params))
+    if known is None or not problem.scale_open:
+        return problem
+    held = np.isin(problem.layout.names, params.hold)
+    return replace(problem, scale_open=False, prior=replace(problem.prior, held=held))
+
+
 def at_truth(
+    problem: Problem,
     seen: Imagined,
-    testbed: Testbed,
     body: MassProperties,
     manoeuvre: Manoeuvre,
-    params: Params,
+    known: Known | None,
 ) -> Fitted:
     """Return the fit of a noiseless recording, which ends where the truth is."""
-    problem = problem_of(seen.recording, testbed, with_plumb(seen, testbed, params))
     point = true_point(seen, body, manoeuvre, problem.layout)
-    return Fitted(problem, point, evaluate(problem, point), True, 1, np.zeros((0, 1)))
+    return informed(problem, point, known)
 
 
 def with_plumb(seen: Imagined, testbed: Testbed, params: Params) -> Params:
@@ -114,15 +125,16 @@ def true_point(
     )  # fmt: skip
 
 
-def informed(fitted: Fitted, known: Known | None) -> Fitted:
-    """Return the fit with what is known already in its information."""
-    if known is None:
-        return fitted
-    normal, names = fitted.at.normal.copy(), fitted.problem.layout.names
-    here = [k for k, name in enumerate(known.names) if name in names]
-    where = [names.index(known.names[k]) for k in here]
-    normal[np.ix_(where, where)] += known.information[np.ix_(here, here)]
-    return replace(fitted, at=replace(fitted.at, normal=normal))
+def informed(problem: Problem, point: Unknowns, known: Known | None) -> Fitted:
+    """Return the fit that ended at a point, with what is known already in its information."""
+    at = evaluate(problem, point)
+    if known is not None:
+        normal, names = at.normal.copy(), problem.layout.names
+        here = [k for k, name in enumerate(known.names) if name in names]
+        where = [names.index(known.names[k]) for k in here]
+        normal[np.ix_(where, where)] += known.information[np.ix_(here, here)]
+        at = replace(at, normal=normal)
+    return Fitted(problem, point, at, True, 1, np.zeros((0, 1)))
 
 
 def prediction(fitted: Fitted, seen: Imagined, testbed: Testbed) -> Predicted:

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import radians
 
-from equipoise.model.arrays import Vector3
+from equipoise.model.arrays import Vector3, Vector6
 
 HAND_TILT = radians(1.0)  # rad, chosen: one sd of a tilt about each level axis, set by hand
 HAND_RATE = radians(0.5)  # rad/s, chosen: one sd of each component of a rate given by a push
@@ -42,3 +42,14 @@ class Manoeuvre:
     standing: Mapping[str, float] = field(default_factory=dict[str, float])  # m, before time zero
     tilt_sd: float = HAND_TILT  # rad, how well the start is met
     rate_sd: float = HAND_RATE  # rad/s
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """A manoeuvre as it is written down, with what it promises."""
+
+    testbed: str  # name
+    manoeuvre: Manoeuvre
+    inertia_sd: Vector6 | None = None  # kg m^2, xx yy zz xy xz yz; None: not all of it is seen
+    com_sd: Vector3 | None = None  # m
+    source: str = ""  # the file
