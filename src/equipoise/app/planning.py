@@ -1,6 +1,6 @@
 """One planning: what is known, the search with a sign of life, and what comes of it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -61,6 +61,7 @@ class Planning:
     request: Request
     usual: Promise
     planned: Promise
+    alone: Promise  # the plan's record, without what was seen before
 
 
 def run(request: Request) -> Planning:
@@ -78,8 +79,10 @@ def run(request: Request) -> Planning:
         best = planned(space, wish, request.seed, request.trials, tell)
     before = usual(testbed, request.duration, standing)
     with busy("trying it on other platforms", announce=False):
-        both = [promise(testbed, m, wish, request.seed) for m in (before, best)]
-    return Planning(request, *both)
+        promised = [promise(testbed, m, wish, request.seed) for m in (before, best)]
+        fresh = replace(wish, known=None)
+        alone = promise(testbed, best, fresh, request.seed) if known else promised[1]
+    return Planning(request, *promised, alone)
 
 
 def learnt_from(file: Path, request: Request) -> Seen:
@@ -93,8 +96,8 @@ def learnt_from(file: Path, request: Request) -> Seen:
 
 
 def plan_file_of(done: Planning) -> Plan:
-    """Return the plan as it is written down."""
-    promised, bed = done.planned, done.request.testbed
+    """Return the plan as it is written down, with what a fit of its record alone should find."""
+    promised, bed = done.alone, done.request.testbed
     inertia, com = promised.sd_of(INERTIA), promised.sd_of(COM)
     all_seen = bool(np.all(np.isfinite([*inertia, *com])))
     said = (inertia, com) if all_seen else (None, None)

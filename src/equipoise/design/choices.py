@@ -29,6 +29,7 @@ MOST_MOMENTUM = 0.8  # of a wheel's, chosen: leaves room for what it holds again
 MOST_GIMBAL = 60 * DEG  # chosen: a gyro that has turned further gives less and less torque
 SHORTEST = 8.0  # s, of a wave, chosen: ten times the lag of a slow wheel
 SAME = 1e-9
+AGAIN = 0.04  # of the way home, chosen: two steps of 50 mm in steps of 1 mm
 LEVEL = 0.5  # sine of a slope, chosen: rails that are less steep count as level
 
 
@@ -95,17 +96,18 @@ def chosen(space: Space, numbers: Floats) -> Manoeuvre:
 
 
 def plain_choice(space: Space) -> Floats:
-    """Return a choice that a search may begin with: masses go down and home in turn, evenly.
+    """Return a choice that a search may begin with: masses go down, and again a little less so.
 
-    Half the tilt allowed, no push, weak waves. Home is where masses stand without error.
+    They stop anew each time, with a new error, and the platform hangs stiffly. A good part of the
+    tilt allowed, some spin, weak waves.
     """
     moves = space.moves if space.testbed.masses else 0
-    down = [lowest(space, kind[0]) for kind in space.kinds]
-    home = [home_share(kind[0]) for kind in space.kinds]
-    shares = [down if k % 2 == 0 else home for k in range(moves)]
+    down = np.array([lowest(space, kind[0]) for kind in space.kinds])
+    home = np.array([home_share(kind[0]) for kind in space.kinds])
+    shares = [down + AGAIN * (k + 1) * (home - down) for k in range(moves)]
     waves = np.tile([0.75, 0.5], len(space.driven))
-    times = (np.arange(moves) + 0.5) / max(moves, 1)
-    start = [0.75, 0.5, 0.5, 0.5, 0.5]
+    times = (np.arange(moves) + 1) / (moves + 1)
+    start = [0.85, 0.5, 0.5, 0.5, 0.4]
     return np.concatenate([start, times, np.ravel(shares), waves])
 
 

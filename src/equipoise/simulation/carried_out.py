@@ -13,6 +13,7 @@ import numpy as np
 from equipoise.actuators.square_waves import inputs_along
 from equipoise.maths.attitude import exponential, leaning, multiply, to_euler321
 from equipoise.model.arrays import Quaternion, Vector3
+from equipoise.model.bench import Bench
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -56,6 +57,11 @@ def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
     return sorted([*moves, *drives], key=lambda command: command.t)
 
 
-def carried_out(bench: SimulatedBench, manoeuvre: Manoeuvre) -> Recording:
+def simulated(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Recording:
+    """Return what a simulated bench records of a manoeuvre."""
+    return carried_out(bench_for(testbed, manoeuvre, seed), manoeuvre)
+
+
+def carried_out(bench: Bench, manoeuvre: Manoeuvre) -> Recording:
     """Return what a fresh bench records of a manoeuvre."""
     return commanded(bench, manoeuvre.duration, commands_of(manoeuvre))

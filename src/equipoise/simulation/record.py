@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
@@ -25,7 +26,7 @@ def record(testbed: Testbed, duration: float, moves: Moves, seed: int) -> Record
     return commanded(SimulatedBench(testbed, seed), duration, commands)
 
 
-def commanded(bench: SimulatedBench, duration: float, commands: Sequence[Command]) -> Recording:
+def commanded(bench: Bench, duration: float, commands: Sequence[Command]) -> Recording:
     """Return ``duration`` seconds of a fresh bench that is told these in order."""
     recording = bench.read(0.0)
     for command in commands:

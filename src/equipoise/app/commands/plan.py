@@ -18,7 +18,7 @@ def plan(
     max_rate_deg_s: float = 5.0,
     seen: Path | None = None,
     seeking: Seeking = NOTHING_TOLD,
-    trials: Whole = 1600,
+    trials: Whole = 2400,
     seed: Whole = 1,
     json: Flag = False,
     out: Path | None = None,
