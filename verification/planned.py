@@ -41,6 +41,7 @@ from tests.oracle import mujoco_bench as oracle
 from verification.chance import FULL, RARE
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn
 
+MOVES = 3
 SECONDS, TABLE_SECONDS = 120.0, 60.0
 RATE = np.radians(5.0)  # rad/s, the limit
 BETTER = 3.0
@@ -74,7 +75,7 @@ def wish_of(testbed: Testbed) -> Wish:
 
 def plan_of(testbed: Testbed, seconds: float, trials: int = TRIALS) -> Manoeuvre:
     """Return the plan of seed 1."""
-    space = Space(testbed, seconds, 2, testbed.tilt_limit, RATE, {})
+    space = Space(testbed, seconds, MOVES, testbed.tilt_limit, RATE, {})
     return planned(space, wish_of(testbed), 1, trials)
 
 

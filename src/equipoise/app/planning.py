@@ -79,10 +79,10 @@ def run(request: Request) -> Planning:
         best = planned(space, wish, request.seed, request.trials, tell)
     before = usual(testbed, request.duration, standing)
     with busy("trying it on other platforms", announce=False):
-        promised = [promise(testbed, m, wish, request.seed) for m in (before, best)]
+        first, second = (promise(testbed, m, wish, request.seed) for m in (before, best))
         fresh = replace(wish, known=None)
-        alone = promise(testbed, best, fresh, request.seed) if known else promised[1]
-    return Planning(request, *promised, alone)
+        alone = promise(testbed, best, fresh, request.seed) if known else second
+    return Planning(request, first, second, alone)
 
 
 def learnt_from(file: Path, request: Request) -> Seen:

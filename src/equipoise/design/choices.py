@@ -81,7 +81,7 @@ def chosen(space: Space, numbers: Floats) -> Manoeuvre:
     moves = space.moves if space.testbed.masses else 0
     times, rest = rest[:moves], rest[moves:]
     cut = moves * len(space.kinds)
-    shares, waves = rest[:cut].reshape(moves, -1), rest[cut:].reshape(-1, 2)
+    shares, waves = rest[:cut].reshape(moves, len(space.kinds)), rest[cut:].reshape(-1, 2)
     tilt, side = lean_of(space, start[:2])
     return Manoeuvre(
         space.duration,

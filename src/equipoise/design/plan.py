@@ -2,9 +2,9 @@
 
     minimise  score(mean_k C_k) + STIFF mean_k (excess of tilt and rate over their limits)_k
 
-over ``choices``, C_k being the covariance and k platforms that may be there, let go by a hand that errs (``scenario``), by
-differential evolution (Storn and Price 1997, of SciPy), which needs no gradient and no start. The
-same seed finds the same plan.
+over ``choices``, C_k being the covariance of what is asked for and k platforms that may be there,
+let go by a hand that errs (``scenario``), by differential evolution (Storn and Price 1997, of
+SciPy), which needs no gradient. The same seed finds the same plan.
 
 Finds a good manoeuvre, not the best: a second seed finds another that is as good within some
 percent. Cannot see what ``predicted`` cannot see.
@@ -29,6 +29,7 @@ from equipoise.model.testbed import Testbed
 GUARD = 0.85  # of the tilt limit, chosen: as in ``procedure.foresight``
 STIFF = 10.0  # chosen: a tenth beyond a limit costs as much as sd that are e times as wide
 HOPELESS = 1.0  # chosen: an excess at which nothing else counts
+NEAR = 0.12  # chosen: of what there is to choose from, about the plain choice
 NOTHING = 20.0  # chosen: worse than any score, for what leaves the scale open
 SCENARIOS = 6  # chosen: with four, other platforms were told a third worse than these
 POPULATION = 4  # chosen: manoeuvres tried at once, by number of a choice
@@ -95,6 +96,15 @@ def silent(done: float) -> None:
     """Hear how far a search is, and say nothing."""
 
 
+def first_tries(space: Space, count: int, rng: np.random.Generator) -> Floats:
+    """Return the choices that a search begins with: half near the plain one, half anywhere."""
+    anywhere = rng.random((count, space.size))
+    near = plain_choice(space) + NEAR * rng.standard_normal((count // 2, space.size))
+    anywhere[: count // 2] = np.clip(near, 0.0, 1.0)
+    anywhere[0] = plain_choice(space)
+    return anywhere
+
+
 def planned(
     space: Space,
     wish: Wish,
@@ -119,9 +129,8 @@ def planned(
         Bounds(np.zeros(space.size), np.ones(space.size)),
         popsize=POPULATION,
         maxiter=generations,
-        init="sobol",
+        init=first_tries(space, at_once, np.random.default_rng(seed)),
         polish=False,
-        x0=plain_choice(space),
         seed=seed,
         callback=after,
     )
