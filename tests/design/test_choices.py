@@ -10,11 +10,11 @@ from equipoise.actuators.square_waves import inputs_along, switchings
 from equipoise.design.choices import Space, chosen, greatest, level_axes
 from equipoise.design.criterion import score, sizes
 from equipoise.design.plan import Wish, merit, planned, search_for
+from equipoise.design.predicted import predicted
 from equipoise.design.promise import met
 from equipoise.design.rehearsal import for_search, peaks, rehearsal, started, told
 from equipoise.design.scenario import Scenario, beforehand, scenarios
 from equipoise.design.usual import usual
-from equipoise.design.predicted import predicted
 from equipoise.estimation.trajectory import Params
 from equipoise.io.presets import read_preset
 from equipoise.maths.attitude import leaning, tilt, to_matrix
@@ -54,7 +54,7 @@ def test_a_lean_lowers_the_side_that_is_named():
 
 
 def test_sizes_and_scores_by_hand():
-    """Moments 0.25 and 1: 1 % is 0.0025 and 0.01, of their product 0.005. A of sd 3, 4: rms 3.54."""
+    """Moments 0.25 and 1: 1 % is 0.0025 and 0.01, of the product 0.005. A of 3, 4: 3.54."""
     body = bed().body
     found = sizes(type(body)(body.mass, body.com, np.diag([0.25, 1.0, 1.0])))
     np.testing.assert_allclose(found, [0.0025, 0.01, 0.01, 0.005, 0.005, 0.01, 1e-6, 1e-6, 1e-6])

@@ -14,7 +14,7 @@ def plan(
     duration_s: float = 120.0,
     ask: Literal["J", "r", "both"] = "both",
     criterion: Literal["A", "D"] = "A",
-    moves: Whole = 2,
+    moves: Whole = 3,
     max_rate_deg_s: float = 5.0,
     seen: Path | None = None,
     seeking: Seeking = NOTHING_TOLD,
