@@ -33,6 +33,7 @@ from verification import (
     method_intervals,
     method_table,
     mujoco_platforms,
+    planned,
     real_methods,
     real_record,
     robustness,
@@ -79,6 +80,7 @@ CHECKS = {
     "laws": Check(laws.measure, 100),
     "laws_on_mujoco": Check(laws_on_mujoco.measure, 3),
     "lee": Check(lee.measure, 100),
+    "planned": Check(planned.measure, 200),
     "real_methods": Check(real_methods.measure, 1),
 }
 

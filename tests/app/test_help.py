@@ -9,6 +9,7 @@ import pytest
 COMMANDS = (
     "demo",
     "new",
+    "plan",
     "simulate",
     "inspect",
     "observe",

@@ -13,6 +13,7 @@ from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, END, INERTIA, Estimate
+from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
@@ -21,6 +22,7 @@ from equipoise.model.verdict import Verdict
 from equipoise.procedure.balance import BalanceOptions
 from equipoise.procedure.hold import HoldOptions, balance_and_hold
 from equipoise.procedure.laws import CARDS, OWN, balanced_and_followed, balanced_by
+from equipoise.procedure.plan_first import planned_and_balanced
 from equipoise.simulation.bench import SimulatedBench
 
 HALTED = "every mass was halted where it is"
@@ -65,6 +67,7 @@ class Limits:
     max_time: float | None = None  # s
     hold: float = 0.0  # s
     law: str = OWN.name
+    plan: Manoeuvre | None = None  # to begin with
 
 
 def run(
@@ -86,7 +89,8 @@ def run(
     # A look of a law's may hold what is not known; its estimate is no belief to begin with.
     body, sd = bench.testbed.body, bench.testbed.com_sd
     known = None if limits.law == OWN.name else Believed(body.com, sd)
-    return Balancing(bench.testbed, goal, steps, recorded.recording(), before, truths, known)
+    began = truths[0] if limits.plan is not None else before  # after the manoeuvre
+    return Balancing(bench.testbed, goal, steps, recorded.recording(), began, truths, known)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
@@ -95,6 +99,10 @@ def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     usual = holding.balancing if limits.hold > 0 else BalanceOptions(goal.target, goal.tolerance)
     moves = usual.max_moves if limits.max_moves is None else limits.max_moves
     balancing = replace(usual, max_moves=moves, max_time=limits.max_time or usual.max_time)
+    if limits.plan is not None:
+        if limits.law != OWN.name or limits.hold > 0:
+            raise InputError("--plan", "another law, or a hold", f"{OWN.name} without a hold")
+        return planned_and_balanced(bench, balancing, limits.plan)
     if limits.hold == 0:
         return balanced_by(limits.law, bench, balancing, limits.max_time)
     if limits.law == OWN.name:

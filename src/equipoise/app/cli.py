@@ -23,6 +23,7 @@ from equipoise.app.commands.laws import laws
 from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
+from equipoise.app.commands.plan import plan
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
@@ -41,8 +42,8 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 COMMANDS = (
-    demo, new, simulate, inspect, observe, identify, calibrate, assess, methods, balance, laws,
-    compare, reproduce,
+    demo, new, plan, simulate, inspect, observe, identify, calibrate, assess, methods, balance,
+    laws, compare, reproduce,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command)

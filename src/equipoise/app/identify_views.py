@@ -5,11 +5,13 @@ from dataclasses import dataclass
 
 from equipoise.app.account import Account, origin
 from equipoise.app.pictures import of_estimate
+from equipoise.app.plan_kept import kept_json, kept_table, promise_sentences
 from equipoise.app.tables import estimate_tables, finding_line, residual_line, step_line
 from equipoise.app.terminal import stdout
 from equipoise.app.views_json import View, estimate_json
 from equipoise.assessment.finding import Finding
 from equipoise.model.estimate import Estimate
+from equipoise.model.manoeuvre import Plan
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -23,6 +25,7 @@ class Identification:
     recording: Recording
     findings: Sequence[Finding]
     steps: Sequence[Step]
+    plan: Plan | None = None  # that the recording was made by
 
     @property
     def estimate(self) -> Estimate:
@@ -48,18 +51,26 @@ def show_result(done: Identification) -> None:
     for table in estimate_tables(estimate):
         console.print()
         console.print(table)
+    if done.plan is not None and done.plan.com_sd is not None:
+        console.print()
+        console.print(kept_table(done.plan, estimate))
     console.print()
     for sentence in estimate.unobservable:
         console.print(f"! {sentence}", style="yellow", markup=False)
     if estimate.residual is not None:
         console.print(residual_line(estimate.residual), markup=False)
+    for sentence in promise_sentences(done.plan, estimate):
+        console.print(sentence, markup=False)
     style = "bold green" if estimate.outcome.usable else "bold red"
     console.print(estimate.outcome.sentence, style=style, markup=False)
 
 
 def document_of(done: Identification) -> View:
     """Return the estimate as JSON, with the findings."""
-    return estimate_json(done.estimate, done.findings)
+    document = estimate_json(done.estimate, done.findings)
+    return (
+        document if done.plan is None else document | {"plan": kept_json(done.plan, done.estimate)}
+    )
 
 
 def account_of(done: Identification) -> Account:

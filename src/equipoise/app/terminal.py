@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from equipoise.app.interruption import held_back
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
     from rich.console import Console
@@ -80,6 +80,20 @@ def busy(what: str, announce: bool = True) -> Generator[None]:
             console.print(f"{what} ...")
         with event.install_listener("numba:compile", Listener()):
             yield
+
+
+@contextmanager
+def counted(what: str) -> "Generator[Callable[[float], None]]":
+    """Show on stderr what share of something is done, as the function is told that it yields."""
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
+
+    console = stderr()
+    if not console.is_terminal:
+        console.print(f"{what} ...")
+    columns = (TextColumn(what), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        bar = progress.add_task(what, total=1.0)
+        yield lambda share: progress.update(bar, completed=share)
 
 
 def watched(steps: "Iterator[Step]", what: str) -> "Iterator[Step]":

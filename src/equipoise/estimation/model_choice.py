@@ -24,6 +24,8 @@ from equipoise.estimation.trajectory_problem import changes, evaluate
 from equipoise.estimation.unknowns import sensor_sizes, term_sizes
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
 
 PLUMB = sensor_terms.GROUPS["plumb"]
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
@@ -58,10 +60,14 @@ def levelled(belief: Believed) -> Believed:
     Not a term to be chosen: no camera is level to what a record shows of it, and com is far off
     long before the record asks for the term.
     """
-    camera, rows = belief.testbed.attitude, belief.recording.attitude
-    if camera is None or rows is None or not len(rows) or camera.plumb_sd == 0:
-        return belief
-    return refitted(with_group(belief, PLUMB))
+    may_lean = is_plumb_open(belief.recording, belief.testbed)
+    return refitted(with_group(belief, PLUMB)) if may_lean else belief
+
+
+def is_plumb_open(recording: Recording, testbed: Testbed) -> bool:
+    """Say whether a recording has rows of a camera whose vertical may lean."""
+    camera, rows = testbed.attitude, recording.attitude
+    return camera is not None and rows is not None and len(rows) > 0 and camera.plumb_sd > 0
 
 
 def with_group(belief: Believed, group: tuple[str, ...]) -> Believed:

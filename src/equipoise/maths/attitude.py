@@ -95,6 +95,15 @@ def level(up: Vector3) -> Quaternion:
     return normalise(np.concatenate([[1.0 + up[2]], axis])) if up[2] > -0.999 else np.eye(4)[1]
 
 
+def leaning(up: Vector3, low_side: Vector3, angle: float) -> Quaternion:
+    """Return ``level`` tilted by an angle (rad) so that the body's direction ``low_side`` sinks.
+
+    Both are unit vectors at right angles. A turn about n moves d by n x d, which is -up for
+    n = up x d.
+    """
+    return multiply(level(up), exponential(angle * np.cross(up, low_side)))
+
+
 def tilt(q: Floats, up: Floats) -> Floats:
     """Return the angle (rad) between the body axis ``up`` and the laboratory's vertical."""
     return np.arccos(np.clip((to_matrix(q) @ up)[..., 2], -1.0, 1.0))

@@ -13,7 +13,7 @@ import numpy as np
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.move import Move
-from equipoise.model.recording import Recording
+from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
@@ -62,13 +62,18 @@ class Progress:
     braking: bool = False
 
 
-def balance(bench: Bench, options: BalanceOptions) -> Generator[Step, None, Knowledge]:
+def balance(
+    bench: Bench, options: BalanceOptions, before: Recording | None = None
+) -> Generator[Step, None, Knowledge]:
     """Yield Steps; the last is a verification, or a stop that says why, with a verdict.
 
-    What is known in the end is the generator's return value.
+    What this bench has recorded ``before`` counts with what is seen from now on. What is known in
+    the end is the generator's return value.
     """
     began = bench.time
     fresh = bench.read(FIRST_LOOK)
+    if before is not None:
+        fresh = join(before, fresh)
     progress = Progress(learn(None, fresh, bench.testbed), still_since=began)
     yield look_step(bench, fresh)
     while True:

@@ -47,6 +47,18 @@ def at_home(masses: Sequence[SlidingMass]) -> Travel:
     return Travel(np.zeros(k), np.zeros(k), np.zeros((4, k)), np.zeros((4, k)))
 
 
+def left_at(
+    masses: Sequence[SlidingMass], at: Mapping[str, float], rng: np.random.Generator
+) -> Travel:
+    """Return masses that were sent to displacements (m) before time zero, or else stand at home."""
+    k, travel = len(masses), at_home(masses)
+    end = travel.end.copy()
+    for i, mass in enumerate(masses):
+        if at.get(mass.name, 0.0) != 0.0:
+            end[:, i] = stop_of(end[:, i], at[mass.name], mass, 1.0, rng.standard_normal())
+    return Travel(np.zeros(k), np.zeros(k), end, end)
+
+
 def displacement(travel: Travel, t: float) -> Floats:
     """Return where the masses are at a time not before their last command, (4, k) m."""
     length = np.maximum(travel.arrive - travel.start, 1e-12)

@@ -65,9 +65,14 @@ A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on whe
 
 
 class SimulatedBench:
-    """A bench made of equations; see ``model.bench.Bench``. ``platform`` is what it really is."""
+    """A bench made of equations; see ``model.bench.Bench``. ``platform`` is what it really is.
 
-    def __init__(self, testbed: Testbed, seed: int) -> None:
+    Masses stand at home, or where ``standing`` says that they were left (m).
+    """
+
+    def __init__(
+        self, testbed: Testbed, seed: int, standing: Mapping[str, float] | None = None
+    ) -> None:
         streams = [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(8)]
         rng, self._stops_rng, self._camera_rng, self._gyro_rng, self._noise_rng = streams[:5]
         self._bad_rng, self._bad = streams[5], np.zeros(0)
@@ -82,7 +87,8 @@ class SimulatedBench:
         self._happens = times([*truth.contacts, *truth.com_steps])
         self._rails = mass_maps(masses)
         self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
-        self._travel, self._track = actuator.at_home(masses), actuator.track_home(masses)
+        self._travel = actuator.left_at(masses, standing or {}, self._stops_rng)
+        self._track = actuator.retracked(actuator.track_home(masses), self._travel, 0.0)
         self._noise = start_noise(truth.noise_torque, truth.noise_correlation, self._noise_rng)
         self._lead = max(lead(testbed.attitude), lead(testbed.gyro))
         self._time, self._read_until = 0.0, -1.0
@@ -172,10 +178,11 @@ class SimulatedBench:
         return float(tilt(self._now[:4], self._testbed.up))
 
     def _first_state(self) -> Floats:
-        """Return the state at time zero: masses at home, wheels and gyros as they start."""
+        """Return the state at time zero: masses where they were left, devices as they start."""
         truth = self.platform
         h, gimbals = stored(self._testbed, self._devices, np.zeros(1))
         shift = inertia_shift(gimbal_maps(self._testbed.cmgs), gimbals[0])
+        shift += inertia_shift(self._rails, self._travel.end[actuator.REAL])
         inertia = truth.body.inertia_P + unpack_symmetric(shift)
         return np.concatenate([truth.attitude, inertia @ truth.rate + h[0]])
 

@@ -21,6 +21,7 @@ def balance(
     *,
     law: str = "look_and_move",
     seed: Whole = 1,
+    plan: Path | None = None,
     target_um: Triple = (0.0, 0.0, -100.0),
     tolerance_um: Triple = (2.0, 2.0, 3.0),
     max_moves: Whole | None = None,
@@ -44,6 +45,9 @@ def balance(
         How to balance; `equipoise laws` lists them.
     seed
         Seed of all that is drawn: the same seed gives the same run.
+    plan
+        Plan file: begin with its manoeuvre, then balance on all that was recorded. Of
+        look_and_move alone, without a hold.
     target_um
         Where the centre of mass is wanted, from the centre of rotation, body axes.
     tolerance_um
@@ -64,6 +68,7 @@ def balance(
     from equipoise.app.options import not_negative, one_of, positive, seed_of, tolerance, vector
     from equipoise.app.units import UM
     from equipoise.app.wiring import testbed_of
+    from equipoise.io.plan_file import read_plan
     from equipoise.io.whole_folder import check_folder
 
     target = vector("--target-um", target_um, 1 / UM)
@@ -80,6 +85,7 @@ def balance(
         goal, seed = Goal(target, near), seed_of(seed)
         return balance_by_hand(Asked(testbed, goal, seed, by_hand, reading, json, out))
     bed, seed = testbed_of(testbed), seed_of(seed)
+    planned = None if plan is None else read_plan(plan, bed).manoeuvre
     if out is not None:
         check_folder(out)
     with busy("preparing the bench", announce=False):
@@ -89,9 +95,10 @@ def balance(
         from equipoise.app.views_json import dump
         from equipoise.procedure.laws import CARDS
         from equipoise.simulation.bench import SimulatedBench
+        from equipoise.simulation.carried_out import bench_for
 
-        limits = Limits(moves, longest, hold, one_of("--law", law, list(CARDS)))
-        bench = SimulatedBench(bed, seed)
+        limits = Limits(moves, longest, hold, one_of("--law", law, list(CARDS)), planned)
+        bench = SimulatedBench(bed, seed) if planned is None else bench_for(bed, planned, seed)
     done = run(bench, Goal(target, near), limits, None if json else show_step)
     document = document_of(done, seed)
     if json:

@@ -1,5 +1,6 @@
 """`equipoise identify`: mass properties from a recording."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,7 @@ def identify(
     testbed: str,
     method: str = "auto",
     robust: Flag = False,
+    plan: Path | None = None,
     seeking: Seeking = NOTHING_TOLD,
     reading: Reading = WHOLE,
     json: Flag = False,
@@ -41,6 +43,8 @@ def identify(
         auto, or one of those that `equipoise methods` lists.
     robust
         Give rows that stand far off less weight.
+    plan
+        Plan file that the recording was made by: what it predicted is compared with what is found.
     json
         Print one JSON document instead.
     out
@@ -48,12 +52,14 @@ def identify(
     """
     from equipoise.app.options import one_of
     from equipoise.app.wiring import fitting_recording_of, spelt_out, testbed_of
+    from equipoise.io.plan_file import read_plan
     from equipoise.io.whole_folder import check_folder
 
     bed, seeking = testbed_of(testbed), spelt_out(seeking)
     if out is not None:
         check_folder(out)
     recording = fitting_recording_of(file, reading, bed)
+    planned = None if plan is None else read_plan(plan, bed)
     with busy("identifying", announce=False):
         from equipoise.estimation.methods.registry import METHODS
         from equipoise.procedure.identify import IdentifyOptions
@@ -61,6 +67,7 @@ def identify(
     one_of("--method", method, ["auto", *METHODS])
     options = IdentifyOptions(method, seeking.term, seeking.hold, seeking.prior, robust)
     done = _carried_out(recording, bed, options, quiet=json)
+    done = replace(done, plan=planned)
     _tell(done, json, out)
     return 0 if done.estimate.outcome.usable else 1
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from equipoise.app.commands.kinds import Names, Whole
 from equipoise.app.terminal import busy, stdout
+from equipoise.model.errors import InputError
 
 
 def simulate(
@@ -11,11 +12,12 @@ def simulate(
     /,
     *,
     out: Path,
-    duration_s: float = 120.0,
+    duration_s: float | None = None,
+    plan: Path | None = None,
     move: Names = (),
     seed: Whole = 1,
 ) -> int:
-    """Simulate a platform in free motion, and write what its sensors record.
+    """Simulate a platform in free motion or a planned manoeuvre, and write what its sensors record.
 
     Parameters
     ----------
@@ -24,7 +26,9 @@ def simulate(
     out
         File to write, .csv or .parquet.
     duration_s
-        Length of the record.
+        Length of the record: 120, or as the plan has it.
+    plan
+        Plan file: how the platform is let go, by a hand that errs, and what is done then.
     move
         Move of masses, "seconds: mass=mm mass=mm", as displacements from home. May be repeated.
     seed
@@ -32,17 +36,26 @@ def simulate(
     """
     from equipoise.app.options import positive, seed_of
     from equipoise.app.wiring import move_of, testbed_of
+    from equipoise.io.plan_file import read_plan
     from equipoise.io.recording_file import write_recording
     from equipoise.io.whole_file import check_writable
 
     bed = testbed_of(testbed)
-    duration = positive("--duration-s", duration_s)
-    moves = [move_of(text, bed) for text in move]
+    duration = positive("--duration-s", 120.0 if duration_s is None else duration_s)
+    moves, drawn = [move_of(text, bed) for text in move], seed_of(seed)
+    planned = None if plan is None else read_plan(plan, bed)
+    if planned is not None and (moves or duration_s is not None):
+        raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
     check_writable(out)
     with busy("simulating"):
+        from equipoise.simulation.carried_out import simulated
         from equipoise.simulation.record import record
 
-        recording = record(bed, duration, moves, seed_of(seed))
+        recording = (
+            record(bed, duration, moves, drawn)
+            if planned is None
+            else simulated(bed, planned.manoeuvre, drawn)
+        )
         write_recording(recording, out)
     stdout().print(f"wrote {out}", markup=False)
     return 0

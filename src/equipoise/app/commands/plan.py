@@ -1,0 +1,83 @@
+"""`equipoise plan`: the manoeuvre that will tell most."""
+
+from pathlib import Path
+from typing import Literal
+
+from equipoise.app.commands.kinds import Flag, Whole
+from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
+
+
+def plan(
+    testbed: str,
+    /,
+    *,
+    duration_s: float = 120.0,
+    ask: Literal["J", "r", "both"] = "both",
+    criterion: Literal["A", "D"] = "A",
+    moves: Whole = 3,
+    max_rate_deg_s: float = 5.0,
+    seen: Path | None = None,
+    seeking: Seeking = NOTHING_TOLD,
+    trials: Whole = 2400,
+    seed: Whole = 1,
+    json: Flag = False,
+    out: Path | None = None,
+) -> int:
+    """Plan how to let a platform go and what to move meanwhile, to learn most from the record.
+
+    Chosen are tilt and rate at the start, times and sizes of moves, and square waves for wheels and
+    gyros where there are any. The tilt limit is kept on platforms drawn from what is known, let go
+    by a hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when it is not kept on all of them.
+
+    Parameters
+    ----------
+    testbed
+        Testbed file, or a preset's name.
+    duration_s
+        Length of the record to plan.
+    ask
+        What is to be known: J, the inertia; r, the centre of mass with masses at home; or both.
+    criterion
+        A: the mean square of sd, in 1 % of a moment and 1 um; D: the volume of the ellipsoid.
+    moves
+        How many times masses are moved.
+    max_rate_deg_s
+        Greatest rate of the platform.
+    seen
+        A recording that was made before: what it tells is known, masses stand where it left them.
+    trials
+        How many manoeuvres to try.
+    seed
+        Seed of the search and of the platforms: the same seed plans the same.
+    json
+        Print one JSON document instead.
+    out
+        Plan file to write; simulate, identify and balance take it with --plan.
+    """
+    from equipoise.app.options import not_negative, positive, seed_of
+    from equipoise.app.wiring import spelt_out, testbed_of
+    from equipoise.io.whole_file import check_writable
+
+    bed, seeking, seed = testbed_of(testbed), spelt_out(seeking), seed_of(seed)
+    duration = positive("--duration-s", duration_s)
+    rate, count = positive("--max-rate-deg-s", max_rate_deg_s), not_negative("--moves", moves)
+    tries = int(positive("--trials", trials))
+    if out is not None:
+        check_writable(out)
+    from equipoise.app.plan_views import plan_json, show_plan
+    from equipoise.app.planning import Request, plan_file_of, run
+    from equipoise.app.views_json import dump
+
+    request = Request(bed, duration, ask, criterion, int(count), rate, seeking, seen, tries, seed)
+    done = run(request)
+    if json:
+        print(dump(plan_json(done)))
+    else:
+        show_plan(done)
+    if out is not None:
+        from equipoise.app.terminal import tell_paths
+        from equipoise.io.plan_file import write_plan
+
+        write_plan(plan_file_of(done), bed, out)
+        tell_paths([out], json)
+    return 0 if done.planned.kept == done.planned.platforms else 1

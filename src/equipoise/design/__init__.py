@@ -1,0 +1,1 @@
+"""Which manoeuvre tells most, before it is made."""

@@ -1,0 +1,92 @@
+"""What a manoeuvre promises: sd of all that is asked for, over the platforms that may be there.
+
+    sd_i = rms over platforms k of sd_i,k
+
+each platform let go by a hand that errs. It is the error to expect, squared and averaged over what
+is not known, and so what a Monte Carlo over such platforms should find. What is not seen of one of
+them is not promised.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.design.plan import Wish
+from equipoise.design.predicted import Predicted, predicted
+from equipoise.design.scenario import Scenario, scenarios
+from equipoise.maths.attitude import exponential, leaning, multiply, to_matrix
+from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.testbed import Testbed
+
+PLATFORMS = 60  # chosen: the rms of an sd that differs by half is known to 7 %
+FRESH = 1  # added to the seed of a search: platforms that it did not see
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Promise:
+    """What to expect of a manoeuvre."""
+
+    manoeuvre: Manoeuvre
+    names: tuple[str, ...]
+    sd: Floats  # SI, rms over platforms; infinite: not seen of one of them; 0: held
+    body: MassProperties  # that is expected
+    expected: Predicted  # of it, let go as planned
+    platforms: int
+    kept: int  # of them, within the limit of tilt
+    greatest_tilt: float  # rad
+    greatest_rate: float  # rad/s
+    sentences: tuple[str, ...]  # what is not seen
+
+    def sd_of(self, names: tuple[str, ...]) -> Floats:
+        """Return several sd, SI."""
+        return self.sd[[self.names.index(name) for name in names]]
+
+
+def met(manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3) -> Manoeuvre:
+    """Return a manoeuvre as a hand that errs begins it."""
+    lean = manoeuvre.tilt_sd * (scenario.lean - (scenario.lean @ up) * up)
+    q = multiply(leaning(up, manoeuvre.low_side, manoeuvre.tilt), exponential(lean))
+    down = -to_matrix(q)[2]
+    sinks = down - (down @ up) * up
+    size = float(np.linalg.norm(sinks))
+    return replace(
+        manoeuvre,
+        tilt=float(np.arctan2(size, -down @ up)),
+        low_side=sinks / size if size > 0 else manoeuvre.low_side,
+        rate=manoeuvre.rate + manoeuvre.rate_sd * scenario.push,
+    )
+
+
+def promise(testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, seed: int) -> Promise:
+    """Return what to expect of a manoeuvre on platforms that no search has seen."""
+    rng = np.random.default_rng(seed + FRESH)
+    drawn = scenarios(wish.belief, PLATFORMS + 1, rng)
+    said = [
+        predicted(testbed, s.body, met(manoeuvre, s, testbed.up), wish.params, wish.known)
+        for s in drawn
+    ]
+    expected, others = said[0], said[1:]
+    sd = np.sqrt(np.mean([one.sd_of((*INERTIA, *COM)) ** 2 for one in others], axis=0))
+    tilts = [one.peak_tilt for one in others]
+    return Promise(
+        manoeuvre,
+        (*INERTIA, *COM),
+        sd,
+        wish.belief.body,
+        expected,
+        len(others),
+        int(np.sum(np.array(tilts) <= testbed.tilt_limit)),
+        max(tilts),
+        max(one.peak_rate for one in others),
+        tuple(dict.fromkeys(sentence for one in said for sentence in one.sentences)),
+    )
+
+
+def times_better(before: Promise, after: Promise, names: tuple[str, ...]) -> Floats:
+    """Return how many times less the second promises; held on both sides: 1."""
+    first, second = before.sd_of(names), after.sd_of(names)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(first == second, 1.0, first / second)

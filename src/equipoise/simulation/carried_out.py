@@ -1,0 +1,67 @@
+"""A planned manoeuvre on a simulated bench: a hand that lets go nearly as planned, then the rest.
+
+    tilt    the planned lean, with a normal error about each level axis; any heading
+    rate    the planned one, with a normal error of each component
+
+What the platform is like is drawn as without a plan; only its start is the plan's.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.actuators.square_waves import inputs_along
+from equipoise.maths.attitude import exponential, leaning, multiply, to_euler321
+from equipoise.model.arrays import Quaternion, Vector3
+from equipoise.model.bench import Bench
+from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+from equipoise.simulation.bench import SimulatedBench
+from equipoise.simulation.draw_truth import own_truth
+from equipoise.simulation.record import Command, commanded
+
+HAND = 9  # chosen: sets the hand's draws apart from the bench's own, which spawn from the seed
+
+
+def met_start(
+    up: Vector3, manoeuvre: Manoeuvre, rng: np.random.Generator
+) -> tuple[Quaternion, Vector3]:
+    """Return attitude and rate (rad/s) with which a hand that tries to meet the plan lets go."""
+    error = manoeuvre.tilt_sd * rng.standard_normal(3)
+    level_error = error - (error @ up) * up
+    heading = exponential(np.array([0.0, 0.0, rng.uniform(-np.pi, np.pi)]))
+    q = multiply(leaning(up, manoeuvre.low_side, manoeuvre.tilt), exponential(level_error))
+    return multiply(heading, q), manoeuvre.rate + manoeuvre.rate_sd * rng.standard_normal(3)
+
+
+def let_go(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Testbed:
+    """Return the testbed whose truth starts as a hand meets the plan."""
+    rng = np.random.default_rng([seed, HAND])
+    q, rate = met_start(testbed.up, manoeuvre, rng)
+    attitude = np.array([float(angle) for angle in to_euler321(q)])
+    truth = replace(testbed.truth or own_truth(testbed), attitude=attitude, rate=rate)
+    return replace(testbed, truth=truth)
+
+
+def bench_for(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> SimulatedBench:
+    """Return a bench whose platform is let go as planned."""
+    return SimulatedBench(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
+
+
+def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
+    """Return all that a bench is told, in order of time."""
+    moves = [Command(t, targets, {}) for t, targets in manoeuvre.moves]
+    drives = [Command(t, {}, inputs)
+              for t, inputs in inputs_along(manoeuvre.waves, manoeuvre.duration)]  # fmt: skip
+    return sorted([*moves, *drives], key=lambda command: command.t)
+
+
+def simulated(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Recording:
+    """Return what a simulated bench records of a manoeuvre."""
+    return carried_out(bench_for(testbed, manoeuvre, seed), manoeuvre)
+
+
+def carried_out(bench: Bench, manoeuvre: Manoeuvre) -> Recording:
+    """Return what a fresh bench records of a manoeuvre."""
+    return commanded(bench, manoeuvre.duration, commands_of(manoeuvre))

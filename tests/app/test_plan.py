@@ -1,0 +1,36 @@
+"""`plan` and what takes its file: from a recording to a plan, a record by it, and what it told."""
+
+import json
+
+from equipoise.app.cli import run
+
+
+def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch):
+    """Few trials: that the plan is good is for others to show; that it fits together, for this."""
+    monkeypatch.chdir(tmp_path)
+    simulate = "simulate sputnix --out run.csv --duration-s 60 --move"
+    assert run([*simulate.split(), "30: x1=-10 y1=-10 z1=-50"]) == 0
+    words = (
+        "plan sputnix --duration-s 60 --seen run.csv --trials 20 --moves 2 --json --out plan.toml"
+    )
+    assert run(words.split()) in (0, 1)
+    out = capsys.readouterr().out
+    plan = json.loads(out[out.index("{") :])
+    assert plan["standing_m"] == {"x1": -0.010, "y1": -0.010, "z1": -0.050}
+    assert len(plan["moves"]) == 2
+    assert all(sd > 0 for sd in plan["planned"]["sd"].values())
+    words = "simulate sputnix --plan plan.toml --out planned.csv"
+    assert run(words.split()) == 0
+    words = "identify planned.csv --testbed sputnix --plan plan.toml --json"
+    assert run(words.split()) == 0
+    out = capsys.readouterr().out
+    rows = json.loads(out[out.index("{") :])["plan"]["parameters"]
+    assert len(rows) == 9
+    assert all(0.1 < row["found_sd"] / row["predicted_sd"] < 10 for row in rows)
+
+
+def test_a_plan_stands_alone(tmp_path, capsys):
+    words = "simulate sputnix --plan plan.toml --duration-s 5 --out x.csv"
+    (tmp_path / "plan.toml").write_text("duration_s = 9.0\n[start]\ntilt_deg = 3.0\n")
+    assert run(words.replace("plan.toml", str(tmp_path / "plan.toml")).split()) == 2
+    assert "the plan alone" in capsys.readouterr().err
