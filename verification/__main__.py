@@ -20,6 +20,7 @@ from verification import (
     balanced,
     calibration,
     defective_logs,
+    design_predictions,
     drift,
     efficiency,
     independent_truth,
@@ -81,6 +82,7 @@ CHECKS = {
     "laws_on_mujoco": Check(laws_on_mujoco.measure, 3),
     "lee": Check(lee.measure, 100),
     "planned": Check(planned.measure, 200),
+    "design_predictions": Check(design_predictions.measure, 400),
     "real_methods": Check(real_methods.measure, 1),
 }
 

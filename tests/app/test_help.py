@@ -19,6 +19,7 @@ COMMANDS = (
     "methods",
     "balance",
     "laws",
+    "design",
     "compare",
     "reproduce",
 )

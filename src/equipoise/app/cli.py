@@ -17,6 +17,7 @@ from equipoise.app.commands.balance import balance
 from equipoise.app.commands.calibrate import calibrate
 from equipoise.app.commands.compare import compare
 from equipoise.app.commands.demo import demo
+from equipoise.app.commands.design import design
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.inspect import inspect
 from equipoise.app.commands.laws import laws
@@ -42,8 +43,8 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 COMMANDS = (
-    demo, new, plan, simulate, inspect, observe, identify, calibrate, assess, methods, balance,
-    laws, compare, reproduce,
+    demo, new, design, plan, simulate, inspect, observe, identify, calibrate, assess, methods,
+    balance, laws, compare, reproduce,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command)

@@ -40,6 +40,16 @@ def testbed_text_of(name: str) -> str:
     return Path(name).read_text(encoding="utf-8") if Path(name).exists() else preset_text(name)
 
 
+def testbed_with_masses(name: str) -> Testbed:
+    """Return the testbed of a file or preset; InputError if it has no masses or nothing sees it."""
+    testbed = testbed_of(name)
+    if not testbed.masses:
+        raise InputError(testbed.source, "no sliding masses", "a [[sliding_mass]] at least")
+    if testbed.attitude is None and testbed.gyro is None:
+        raise InputError(testbed.source, "no sensor", "[sensor.attitude] or [sensor.gyro]")
+    return testbed
+
+
 def recording_of(file: str, reading: Reading) -> Recording:
     """Return a recording as it is, or the part that is asked for."""
     recording = read_recording(file, _columns(reading))

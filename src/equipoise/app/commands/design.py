@@ -1,0 +1,84 @@
+"""`equipoise design`: are masses and sensors good enough, what limits them, what to buy next."""
+
+from pathlib import Path
+
+from equipoise.app.commands.exposure import NOTHING_STATED, Exposure, surroundings_of
+from equipoise.app.commands.kinds import Flag, Several, Triple, Whole
+from equipoise.app.terminal import busy, tell_paths
+
+
+def design(
+    testbed: str,
+    /,
+    *,
+    record_s: Several = (30.0, 60.0, 120.0, 300.0),
+    target_um: Triple = (0.0, 0.0, 0.0),
+    tilt_deg: float = 20.0,
+    moves: Whole = 2,
+    misalignment_deg: float = 0.0,
+    exposure: Exposure = NOTHING_STATED,
+    require_torque: float | None = None,
+    json: Flag = False,
+    out: Path | None = None,
+) -> int:
+    """Tell what masses and sensors of a testbed are good for: reach, steps, bounds, what is left.
+
+    The budget is for the shortest record. Ends with 1 when a required torque cannot be met.
+
+    Parameters
+    ----------
+    testbed
+        Testbed file, or a preset's name.
+    record_s
+        Lengths of the records that the centre of mass is looked at for, s.
+    target_um
+        Where the centre of mass is wanted, from the centre of rotation, body axes.
+    tilt_deg
+        Torque counts over directions within so many degrees of level.
+    moves
+        How often it is looked and moved.
+    misalignment_deg
+        How far rails lean from where the testbed has them, one sd about both axes across.
+    require_torque
+        Torque that may be left at most, rms over that range, N m; with 95 % of the platforms that
+        the testbed states within reach of the masses.
+    json
+        Print one JSON document instead.
+    out
+        Folder for reach.png, budget.png and design.json.
+    """
+    from equipoise.app.options import not_negative, positive, vector
+    from equipoise.app.units import PER_DEG, UM
+    from equipoise.app.wiring import testbed_with_masses
+    from equipoise.io.whole_folder import check_folder
+
+    lengths = [positive("--record-s", length) for length in record_s]
+    target = vector("--target-um", target_um, 1 / UM)
+    tilt = positive("--tilt-deg", tilt_deg) / PER_DEG
+    count = int(positive("--moves", moves))
+    lean = not_negative("--misalignment-deg", misalignment_deg) / PER_DEG
+    if require_torque is not None:
+        positive("--require-torque", require_torque)
+    around, bed = surroundings_of(exposure), testbed_with_masses(testbed)
+    if out is not None:
+        check_folder(out)
+    with busy("reckoning"):
+        from equipoise.app.design_views import design_json, show_design
+        from equipoise.app.views_json import dump
+        from equipoise.design.case import Case
+        from equipoise.design.sizing import sized
+
+        case = Case(bed, target, tilt, lengths[0], count, lean, around)
+        found = sized(case, lengths, require_torque)
+    document = design_json(found)
+    if json:
+        print(dump(document))
+    else:
+        show_design(found)
+    if out is not None:
+        from equipoise.app.design_pictures import write_design
+
+        with busy("drawing"):
+            paths = write_design(found, document, out)
+        tell_paths(paths, json)
+    return 0 if found.outcome.usable else 1

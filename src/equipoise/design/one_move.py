@@ -1,0 +1,115 @@
+"""What one move does to platforms that stand somewhere, and what it leaves of each, by its cause.
+
+A look found a platform's centre of mass off by f where it is off by e. Whole steps are allocated to
+the masses as in a feedback loop (``actuators.mass_allocation``), which changes what they were told
+by D; with g_i = (m_i / M) u_i, what is left is
+
+    e + sum g_i (D_i + dp_i + ds_i) + rails  =  (e - f)      look
+                                              + (f + sum g_i D_i)      steps
+                                              + sum g_i ds_i           stops
+                                              + sum g_i dp_i           backlash
+                                              + rails
+
+    p     where a carriage stands in its play: p -> clip(p - D, -b/2, b/2); b backlash
+    s     by how much a mass stopped elsewhere: drawn anew, with the accuracy, for each that was
+          taken along. Its last error goes with it, although f may have told of it.
+    rails sum D_i m_i / M times the lean of rail i, a small vector across it, the same for all moves
+
+A move that is expected to leave more than there is, is not made; what it would have undone counts
+with the stops. A mass that has stopped before is expected to change by the errors of two stops.
+
+On rails at right angles whose finest steps shift by q, steps leave q / sqrt(12) along each. Several
+equal masses on one rail are no finer than one; a fine one beside a coarse one is, as far as it
+goes. ``balance`` moves fewer masses, and finds better combinations of steps on skew rails: it
+leaves somewhat less; but it moves coarse masses where laws move fine ones, which leaves more.
+
+Cannot see a mass that lags, hangs, or is not as heavy as stated: the next look sees those.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import null_space
+
+from equipoise.actuators.mass_allocation import allocate, rails_of
+from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.model.arrays import Bools, Floats, Series, Series1, Series3
+from equipoise.model.testbed import Testbed
+
+
+class Standing(NamedTuple):
+    """Platforms and their masses as they stand, one row each."""
+
+    error: Series3  # m, centre of mass from where it is wanted
+    told: Series  # (n, k) m, where masses were told to go
+    play: Series  # (n, k) m, where they stand in their play
+    slip: Series  # (n, k) m, by how much they stopped elsewhere
+    lean: Floats  # (n, k, 3) -, shift of the centre of mass across each rail, by travel
+
+
+class Left(NamedTuple):
+    """What a move left of each platform's offset, m, by its cause; look apart."""
+
+    steps: Series3
+    stops: Series3
+    backlash: Series3
+    rails: Series3
+    moved: Bools  # (n, k)
+
+
+def at_home(testbed: Testbed, error: Series3, normals: Series, rail_lean: float) -> Standing:
+    """Return platforms whose masses stand at home; ``normals`` (n, 2 k) draw their rails' lean."""
+    n, k = len(error), len(testbed.masses)
+    across = [null_space(mass.axis[None]).T * mass.mass for mass in testbed.masses]  # (2, 3) each
+    ways = rail_lean / testbed.body.mass * np.array(across)
+    lean = np.einsum("nkj,kjc->nkc", normals.reshape(n, k, 2), ways)
+    still = np.zeros((n, k))
+    return Standing(error, still, still, still, lean)
+
+
+def gains(testbed: Testbed) -> Series3:
+    """Return how far each mass shifts the centre of mass, by its travel."""
+    return mass_maps(testbed.masses).first_moment / testbed.body.mass
+
+
+def move(
+    testbed: Testbed, now: Standing, found: Series3, normals: Series, rail_lean: float
+) -> tuple[Standing, Left]:
+    """Return platforms after a move that should undo what was ``found`` (m), and what it left."""
+    gain = gains(testbed)
+    best = allocated(testbed, now.told, found)
+    change = best * is_worth_it(testbed, now, found, best, rail_lean)[:, None]
+    half = 0.5 * np.array([mass.backlash for mass in testbed.masses])
+    play = np.clip(now.play - change, -half, half)
+    taken: Bools = np.abs(now.play - change) > half
+    accuracy = np.array([mass.accuracy for mass in testbed.masses])
+    slip = np.where(taken, accuracy * normals, now.slip)
+    left = Left(
+        found + best @ gain,
+        (slip - now.slip + change - best) @ gain,
+        (play - now.play) @ gain,
+        np.einsum("nk,nkc->nc", change, now.lean),
+        change != 0,
+    )
+    error = now.error - found + left.steps + left.stops + left.backlash + left.rails
+    return Standing(error, now.told + change, play, slip, now.lean), left
+
+
+def allocated(testbed: Testbed, told: Series, found: Series3) -> Series:
+    """Return the changes (m) of where masses are told to go that undo what was found best."""
+    rails, wanted = rails_of(testbed.masses, testbed.body.mass), told @ gains(testbed) - found
+    goals = [allocate(rails, here, shift) for here, shift in zip(told, wanted, strict=True)]
+    return np.array(goals) - told
+
+
+def is_worth_it(
+    testbed: Testbed, now: Standing, found: Series3, change: Series, rail_lean: float
+) -> Bools:
+    """Say of each platform whether a change (m) is expected to leave less than was found."""
+    gain = gains(testbed)
+    size: Series1 = np.sum(gain**2, axis=1)
+    accuracy = np.array([mass.accuracy for mass in testbed.masses])
+    draws = (change != 0) * (1.0 + (now.slip != 0))
+    rails: Series1 = 2 * rail_lean**2 * change**2 @ size
+    missed = np.sum((found + change @ gain) ** 2, axis=1)
+    return missed + draws @ (size * accuracy**2) + rails < np.sum(found**2, axis=1)
