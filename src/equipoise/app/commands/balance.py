@@ -1,6 +1,7 @@
 """`equipoise balance`: look, move, look again, until the verdict passes."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from equipoise.app.commands.by_hand import (
     MOVED,
@@ -13,6 +14,9 @@ from equipoise.app.commands.by_hand import (
 from equipoise.app.commands.kinds import Flag, Triple, Whole
 from equipoise.app.commands.reading import WHOLE, Reading
 from equipoise.app.terminal import busy, tell_paths
+
+if TYPE_CHECKING:
+    from equipoise.app.balancing import Balancing
 
 
 def balance(
@@ -78,7 +82,8 @@ def balance(
     hold = not_negative("--hold-min", hold_min) * 60
     if is_by_hand(by_hand, reading):
         others = {"--law": law != "look_and_move", "--max-moves": moves is not None,
-                  "--max-time-s": longest is not None, "--hold-min": hold > 0}  # fmt: skip
+                  "--max-time-s": longest is not None, "--hold-min": hold > 0,
+                  "--plan": plan is not None}  # fmt: skip
         check_by_hand(by_hand, reading, [name for name, given in others.items() if given])
         from equipoise.app.balancing import Goal
 
@@ -89,10 +94,8 @@ def balance(
     if out is not None:
         check_folder(out)
     with busy("preparing the bench", announce=False):
-        from equipoise.app.archive import write_account
-        from equipoise.app.balance_views import account_of, document_of, show_result, show_step
+        from equipoise.app.balance_views import show_step
         from equipoise.app.balancing import Goal, Limits, run
-        from equipoise.app.views_json import dump
         from equipoise.procedure.laws import CARDS
         from equipoise.simulation.bench import SimulatedBench
         from equipoise.simulation.carried_out import bench_for
@@ -100,6 +103,16 @@ def balance(
         limits = Limits(moves, longest, hold, one_of("--law", law, list(CARDS)), planned)
         bench = SimulatedBench(bed, seed) if planned is None else bench_for(bed, planned, seed)
     done = run(bench, Goal(target, near), limits, None if json else show_step)
+    _tell(done, seed, json, out)
+    return 0 if done.verdict.passed else 1
+
+
+def _tell(done: "Balancing", seed: int, json: bool, out: Path | None) -> None:
+    """Print the result, and write it down if that is asked for."""
+    from equipoise.app.archive import write_account
+    from equipoise.app.balance_views import account_of, document_of, show_result
+    from equipoise.app.views_json import dump
+
     document = document_of(done, seed)
     if json:
         print(dump(document))
@@ -109,4 +122,3 @@ def balance(
         with busy("drawing"):
             paths = write_account(account_of(done, seed), document, "balance", out)
         tell_paths(paths, json)
-    return 0 if done.verdict.passed else 1
