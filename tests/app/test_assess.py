@@ -38,6 +38,14 @@ def test_tables_end_with_a_verdict(records, capsys):
         assert part in text  # fmt: skip
 
 
+def test_looks_along_a_recording_are_told_and_drawn(records, tmp_path, capsys):
+    assert assess(records[0], "--windows-s", "11", "--out", str(tmp_path / "o")) == 0
+    text = capsys.readouterr().out
+    assert "The centre of mass over time, by 4 looks" in text
+    assert "Allan deviation, 22 s, um" in text
+    assert (tmp_path / "o" / "com_over_hours.png").exists()
+
+
 def test_a_generous_requirement_passes(records, capsys):
     assert assess(records[0], "--require-torque", "0.1", "--tilt-deg", "5") == 0
     assert "within 5 deg of level" in capsys.readouterr().out

@@ -13,6 +13,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Samples
 from equipoise.procedure.assess import AssessOptions, assess
 from equipoise.procedure.look_at_swing import as_one_body, looked_at, standing_part
+from equipoise.procedure.look_over_hours import looks_over_hours
 from equipoise.simulation.bench import SimulatedBench
 from verification.verdicts import swing
 
@@ -134,3 +135,23 @@ def test_what_no_sensor_saw_is_told():
 
 def test_the_inertia_that_is_known_is_that_of_the_testbed():
     np.testing.assert_allclose(platform().body.inertia_P, unpack_symmetric(INERTIA))
+
+
+def test_looks_over_hours_show_a_drift():
+    """1 um/min along x for nine looks of 40 s; the height stays. Twice as late, twice as far."""
+    bed = read_preset("sputnix")
+    truth = replace(bed.truth, com=np.array([-3e-6, 2e-6, -60e-6]), torque={"drift_x": 1e-6 / 60})
+    record = SimulatedBench(replace(bed, truth=truth), 4).read(360.0)
+    found = looks_over_hours(record, bed, 40.0, inertia_known=False)
+    assert len(found.t) == 9
+    off = (found.wander.drift - np.array([1e-6 / 60, 0, 0])) / found.wander.drift_sd
+    assert np.abs(off).max() < 3.5
+    assert found.wander.drift[0] > 5 * found.wander.drift_sd[0]
+    assert found.wander.deviation[2, 0] > 2 * found.wander.looks_alone[2, 0]
+
+
+def test_few_looks_tell_nothing():
+    record = noisy(recording(60.0), 3)
+    found = looks_over_hours(record, platform(), 25.0, inertia_known=False)
+    assert len(found.t) == 2
+    assert found.wander is None

@@ -6,6 +6,7 @@ from equipoise.assessment.swing_height import Hanging
 from equipoise.estimation.felt import Felt
 from equipoise.model.estimate import COM, Estimate
 from equipoise.procedure.assess import Assessment
+from equipoise.procedure.look_over_hours import OverHours
 from equipoise.procedure.requirement import Judged
 
 SCHEMA = "equipoise/assess/1"
@@ -22,6 +23,7 @@ def document_of(told: Told) -> View:
         "required": [judged_json(each) for each in done.judged],
         **platform_json(done),
         "before": None if before is None else platform_json(before),
+        "over_hours": None if told.hours is None else hours_json(told.hours),
         "estimate": estimate_json(done.estimate, told.findings),
     }
 
@@ -50,6 +52,26 @@ def platform_json(done: Assessment) -> View:
             "energy": felt_json(looks.energy, looks.energy_fit),
             "swings": [hanging_json(each, done.weight) for each in looks.hanging],
             "no_period": looks.quiet,
+        },
+    }
+
+
+def hours_json(hours: OverHours) -> View:
+    """Return looks along a recording, and what they come to."""
+    wander = hours.wander
+    found = {"t": numbers(hours.t), "com": numbers(hours.com), "sd": numbers(hours.sd),
+             "left_out": hours.left_out}  # fmt: skip
+    if wander is None:
+        return found
+    return found | {
+        "drift": numbers(wander.drift),
+        "drift_sd": numbers(wander.drift_sd),
+        "walk": numbers(wander.walk),
+        "allan": {
+            "span": numbers(wander.span),
+            "deviation": numbers(wander.deviation),
+            "relative_sd": numbers(wander.error),
+            "looks_alone": numbers(wander.looks_alone),
         },
     }
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.app.account import Account, origin
-from equipoise.app.figures import swing_spectrum, torque_felt, torque_in_range
+from equipoise.app.figures import com_over_hours, swing_spectrum, torque_felt, torque_in_range
 from equipoise.app.identify_views import show_findings
 from equipoise.app.numbers import significant, with_sd
 from equipoise.app.pictures import Picture
@@ -14,6 +14,7 @@ from equipoise.app.sheet import Sheet
 from equipoise.app.tables import residual_line, show_sheet, step_line
 from equipoise.app.terminal import stdout
 from equipoise.app.units import MICRO, UM
+from equipoise.assessment.allan import FEWEST
 from equipoise.assessment.finding import Finding
 from equipoise.assessment.swing_height import Hanging
 from equipoise.maths.gaussian_length import Bounded
@@ -21,6 +22,7 @@ from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.estimate import COM
 from equipoise.model.step import Step
 from equipoise.procedure.assess import Assessment
+from equipoise.procedure.look_over_hours import OverHours
 
 MODES = {0: "slow swing", 1: "quick swing", None: "both swings, as one"}
 PERCENT = 100.0
@@ -35,11 +37,13 @@ class Told:
     before: Assessment | None  # of a recording made earlier
     steps: Sequence[Step]
     findings: Sequence[Finding]
+    hours: OverHours | None = None  # looks along the recording
 
 
 def sheets_of(done: Assessment) -> list[Sheet]:
-    """Return the tables of an assessment."""
-    return [range_sheet(done), looks_sheet(done), felt_sheet(done)]
+    """Return the tables of an assessment; where its fit cannot be used, of what was felt alone."""
+    usable = [range_sheet(done), looks_sheet(done)] if done.estimate.outcome.usable else []
+    return [*usable, felt_sheet(done)]
 
 
 def range_sheet(done: Assessment) -> Sheet:
@@ -166,6 +170,8 @@ def show_result(told: Told) -> None:
         show_sheet(sheet)
     if told.before is not None:
         show_sheet(change_sheet(told.before, done))
+    if told.hours is not None:
+        show_sheet(hours_sheet(told.hours))
     console.print()
     for sentence in done.estimate.unobservable:
         console.print(f"! {sentence}", style="yellow", markup=False)
@@ -190,6 +196,29 @@ def change_sheet(before: Assessment, after: Assessment) -> Sheet:
     return Sheet("Before and after", heads, lines)
 
 
+def hours_sheet(hours: OverHours) -> Sheet:
+    """Return drift, walk and Allan deviation of looks along a recording."""
+    title, wander = f"The centre of mass over time, by {len(hours.t)} looks", hours.wander
+    left_out = f"{hours.left_out} looks could not be used."
+    if wander is None:
+        few = f"{len(hours.t)} looks are too few: drift and Allan deviation need {FEWEST}."
+        return Sheet(title, ("",), (), (few, left_out) if hours.left_out else (few,))
+    per_minute, root = 60 * UM, 60**0.5 * UM
+    lines = [
+        ["drift, um/min", *(" ± ".join(with_sd(float(d) * per_minute, float(s) * per_minute))
+                            for d, s in zip(wander.drift, wander.drift_sd, strict=True)), ""],
+        ["walk, um/sqrt(min)", *(significant(float(c) * root, 2) for c in wander.walk), ""],
+    ]  # fmt: skip
+    for span, deviation, alone, error in zip(
+        wander.span, wander.deviation, wander.looks_alone, wander.error, strict=True
+    ):
+        told = (f"{d * UM:.2g} ({a * UM:.2g})" for d, a in zip(deviation, alone, strict=True))
+        lines.append([f"Allan deviation, {span:.4g} s, um", *told, f"{PERCENT * error:.0f} %"])
+    remarks = ["In brackets: what looks that only err would leave. Last: relative sd."]
+    remarks += [left_out] if hours.left_out else []
+    return Sheet(title, ("", "x", "y", "z", ""), lines, remarks)
+
+
 def fall(before: Bounded, after: Bounded) -> str:
     """Say by how much a value fell or rose, as far as both bounds tell."""
     if after.high < before.low:
@@ -211,7 +240,8 @@ def account_of(told: Told) -> Account:
     if before is not None:
         asked["before"] = before.recording.source
     asked |= {f"required {n}": each.sentence for n, each in enumerate(done.judged, 1)}
-    changed = [] if before is None else [change_sheet(before, done)]
+    more = [] if before is None else [change_sheet(before, done)]
+    more += [] if told.hours is None else [hours_sheet(told.hours)]
     return Account(
         title="Assessment",
         asked=asked,
@@ -221,15 +251,20 @@ def account_of(told: Told) -> Account:
         findings=told.findings,
         estimate=done.estimate,
         verdict=told.steps[-1].verdict,
-        pictures=list(pictures_of(done)),
-        sheets=(*changed, *sheets_of(done)),
+        pictures=list(pictures_of(told)),
+        sheets=(*sheets_of(done), *more),
     )
 
 
-def pictures_of(done: Assessment) -> Iterator[Picture]:
+def pictures_of(told: Told) -> Iterator[Picture]:
     """Yield the figures."""
-    yield Picture("torque_in_range", torque_in_range.CAPTION, torque_in_range.draw(done))
+    done, hours = told.done, told.hours
+    if done.estimate.outcome.usable:
+        yield Picture("torque_in_range", torque_in_range.CAPTION, torque_in_range.draw(done))
     if done.looks.torque is not None:
         yield Picture("torque_felt", torque_felt.CAPTION, torque_felt.draw(done.looks.torque))
     if done.looks.spectrum is not None:
         yield Picture("swing_spectrum", swing_spectrum.CAPTION, swing_spectrum.draw(done))
+    if hours is not None and hours.wander is not None:
+        drawn = com_over_hours.draw(hours, hours.wander)
+        yield Picture("com_over_hours", com_over_hours.CAPTION, drawn)

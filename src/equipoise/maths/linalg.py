@@ -1,5 +1,7 @@
 """Small linear algebra: cross products as matrices, symmetric matrices as six numbers."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from equipoise.model.arrays import Floats, Matrix3, Series, Square, Vector3, Vector6
@@ -55,3 +57,16 @@ def lag_one(residual: Series) -> float:
     centred: Floats = residual - residual.mean(axis=0)
     power = float(np.sum(centred**2))
     return float(np.sum(centred[1:] * centred[:-1])) / power if power > 0 else 0.0
+
+
+def given(covariance: Square, own: Sequence[int], known: Sequence[int]) -> Square:
+    """Return the covariance of some normal numbers when others are known exactly.
+
+    P_aa - P_ab P_bb^-1 P_ba; numbers without any doubt are known already.
+    """
+    free = [k for k in known if covariance[k, k] > 0]
+    mine = covariance[np.ix_(own, own)]
+    if not free:
+        return mine
+    shared = covariance[np.ix_(own, free)]
+    return mine - shared @ inverse_spd(covariance[np.ix_(free, free)]) @ shared.T

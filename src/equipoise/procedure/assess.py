@@ -23,7 +23,7 @@ from equipoise.estimation import reference
 from equipoise.estimation.conclusion import spread_of
 from equipoise.estimation.trajectory import Params
 from equipoise.maths.gaussian_length import Bounded, bounded_length
-from equipoise.maths.linalg import inverse_spd
+from equipoise.maths.linalg import given
 from equipoise.model.arrays import Matrix3, Square, Vector3
 from equipoise.model.estimate import COM, END, INERTIA, Estimate, Parameter
 from equipoise.model.recording import Recording, arranged
@@ -101,7 +101,9 @@ def assess(
     estimate = believed[0]
     yield Step("estimate", end, f"{estimate.method}: {estimate.outcome.sentence}",
                estimate=estimate)  # fmt: skip
-    body = replace(testbed.body, com=estimate.com, inertia_P=estimate.inertia_P)
+    body = testbed.body
+    if estimate.outcome.usable:
+        body = replace(body, com=estimate.com, inertia_P=estimate.inertia_P)
     found = assessment_of(replace(testbed, body=body), recording, options, believed)
     yield verification(found, end)
     return found
@@ -151,11 +153,9 @@ def pull_of(parameters: tuple[Parameter, ...], covariance: Square) -> Pull:
     at = {parameter.name: k for k, parameter in enumerate(parameters)}
     sag = tuple(name for name in SAG_TERMS if name in at)
     own = [at[name] for name in (*(END if END[0] in at else COM), *sag)]
-    J = [at[name] for name in INERTIA if covariance[at[name], at[name]] > 0]
-    mine, shared = covariance[np.ix_(own, own)], covariance[np.ix_(own, J)]
-    told = shared @ inverse_spd(covariance[np.ix_(J, J)]) @ shared.T if J else 0 * mine
+    known = given(covariance, own, [at[name] for name in INERTIA])
     values = np.array([parameters[k].value for k in own])
-    return Pull((*COM, *sag), values, mine, mine - told)
+    return Pull((*COM, *sag), values, covariance[np.ix_(own, own)], known)
 
 
 def inertia_doubt(parameters: tuple[Parameter, ...], covariance: Square) -> float:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from equipoise.model.step import Step
     from equipoise.model.testbed import Testbed
     from equipoise.procedure.assess import Assessment, AssessOptions
+    from equipoise.procedure.look_over_hours import OverHours
 
 
 def assess(
@@ -28,6 +29,7 @@ def assess(
     target_um: Triple = (0.0, 0.0, 0.0),
     require_torque: float | None = None,
     require_offset_um: float | None = None,
+    windows_s: float | None = None,
     seeking: Seeking = NOTHING_TOLD,
     reading: Reading = WHOLE,
     json: Flag = False,
@@ -53,6 +55,9 @@ def assess(
         Torque of gravity that is allowed, rms over that range, N m.
     require_offset_um
         Distance of the centre of mass from its target that is allowed.
+    windows_s
+        Look again and again, so many seconds each: drift, walk and Allan deviation of the centre
+        of mass over a long recording.
     json
         Print one JSON document instead.
     out
@@ -69,6 +74,7 @@ def assess(
         positive("--require-torque", torque)
     if offset is not None:
         offset = positive("--require-offset-um", offset) / UM
+    windows = None if windows_s is None else positive("--windows-s", windows_s)
     tilt = between("--tilt-deg", tilt_deg, 0.0, 90.0) / PER_DEG
     goal = vector("--target-um", target_um, 1 / UM)
     if out is not None:
@@ -83,11 +89,20 @@ def assess(
         options = AssessOptions(goal, tilt, torque, offset, seeking.term, seeking.hold)
     done, steps = _carried_out(recording, bed, options)
     past = None if earlier is None else _carried_out(earlier, bed, options)[0]
-    told = Told(done, past, steps, findings(recording, bed))
+    hours = None if windows is None else _looked(done, windows)
+    told = Told(done, past, steps, findings(recording, bed), hours)
     _tell(told, json, out)
     verdict = steps[-1].verdict
     good = done.estimate.outcome.usable if verdict is None else verdict.passed
     return 0 if good else 1
+
+
+def _looked(done: "Assessment", seconds: float) -> "OverHours":
+    """Return looks along the recording, at the inertia that was found."""
+    from equipoise.procedure.look_over_hours import looks_over_hours
+
+    with busy("looking again and again"):
+        return looks_over_hours(done.recording, done.testbed, seconds, done.estimate.outcome.usable)
 
 
 def _tell(told: "Told", json: bool, out: Path | None) -> None:
