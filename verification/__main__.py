@@ -69,7 +69,7 @@ CHECKS = {
     "tracker_knows": Check(tracker_knows.measure, 200),
     "defective_logs": Check(defective_logs.measure, 200),
     "calibration": Check(calibration.measure, calibration.STATED),
-    "balanced": Check(balanced.measure, 200),
+    "balanced": Check(balanced.measure, 500),
     "verdicts": Check(verdicts.measure, 500),
     "drift": Check(drift.measure, 20),
     "manual": Check(manual.measure, 200),

@@ -56,6 +56,22 @@ def test_too_little_known_cannot_tell(known):
     assert "not known well enough" in judged.sentence
 
 
+@pytest.mark.parametrize(("off", "answer"), [(1.9, "Cannot tell"), (2.1, "Failed")])
+def test_outside_by_less_than_is_known_is_not_outside_for_sure(known, off, answer):
+    """Two sd beyond a tolerance: 1.96 of them leave 2.5 % for a truth within it."""
+    tolerance = wide(known)
+    target = known.com + np.array([0.0, 0.0, 1.0]) * (tolerance + off * known.sd)
+    judged = verdict(known, None, 0.0, target, tolerance)
+    assert judged.sentence.startswith(answer)
+    assert judged.sure == (answer == "Failed")
+
+
+def test_what_is_hardly_known_has_not_failed(known):
+    """An sd of ten tolerances about the very target: 8 % within, and no failure."""
+    judged = verdict(known, None, 0.0, known.com, 0.1 * known.sd)
+    assert judged.sentence.startswith("Cannot tell")
+
+
 @pytest.mark.parametrize(("off", "passes"), [(2.0, True), (20.0, False)])
 def test_a_move_that_led_elsewhere_fails(known, off, passes):
     """The look after a move tests its prediction: 2 sd may be chance, 20 are not."""

@@ -4,6 +4,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from equipoise.model.arrays import Vector3
+from equipoise.model.estimate import NORMAL_95
 from equipoise.model.move import Move
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.knowledge import Knowledge
@@ -72,14 +73,20 @@ def at(com: Vector3, sd: Vector3) -> str:
 
 
 def judged(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Verdict:
-    """Return the verdict on a centre of mass that is found beyond doubt as far as its sd goes."""
+    """Return the verdict on a centre of mass.
+
+    Passed where each axis is within its tolerance for sure, failed where the 95 % interval of one
+    lies outside. Between them nobody can tell, however far off the value found is.
+    """
     found = at(com, sd)
     sure = probability_within(com, sd, target, tolerance)
     if np.all(sure >= SURE):
         return Verdict(True, f"Passed: {found}, within tolerance on every axis.", com, sd)
-    axes = ", ".join("xyz"[k] for k in np.flatnonzero(sure < SURE))
-    if np.any(np.abs(com - target) > tolerance):
+    beyond = np.abs(com - target) - NORMAL_95 * sd > tolerance
+    if np.any(beyond):
+        axes = ", ".join("xyz"[k] for k in np.flatnonzero(beyond))
         return Verdict(False, f"Failed: {found}; {axes} outside the tolerance.", com, sd)
+    axes = ", ".join("xyz"[k] for k in np.flatnonzero(sure < SURE))
     text = f"Cannot tell: {found}; {axes} not known well enough to be sure."
     return Verdict(False, text, com, sd, sure=False)
 
