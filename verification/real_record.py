@@ -21,6 +21,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.recording import window
 from equipoise.model.torque_terms import GROUPS
 from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.procedure.look_at_swing import looked_at
 from equipoise.procedure.sound_rows import sound
 from verification.result import Result, Row, Spread, at_most, in_turn, triple
 
@@ -35,6 +36,7 @@ NEAR_TOUCH, CALM_FROM = 0.3, 30.0  # s
 RMS, AHEAD, APART, CONTRADICT = 0.12, 1.5, 0.005, 3.0  # deg per axis, deg, -, sd
 NEAR_CAD = 0.08
 MOMENTS = ("inertia_P_xx", "inertia_P_yy", "inertia_P_zz")
+MODES = {0: "the slow swing", 1: "the quick swing", None: "both swings"}
 Job = tuple[tuple[float, float], tuple[str, ...]]
 
 
@@ -133,6 +135,31 @@ def quiet_rows(quiet: Estimate) -> tuple[Row, ...]:
     )  # fmt: skip
 
 
+def look_rows(quiet: Estimate) -> tuple[Row, ...]:
+    """Return how simple looks at the same part agree on how far the centre of mass hangs from P.
+
+    J is that of the fit; the distance of the fit is CAD's, which is held.
+    """
+    recording, testbed = sound(window(read_recording(RECORD), *QUIET), read_testbed(TESTBED))
+    body = replace(testbed.body, com=quiet.com, inertia_P=quiet.inertia_P)
+    seen = looked_at(recording, replace(testbed, body=body))
+    assert seen.torque_fit is not None
+    held, weight = float(np.linalg.norm(quiet.com)), testbed.body.mass * testbed.gravity
+    torque = seen.torque_fit
+    found = {MODES[each.mode]: (each.moment / weight, each.sd / weight) for each in seen.hanging}
+    y = torque.parameters[torque.index("com_y")]
+    found["balance of torques"] = (abs(y.value), y.sd)
+    return tuple(
+        at_most(
+            f"20-40 s, spin 105 deg/s: distance by {name} {1e3 * value:.2f} +/- {1e3 * sd:.2f} mm, "
+            f"held {1e3 * held:.2f} mm; off, in sd",
+            abs(value - held) / sd,
+            CONTRADICT,
+        )
+        for name, (value, sd) in found.items()
+    )
+
+
 def open_row(free: Estimate) -> Row:
     """Return the row of the same part with nothing held."""
     infinite = all(np.isinf(free.parameters[free.index(name)].sd) for name in MOMENTS)
@@ -154,6 +181,6 @@ def measure(seeds: Sequence[int] = (), spread: Spread = in_turn) -> Result:
     rows = (
         *finding_rows(), *touch_rows(whole), *whole_rows(whole),
         at_most("0-30 s alone: deg rms per axis predicted for 30-60 s", predicted(), AHEAD),
-        *window_rows(parts), *quiet_rows(quiet), open_row(free),
+        *window_rows(parts), *quiet_rows(quiet), *look_rows(quiet), open_row(free),
     )  # fmt: skip
     return Result("real_record", claim, rows, ())

@@ -2,7 +2,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, NullLocator
+from matplotlib.ticker import NullLocator, StrMethodFormatter
 
 from equipoise.app.figures.style import AXES, BAND, WIDE, XYZ, styled
 from equipoise.app.units import UM
@@ -40,7 +40,7 @@ def draw(hours: OverHours, wander: Wander) -> Figure:
     axes.set_xticks(wander.span, [f"{span:g}" for span in wander.span])
     axes.xaxis.set_minor_locator(NullLocator())
     for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
-        which(FuncFormatter(lambda value, _: f"{value:g}"))
+        which(StrMethodFormatter("{x:g}"))
     axes.set_xlabel("over a time of, s")
     axes.set_ylabel("Allan deviation, um")
     axes.legend()
