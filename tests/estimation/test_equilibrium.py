@@ -141,8 +141,10 @@ def test_an_sd_longer_than_the_arm_tells_nothing(sd, told):
     """
     com, arm = np.array([0.0, 0.0, -SHIFT]), SHIFT
     sideways = np.array([arm, 0.0, arm])  # the second arm lies along x
-    rests = [Rest(np.array(u), sd, shift, 1.0)
-             for u, shift in (([0.0, 0.0, -1.0], np.zeros(3)), ([1.0, 0.0, 0.0], sideways))]  # fmt: skip
+    rests = [
+        Rest(np.array([0.0, 0.0, -1.0]), sd, np.zeros(3), 1.0),
+        Rest(np.array([1.0, 0.0, 0.0]), sd, sideways, 1.0),
+    ]
     information = sum(along(com + s.shift)[1].T @ along(com + s.shift)[1] / sd**2 for s in rests)
     assert (too_rough(rests, com, information) == "") is told
 

@@ -12,7 +12,7 @@ from equipoise.io.presets import read_preset
 from equipoise.study.compare_laws import Comparison, middle
 from equipoise.study.compare_laws import summary as law_summary
 from equipoise.study.compare_methods import Ratios, Share, summary
-from equipoise.study.recommend import advised_law, advised_method, least_share, reached
+from equipoise.study.recommend import advised_law, advised_method, least_share
 
 GOOD = {"refused": 0, "unusable": 0, "broke": 0, "warned": 0, "confident_wrong": 0,
         "believed": 40, "runs": 40, "coverage": Share(342, 360)}  # fmt: skip
@@ -118,13 +118,12 @@ def test_fewer_halts_count_more_than_less_torque():
 def test_a_law_whose_verdict_passed_what_is_wrong_is_never_taken():
     found = compared(("pid", 4e-6, 0, 1))
     assert advised_law(found).name is None
-    assert reached(found)
     assert advised_law(compared(("pid", 4e-6, 0, 1), ("l1_adaptive", 8e-6, 3, 0))).name is not None
 
 
 def test_when_no_law_reaches_the_torque_the_nearest_is_told():
     found = compared(("pid", 4e-5, 0, 0), ("l1_adaptive", 2e-5, 0, 0))
     said = advised_law(found)
-    assert (said.name, reached(found)) == (None, False)
+    assert said.name is None
     assert "The nearest: l1_adaptive" in said.sentence
     assert "9 of 20" in said.sentence

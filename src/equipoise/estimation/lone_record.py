@@ -11,6 +11,9 @@ free swing does not show, x only says which ratios hold, and Lambda x = 0 there 
 recordings at different loads tell the scale together that none tells alone.
 
 Taken to be Gauss-Newton's parabola at x; the prior should not be narrower than what is sought.
+
+Cannot see a torque that wanders: 1 uN m of air within 30 s makes errors of J_zz 1.4 times as large
+as stated (`verification/manual.py`), and a recording of a minute does not show that it is there.
 """
 
 from typing import NamedTuple
