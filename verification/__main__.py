@@ -19,6 +19,7 @@ from equipoise.model.errors import InputError
 from verification import (
     balanced,
     calibration,
+    compared,
     defective_logs,
     design_predictions,
     drift,
@@ -75,6 +76,7 @@ CHECKS = {
     "manual": Check(manual.measure, 200),
     "long_record": Check(long_record.measure, 5),
     "real_record": Check(real_record.measure, 1),
+    "compared": Check(compared.measure, compared.STATED),
     "method_table": Check(method_table.measure, 20),
     "method_intervals": Check(method_intervals.measure, 200),
     "robustness": Check(robustness.measure, 20),

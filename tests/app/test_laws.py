@@ -1,6 +1,7 @@
 """`equipoise laws` lists what there is; `balance --law` runs one, `compare --laws` many."""
 
 import csv
+import sys
 
 import numpy as np
 import pytest
@@ -125,10 +126,12 @@ def test_a_comparison_is_one_document_and_a_line_a_run(equipoise, strict_json, t
     assert float(row["time_s"]) == pytest.approx(law["time"]["median"], rel=1e-4)
 
 
+SAID = Verdict(False, "Said so.")
+
+
 def made_up(law, seed, torque):
-    verdict = Verdict(True, "Said so.")
     offset, followed = np.array([3e-6, 4e-6, -9e-6]), torque / 2 if law == "l1_adaptive" else None
-    return LawRun(law, seed, offset, torque, followed, 1e-3, 90.0, 0.02, False, verdict)
+    return LawRun(law, seed, offset, torque, followed, 1e-3, 90.0, 0.02, False, SAID)
 
 
 @pytest.fixture
@@ -174,6 +177,15 @@ def test_the_table_has_the_least_torque_first_and_refusals_below(equipoise):
 def test_it_ends_with_1_when_no_law_reaches_the_torque(equipoise, required, code):
     """The better law leaves 2, 4 and 6 uN m standing, and half of it following."""
     assert equipoise(*THREE, "--require-torque", required).code == code
+
+
+@pytest.mark.usefixtures("without_work")
+def test_it_ends_with_1_when_every_law_that_reaches_it_passed_what_is_wrong(equipoise, monkeypatch):
+    """As the last line says: no law is to be recommended, however little torque it leaves."""
+    monkeypatch.setattr(sys.modules[__name__], "SAID", Verdict(True, "Said so."))
+    done = equipoise(*THREE)
+    assert "no law to recommend" in told_of(done)
+    assert done.code == 1
 
 
 def test_a_testbed_that_suits_no_law_is_refused(equipoise):

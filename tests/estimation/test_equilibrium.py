@@ -1,5 +1,6 @@
 """Rest positions worked by hand: the centre of mass hangs under the centre of rotation."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -7,9 +8,19 @@ import pytest
 from builders import MASS, platform
 from scipy.stats import chi2
 
-from equipoise.estimation.equilibrium import Rest, along, estimate, quiet_spans, solve
+from equipoise.estimation.equilibrium import (
+    Rest,
+    along,
+    estimate,
+    quiet_spans,
+    solve,
+    too_rough,
+)
+from equipoise.io.presets import read_preset
 from equipoise.maths.attitude import exponential
 from equipoise.model.recording import Recording, Samples
+from equipoise.simulation.bench import SimulatedBench
+from equipoise.simulation.record import recorded
 
 LEVEL, TURNED = np.zeros(3), np.array([0.0, np.pi / 4, 0.0])
 SHIFT = 20e-6  # m, of the centre of mass
@@ -120,3 +131,33 @@ def test_a_swing_is_no_rest():
     found = estimate(replace(record, attitude=Samples(record.attitude.t, swung)), platform())
     assert "swung by 1.5 deg rms" in found.outcome.sentence
     assert "not trustworthy" in found.outcome.sentence
+
+
+@pytest.mark.parametrize(("sd", "told"), [(0.99, True), (1.01, False)])
+def test_an_sd_longer_than_the_arm_tells_nothing(sd, told):
+    """Arms of 20 um along z and x, directions to s: 1 / s^2 + 1 / s^2 across both, 1 / s^2 else.
+
+    The least information is (1 / (20 um s))^2: the sd is as long as the arm at s = 1 rad.
+    """
+    com, arm = np.array([0.0, 0.0, -SHIFT]), SHIFT
+    sideways = np.array([arm, 0.0, arm])  # the second arm lies along x
+    rests = [
+        Rest(np.array([0.0, 0.0, -1.0]), sd, np.zeros(3), 1.0),
+        Rest(np.array([1.0, 0.0, 0.0]), sd, sideways, 1.0),
+    ]
+    information = sum(along(com + s.shift)[1].T @ along(com + s.shift)[1] / sd**2 for s in rests)
+    assert (too_rough(rests, com, information) == "") is told
+
+
+def test_rests_of_a_platform_that_swings_widely_are_refused_with_a_sentence():
+    """Platform 4 of `sputnix` swings by 26 deg rms: the minimum runs away, which ended in an error.
+
+    Its information was singular ("Singular matrix").
+    """
+    bed = read_preset("sputnix")
+    record = recorded(SimulatedBench(bed, 4), 120.0, [(60.0, {"z1": -0.05, "x1": 0.05})])
+    found = estimate(record, bed)
+    assert not found.outcome.usable
+    assert found.parameters == ()
+    assert re.search(r"swung by \d+ deg rms", found.outcome.sentence)
+    assert "too roughly to see how far" in found.outcome.sentence

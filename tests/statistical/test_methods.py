@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from equipoise.model.estimate import COM, INERTIA
-from verification import method_intervals, method_table, real_methods, robustness
+from verification import compared, method_intervals, method_table, real_methods, robustness
 from verification.real_record import RECORD
 from verification.workers import spread_over
 
@@ -15,6 +15,11 @@ from verification.workers import spread_over
 def test_intervals_of_every_method_hold_or_it_says_that_they_do_not():
     """Four records of every regime: bands as wide as four records make them."""
     assert method_intervals.measure(range(4), spread_over(2)).missed == ()
+
+
+def test_what_the_comparison_states_is_the_bound_and_the_truth():
+    """Four platforms of `compare --methods`: bands as wide as chance makes them among so few."""
+    assert compared.measure(range(4), spread_over(2)).missed == ()
 
 
 def test_a_poor_gyro_biases_what_is_not_corrected():

@@ -41,6 +41,15 @@ def test_each_error_counts_in_units_of_its_own_records_bound():
     assert np.isnan(told.inertia.rmse)
 
 
+def test_inertia_is_a_group_of_its_own():
+    """com errs by its bound, the first moment of inertia by 50 times its own."""
+    four = [1.0, -1.0, 1.0, 50.0]
+    told = summary([made_up(four, four, [1.0] * 4)])
+    assert told.com.rmse == pytest.approx(1.0)
+    assert told.inertia.rmse == pytest.approx(50.0)
+    assert (told.com.stated, told.inertia.stated) == (Share(3, 3), Share(1, 1))
+
+
 def test_what_the_record_does_not_show_is_no_part_of_the_ratio():
     """y has no bound: it is neither asked for nor counted. z is shown and not stated."""
     told = summary([made_up([2.0, 9.0], [1.0, 1.0], [1.0, np.inf, 1.0])])

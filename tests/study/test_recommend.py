@@ -12,7 +12,7 @@ from equipoise.io.presets import read_preset
 from equipoise.study.compare_laws import Comparison, middle
 from equipoise.study.compare_laws import summary as law_summary
 from equipoise.study.compare_methods import Ratios, Share, summary
-from equipoise.study.recommend import advised_law, advised_method, least_share, reached
+from equipoise.study.recommend import advised_law, advised_method, least_share
 
 GOOD = {"refused": 0, "unusable": 0, "broke": 0, "warned": 0, "confident_wrong": 0,
         "believed": 40, "runs": 40, "coverage": Share(342, 360)}  # fmt: skip
@@ -71,6 +71,25 @@ def test_a_method_that_is_not_honest_is_passed_over(more, reason):
     assert reason in alone.sentence
 
 
+def test_chance_is_that_of_runs_not_of_intervals():
+    """83 % of 180 intervals is no chance for independent ones; of 20 runs, at least 80 % is."""
+    few = told("tracker", 1.0, runs=20, believed=20, coverage=Share(150, 180))
+    assert advised_method([few], "com").name == "tracker"
+
+
+def test_a_warning_in_one_run_of_ten_is_borne():
+    borne = told("tracker", 1.0, warned=4, believed=36)
+    assert advised_method([borne], "com").name == "tracker"
+
+
+def test_inertia_is_advised_by_its_own_errors():
+    far, near = (Ratios(ratio, 0.1, Share(240, 240)) for ratio in (5.0, 1.0))
+    methods = [replace(told("tracker", 1.0), inertia=far),
+               replace(told("trajectory", 5.0), inertia=near)]  # fmt: skip
+    assert advised_method(methods, "com").name == "tracker"
+    assert advised_method(methods, "inertia").name == "trajectory"
+
+
 def test_intervals_that_are_too_wide_are_honest():
     assert advised_method([told("tracker", 1.0, coverage=Share(360, 360))], "com").name == "tracker"
 
@@ -82,9 +101,10 @@ def test_nobody_who_states_it_is_no_recommendation():
     assert "none states it" in said.sentence
 
 
-def test_few_runs_are_told():
-    few = {"runs": 6, "believed": 6}
-    assert "6 runs are few" in advised_method([told("tracker", 1.0, **few)], "com").sentence
+@pytest.mark.parametrize(("runs", "few"), [(6, True), (19, True), (20, False)])
+def test_few_runs_are_told(runs, few):
+    method = told("tracker", 1.0, runs=runs, believed=runs)
+    assert (f"{runs} runs are few" in advised_method([method], "com").sentence) is few
     assert "few" not in advised_method([told("tracker", 1.0)], "com").sentence
 
 
@@ -110,6 +130,13 @@ def test_the_least_torque_among_laws_that_reach_it_is_taken():
     assert "10 uN m was required" in said.sentence
 
 
+@pytest.mark.parametrize(("within", "taken"), [(18, False), (19, True)])
+def test_a_law_may_leave_more_in_one_run_of_twenty(within, taken):
+    found = compared(("pid", 8e-6, 0, 0))
+    found = replace(found, laws=(replace(found.laws[0], within=within),))
+    assert (advised_law(found).name == "pid") is taken
+
+
 def test_fewer_halts_count_more_than_less_torque():
     found = compared(("pid", 8e-6, 0, 0), ("l1_adaptive", 4e-6, 1, 0))
     assert advised_law(found).name == "pid"
@@ -118,13 +145,12 @@ def test_fewer_halts_count_more_than_less_torque():
 def test_a_law_whose_verdict_passed_what_is_wrong_is_never_taken():
     found = compared(("pid", 4e-6, 0, 1))
     assert advised_law(found).name is None
-    assert reached(found)
     assert advised_law(compared(("pid", 4e-6, 0, 1), ("l1_adaptive", 8e-6, 3, 0))).name is not None
 
 
 def test_when_no_law_reaches_the_torque_the_nearest_is_told():
     found = compared(("pid", 4e-5, 0, 0), ("l1_adaptive", 2e-5, 0, 0))
     said = advised_law(found)
-    assert (said.name, reached(found)) == (None, False)
+    assert said.name is None
     assert "The nearest: l1_adaptive" in said.sentence
     assert "9 of 20" in said.sentence

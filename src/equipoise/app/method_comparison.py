@@ -31,8 +31,12 @@ READ = (
     "that hold the truth, of runs in which the method does not warn of them. NEES: squared error "
     "over its covariance, a parameter; 1 is true. wrong: runs with a miss by more than 5 sd, "
     "unwarned. warned: runs whose outcome warns of the intervals. failed: refused, not usable or "
-    "broken off; in no statistic. ms: median time of the processor. MB: peak of memory of Python "
-    "and NumPy. First those without failure and with honest intervals."
+    "broken off; in no statistic. First those without failure and with honest intervals."
+)
+TAKES = (
+    "ms: median time of the processor for a record. MB: peak of memory of Python and NumPy. "
+    "settles, s: time from which on com stays within a tenth of its first error, of methods that "
+    "go along the record; never: mostly not at all."
 )
 
 
@@ -69,11 +73,13 @@ def sheets(found: MethodComparison) -> Iterator[Sheet]:
     yield com_sheet(found)
     if any(method.inertia.stated.part for method in found.methods):
         yield inertia_sheet(found)
+    if any(np.isfinite(method.time) for method in found.methods):
+        yield cost_sheet(found)
 
 
 def overview(found: MethodComparison) -> Sheet:
-    """Return accuracy, honesty and cost, one line a method."""
-    heads = ("", "com", "J", "bias", "holds", "NEES", "wrong", "warned", "failed", "ms", "MB")
+    """Return accuracy and honesty, one line a method."""
+    heads = ("", "com", "J", "bias", "holds", "NEES", "wrong", "warned", "failed")
     lines = [overview_cells(method) for method in shown_order(found)]
     title = f"RMSE / bound of {len(found.seeds)} records of {found.scene.testbed.name}"
     return Sheet(title, heads, lines, (*scale_remark(found), READ, *failures(found)))
@@ -91,9 +97,27 @@ def overview_cells(method: MethodSummary) -> list[str]:
         some(method.confident_wrong),
         some(method.warned),
         some(method.failed),
-        figure(MS * method.time),
-        "-" if method.memory is None else figure(MB * method.memory),
     ]
+
+
+def cost_sheet(found: MethodComparison) -> Sheet:
+    """Return what a record takes of those that were not refused, the quickest first."""
+    ran = sorted((m for m in found.methods if np.isfinite(m.time)), key=lambda m: m.time)
+    lines = [
+        [
+            method.method,
+            figure(MS * method.time),
+            "-" if method.memory is None else figure(MB * method.memory),
+            "-" if method.settled is None else seconds(method.settled),
+        ]
+        for method in ran
+    ]
+    return Sheet("What one record takes", ("", "ms", "MB", "settles, s"), lines, (TAKES,))
+
+
+def seconds(value: float) -> str:
+    """Return a time; infinite: never."""
+    return "never" if np.isinf(value) else figure(value)
 
 
 def ratio_text(ratios: Ratios) -> str:

@@ -2,9 +2,7 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
-from equipoise.app.method_comparison import MB, MS, figure, percent
+from equipoise.app.method_comparison import MB, MS, percent, seconds
 from equipoise.app.sheet import Sheet
 from equipoise.app.units import MICRO, UM
 from equipoise.study.compare_laws import LawSummary
@@ -30,13 +28,8 @@ TABLE_3 = (
 
 def spread_text(span: Span, factor: float = 1.0) -> str:
     """Return from the best to the worst."""
-    best, worst = (side(value * factor) for value in span)
+    best, worst = (seconds(value * factor) for value in span)
     return best if best == worst else f"{best} to {worst}"
-
-
-def side(value: float) -> str:
-    """Return one end of a span."""
-    return "never" if np.isinf(value) else figure(value)
 
 
 def methods_sheet(methods: Sequence[MethodSummary], testbed: str) -> Sheet:

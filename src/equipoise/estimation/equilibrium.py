@@ -12,7 +12,9 @@ which r itself scales. Minimised is
     du_i/dr = (E - u_i u_i^T) / |r + dr_i|
 
 Cannot see anything from one stop but the direction of r; is no use near balance, where a swing
-takes minutes and its mean is not a rest: the outcome says so.
+takes minutes and its mean is not a rest: the outcome says so. Directions that are known roughly
+agree with a centre of mass at any distance, and the minimum runs away: where the largest sd of r
+is longer than the longest arm |r + dr_i|, r is not told.
 """
 
 from typing import NamedTuple
@@ -142,18 +144,44 @@ def doubts(rests: list[Rest], misfit: float) -> str:
     return ""
 
 
+def lacking(rests: list[Rest]) -> str:
+    """Say why rests cannot tell the centre of mass, or nothing."""
+    if len(rests) >= 2 and np.linalg.eigvalsh(told(rests))[0] >= WEAKEST * len(rests):
+        return ""
+    return (
+        f"{len(rests)} distinct rest positions found, two are needed: "
+        "move a mass sideways and let the platform settle."
+    )
+
+
+def too_rough(rests: list[Rest], com: Vector3, information: Matrix3) -> str:
+    """Say that rests are known too roughly to tell how far com is from P, or nothing."""
+    longest = max(float(np.linalg.norm(com + rest.shift)) for rest in rests)
+    if float(np.linalg.eigvalsh(information)[0]) * longest**2 >= 1.0:
+        return ""
+    sd, swing = np.degrees([max(s.sd for s in rests), max(s.swing for s in rests)])
+    return (
+        f"The platform swung by {swing:.2g} deg rms at a stop, which tells where it would rest to "
+        f"{sd:.2g} deg only: too roughly to see how far the centre of mass is from the centre of "
+        "rotation. Let it settle after each move, or take a method that needs no rest."
+    )
+
+
+def unseeing(text: str) -> Estimate:
+    """Return that nothing was found, and why."""
+    unseen = ("the data do not see how far the centre of mass is from the centre of rotation",)
+    return Estimate(METHOD, Outcome(False, text), (), np.zeros((0, 0)), None, unseen)
+
+
 def estimate(recording: Recording, testbed: Testbed) -> Estimate:
     """Return the centre of mass with the masses at home."""
     recording = arranged(recording, testbed.mass_names)
     rests = stops(recording, testbed)
-    if len(rests) < 2 or np.linalg.eigvalsh(told(rests))[0] < WEAKEST * len(rests):
-        text = (
-            f"{len(rests)} distinct rest positions found, two are needed: "
-            "move a mass sideways and let the platform settle."
-        )
-        unseen = ("the data do not see how far the centre of mass is from the centre of rotation",)
-        return Estimate(METHOD, Outcome(False, text), (), np.zeros((0, 0)), None, unseen)
+    if lack := lacking(rests):
+        return unseeing(lack)
     com, information, misfit = solve(rests)
+    if rough := too_rough(rests, com, information):
+        return unseeing(rough)
     covariance = inverse_spd(information)
     sd = np.sqrt(np.diag(covariance))
     parameters = tuple(

@@ -26,7 +26,8 @@ def check_frame(recording: Recording, testbed: Testbed) -> None:
     )
     wanted = (
         "attitudes that turn body into a laboratory whose Z is up. Is the laboratory Y up? Try "
-        "--dialect optitrack, or a column map with lab_up; or set platform.up in the testbed"
+        "--dialect optitrack, or a column map with lab_up; or set platform.up in the testbed. Did "
+        "it fall over while it was recorded? Record it until you catch it"
     )
     raise InputError(recording.source or "recording", found, wanted)
 

@@ -132,23 +132,6 @@ def advised_law(found: Comparison) -> Advice:
     return Advice(best.law, f"Take {best.law}: {law_numbers(best)}; {required} was required.")
 
 
-def no_law(laws: Sequence[LawSummary], required: str) -> str:
-    """Say that no law qualifies, and which comes nearest."""
-    text = (
-        f"There is no law to recommend: none leaves {required} or less in {percent(WITHIN)} of its "
-        "runs without a verdict that passed what is wrong."
-    )
-    if not laws:
-        return text
-    near = min(laws, key=lambda law: (-law.within / law.runs, law.left.most))
-    return f"{text} The nearest: {near.law}, {law_numbers(near)}."
-
-
-def reached(found: Comparison) -> bool:
-    """Say whether some law leaves the required torque in enough of its runs."""
-    return any(law.within >= WITHIN * law.runs for law in found.laws)
-
-
 def law_qualifies(law: LawSummary) -> bool:
     """Say whether a law leaves what is required, and never says so wrongly."""
     return law.within >= WITHIN * law.runs and law.false_passes == 0

@@ -32,8 +32,8 @@ def compare(
 ) -> int:
     """Run methods on the same records, or laws on the same platforms, and say which to take.
 
-    Platforms are simulated, and their truth judges. Ends with 1 when no method, or no law, can be
-    recommended for the centre of mass.
+    Platforms are simulated, and their truth judges. Ends with 1 when no method can be recommended
+    for the centre of mass, or no law.
 
     Parameters
     ----------
@@ -130,7 +130,8 @@ def _tell(done: "Compared", json: bool, out: Path | None) -> None:
 
 def _code(done: "Compared") -> int:
     """Return 0 if something can be recommended of each kind that was compared."""
-    from equipoise.study.recommend import advised_method, reached
+    from equipoise.study.recommend import advised_law, advised_method
 
-    methods = done.methods is None or advised_method(done.methods.methods, "com").name is not None
-    return 0 if methods and (done.laws is None or reached(done.laws)) else 1
+    method = done.methods is None or advised_method(done.methods.methods, "com").name is not None
+    law = done.laws is None or advised_law(done.laws).name is not None
+    return 0 if method and law else 1
