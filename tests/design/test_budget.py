@@ -70,6 +70,13 @@ def test_the_usual_swing_keeps_from_the_tilt_limit(name):
     assert swing.manoeuvre.moves
 
 
+def test_a_look_says_that_its_move_was_shortened():
+    """The UnB platform would tilt too far with 50 mm; it is halved four times."""
+    (text,) = first_look(read_preset("unb"), 300.0).cautions
+    assert text.startswith("The first look's move is shortened to 3.12 mm")
+    assert first_look(sputnix(), 60.0).cautions == ()
+
+
 def test_a_longer_look_tells_more():
     sd = np.array([first_look(sputnix(), length).com_sd for length in (30.0, 60.0, 120.0, 300.0)])
     assert np.all(np.diff(sd, axis=0) < 0)
