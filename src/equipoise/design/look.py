@@ -72,7 +72,8 @@ def shortening(testbed: Testbed, manoeuvre: Manoeuvre) -> tuple[str, ...]:
     if length >= longest(usual(testbed, manoeuvre.duration, {})):
         return ()
     return (
-        f"The first look's move is shortened to {length * MM:.3g} mm, for time and tilt limit; a longer one would tell more.",
+        f"The first look's move is shortened to {length * MM:.3g} mm, for time and tilt limit; a "
+        "longer one would tell more.",
     )
 
 
