@@ -19,6 +19,7 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
 from equipoise.procedure.hold import HoldOptions, balance_and_hold
+from equipoise.procedure.planned_move import stops_covariance
 from equipoise.simulation.bench import SimulatedBench
 from verification.result import Result, Row, Spread, at_most, in_turn, triple
 
@@ -82,9 +83,13 @@ def beliefs(steps: Iterator[Step], bench: Watched) -> Iterator[tuple[Step, Array
         true = bench.com[-1] if bench.com else nothing
         if step.move is not None and step.move.reason == "drift":
             goal = np.array([step.move.targets[m.name] for m in bench.testbed.masses])
-            change = com_shift(maps, mass, goal - step.recording.masses.values[-1])
-            error = step.move.predicted_com - change - true
-            yield step, error, error / np.sqrt(np.diag(step.move.predicted_covariance))
+            now = step.recording.masses.values[-1]
+            error = step.move.predicted_com - com_shift(maps, mass, goal - now) - true
+            moving = goal != now
+            added = stops_covariance(bench.testbed, moving)
+            left = stops_covariance(bench.testbed, moving & (now != 0))
+            known = step.move.predicted_covariance - added - left  # before the move
+            yield step, error, error / np.sqrt(np.diag(known))
         elif step.verdict is not None and step.verdict.com is not None:
             yield step, step.verdict.com - true, (step.verdict.com - true) / step.verdict.sd
         else:

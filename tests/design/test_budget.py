@@ -22,7 +22,7 @@ from equipoise.design.look import first_look, later_look
 from equipoise.design.reach import reach_of
 from equipoise.design.sizing import sized
 from equipoise.design.surroundings import Surroundings
-from equipoise.design.usual_swing import GUARD, usual_swing
+from equipoise.design.usual_swing import GUARD, gentle_swing, usual_swing
 from equipoise.io.presets import read_preset
 from equipoise.maths.linalg import symmetrise
 from tests.design.layouts import TOTAL, X, Y, Z, mass, testbed
@@ -68,6 +68,28 @@ def test_the_usual_swing_keeps_from_the_tilt_limit(name):
     swing = usual_swing(bed, 120.0)
     assert swing.peak_tilt <= GUARD * bed.tilt_limit
     assert swing.manoeuvre.moves
+
+
+def test_a_move_takes_at_most_a_quarter_of_its_record():
+    """At 10 mm/s 10 s leave 2.5 s, which is 25 of the 50 mm up and 5 of the 10 mm aside."""
+    slow = replace(sputnix(), masses=tuple(replace(m, speed=0.01) for m in sputnix().masses))
+    ((_, targets),) = usual_swing(slow, 10.0).manoeuvre.moves
+    assert sorted({abs(d) for d in targets.values()}) == pytest.approx([0.005, 0.025])
+
+
+@pytest.mark.parametrize("duration", [30.0, 300.0])
+def test_a_balanced_platform_is_let_go_so_gently_that_it_stays_within_its_limit(duration):
+    start, up = gentle_swing(sputnix(), duration), sputnix().up
+    aside = np.linalg.norm(start.rate - (start.rate @ up) * up)
+    assert start.tilt + duration * aside <= GUARD * sputnix().tilt_limit + 1e-12
+    assert start.moves == ()
+
+
+def test_a_look_says_that_its_move_was_shortened():
+    """The UnB platform would tilt too far with 50 mm; it is halved four times."""
+    (text,) = first_look(read_preset("unb"), 300.0).cautions
+    assert text.startswith("The first look's move is shortened to 3.12 mm")
+    assert first_look(sputnix(), 60.0).cautions == ()
 
 
 def test_a_longer_look_tells_more():
@@ -159,6 +181,8 @@ def test_what_no_mass_can_shift_stays():
     line = found.lines[0]
     assert line.name == "out of reach"
     np.testing.assert_allclose(np.sqrt(np.diag(line.moment)), [0, 0, 1e-4], rtol=0.05, atol=1e-9)
+    look = next(line for line in found.lines if line.name == "look")
+    np.testing.assert_allclose(look.moment[2], 0.0, atol=1e-24)  # the height is counted above
     assert found.within == 0.0
 
 

@@ -94,6 +94,22 @@ def test_within_its_play_a_mass_is_not_taken_along():
     assert after.slip[0, 0] == 0.0
 
 
+def test_it_is_the_way_left_in_its_play_that_tells_whether_a_mass_is_taken_along():
+    """Play of 6 mm, at one end of it: 2 mm onwards takes it along, 4 mm back do not, 7 do."""
+    bed, first = box(backlash=6e-3, accuracy=2e-4), np.array([[50 * UM, 0, 0]])
+    there, _ = moved(bed, first, np.full((1, 3), 0.5))
+    for found, taken in ((20 * UM, True), (-40 * UM, False), (-70 * UM, True)):
+        after, _ = moved(bed, np.array([[found, 0, 0]]), np.ones((1, 3)), now=there)
+        assert after.slip[0, 0] == pytest.approx(2e-4 if taken else 1e-4), found
+
+
+def test_a_move_along_a_rail_that_leans_too_much_does_not_pay():
+    """It errs by sqrt(2) of the lean times the shift: as much as it undoes at 0.71."""
+    found = np.array([[50 * UM, 0, 0]])
+    assert moved(box(), found, lean=0.68)[1].moved[0, 0]
+    assert not moved(box(), found, lean=0.74)[1].moved[0, 0]
+
+
 def test_a_rail_that_leans_errs_across_it_by_shift_times_angle():
     """50 um along x at 10 mrad about y and z: 0.5 um each across, nothing along."""
     found = np.tile([50 * UM, 0, 0], (2000, 1))

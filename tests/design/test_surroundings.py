@@ -46,6 +46,18 @@ def test_expected_torque_is_the_mean_over_directions_and_offsets():
     assert expected_torque(box(), moment, TILT) == pytest.approx(drawn, rel=0.02)
 
 
+def test_expected_torque_of_two_slanted_offsets_by_hand():
+    """1 um along (0.6, 0, 0.8) and 2 um along y; of n_z^2 the mean is (1 - c^3) / (3 (1 - c))."""
+    c = np.cos(TILT)
+    up = (1 - c**3) / (3 * (1 - c))
+    side = (1 - up) / 2
+    first, second = np.array([0.6, 0, 0.8]), np.array([0, 2.0, 0])
+    square = (1 - 0.36 * side - 0.64 * up) + 4 * (1 - side)
+    moment = 1e-12 * (np.outer(first, first) + np.outer(second, second))
+    expected = WEIGHT * 1e-6 * np.sqrt(square)
+    assert expected_torque(box(), moment, TILT) == pytest.approx(expected, rel=1e-4)
+
+
 def test_warmth_moves_by_seven_tenths_of_a_micrometre_a_kelvin():
     """23e-6 x 0.3 m x 10 % = 0.69 um; any direction: two thirds of its square lie across n."""
     line = line_of("warmth", replace(STILL, temperature=2.0))

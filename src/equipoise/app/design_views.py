@@ -96,7 +96,7 @@ def two_digits(value: float) -> str:
     """Return a number with two digits, if it is not too small to matter or not seen."""
     if not math.isfinite(value):
         return "not seen"
-    return "< 0.001" if value < 0.001 else f"{value:.2g}"
+    return "<0.001" if value < 0.001 else f"{value:.2g}"
 
 
 def budget_table(found: Sizing) -> Group:

@@ -11,21 +11,24 @@ Both as a fit would see them that knows what the testbed states (``predicted``).
 not show the centre of mass, what was known before is what is known of it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from equipoise.design.predicted import Known, Predicted, at_truth, posed, predicted, prediction
+from equipoise.design.usual import usual
 from equipoise.design.usual_swing import gentle_swing, usual_swing
 from equipoise.estimation.conclusion import end_rows
 from equipoise.estimation.trajectory import Params
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import from_centre
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS
 
+MM = 1e3
 UNSEEN = "The record does not show the centre of mass; it stays as uncertain as it was."
 
 
@@ -59,7 +62,24 @@ def first_look(testbed: Testbed, duration: float) -> Look:
     end = end_rows(fitted, None)
     told = prediction(fitted, swing.seen, testbed)
     com, stated = rows_of(told, COM) if end is None else end[1], np.diag(testbed.com_sd**2)
-    return told_of(testbed, duration, told, com, stated)
+    look = told_of(testbed, duration, told, com, stated)
+    return replace(look, cautions=(*look.cautions, *shortening(testbed, swing.manoeuvre)))
+
+
+def shortening(testbed: Testbed, manoeuvre: Manoeuvre) -> tuple[str, ...]:
+    """Say that the usual move was shortened, as longer records then need not tell more."""
+    length = longest(manoeuvre)
+    if length >= longest(usual(testbed, manoeuvre.duration, {})):
+        return ()
+    return (
+        f"The first look's move is shortened to {length * MM:.3g} mm, for time and tilt limit; a "
+        "longer one would tell more.",
+    )
+
+
+def longest(manoeuvre: Manoeuvre) -> float:
+    """Return the longest way (m) that a mass goes from home."""
+    return max((abs(d) for _, goals in manoeuvre.moves for d in goals.values()), default=0.0)
 
 
 def later_look(testbed: Testbed, duration: float, target: Vector3, before: Look) -> Look:

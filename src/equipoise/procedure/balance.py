@@ -19,7 +19,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.foresight import Outlook, state_now
-from equipoise.procedure.knowledge import Knowledge, learn, shifted
+from equipoise.procedure.knowledge import Knowledge, learn, shifted, without_stops
 from equipoise.procedure.planned_move import planned_move
 from equipoise.procedure.tilt_guard import TILTED, tilted
 from equipoise.procedure.verify import fresh_enough, is_within, verdict
@@ -91,8 +91,9 @@ def balance(
         yield estimate_step(bench, progress)
         knowledge = progress.knowledge
         reason = reason_of(knowledge, bench.testbed, option, options.target)
-        belief = (knowledge.com, knowledge.covariance)
-        move = planned_move(bench.testbed, knowledge.displacement, option.targets, belief, reason)
+        now = knowledge.displacement
+        belief = without_stops(knowledge, bench.testbed, option.targets != now)
+        move = planned_move(bench.testbed, now, option.targets, belief, reason)
         yield Step("move", bench.time, sentence_of(move), move=move)
         bench.move(move.targets)
         fresh = bench.read(move.duration + LOOK)

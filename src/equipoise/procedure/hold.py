@@ -13,7 +13,7 @@ from equipoise.actuators.sliding_masses import com_shift, displacements_for, mas
 from equipoise.estimation import tracker
 from equipoise.estimation.tracker_step import COM
 from equipoise.maths.attitude import to_matrix
-from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import INERTIA
 from equipoise.model.move import Move
@@ -24,7 +24,7 @@ from equipoise.procedure.balance import UM, BalanceOptions, balance
 from equipoise.procedure.foresight import state_now
 from equipoise.procedure.knowledge import Knowledge
 from equipoise.procedure.law_sample import last_row
-from equipoise.procedure.planned_move import planned_move
+from equipoise.procedure.planned_move import planned_move, stops_covariance
 from equipoise.procedure.tilt_guard import TILTED, tilted
 
 LOOK = 5.0  # s between decisions
@@ -85,6 +85,18 @@ def standing(
     """Return the centre of mass with the masses as they stand, and its sd (m)."""
     shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, displacement)
     return state.com + shift, np.sqrt(np.diag(state.covariance)[COM])
+
+
+def before_moving(
+    state: tracker.State, testbed: Testbed, displacement: Floats, goal: Floats
+) -> tuple[Vector3, Matrix3]:
+    """Return the centre of mass (m, m^2) less the stops' errors of masses about to move to a goal.
+
+    The tracker knows no stop by itself, so nothing but their accuracy is known of them.
+    """
+    com, _ = standing(state, testbed, displacement)
+    leaving = (goal != displacement) & (displacement != 0)  # at home a mass has no error
+    return com, state.covariance[COM, COM] + stops_covariance(testbed, leaving)
 
 
 def correction(
@@ -157,8 +169,8 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
             continue
         shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - displacement)
         if pressing(com, options) or timely(state, com, shift, testbed):
-            now = (com, state.covariance[COM, COM])
-            move = planned_move(testbed, displacement, goal, now, "drift")
+            belief = before_moving(state, testbed, displacement, goal)
+            move = planned_move(testbed, displacement, goal, belief, "drift")
             bench.move(move.targets)
             yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
     last = standing(state, testbed, displacement)

@@ -9,7 +9,7 @@ from equipoise.estimation import trajectory
 from equipoise.estimation.conclusion import conclude
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.unknowns import Layout, Unknowns
-from equipoise.model.arrays import Floats, Matrix3, Vector3
+from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.estimate import COM, END, Estimate
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
@@ -90,3 +90,24 @@ def shifted(knowledge: Knowledge, testbed: Testbed, targets: Floats) -> Vector3:
     """Return where the centre of mass should be with the masses at ``targets`` (m)."""
     change = targets - knowledge.displacement
     return knowledge.com + com_shift(mass_maps(testbed.masses), testbed.body.mass, change)
+
+
+def without_stops(knowledge: Knowledge, testbed: Testbed, moving: Bools) -> tuple[Vector3, Matrix3]:
+    """Return ``com`` and its covariance (m, m^2) less the stops' errors of masses about to move.
+
+    They leave with the masses. The fit knows something of them, and they are part of ``com``.
+    """
+    estimate = knowledge.estimate
+    gain = mass_maps(testbed.masses).first_moment / testbed.body.mass
+    rows = np.eye(len(estimate.parameters))[[estimate.index(name) for name in knowledge.standing]]
+    for i in np.flatnonzero(moving):
+        for error in stops_of(estimate, testbed.masses[i].name)[-1:]:
+            rows[:, error] -= gain[i]
+    values = np.array([parameter.value for parameter in estimate.parameters])
+    return rows @ values, rows @ estimate.covariance @ rows.T
+
+
+def stops_of(estimate: Estimate, mass: str) -> list[int]:
+    """Return where the errors of a mass's stops are among the parameters, the last one last."""
+    names = [parameter.name for parameter in estimate.parameters]
+    return [k for k, name in enumerate(names) if name.rpartition("_")[0] == f"error_{mass}"]

@@ -1,9 +1,15 @@
-"""A change of displacements as a Move: how far, how long, and where it should lead."""
+"""A change of displacements as a Move: how far, how long, and where it should lead.
+
+    r after = r + sum g_i (D_i + e_i' - e_i),     g_i = (m_i / M) u_i
+
+e_i' is by how much mass i stops elsewhere, and e_i by how much it did so before: that error is part
+of where the centre of mass is found to be, and leaves with the mass. A mass at home has none.
+"""
 
 import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, com_shift_covariance, mass_maps
-from equipoise.model.arrays import Floats, Matrix3, Vector3
+from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.move import Move
 from equipoise.model.testbed import Testbed
 
@@ -13,19 +19,23 @@ def planned_move(
 ) -> Move:
     """Return the move from displacements ``now`` to ``targets`` (m).
 
-    ``belief`` is the centre of mass as the masses stand and its covariance (m, m^2); what the
-    accuracy of the stops adds to it is part of the prediction.
+    ``belief`` is the centre of mass as the masses stand, less the errors e_i of those that move,
+    and its covariance (m, m^2); what the accuracy of the new stops adds is part of the prediction.
     """
-    masses, total, change = testbed.masses, testbed.body.mass, targets - now
-    maps = mass_maps(masses)
+    masses, change = testbed.masses, targets - now
     speed = np.array([mass.speed for mass in masses])
-    accuracy = np.array([mass.accuracy for mass in masses])
-    stop = com_shift_covariance(maps, total, accuracy, (change != 0).astype(float))
     return Move(
         targets={mass.name: float(d) for mass, d in zip(masses, targets, strict=True)},
         travel=float(np.abs(change).sum()),
         duration=float((np.abs(change) / speed).max()),
-        predicted_com=belief[0] + com_shift(maps, total, change),
-        predicted_covariance=belief[1] + stop,
+        predicted_com=belief[0] + com_shift(mass_maps(masses), testbed.body.mass, change),
+        predicted_covariance=belief[1] + stops_covariance(testbed, change != 0),
         reason=reason,
     )
+
+
+def stops_covariance(testbed: Testbed, which: Bools) -> Matrix3:
+    """Return the covariance (m^2) of what one stop of each of these masses does."""
+    accuracy = np.array([mass.accuracy for mass in testbed.masses])
+    maps = mass_maps(testbed.masses)
+    return com_shift_covariance(maps, testbed.body.mass, accuracy, which.astype(float))
