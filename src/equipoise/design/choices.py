@@ -111,6 +111,15 @@ def plain_choice(space: Space) -> Floats:
     return np.concatenate([start, times, np.ravel(shares), waves])
 
 
+def calm_choice(space: Space) -> Floats:
+    """Return the plain choice without tilt, push or waves."""
+    calm = plain_choice(space)
+    calm[:5] = 0.5
+    if space.driven:
+        calm[-2 * len(space.driven) :: 2] = 0.5
+    return calm
+
+
 def home_share(mass: SlidingMass) -> float:
     """Return where home is on a rail, from 0 to 1."""
     low, high = mass.travel

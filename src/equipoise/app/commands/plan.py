@@ -80,4 +80,4 @@ def plan(
 
         write_plan(plan_file_of(done), bed, out)
         tell_paths([out], json)
-    return 0 if done.planned.kept == done.planned.platforms else 1
+    return 0 if done.planned.keeps else 1
