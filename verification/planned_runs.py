@@ -23,7 +23,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.procedure.identify import IdentifyOptions, identify
 from equipoise.simulation import actuator
 from equipoise.simulation.carried_out import bench_for, carried_out, let_go
-from equipoise.simulation.draw_truth import draw_truth
+from equipoise.simulation.draw_truth import SimulatedPlatform, draw_truth
 from tests.oracle import mujoco_bench as oracle
 
 BODY = (*INERTIA, *COM)
@@ -76,10 +76,15 @@ def estimated(recording: Recording, testbed: Testbed) -> Estimate:
     return last.estimate
 
 
+def truth_of(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> SimulatedPlatform:
+    """Return the platform of a seed, let go as a hand meets the manoeuvre."""
+    return draw_truth(let_go(testbed, manoeuvre, seed), np.random.default_rng([seed, 1]))
+
+
 def by_mujoco(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Run:
     """Carry out a manoeuvre on a platform of MuJoCo bodies, and identify it."""
     rng = np.random.default_rng([seed, 2])
-    truth = draw_truth(let_go(testbed, manoeuvre, seed), np.random.default_rng([seed, 1]))
+    truth = truth_of(testbed, manoeuvre, seed)
     soft = np.sqrt(testbed.gravity / max(abs(rng.normal(0.0, testbed.masses[0].sag_sd)), 1e-9))
     slides = tuple(oracle.Slide(m.name, m.mass, m.home, m.axis, min(float(soft), STIFF))
                    for m in testbed.masses)  # fmt: skip
