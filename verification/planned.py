@@ -201,7 +201,8 @@ def camera_alone(
     seeds: Sequence[int], spread: Spread, trials: int = TRIALS
 ) -> tuple[list[Row], list[str]]:
     """Return rows and notes of the paper-like platform."""
-    testbed, plans = hand_balanced(), {}
+    testbed = hand_balanced()
+    plans: dict[str, Manoeuvre] = {}
     plans["usual"] = usual(testbed, SECONDS, {})
     plans["planned"] = plan_of(testbed, SECONDS, trials)
     wish = wish_of(testbed)
