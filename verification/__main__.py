@@ -83,7 +83,7 @@ CHECKS = {
     "laws": Check(laws.measure, 100),
     "laws_on_mujoco": Check(laws_on_mujoco.measure, 3),
     "lee": Check(lee.measure, 100),
-    "planned": Check(planned.measure, 200),
+    "planned": Check(planned.measure, 100),
     "design_predictions": Check(design_predictions.measure, 400),
     "real_methods": Check(real_methods.measure, 1),
 }

@@ -37,7 +37,7 @@ def show_plan(done: Planning) -> None:
     console.print(limits_line(done.usual, done.request.testbed, "The usual manoeuvre"),
                   style="dim", markup=False)  # fmt: skip
     console.print(limits_line(done.planned, done.request.testbed, "The plan"), markup=False)
-    passed = done.planned.kept == done.planned.platforms
+    passed = done.planned.keeps
     style = "bold green" if passed else "bold yellow"
     console.print(verdict(done), style=style, markup=False)
 
@@ -121,7 +121,7 @@ def wave_words(wave: SquareWave, testbed: Testbed) -> str:
 
 def limits_line(promise: Promise, testbed: Testbed, who: str) -> str:
     """Say how far a manoeuvre goes."""
-    expected, n = promise.expected, promise.platforms
+    expected, n = promise.expected, promise.tried
     text = (
         f"{who} tilts the platform that is expected by {PER_DEG * expected.peak_tilt:.3g} deg at "
         f"most, {n} others by up to {PER_DEG * promise.greatest_tilt:.3g} deg (limit "
@@ -153,7 +153,7 @@ def verdict(done: Planning) -> str:
     else:
         gain = f"{before / after:.2g} times better"
         text = f"What is known worst ({name}, then {other}) is known {gain}."
-    if done.planned.kept == done.planned.platforms:
+    if done.planned.keeps:
         return text
     advice = (
         "a shorter record or more --trials may keep it"
@@ -161,7 +161,7 @@ def verdict(done: Planning) -> str:
         else "too little is known of the centre of mass: record a short swing, halted before the "
         "limit, and plan again with --seen"
     )
-    kept = f"{done.planned.kept} of {done.planned.platforms}"
+    kept = f"{done.planned.kept} of {done.planned.tried}"
     return f"{text} The tilt limit is kept by {kept} platforms only; {advice}."
 
 
@@ -197,6 +197,7 @@ def promise_json(promise: Promise) -> View:
     return {
         "sd": dict(zip(promise.names, map(float, promise.sd), strict=True)),
         "platforms": promise.platforms,
+        "platforms_tried_for_tilt": promise.tried,
         "within_tilt_limit": promise.kept,
         "greatest_tilt_rad": promise.greatest_tilt,
         "greatest_rate_rad_s": promise.greatest_rate,

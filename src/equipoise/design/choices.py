@@ -3,7 +3,8 @@
     lean of the start x, y     within a circle of the tilt limit
     rate of the start          spin about the axis that points up, sway about the level ones
     a time for each move       in order, the last early enough to arrive and to look afterwards
-    where masses go            one share of the travel for each kind of rail and each move
+    where masses go            one share of the travel, or of what is in time, for each kind of
+                               rail and each move
     waves                      amplitude and period for each wheel or gyro
 
 Masses of one kind (rail of one direction, same mass, travel, accuracy and speed) go together: more
@@ -103,7 +104,7 @@ def plain_choice(space: Space) -> Floats:
     """
     moves = space.moves if space.testbed.masses else 0
     down = np.array([lowest(space, kind[0]) for kind in space.kinds])
-    home = np.array([home_share(kind[0]) for kind in space.kinds])
+    home = np.array([home_share(space, kind[0]) for kind in space.kinds])
     shares = [down + AGAIN * (k + 1) * (home - down) for k in range(moves)]
     waves = np.tile([0.75, 0.5], len(space.driven))
     times = (np.arange(moves) + 1) / (moves + 1)
@@ -111,16 +112,36 @@ def plain_choice(space: Space) -> Floats:
     return np.concatenate([start, times, np.ravel(shares), waves])
 
 
-def home_share(mass: SlidingMass) -> float:
+def calm_choice(space: Space) -> Floats:
+    """Return the plain choice without tilt, push or waves."""
+    calm = plain_choice(space)
+    calm[:5] = 0.5
+    if space.driven:
+        calm[-2 * len(space.driven) :: 2] = 0.5
+    return calm
+
+
+def range_of(space: Space, mass: SlidingMass) -> tuple[float, float]:
+    """Return between which displacements (m) a mass may go: all moves take half the time at most.
+
+    Half as far to either side of where it stands.
+    """
+    each = 0.5 * LATE * space.duration / max(space.moves, 1)
+    (low, high), now = mass.travel, space.standing.get(mass.name, 0.0)
+    aside = 0.5 * mass.speed * each
+    return max(low, now - aside), min(high, now + aside)
+
+
+def home_share(space: Space, mass: SlidingMass) -> float:
     """Return where home is on a rail, from 0 to 1."""
-    low, high = mass.travel
+    low, high = range_of(space, mass)
     return float(np.clip(-low / (high - low), 0.0, 1.0))
 
 
 def lowest(space: Space, mass: SlidingMass) -> float:
     """Return the end of a rail that is lowest, from 0 to 1; home where the rail is level."""
     slope = float(mass.axis @ space.testbed.up)
-    return home_share(mass) if abs(slope) < LEVEL else float(slope < 0)
+    return home_share(space, mass) if abs(slope) < LEVEL else float(slope < 0)
 
 
 def level_axes(up: Vector3) -> tuple[Vector3, Vector3]:
@@ -151,7 +172,8 @@ def rate_of(space: Space, three: Floats) -> Vector3:
 
 def times_of(space: Space, numbers: Floats) -> list[float]:
     """Return the times of moves, in order, whole seconds and a travel apart at least."""
-    longest = max((np.ptp(m.travel) / m.speed for m in space.testbed.masses), default=0.0)
+    masses = space.testbed.masses
+    longest = max((float(np.ptp(range_of(space, m))) / m.speed for m in masses), default=0.0)
     count, last = len(numbers), LATE * space.duration - longest
     apart = min(longest, max(last - EARLY, 0.0) / max(count, 1))
     room = max(last - EARLY - (count - 1) * apart, 0.0)
@@ -163,9 +185,9 @@ def targets_of(space: Space, shares: Floats) -> dict[str, float]:
     found: dict[str, float] = {}
     for kind, share in zip(space.kinds, shares, strict=True):
         for mass in kind:
-            low, high = mass.travel
+            low, high = range_of(space, mass)
             goal = in_steps(mass, low + share * (high - low))
-            found[mass.name] = min(max(goal, low), high)
+            found[mass.name] = float(np.clip(goal, *mass.travel))
     return found
 
 
