@@ -14,7 +14,7 @@ Cannot see a pattern of errors of stops; these have a prior that is stated.
 import numpy as np
 
 from equipoise.estimation.drive_calibration import SHOWN, Drive
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Ints
 
 LARGE = 0.3  # of the greatest part of a mass, chosen: smaller ones come along by chance
 KINDS = (("gains", (0,)), ("rails", (1, 2)))  # and which of a drive's columns they are
@@ -24,11 +24,11 @@ def together(drives: tuple[Drive, ...], covariance: Floats) -> dict[str, list[tu
     """Return, of gains and of rails, the groups of drives (their indices) not told apart."""
     found: dict[str, list[tuple[int, ...]]] = {}
     for kind, places in KINDS:
-        sought = [(i, drive.columns[k]) for i, drive in enumerate(drives) for k in places
+        sought = [(i, int(drive.columns[k])) for i, drive in enumerate(drives) for k in places
                   if drive.columns[k] >= 0]  # fmt: skip
         if sought:
-            owner, columns = (np.array(each) for each in zip(*sought, strict=True))
-            prior = np.array([prior_of(drives[i], kind) for i in owner])
+            owner, columns = np.array(sought).T
+            prior = np.array([prior_of(drives[i], kind) for i, _ in sought])
             P = covariance[np.ix_(columns, columns)] / np.outer(prior, prior)
             found[kind] = groups(without_scale(P) if kind == "gains" else P, owner)
     return found
@@ -47,7 +47,7 @@ def without_scale(P: Floats) -> Floats:
     return apart @ P @ apart
 
 
-def groups(P: Floats, owner: Floats) -> list[tuple[int, ...]]:
+def groups(P: Floats, owner: Ints) -> list[tuple[int, ...]]:
     """Return the masses, two at least, that have a part in a direction left open."""
     values, vectors = np.linalg.eigh(P)
     found: set[tuple[int, ...]] = set()
