@@ -162,7 +162,7 @@ def stated_bed(
     """Return the testbed that is stated of a platform, and what its drives really are."""
     bed = oracle.testbed_for(platform, rng, 0.10, CAMERA, GYRO, ACCURACY)
     masses = tuple(
-        replace(m, mass=m.mass * step / gain, axis=aside(m.axis, off, rng), speed=0.01, sag_sd=0.0)
+        replace(m, mass=m.mass * step / gain, axis=aside(m.axis, off, rng), speed=0.01)
         for m, gain, step, off in zip(bed.masses, GAIN, STEPS, OFF, strict=True)
     )
     drives = tuple(

@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
-from equipoise.estimation.calibration import CalibrateOptions, calibrate, calibrated
-from equipoise.estimation.sensor_alignment import AT, alignment_of
+from equipoise.estimation.calibration import CalibrateOptions, calibrate, calibrated, nothing
+from equipoise.estimation.conclusion import UNSETTLED
+from equipoise.estimation.sensor_alignment import AT, GYRO, alignment_of
 from equipoise.io.presets import read_preset
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate, Parameter
+from equipoise.model.outcome import Outcome
 from equipoise.model.testbed import TrueDrive
 from equipoise.procedure.calibration_moves import calibration_moves, hangs
 from equipoise.simulation.draw_truth import real_masses
@@ -106,6 +109,32 @@ def test_a_mass_to_trust_must_exist(bed, recording):
         calibrate(recording, bed, CalibrateOptions(("q9",)))
 
 
+def test_masses_that_always_move_together_are_named_and_not_told(bed):
+    """Level and opposite each other: x1 and x2 go the same ways at once, then y1 by itself."""
+    moves = [(20.0 * (k + 1), {"x1": d, "x2": d}) for k, d in enumerate((0.01, 0.02, 0.0))]
+    moves += [(80.0, {"y1": 0.02}), (100.0, {"y1": 0.0})]
+    found = calibrate(record(bed, 120.0, moves, 4), bed, CalibrateOptions(("y1",)))
+    assert any("gains of x1 and x2" in sentence for sentence in found.unexplained)
+    assert any("rails of x1 and x2" in sentence for sentence in found.unexplained)
+    assert not found.sees(("gain_x1",))
+    assert not found.sees(("axis_x2_y",))
+    assert found.sees(("axis_y1_x",))
+    assert np.array_equal(calibrated(bed, found).masses[0].axis, bed.masses[0].axis)
+
+
+def test_a_mirrored_gyro_is_said_to_be_one_and_gives_no_numbers():
+    mirrored = dict(zip(GYRO, np.array([0.0, 0.0, -2.0, *np.zeros(6)]), strict=True))
+    parameters = tuple(Parameter(n, "1", v, 0.01) for n, v in mirrored.items())
+    fitted = Estimate("trajectory", Outcome(True, "All is well."), parameters, np.eye(9))
+    found = nothing(fitted)
+    assert not found.outcome.usable
+    assert "mirror" in found.outcome.sentence
+    assert found.parameters == ()
+    sound = replace(fitted, parameters=tuple(replace(p, value=0.0) for p in parameters))
+    assert nothing(sound) is None
+    assert nothing(replace(sound, outcome=UNSETTLED)).parameters == ()
+
+
 def test_a_gyros_turn_is_what_the_simulated_gyro_is_turned_by():
     """w_said = (1 + scale) R(turn)^T w, exactly, not to first order."""
     turn, scale = np.array([0.05, -0.1, 0.2]), np.array([0.01, -0.02, 0.03])
@@ -125,6 +154,15 @@ def test_recommended_moves_hang_and_go_out_further_and_back(bed):
         unit = mass_maps([mass]).first_moment[0] / bed.body.mass
         assert all(hangs(goal * unit, bed) for goal in goals)
         assert max(goals) > 0.004
+
+
+def test_a_heavy_mass_on_a_long_rail_does_not_make_another_pendulum():
+    """unb: 0.7 kg of 14.307 at 50 mm would bring the com from 90 to 2540 um below P."""
+    bed = read_preset("unb")
+    moves, _ = calibration_moves(bed, ("z",))
+    depths = [90e-6 - d["z"] * 0.7 / 14.307 for _, d in moves]
+    assert 160e-6 < max(depths) <= 180e-6
+    assert 45e-6 <= min(depths) < 50e-6
 
 
 def test_mujocos_rails_and_gyro_are_found_within_their_intervals():

@@ -23,6 +23,11 @@ DRIVES = (
 )
 RAILS = tuple((letter, "axis_{}_" + letter, 1.0) for letter in "xyz")
 SENSORS = ("gyro_", "plumb_")
+STAYS = (
+    "How sensors stand is not written to a testbed file, which has no keys for it: identify finds "
+    "the camera's lean again in each record, and the gyro's axes with --term gyro_scale --term "
+    "gyro_cross. What balances with that gyro does not know: turn its axes in its own settings."
+)
 
 
 def said(parameter: Parameter, factor: float) -> str:
@@ -76,7 +81,8 @@ def show_calibration(found: Estimate, testbed: Testbed) -> None:
     still = [m.name for m in testbed.masses if m.name not in names]
     if still and names:
         console.print(f"Never moved, so not shown: {', '.join(still)}.", markup=False)
-    for sentence in (*found.unobservable, *found.unexplained):
+    stays = (STAYS,) if any(p.name.startswith(SENSORS) for p in found.parameters) else ()
+    for sentence in (*found.unobservable, *found.unexplained, *stays):
         console.print(sentence, markup=False)
     if found.residual is not None:
         console.print(residual_line(found.residual), markup=False)

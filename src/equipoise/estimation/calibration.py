@@ -18,10 +18,11 @@ Cannot see what never moved; see also the files named.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
-from equipoise.estimation.conclusion import conclude
+from equipoise.estimation.conclusion import UNSETTLED, conclude
 from equipoise.estimation.drive_calibration import (
     NUMBERS,
     Drive,
@@ -32,10 +33,12 @@ from equipoise.estimation.drive_calibration import (
     scatter_of,
     shown,
 )
+from equipoise.estimation.drive_directions import sentences as alike_sentences
+from equipoise.estimation.drive_directions import together
 from equipoise.estimation.method import Options
 from equipoise.estimation.methods.trajectory import params_of, run
 from equipoise.estimation.reference import check_sensors
-from equipoise.estimation.sensor_alignment import ALIGNMENT, GYRO, SCALES, alignment_of
+from equipoise.estimation.sensor_alignment import ALIGNMENT, GYRO, SCALES, alignment_of, matrix_of
 from equipoise.estimation.trajectory import Params, fit
 from equipoise.model import sensor_terms
 from equipoise.model.arrays import Floats, Vector3
@@ -51,6 +54,7 @@ PLUMB = sensor_terms.GROUPS["plumb"]
 STEP = 1e-6  # in SI, chosen: the unknowns bend over whole units
 NEAR, ROUNDS = 1e-3, 5  # rad, chosen: stops err by 1e-3 mm aside then; plain fits at most
 SURE = 4.0  # sd of a scatter before it counts as more than chance
+MIRRORED = "The gyro's axes are a mirror image of the body's: one has the wrong sign."
 UNMOVED = "No mass moves in this record: there is nothing to calibrate masses by."
 
 
@@ -94,10 +98,23 @@ def calibrate(recording: Recording, testbed: Testbed, options: CalibrateOptions)
     asked = Options(terms, options.hold, options.use_prior)
     rails = rails_found(recording, doubted, params_of(doubted, asked))
     fitted = run(recording, on_rails(doubted, rails), asked)
-    if not fitted.parameters:
-        return replace(fitted, method=METHOD)
+    lost = nothing(fitted)
+    if lost is not None:
+        return lost
     drives = drives_of(doubted.masses, rails, recording, fitted)
     return concluded(fitted, drives, recording, options)
+
+
+def nothing(fitted: Estimate) -> Estimate | None:
+    """Return a calibration without numbers, if a fit says nothing of drives and sensors."""
+    outcome = fitted.outcome
+    if outcome is not UNSETTLED and fitted.has(GYRO[0]):
+        mirrored = np.linalg.det(matrix_of(fitted.values(GYRO))) <= 0
+        outcome = Outcome(False, f"{MIRRORED} {outcome.sentence}") if mirrored else outcome
+    if fitted.parameters and outcome is fitted.outcome and outcome is not UNSETTLED:
+        return None
+    return replace(fitted, method=METHOD, outcome=outcome, parameters=(), ratios=(),
+                   covariance=np.zeros((0, 0)), unobservable=())  # fmt: skip
 
 
 def on_rails(testbed: Testbed, rails: list[Vector3]) -> Testbed:
@@ -166,9 +183,10 @@ def concluded(
     covariance = F @ fitted.covariance @ F.T
     sd = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     seen = ~np.any(np.abs(F[:, hidden]) > 0, axis=1)
+    alike = together(drives, fitted.covariance)
     for i, drive in enumerate(drives):
         part = slice(NUMBERS * i, NUMBERS * (i + 1))
-        seen[part] &= shown(drive, sd[part])
+        seen[part] &= shown(drive, sd[part], [k for k, each in alike.items() if i in chain(*each)])
     found = [
         Parameter(name, unit, float(value), float(s) if ok else float("inf"), bool(ok))
         for (name, unit), value, s, ok in zip(wanted.labels, wanted.of(x), sd, seen, strict=True)
@@ -186,6 +204,7 @@ def concluded(
         ratios=relative_gains(drives, wanted.of(x), covariance),
         unexplained=(
             *fitted.unexplained,
+            *alike_sentences(drives, alike),
             *scale_sentences(drives, covariance, recording, options),
             *scatter_sentences(drives, scatters),
         ),

@@ -94,12 +94,16 @@ def labels_of(drive: Drive) -> list[tuple[str, str]]:
     return [(names.gain, "1"), (f"product_{mass}", "kg"), *axis, *angles, (names.backlash, "m")]
 
 
-def shown(drive: Drive, sd: Series1) -> list[bool]:
-    """Say of each of these whether the record shows it, given the sd of all eight."""
+def shown(drive: Drive, sd: Series1, mixed: list[str]) -> list[bool]:
+    """Say of each of these whether the record shows it, given the sd of all eight.
+
+    ``mixed``: which of "gains" and "rails" it does not tell apart from other masses'.
+    """
     doubt = drive.mass.doubt
     assert doubt is not None
-    gain = drive.trusted or bool(sd[0] < SHOWN * doubt.gain * drive.mass.gain)
-    rail = bool(np.all(sd[5:7] < SHOWN * doubt.across))
+    sure = bool(sd[0] < SHOWN * doubt.gain * drive.mass.gain) and "gains" not in mixed
+    gain = drive.trusted or sure
+    rail = "rails" not in mixed and bool(np.all(sd[5:7] < SHOWN * doubt.across))
     backlash = drive.reverses and bool(sd[7] < SHOWN * doubt.backlash)
     return [gain, gain, rail, rail, rail, rail, rail, backlash]
 

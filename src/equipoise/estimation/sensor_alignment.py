@@ -23,9 +23,14 @@ SCALES = tuple(f"gyro_scale_{axis}" for axis in "xyz")
 AT = ([0, 1, 2, 0, 0, 1, 1, 2, 2], [0, 1, 2, 1, 2, 0, 2, 0, 1])  # of xx yy zz xy xz yx yz zx zy
 
 
-def alignment_of(coefficients: Floats) -> Floats:
-    """Return turn (3) rad and scale errors (3) of the nine coefficients in the order of GYRO."""
+def matrix_of(coefficients: Floats) -> Floats:
+    """Return A of the nine coefficients in the order of GYRO."""
     A = np.eye(3)
     A[AT] += coefficients
-    Q, S = polar(A, side="left")
+    return A
+
+
+def alignment_of(coefficients: Floats) -> Floats:
+    """Return turn (3) rad and scale errors (3) of the nine coefficients; det A must be positive."""
+    Q, S = polar(matrix_of(coefficients), side="left")
     return np.append(-Rotation.from_matrix(Q).as_rotvec(), np.diag(S) - 1.0)

@@ -8,7 +8,9 @@ home, and stands for half a swing after each:
 Half and whole on both sides show the gain (sum of d^2: 5/2 d_max^2), stops at half way and at home
 that are reached from either side the backlash, and six stops against three unknowns along the rail
 the scatter. d_max is as far as the rail goes and the platform, as it is guessed, may lean at rest:
-``LEAN`` of its limit, because it swings about as far beyond, and not above ``HEIGHT`` of its depth.
+``LEAN`` of its limit, because it swings about as far beyond, and not above ``HEIGHT`` of its depth
+nor below ``DEPTH`` of it: a heavy mass on a long rail would make another pendulum of the platform,
+whose swings no fit follows from the guess.
 
 Cannot see how far the guess is off: identify and balance roughly first.
 """
@@ -25,6 +27,7 @@ from equipoise.model.testbed import SlidingMass, Testbed
 COURSE = (0.5, 1.0, 0.0, -1.0, -0.5, 0.0)
 LEAN = 0.4  # of the tilt limit, chosen: twice that in the swing, and some for a rough guess
 HEIGHT = 0.5  # of the guessed depth of com below P, chosen: that is left at least
+DEPTH = 2.0  # of the same, chosen: that is reached at most, a period shorter by as much
 SHARES = 0.85 ** np.arange(50)  # of the travel, chosen: tried from all of it to 0.03 %
 ROUND = 5.0  # s, chosen: times a person can follow
 
@@ -78,7 +81,8 @@ def hangs(shift: Vector3, testbed: Testbed) -> bool:
     com, up = testbed.body.com + shift, testbed.up
     depth, before = -float(com @ up), -float(testbed.body.com @ up)
     aside = float(np.linalg.norm(com + depth * up))
-    return depth >= HEIGHT * before and aside <= math.tan(LEAN * lean_limit(testbed)) * depth
+    leans = aside > math.tan(LEAN * lean_limit(testbed)) * depth
+    return HEIGHT * before <= depth <= DEPTH * before and not leans
 
 
 def lean_limit(testbed: Testbed) -> float:
