@@ -22,6 +22,7 @@ from equipoise.model.manoeuvre import Manoeuvre, SquareWave
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.simulation.actuator import in_steps
 
+SPIN = 4  # which of the numbers is the spin
 DEG = np.pi / 180
 TILT_STEP, SIDE_STEP, RATE_STEP = 0.5 * DEG, 5 * DEG, 0.1 * DEG  # chosen: what a person reads
 SWAY = 1.0 * DEG  # rad/s, chosen: a greater push sideways does what a greater tilt does

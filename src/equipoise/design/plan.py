@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import Bounds, differential_evolution
 
-from equipoise.design.choices import Space, calm_choice, chosen, plain_choice
+from equipoise.design.choices import SPIN, Space, calm_choice, chosen, plain_choice
 from equipoise.design.criterion import NAMES, Asked, Criterion, score, size_of
 from equipoise.design.predicted import Known
 from equipoise.design.rehearsal import (
@@ -47,6 +47,7 @@ SCENARIOS = 6  # chosen: with four, other platforms were told a third worse than
 FIRST, GUARDED = 24, 96  # chosen: platforms whose peaks are looked at, the others if these keep to
 # the limits; with 24 alone, 6 % of other platforms passed them
 CALMEST = 0.1  # chosen: of the way to the plain choice and what lies about it
+SPUN = 0.7  # chosen: of the greatest rate, the greatest spin of a first try; the hand errs
 POPULATION = 4  # chosen: manoeuvres tried at once, by number of a choice
 TRIALS = 2400  # chosen: some half a minute for sputnix on one core of its own
 
@@ -128,12 +129,14 @@ def silent(done: float) -> None:
 def first_tries(space: Space, count: int, rng: np.random.Generator) -> Floats:
     """Return the choices that a search begins with: half near the plain one, half anywhere.
 
-    Those near are calmed to various degrees, so that some keep the limits.
+    Those near are calmed to various degrees, so that some keep the limits, and spin either way:
+    little is known of the moment about the vertical without it, and a spin tilts nothing.
     """
     anywhere, half = rng.random((count, space.size)), count // 2
     plain, calm = plain_choice(space), calm_choice(space)
     off = plain - calm + NEAR * rng.standard_normal((half, space.size))
     near = calm + rng.uniform(CALMEST, 1.0, (half, 1)) * off
+    near[:, SPIN] = 0.5 + 0.5 * rng.uniform(-SPUN, SPUN, half)
     anywhere[:half] = np.clip(near, 0.0, 1.0)
     anywhere[0] = plain_choice(space)
     return anywhere
