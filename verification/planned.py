@@ -38,7 +38,7 @@ from verification.result import Result, Row, Spread, at_least, at_most, between,
 
 MOVES = 3
 SECONDS, TABLE_SECONDS = 120.0, 60.0
-RATE = np.radians(5.0)  # rad/s, the limit
+RATE = np.radians(10.0)  # rad/s, the limit
 BETTER = 3.0
 AGREES = 0.15
 CHANCE = 2.0  # sd, chosen: one of twenty ratios beyond it is no news, beyond 15 % more it is
@@ -140,11 +140,10 @@ def gains(
 
 
 def safety(who: str, testbed: Testbed, runs: Sequence[Run]) -> tuple[Row, ...]:
-    """Return the greatest tilt, and how many estimates cannot be used."""
-    greatest = float(np.degrees(max(run.tilt for run in runs)))
-    limit = float(np.degrees(testbed.tilt_limit))
+    """Return how many runs kept the tilt limit, and how many estimates cannot be used."""
+    kept = float(np.mean([run.tilt <= testbed.tilt_limit for run in runs]))
     return (
-        at_most(f"{who}: greatest tilt of {len(runs)} runs, deg", greatest, limit),
+        at_least(f"{who}: share of {len(runs)} runs within the tilt limit", kept, KEPT),
         at_most(f"{who}: outcomes not usable", sum(not run.usable for run in runs), 0, "d"),
     )
 
@@ -209,6 +208,7 @@ def camera_alone(
     promised = {who: promise(testbed, m, wish, 1) for who, m in plans.items()}
     runs = {who: spread(partial(by_mujoco, testbed, m), seeds) for who, m in plans.items()}
     rows = gains(testbed, list(promised.values()), list(runs.values()))
+    rows.append(rate_row("planned", promised["planned"]))
     notes = [f"Planned: {words(plans['planned'])}."]
     for who in plans:
         rows += said_of(who, testbed, promised[who], runs[who])

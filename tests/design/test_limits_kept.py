@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.design.choices import Space, calm_choice, chosen, range_of
-from equipoise.design.plan import excess, first_tries
+from equipoise.design.choices import Space, chosen, range_of
+from equipoise.design.first_choices import first_choices, home_share
+from equipoise.design.plan import excess
 from equipoise.design.rehearsal import Peaks
 from equipoise.io.presets import read_preset
 
@@ -17,19 +18,22 @@ def space(name="reference-table", duration=60.0, moves=3, standing=None):
     return Space(read_preset(name), duration, moves, TILT, RATE, standing or {})
 
 
-def test_an_excess_is_of_the_mean_and_three_sd():
-    """Tilts 20, 22, 24 deg: 22 + 3 x 2 = 28. Then 24, 26, 28: 32 is 1/15 beyond 30."""
+def test_an_excess_is_of_the_mean_and_four_sd_of_the_logarithm():
+    """Tilts 10 a, 10, 10 / a have the mean ln 10 and the sd ln a of their logarithm: with a = 1.3
+    10 x 1.3^4 = 28.56 deg, within 30. 11 x 1.3^4 = 31.42 is 0.0472 of itself beyond.
+    """
     slow = np.radians(1.0)
-    kept = [Peaks(np.radians(t), slow) for t in (20.0, 22.0, 24.0)]
-    passed = [Peaks(np.radians(t), slow) for t in (24.0, 26.0, 28.0)]
+    kept = [Peaks(np.radians(t), slow) for t in (13.0, 10.0, 10.0 / 1.3)]
+    passed = [Peaks(np.radians(1.1 * t), slow) for t in (13.0, 10.0, 10.0 / 1.3)]
     assert excess(space(), kept) == 0.0
-    assert excess(space(), passed) == pytest.approx(1 / 15)
+    assert excess(space(), passed) == pytest.approx(0.0472, abs=1e-4)
 
 
 def test_an_excess_counts_tilt_and_rate():
-    """Rates 4, 5, 6 deg/s: 5 + 3 x 1 = 8 is 0.6 beyond 5; with the tilt above 2/3."""
-    peaks = [Peaks(np.radians(t), np.radians(r)) for t, r in ((24, 4), (26, 5), (28, 6))]
-    assert excess(space(), peaks) == pytest.approx(1 / 15 + 0.6)
+    """Rates: 4 x 1.2^4 = 8.294 is 0.6589 beyond 5. Tilts: 11 x 1.3^4 is 0.0472 beyond 30."""
+    found = ((14.3, 4.8), (11, 4), (11 / 1.3, 4 / 1.2))
+    peaks = [Peaks(np.radians(tilt), np.radians(rate)) for tilt, rate in found]
+    assert excess(space(), peaks) == pytest.approx(0.6589 + 0.0472, abs=2e-4)
 
 
 def test_slow_masses_go_as_far_as_there_is_time():
@@ -55,15 +59,36 @@ def test_every_move_of_slow_masses_has_ended_when_the_next_begins():
         assert ends <= 0.9 * m.duration + 1.0
 
 
-def test_a_calm_choice_is_let_go_level_without_a_push_and_drives_nothing():
-    calm = chosen(space(), calm_choice(space()))
-    assert (calm.tilt, calm.waves) == (0.0, ())
-    np.testing.assert_array_equal(calm.rate, 0.0)
+def test_a_search_begins_low_and_near_home():
+    """Of three quarters of the first choices z rails are within 9 % of their lowest end (0.04 of
+    half a rail and 2 sd of 0.03), x and y rails within 0.36 of their middle, and the tilt within
+    0.6 of the limit.
+    """
+    where, rng = replace(space("sputnix"), duration=120.0), np.random.default_rng(1)
+    likely = [chosen(where, n) for k, n in enumerate(first_choices(where, 80, rng)) if k % 4]
+    assert len(likely) == 60
+    goals = {name: np.array([[move[1][name] for move in m.moves] for m in likely])
+             for name in ("x1", "y1", "z1")}  # fmt: skip
+    assert np.mean(goals["z1"] < -0.041) > 0.9
+    for level in (goals["x1"], goals["y1"]):
+        assert np.mean(np.abs(level) < 0.036) > 0.95
+        assert level.std() > 0.006
+    assert max(m.tilt for m in likely) <= 0.6 * TILT + np.radians(0.25)
+    spins = np.array([m.rate[2] for m in likely])
+    assert spins.min() < -0.4 * RATE
+    assert spins.max() > 0.4 * RATE
 
 
-def test_some_first_tries_are_calm():
-    """Of 40 near the plain choice the tenth with the least tilt has less than a third of it."""
-    where = replace(space("sputnix"), duration=120.0)
-    tries = first_tries(where, 80, np.random.default_rng(1))[1:40]
-    tilts = sorted(chosen(where, numbers).tilt for numbers in tries)
-    assert tilts[3] < chosen(where, first_tries(where, 80, np.random.default_rng(1))[0]).tilt / 3
+def test_a_search_begins_with_waves_of_any_size():
+    drawn = [chosen(space(), n) for n in first_choices(space(), 20, np.random.default_rng(1))]
+    sizes = [abs(wave.amplitude) for m in drawn for wave in m.waves]
+    assert len(sizes) > 40
+    assert min(sizes) < max(sizes) / 10
+
+
+def test_masses_that_stand_elsewhere_begin_from_where_they_are():
+    """At 48 mm on a rail of 50 mm, with 4.5 mm in time: home is beyond reach, its end 0."""
+    stood = space(standing={"coarse_x": 48e-3})
+    mass = stood.testbed.mass_named("coarse_x")
+    assert home_share(stood, mass) == 0.0
+    assert home_share(space(), mass) == pytest.approx(0.5)

@@ -7,7 +7,7 @@ import numpy as np
 from rich.console import Group
 
 from equipoise.app.numbers import with_sd
-from equipoise.app.planning import Planning
+from equipoise.app.planning import Planning, Request
 from equipoise.app.tables import named_rows, quiet_table, titled
 from equipoise.app.terminal import stdout
 from equipoise.app.units import MM, PER_DEG, Unit, unit_for
@@ -34,9 +34,9 @@ def show_plan(done: Planning) -> None:
     console.print()
     for sentence in done.planned.sentences:
         console.print(f"! {sentence}", style="yellow", markup=False)
-    console.print(limits_line(done.usual, done.request.testbed, "The usual manoeuvre"),
+    console.print(limits_line(done.usual, done.request, "The usual manoeuvre"),
                   style="dim", markup=False)  # fmt: skip
-    console.print(limits_line(done.planned, done.request.testbed, "The plan"), markup=False)
+    console.print(limits_line(done.planned, done.request, "The plan"), markup=False)
     passed = done.planned.keeps
     style = "bold green" if passed else "bold yellow"
     console.print(verdict(done), style=style, markup=False)
@@ -119,14 +119,14 @@ def wave_words(wave: SquareWave, testbed: Testbed) -> str:
     return f"drive {wave.device} by {size}, and turn it round {turns}"
 
 
-def limits_line(promise: Promise, testbed: Testbed, who: str) -> str:
+def limits_line(promise: Promise, request: Request, who: str) -> str:
     """Say how far a manoeuvre goes."""
-    expected, n = promise.expected, promise.tried
+    testbed, expected, n = request.testbed, promise.expected, promise.tried
     text = (
         f"{who} tilts the platform that is expected by {PER_DEG * expected.peak_tilt:.3g} deg at "
         f"most, {n} others by up to {PER_DEG * promise.greatest_tilt:.3g} deg (limit "
         f"{PER_DEG * testbed.tilt_limit:.3g}, kept by {promise.kept}); rates reach "
-        f"{PER_DEG * promise.greatest_rate:.3g} deg/s"
+        f"{PER_DEG * promise.greatest_rate:.3g} deg/s (wanted: {request.rate_deg_s:g})"
     )
     if any(isinstance(d, ReactionWheel) for d in testbed.devices) or testbed.cmgs:
         text += f", stored momentum {expected.peak_momentum:.2g} N m s"

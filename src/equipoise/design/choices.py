@@ -22,7 +22,6 @@ from equipoise.model.manoeuvre import Manoeuvre, SquareWave
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.simulation.actuator import in_steps
 
-SPIN = 4  # which of the numbers is the spin
 DEG = np.pi / 180
 TILT_STEP, SIDE_STEP, RATE_STEP = 0.5 * DEG, 5 * DEG, 0.1 * DEG  # chosen: what a person reads
 SWAY = 1.0 * DEG  # rad/s, chosen: a greater push sideways does what a greater tilt does
@@ -31,7 +30,6 @@ MOST_MOMENTUM = 0.8  # of a wheel's, chosen: leaves room for what it holds again
 MOST_GIMBAL = 60 * DEG  # chosen: a gyro that has turned further gives less and less torque
 SHORTEST = 8.0  # s, of a wave, chosen: ten times the lag of a slow wheel
 SAME = 1e-9
-AGAIN = 0.04  # of the way home, chosen: two steps of 50 mm in steps of 1 mm
 LEVEL = 0.5  # sine of a slope, chosen: rails that are less steep count as level
 
 
@@ -97,31 +95,6 @@ def chosen(space: Space, numbers: Floats) -> Manoeuvre:
     )  # fmt: skip
 
 
-def plain_choice(space: Space) -> Floats:
-    """Return a choice that a search may begin with: masses go down, and again a little less so.
-
-    They stop anew each time, with a new error, and the platform hangs stiffly. A good part of the
-    tilt allowed, some spin, weak waves.
-    """
-    moves = space.moves if space.testbed.masses else 0
-    down = np.array([lowest(space, kind[0]) for kind in space.kinds])
-    home = np.array([home_share(space, kind[0]) for kind in space.kinds])
-    shares = [down + AGAIN * (k + 1) * (home - down) for k in range(moves)]
-    waves = np.tile([0.75, 0.5], len(space.driven))
-    times = (np.arange(moves) + 1) / (moves + 1)
-    start = [0.85, 0.5, 0.5, 0.5, 0.4]
-    return np.concatenate([start, times, np.ravel(shares), waves])
-
-
-def calm_choice(space: Space) -> Floats:
-    """Return the plain choice without tilt, push or waves."""
-    calm = plain_choice(space)
-    calm[:5] = 0.5
-    if space.driven:
-        calm[-2 * len(space.driven) :: 2] = 0.5
-    return calm
-
-
 def range_of(space: Space, mass: SlidingMass) -> tuple[float, float]:
     """Return between which displacements (m) a mass may go: all moves take half the time at most.
 
@@ -131,18 +104,6 @@ def range_of(space: Space, mass: SlidingMass) -> tuple[float, float]:
     (low, high), now = mass.travel, space.standing.get(mass.name, 0.0)
     aside = 0.5 * mass.speed * each
     return max(low, now - aside), min(high, now + aside)
-
-
-def home_share(space: Space, mass: SlidingMass) -> float:
-    """Return where home is on a rail, from 0 to 1."""
-    low, high = range_of(space, mass)
-    return float(np.clip(-low / (high - low), 0.0, 1.0))
-
-
-def lowest(space: Space, mass: SlidingMass) -> float:
-    """Return the end of a rail that is lowest, from 0 to 1; home where the rail is level."""
-    slope = float(mass.axis @ space.testbed.up)
-    return home_share(space, mass) if abs(slope) < LEVEL else float(slope < 0)
 
 
 def level_axes(up: Vector3) -> tuple[Vector3, Vector3]:

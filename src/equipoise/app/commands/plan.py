@@ -15,7 +15,7 @@ def plan(
     ask: Literal["J", "r", "both"] = "both",
     criterion: Literal["A", "D"] = "A",
     moves: Whole = 3,
-    max_rate_deg_s: float = 5.0,
+    max_rate_deg_s: float = 10.0,
     seen: Path | None = None,
     seeking: Seeking = NOTHING_TOLD,
     trials: Whole = 2400,
