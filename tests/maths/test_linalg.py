@@ -9,8 +9,10 @@ from hypothesis.extra.numpy import arrays
 from equipoise.maths.linalg import (
     element_sizes,
     inverse_spd,
+    inverse_where,
     lag_one,
     pack_symmetric,
+    schur_complement,
     skew,
     unpack_symmetric,
 )
@@ -83,3 +85,26 @@ def test_element_sizes_by_hand():
     """sqrt(4 x 9) = 6, sqrt(4 x 16) = 8, sqrt(9 x 16) = 12; products do not count."""
     found = element_sizes(np.array([[4.0, 1, 2], [1, 9, 3], [2, 3, 16]]))
     np.testing.assert_allclose(found, [4, 9, 16, 6, 8, 12])
+
+
+BY_HAND = np.array([[4.0, 2.0, 1.0], [2.0, 5.0, 0.0], [1.0, 0.0, 2.0]])
+
+
+def test_schur_complement_by_hand():
+    """4 - 2 * 2 / 5 with the second known; - 1 * 1 / 2 with the third known too."""
+    assert schur_complement(BY_HAND, [0], []).item() == 4.0
+    assert schur_complement(BY_HAND, [0], [1]).item() == pytest.approx(3.2)
+    assert schur_complement(BY_HAND, [0], [1, 2]).item() == pytest.approx(2.7)
+
+
+def test_schur_complement_of_information_is_that_of_the_covariance_left():
+    """(A / A_bb)^-1 is the block of A^-1: others that are free, and others that are ignored."""
+    left = np.linalg.inv(schur_complement(BY_HAND, [0, 2], [1]))
+    np.testing.assert_allclose(left, np.linalg.inv(BY_HAND)[np.ix_([0, 2], [0, 2])], rtol=1e-13)
+
+
+def test_what_is_held_has_no_covariance():
+    """[[4, 1], [1, 2]] is left, of determinant 7."""
+    found = inverse_where(BY_HAND, np.array([True, False, True]))
+    expected = np.array([[2.0, 0.0, -1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 4.0]]) / 7.0
+    np.testing.assert_allclose(found, expected, atol=1e-15)

@@ -10,7 +10,7 @@ import numpy as np
 from equipoise.app.law_views import short
 from equipoise.app.sheet import Sheet
 from equipoise.app.units import UM
-from equipoise.app.views_json import View, numbers
+from equipoise.app.views_json import View, numbers, schedule_json
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM
@@ -198,7 +198,7 @@ def methods_json(found: MethodComparison) -> View:
         "testbed": scene.testbed.name,
         "seeds": list(found.seeds),
         "duration_s": scene.duration,
-        "moves": [{"time_s": t, "targets_m": dict(targets)} for t, targets in scene.moves],
+        "moves": schedule_json(scene.moves),
         "options": asdict(scene.options),
         "parameters": list(JUDGED),
         "bound": numbers(found.bound),

@@ -11,7 +11,7 @@ from equipoise.app.planning import Planning, Request
 from equipoise.app.tables import named_rows, quiet_table, titled
 from equipoise.app.terminal import stdout
 from equipoise.app.units import MM, PER_DEG, Unit, unit_for
-from equipoise.app.views_json import View
+from equipoise.app.views_json import View, schedule_json
 from equipoise.design.criterion import OF_COM, OF_MOMENT, size_of
 from equipoise.design.promise import Promise, times_better
 from equipoise.model.arrays import Vector3
@@ -182,7 +182,7 @@ def plan_json(done: Planning) -> View:
         "tilt_sd_rad": m.tilt_sd,
         "rate_sd_rad_s": m.rate_sd,
         "standing_m": dict(m.standing),
-        "moves": [{"time_s": t, "targets_m": dict(targets)} for t, targets in m.moves],
+        "moves": schedule_json(m.moves),
         "waves": [
             {"device": w.device, "amplitude": w.amplitude, "period_s": w.period, "phase": w.phase}
             for w in m.waves

@@ -1,10 +1,8 @@
 """The units in which people at a bench think: um, mm, g, deg, deg/s, uN m."""
 
-import math
 from dataclasses import dataclass
 
-PER_DEG = 180 / math.pi
-UM, MM, GRAM, MICRO = 1e6, 1e3, 1e3, 1e6
+from equipoise.model.bench_units import GRAM, MICRO, MM, PER_DEG, UM
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,6 +44,11 @@ def numbers(values: Floats | None, factor: float = 1.0) -> list[Any] | None:
     return None if values is None else (values * factor).tolist()
 
 
+def schedule_json(moves: Sequence[tuple[float, Mapping[str, float]]]) -> list[View]:
+    """Return when masses are sent, and where to from home."""
+    return [{"time_s": t, "targets_m": dict(targets)} for t, targets in moves]
+
+
 def estimate_json(estimate: Estimate, findings: Sequence[Finding] = ()) -> View:
     """Return an estimate, schema equipoise/estimate/1."""
     return {

@@ -20,11 +20,16 @@ import numpy as np
 
 from equipoise.dynamics.sag_trim import SAG_TERMS, downs, sag_matrix
 from equipoise.maths.attitude import level, to_matrix
-from equipoise.maths.gaussian_length import Bounded, bounded_length, normal_points, root_of
+from equipoise.maths.gaussian_length import (
+    SURE,
+    Bounded,
+    bounded_length,
+    normal_points,
+    root_of,
+)
 from equipoise.model.arrays import Floats, Series3, Square, Vector3
 from equipoise.model.estimate import COM
 
-SURE = 0.975  # one-sided
 RINGS, HEADINGS = 6, 24  # chosen: the worst direction to within 1 %
 
 

@@ -8,12 +8,13 @@ from equipoise.design.case import Case
 from equipoise.design.line import Line
 from equipoise.design.reach import Reach, tolerance, unreachable
 from equipoise.model.arrays import Vector3
+from equipoise.model.bench_units import MICRO, MM, UM
 from equipoise.model.outcome import Outcome
 from equipoise.model.testbed import SlidingMass
 
 ENOUGH = 0.95  # of platforms as stated, chosen: as many as a law has to balance in ``compare``
 NOTABLE = 0.01  # of the torque, chosen: a change that brings less is not worth a line
-UM, MM, MICRO, PERCENT = 1e6, 1e3, 1e6, 100.0
+PERCENT = 100.0
 WAYS = ("nothing", "one line", "a plane")
 
 

@@ -20,7 +20,7 @@ from equipoise.estimation.trajectory_problem import Problem
 from equipoise.estimation.unknowns import Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.attitude import exponential, multiply, tilt
-from equipoise.maths.linalg import inverse_spd, pack_symmetric
+from equipoise.maths.linalg import inverse_where, pack_symmetric
 from equipoise.model.arrays import Square, Vector3
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
@@ -110,7 +110,4 @@ def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:
 def told(tried: Rehearsal, truth: Unknowns, known: Known | None) -> Square:
     """Return the covariance of all unknowns; what is not seen is as wide as the fit's anchor."""
     normal = informed(tried.problem, truth, known).at.normal
-    free = ~tried.problem.prior.held
-    covariance = np.zeros_like(normal)
-    covariance[np.ix_(free, free)] = inverse_spd(normal[np.ix_(free, free)])
-    return covariance
+    return inverse_where(normal, ~tried.problem.prior.held)

@@ -31,7 +31,7 @@ from equipoise.estimation.unknowns import (
     unknowns_of,
 )
 from equipoise.maths.attitude import logarithm
-from equipoise.maths.linalg import inverse_spd, lag_one
+from equipoise.maths.linalg import inverse_where, lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import COM, END, Estimate, Parameter, Residual
@@ -200,9 +200,7 @@ def spread_of(fitted: Fitted, coloured: float = 1.0) -> tuple[tuple[Parameter, .
     a combination of parameters may be, where ``conclude`` says that it is not seen.
     """
     held = fitted.problem.prior.held
-    free = np.flatnonzero(~held)
-    covariance = np.zeros_like(fitted.at.normal)
-    covariance[np.ix_(free, free)] = inverse_spd(fitted.at.normal[np.ix_(free, free)])
+    covariance = inverse_where(fitted.at.normal, ~held)
     covariance += by_sag(fitted, covariance)
     view = Visibility(covariance, np.zeros_like(held), (), False, np.zeros((len(held), 0)))
     after = smooth_at(fitted) if fitted.problem.jumps else None

@@ -25,7 +25,7 @@ from equipoise.estimation.conclusion import conclude, residual_of, widening
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.smoother import levelled
 from equipoise.estimation.unknowns import CORE, core_of
-from equipoise.maths.linalg import inverse_spd, symmetrise
+from equipoise.maths.linalg import schur_complement, symmetrise
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
@@ -59,9 +59,7 @@ def without_prior(fitted: Fitted) -> tuple[Square, Floats]:
 
 def data_alone(normal: Square, x: Floats, weight: Floats, mean: Floats) -> tuple[Square, Floats]:
     """Return Lambda and eta of the optimum's information, x there, and the prior of the core."""
-    c = np.arange(len(normal))[CORE]
-    o = np.setdiff1d(np.arange(len(normal)), c)
-    cross = normal[np.ix_(c, o)]
-    marginal = normal[np.ix_(c, c)] - cross @ inverse_spd(normal[np.ix_(o, o)]) @ cross.T
-    information = symmetrise(marginal) - np.diag(weight)
+    core = range(len(normal))[CORE]
+    others = [k for k in range(len(normal)) if k not in core]
+    information = symmetrise(schur_complement(normal, core, others)) - np.diag(weight)
     return information, information @ x + weight * (x - mean)

@@ -23,7 +23,7 @@ from scipy.stats.qmc import Sobol
 
 from equipoise.model.arrays import Floats, Square
 
-SURE = 0.975  # one-sided
+SURE = 0.975  # one-sided, of every upper bound
 INSIDE = 0.95  # of the ellipsoid
 POINTS = 12  # 2^12 points, chosen: quantiles to 1 % of an sd
 NOTHING = 1e-12  # chosen: of the largest eigenvalue, a smaller one is rounding

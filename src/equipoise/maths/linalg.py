@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Matrix3, Series, Square, Vector3, Vector6
+from equipoise.model.arrays import Bools, Floats, Matrix3, Series, Square, Vector3, Vector6
 
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # xx yy zz xy xz yz
 
@@ -50,6 +50,13 @@ def inverse_spd(matrix: Square) -> Square:
     return symmetrise(inverse) * np.outer(scale, scale)
 
 
+def inverse_where(matrix: Square, free: Bools) -> Square:
+    """Return the inverse of the block of rows and columns that are free, and zero elsewhere."""
+    inverse = np.zeros_like(matrix)
+    inverse[np.ix_(free, free)] = inverse_spd(matrix[np.ix_(free, free)])
+    return inverse
+
+
 def lag_one(residual: Series) -> float:
     """Return the correlation of neighbouring rows, pooled over columns; 0 for fewer than 3 rows."""
     if len(residual) < 3:
@@ -64,9 +71,13 @@ def given(covariance: Square, own: Sequence[int], known: Sequence[int]) -> Squar
 
     P_aa - P_ab P_bb^-1 P_ba; numbers without any doubt are known already.
     """
-    free = [k for k in known if covariance[k, k] > 0]
-    mine = covariance[np.ix_(own, own)]
-    if not free:
-        return mine
-    shared = covariance[np.ix_(own, free)]
-    return mine - shared @ inverse_spd(covariance[np.ix_(free, free)]) @ shared.T
+    return schur_complement(covariance, own, [k for k in known if covariance[k, k] > 0])
+
+
+def schur_complement(matrix: Square, own: Sequence[int], others: Sequence[int]) -> Square:
+    """Return M_aa - M_ab M_bb^-1 M_ba: a covariance given others, or information with others free.
+
+    The others' block has to be positive definite.
+    """
+    cross = matrix[np.ix_(own, others)]
+    return matrix[np.ix_(own, own)] - cross @ inverse_spd(matrix[np.ix_(others, others)]) @ cross.T

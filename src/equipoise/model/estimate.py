@@ -1,6 +1,6 @@
 """An estimate: named values with their covariance, and a plain statement of what was not seen."""
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -13,6 +13,11 @@ COM = ("com_x", "com_y", "com_z")
 END = ("com_end_x", "com_end_y", "com_end_z")  # with the masses as they stand at the end
 INERTIA = tuple(f"inertia_P_{ij}" for ij in ("xx", "yy", "zz", "xy", "xz", "yz"))
 NORMAL_95 = 1.959963984540054  # two-sided 95 % point of the normal distribution
+
+
+def standing_com(names: Container[str]) -> tuple[str, ...]:
+    """Return the names of the centre of mass as the masses stand, of an estimate with ``names``."""
+    return END if END[0] in names else COM
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +98,11 @@ class Estimate:
     def has(self, name: str) -> bool:
         """Say whether a parameter is among them."""
         return any(p.name == name for p in self.parameters)
+
+    @property
+    def standing(self) -> tuple[str, ...]:
+        """Names of the centre of mass with the masses as they stand."""
+        return standing_com({p.name for p in self.parameters})
 
     def values(self, names: tuple[str, ...]) -> Floats:
         """Return several values."""

@@ -25,7 +25,8 @@ from equipoise.estimation.trajectory import Params
 from equipoise.maths.gaussian_length import Bounded, bounded_length
 from equipoise.maths.linalg import given
 from equipoise.model.arrays import Matrix3, Square, Vector3
-from equipoise.model.estimate import COM, END, INERTIA, Estimate, Parameter
+from equipoise.model.bench_units import MICRO, UM
+from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter, standing_com
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -39,7 +40,6 @@ from equipoise.procedure.sound_rows import sound
 UNKNOWN_COM = 1e-3  # m, chosen: one sd of where a centre of mass may be that is to be proven
 RANGE = np.radians(20.0)
 DOUBTFUL = 0.02  # chosen: an inertia known no better widens every bound
-UN_M, UM = 1e6, 1e6
 Believed = tuple[Estimate, tuple[tuple[Parameter, ...], Square]]  # and what ``spread_of`` says
 
 
@@ -152,7 +152,7 @@ def pull_of(parameters: tuple[Parameter, ...], covariance: Square) -> Pull:
     """Return centre of mass, as the masses stand, and sag; with the inertia unknown and known."""
     at = {parameter.name: k for k, parameter in enumerate(parameters)}
     sag = tuple(name for name in SAG_TERMS if name in at)
-    own = [at[name] for name in (*(END if END[0] in at else COM), *sag)]
+    own = [at[name] for name in (*standing_com(at), *sag)]
     known = given(covariance, own, [at[name] for name in INERTIA])
     values = np.array([parameters[k].value for k in own])
     return Pull((*COM, *sag), values, covariance[np.ix_(own, own)], known)
@@ -170,7 +170,7 @@ def answers_of(options: AssessOptions, torque: InRange, offset: Bounded) -> tupl
     found = list[Judged]()
     if options.require_torque is not None:
         what = f"gravity's torque within {np.degrees(options.tilt):g} deg of level, rms,"
-        asked = Requirement(what, options.require_torque, "uN m", UN_M)
+        asked = Requirement(what, options.require_torque, "uN m", MICRO)
         found.append(judged(asked, torque.rms))
     if options.require_offset is not None:
         what = "the centre of mass's distance from where it is wanted"

@@ -10,7 +10,7 @@ from equipoise.estimation.conclusion import conclude
 from equipoise.estimation.fitted import Fitted
 from equipoise.estimation.unknowns import Layout, Unknowns
 from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
-from equipoise.model.estimate import COM, END, Estimate
+from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS
@@ -42,7 +42,7 @@ class Knowledge:
     @property
     def standing(self) -> tuple[str, ...]:
         """Names of the centre of mass with the masses as they stand."""
-        return END if self.estimate.has(END[0]) else COM
+        return self.estimate.standing
 
     @property
     def displacement(self) -> Floats:

@@ -17,7 +17,7 @@ from equipoise.estimation import trajectory
 from equipoise.estimation.conclusion import conclude
 from equipoise.maths.linalg import given
 from equipoise.model.arrays import Series1, Series3, Vector3
-from equipoise.model.estimate import COM, END, INERTIA, Estimate
+from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.assess import UNKNOWN_COM
@@ -54,21 +54,16 @@ def looks_over_hours(
             continue
         found.append(look)
         times.append(first + 0.5 * seconds)
-    com = np.array([look.values(standing(look)) for look in found])
+    com = np.array([look.values(look.standing) for look in found])
     sd = np.array([spread_of(look) for look in found])
     t, com, sd = np.array(times, dtype=float), com.reshape(-1, 3), sd.reshape(-1, 3)
     wander = wander_of(t, com, sd) if len(t) >= FEWEST else None
     return OverHours(t, com, sd, left_out, wander)
 
 
-def standing(look: Estimate) -> tuple[str, ...]:
-    """Return the names of the centre of mass as the masses stood."""
-    return END if look.has(END[0]) else COM
-
-
 def spread_of(look: Estimate) -> Vector3:
     """Return the sd of a look's centre of mass but for the inertia, whose error all looks share."""
-    own, J = ([look.index(name) for name in names] for names in (standing(look), INERTIA))
+    own, J = ([look.index(name) for name in names] for names in (look.standing, INERTIA))
     return np.sqrt(np.diag(given(look.covariance, own, J)))
 
 

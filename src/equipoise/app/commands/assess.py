@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from equipoise.app.commands.kinds import Flag, Triple
 from equipoise.app.commands.reading import WHOLE, Reading
 from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
-from equipoise.app.terminal import busy, tell_paths, watched
+from equipoise.app.terminal import busy, watched
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -110,17 +110,14 @@ def _tell(told: "Told", json: bool, out: Path | None) -> None:
     from equipoise.app.archive import write_account
     from equipoise.app.assess_json import document_of
     from equipoise.app.assess_views import account_of, show_result
-    from equipoise.app.views_json import dump
+    from equipoise.app.handing_over import hand_over
 
     document = document_of(told)
-    if json:
-        print(dump(document))
-    else:
-        show_result(told)
-    if out is not None:
-        with busy("drawing"):
-            paths = write_account(account_of(told), document, "assess", out)
-        tell_paths(paths, json)
+
+    def written(folder: Path) -> list[Path]:
+        return write_account(account_of(told), document, "assess", folder)
+
+    hand_over(document, lambda: show_result(told), written, json, out)
 
 
 def _carried_out(

@@ -13,10 +13,16 @@ from equipoise.app.commands.by_hand import (
 )
 from equipoise.app.commands.kinds import Flag, Triple, Whole
 from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.terminal import busy, tell_paths
+from equipoise.app.terminal import busy
 
 if TYPE_CHECKING:
     from equipoise.app.balancing import Balancing
+    from equipoise.model.arrays import Vector3
+    from equipoise.model.manoeuvre import Manoeuvre
+    from equipoise.model.testbed import Testbed
+    from equipoise.simulation.bench import SimulatedBench
+
+Until = tuple[int | None, float | None, float]  # moves, s, s of holding
 
 
 def balance(
@@ -69,56 +75,85 @@ def balance(
     out
         Folder for figures, report.html and balance.json.
     """
-    from equipoise.app.options import not_negative, one_of, positive, seed_of, tolerance, vector
-    from equipoise.app.units import UM
+    from equipoise.app.options import one_of, seed_of
     from equipoise.app.wiring import testbed_of
-    from equipoise.io.plan_file import read_plan
     from equipoise.io.whole_folder import check_folder
 
-    target = vector("--target-um", target_um, 1 / UM)
-    near = tolerance("--tolerance-um", tolerance_um, 1 / UM)
-    moves = None if max_moves is None else int(not_negative("--max-moves", max_moves))
-    longest = None if max_time_s is None else positive("--max-time-s", max_time_s)
-    hold = not_negative("--hold-min", hold_min) * 60
+    where = _where(target_um, tolerance_um)
+    until = _until(max_moves, max_time_s, hold_min)
     if is_by_hand(by_hand, reading):
-        others = {"--law": law != "look_and_move", "--max-moves": moves is not None,
-                  "--max-time-s": longest is not None, "--hold-min": hold > 0,
-                  "--plan": plan is not None}  # fmt: skip
-        check_by_hand(by_hand, reading, [name for name, given in others.items() if given])
+        check_by_hand(by_hand, reading, _of_moving_masses(law, plan, until))
         from equipoise.app.balancing import Goal
 
-        goal, seed = Goal(target, near), seed_of(seed)
+        goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Asked(testbed, goal, seed, by_hand, reading, json, out))
     bed, seed = testbed_of(testbed), seed_of(seed)
-    planned = None if plan is None else read_plan(plan, bed).manoeuvre
+    planned = None if plan is None else _planned(plan, bed)
     if out is not None:
         check_folder(out)
     with busy("preparing the bench", announce=False):
         from equipoise.app.balance_views import show_step
         from equipoise.app.balancing import Goal, Limits, run
         from equipoise.procedure.laws import CARDS
-        from equipoise.simulation.bench import SimulatedBench
-        from equipoise.simulation.carried_out import bench_for
 
-        limits = Limits(moves, longest, hold, one_of("--law", law, list(CARDS)), planned)
-        bench = SimulatedBench(bed, seed) if planned is None else bench_for(bed, planned, seed)
-    done = run(bench, Goal(target, near), limits, None if json else show_step)
+        limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
+        bench = _bench(bed, planned, seed)
+    done = run(bench, Goal(*where), limits, None if json else show_step)
     _tell(done, seed, json, out)
     return 0 if done.verdict.passed else 1
+
+
+def _where(target_um: Triple, tolerance_um: Triple) -> "tuple[Vector3, Vector3]":
+    """Return target and tolerance, m, checked."""
+    from equipoise.app.options import tolerance, vector
+    from equipoise.app.units import UM
+
+    target = vector("--target-um", target_um, 1 / UM)
+    return target, tolerance("--tolerance-um", tolerance_um, 1 / UM)
+
+
+def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> Until:
+    """Return moves and time (s) before giving up, and how long to hold (s), checked."""
+    from equipoise.app.options import not_negative, positive
+
+    moves = None if max_moves is None else int(not_negative("--max-moves", max_moves))
+    longest = None if max_time_s is None else positive("--max-time-s", max_time_s)
+    return moves, longest, not_negative("--hold-min", hold_min) * 60
+
+
+def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:
+    """Return the options given that are not for a balancing by hand."""
+    moves, longest, hold = until
+    others = {"--law": law != "look_and_move", "--max-moves": moves is not None,
+              "--max-time-s": longest is not None, "--hold-min": hold > 0,
+              "--plan": plan is not None}  # fmt: skip
+    return [name for name, given in others.items() if given]
+
+
+def _planned(plan: Path, bed: "Testbed") -> "Manoeuvre":
+    """Return the manoeuvre of a plan file."""
+    from equipoise.io.plan_file import read_plan
+
+    return read_plan(plan, bed).manoeuvre
+
+
+def _bench(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "SimulatedBench":
+    """Return the simulated platform, let go as planned if there is a plan."""
+    from equipoise.simulation.bench import SimulatedBench
+    from equipoise.simulation.carried_out import bench_for
+
+    return SimulatedBench(bed, seed) if planned is None else bench_for(bed, planned, seed)
 
 
 def _tell(done: "Balancing", seed: int, json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.archive import write_account
     from equipoise.app.balance_views import account_of, document_of, show_result
-    from equipoise.app.views_json import dump
+    from equipoise.app.handing_over import hand_over
 
     document = document_of(done, seed)
-    if json:
-        print(dump(document))
-    else:
-        show_result(done)
-    if out is not None:
-        with busy("drawing"):
-            paths = write_account(account_of(done, seed), document, "balance", out)
-        tell_paths(paths, json)
+
+    def written(folder: Path) -> list[Path]:
+        return write_account(account_of(done, seed), document, "balance", folder)
+
+    hand_over(document, lambda: show_result(done), written, json, out)

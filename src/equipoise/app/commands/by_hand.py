@@ -8,7 +8,7 @@ from cyclopts import Parameter
 
 from equipoise.app.commands.kinds import Flag, Whole
 from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.terminal import busy, stdout, tell_paths
+from equipoise.app.terminal import busy, stdout
 
 if TYPE_CHECKING:
     from equipoise.app.balancing import Goal
@@ -123,16 +123,13 @@ def _a_persons(asked: Asked, path: Path, bed: "Testbed", rounds: int) -> int:
 def _tell(done: "ByHand", of: dict[str, str], asked: Asked) -> int:
     """Print the result, write it down if that is asked for, and return the exit code."""
     from equipoise.app.archive import write_account
+    from equipoise.app.handing_over import hand_over
     from equipoise.app.manual_views import account_of, document_of, show_result
-    from equipoise.app.views_json import dump
 
     document = document_of(done, of)
-    if asked.json:
-        print(dump(document))
-    else:
-        show_result(done)
-    if asked.out is not None:
-        with busy("drawing"):
-            paths = write_account(account_of(done, of), document, "balance", asked.out)
-        tell_paths(paths, asked.json)
+
+    def written(folder: Path) -> list[Path]:
+        return write_account(account_of(done, of), document, "balance", folder)
+
+    hand_over(document, lambda: show_result(done), written, asked.json, asked.out)
     return 0 if done.verdict is None or done.verdict.passed else 1

@@ -6,11 +6,16 @@ from typing import TYPE_CHECKING
 from equipoise.app.commands.judging_laws import AS_THEY_ARE, JudgingLaws
 from equipoise.app.commands.kinds import Flag, Names, Whole
 from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
-from equipoise.app.terminal import busy, tell_paths
+from equipoise.app.terminal import busy
 
 if TYPE_CHECKING:
     from equipoise.app.comparison_report import Compared
     from equipoise.model.arrays import Vector3
+    from equipoise.model.testbed import Testbed
+    from equipoise.simulation.record import Moves
+    from equipoise.study.method_record import Scene
+
+    Goal = tuple[Vector3, Vector3, float, float, float]
 
 
 def compare(
@@ -61,15 +66,14 @@ def compare(
     out
         Folder for compare.html, compare.json, figures, and methods.csv or laws.csv, a line a run.
     """
-    from equipoise.app.options import positive, seed_of
+    from equipoise.app.options import positive
     from equipoise.app.wiring import move_of, spelt_out, testbed_of
     from equipoise.io.whole_folder import check_folder
     from equipoise.model.errors import InputError
 
     if not (methods or laws):
         raise InputError("compare", "nothing to compare", "--methods or --laws")
-    bed, first = testbed_of(testbed), seed_of(seed)
-    seeds = range(first, first + int(positive("--runs", runs)))
+    bed, seeds = testbed_of(testbed), _seeds(seed, runs)
     moves = [move_of(text, bed) for text in move]
     duration, seeking = positive("--duration-s", duration_s), spelt_out(seeking)
     many, goal = int(positive("--workers", workers)), _goal(judging)
@@ -78,27 +82,45 @@ def compare(
     with busy("preparing", announce=False):
         from equipoise.app import comparing
         from equipoise.app.comparison_report import Compared
-        from equipoise.estimation.method import Options
-        from equipoise.study.method_record import Scene
 
         kinds = comparing.by_kind(only, methods, laws)
         names = comparing.chosen_methods(kinds[0]) if methods else ()
         cards = comparing.chosen(bed, kinds[1]) if laws else []
-        scene = Scene(bed, duration, moves, Options(seeking.term, seeking.hold, seeking.prior))
+        scene = _scene(bed, duration, moves, seeking)
     measured = comparing.run_methods(scene, names, seeds, many) if methods else None
-    task = comparing.Asked(bed, cards, seeds, *goal)
-    balanced = comparing.run(task, many) if laws else None
-    asked = {
-        "platforms": f"{len(seeds)}, seeds {seeds[0]} to {seeds[-1]}",
-        "records": f"{duration:g} s; moves: {', '.join(move) or 'none'}",
-        "laws": f"{goal[-1]:g} s at most, {goal[-2]:g} N m required",
-    }
-    done = Compared(bed, asked, measured, balanced)
+    balanced = comparing.run(comparing.Asked(bed, cards, seeds, *goal), many) if laws else None
+    done = Compared(bed, _asked(seeds, duration, move, goal), measured, balanced)
     _tell(done, json, out)
     return _code(done)
 
 
-def _goal(judging: JudgingLaws) -> "tuple[Vector3, Vector3, float, float, float]":
+def _seeds(seed: int, runs: int) -> range:
+    """Return the platforms' seeds, checked."""
+    from equipoise.app.options import positive, seed_of
+
+    first = seed_of(seed)
+    return range(first, first + int(positive("--runs", runs)))
+
+
+def _scene(bed: "Testbed", duration: float, moves: "Moves", seeking: Seeking) -> "Scene":
+    """Return what methods are compared on, and what they are asked."""
+    from equipoise.estimation.method import Options
+    from equipoise.study.method_record import Scene
+
+    return Scene(bed, duration, moves, Options(seeking.term, seeking.hold, seeking.prior))
+
+
+def _asked(seeds: range, duration: float, moves: Names, goal: "Goal") -> dict[str, str]:
+    """Return what was asked, as the report has it."""
+    *_, torque, time = goal
+    return {
+        "platforms": f"{len(seeds)}, seeds {seeds[0]} to {seeds[-1]}",
+        "records": f"{duration:g} s; moves: {', '.join(moves) or 'none'}",
+        "laws": f"{time:g} s at most, {torque:g} N m required",
+    }
+
+
+def _goal(judging: JudgingLaws) -> "Goal":
     """Return target and tolerance (m), tilt (deg), torque (N m) and time (s), checked."""
     from equipoise.app.options import not_negative, positive, tolerance, vector
     from equipoise.app.units import UM
@@ -115,17 +137,13 @@ def _goal(judging: JudgingLaws) -> "tuple[Vector3, Vector3, float, float, float]
 def _tell(done: "Compared", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.comparison_report import document, files_of, show
-    from equipoise.app.views_json import dump
+    from equipoise.app.handing_over import hand_over
     from equipoise.io.whole_folder import write_folder
 
-    if json:
-        print(dump(document(done)))
-    else:
-        show(done)
-    if out is not None:
-        with busy("drawing"):
-            files = files_of(done)
-        tell_paths(write_folder(out, files), json)
+    def written(folder: Path) -> list[Path]:
+        return write_folder(folder, files_of(done))
+
+    hand_over(document(done), lambda: show(done), written, json, out)
 
 
 def _code(done: "Compared") -> int:

@@ -1,10 +1,14 @@
 """`equipoise design`: are masses and sensors good enough, what limits them, what to buy next."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from equipoise.app.commands.exposure import NOTHING_STATED, Exposure, surroundings_of
 from equipoise.app.commands.kinds import Flag, Several, Triple, Whole
-from equipoise.app.terminal import busy, tell_paths
+from equipoise.app.terminal import busy
+
+if TYPE_CHECKING:
+    from equipoise.design.sizing import Sizing
 
 
 def design(
@@ -63,22 +67,25 @@ def design(
     if out is not None:
         check_folder(out)
     with busy("reckoning"):
-        from equipoise.app.design_views import design_json, show_design
-        from equipoise.app.views_json import dump
         from equipoise.design.case import Case
         from equipoise.design.sizing import sized
 
         case = Case(bed, target, tilt, lengths[0], count, lean, around)
         found = sized(case, lengths, require_torque)
+    _tell(found, json, out)
+    return 0 if found.outcome.usable else 1
+
+
+def _tell(found: "Sizing", json: bool, out: Path | None) -> None:
+    """Print the result, and write it down if that is asked for."""
+    from equipoise.app.design_views import design_json, show_design
+    from equipoise.app.handing_over import hand_over
+
     document = design_json(found)
-    if json:
-        print(dump(document))
-    else:
-        show_design(found)
-    if out is not None:
+
+    def written(folder: Path) -> list[Path]:
         from equipoise.app.design_pictures import write_design
 
-        with busy("drawing"):
-            paths = write_design(found, document, out)
-        tell_paths(paths, json)
-    return 0 if found.outcome.usable else 1
+        return write_design(found, document, folder)
+
+    hand_over(document, lambda: show_design(found), written, json, out)

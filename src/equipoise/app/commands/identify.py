@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from equipoise.app.commands.kinds import Flag
 from equipoise.app.commands.reading import WHOLE, Reading
 from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
-from equipoise.app.terminal import busy, tell_paths, watched
+from equipoise.app.terminal import busy, watched
 
 if TYPE_CHECKING:
     from equipoise.app.identify_views import Identification
@@ -95,15 +95,12 @@ def _carried_out(
 def _tell(done: "Identification", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.archive import write_account
+    from equipoise.app.handing_over import hand_over
     from equipoise.app.identify_views import account_of, document_of, show_result
-    from equipoise.app.views_json import dump
 
     document = document_of(done)
-    if json:
-        print(dump(document))
-    else:
-        show_result(done)
-    if out is not None:
-        with busy("drawing"):
-            paths = write_account(account_of(done), document, "estimate", out)
-        tell_paths(paths, json)
+
+    def written(folder: Path) -> list[Path]:
+        return write_account(account_of(done), document, "estimate", folder)
+
+    hand_over(document, lambda: show_result(done), written, json, out)

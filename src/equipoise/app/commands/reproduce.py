@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.commands.kinds import Flag, Whole
-from equipoise.app.terminal import busy, tell_paths
+from equipoise.app.terminal import busy
 
 if TYPE_CHECKING:
     from equipoise.study.lee import Manoeuvre
@@ -32,7 +32,6 @@ def reproduce(
         Print one JSON document instead.
     """
     from equipoise.app.options import one_of, seed_of
-    from equipoise.app.views_json import dump
     from equipoise.io.whole_folder import check_folder
 
     one_of("paper", paper, list(PAPERS))
@@ -40,20 +39,22 @@ def reproduce(
     if out is not None:
         check_folder(out)
     runs = _slews(seed)
+    _tell(runs, seed, json, out)
+    return 0
+
+
+def _tell(runs: "list[Manoeuvre]", seed: int, json: bool, out: Path | None) -> None:
+    """Print the result, and write it down if that is asked for."""
+    from equipoise.app.archive import write_account
+    from equipoise.app.handing_over import hand_over
     from equipoise.app.lee_views import account_of, document_of, show_result
 
     document = document_of(runs, seed)
-    if json:
-        print(dump(document))
-    else:
-        show_result(runs)
-    if out is not None:
-        from equipoise.app.archive import write_account
 
-        with busy("drawing"):
-            paths = write_account(account_of(runs, seed), document, "reproduce", out)
-        tell_paths(paths, json)
-    return 0
+    def written(folder: Path) -> list[Path]:
+        return write_account(account_of(runs, seed), document, "reproduce", folder)
+
+    hand_over(document, lambda: show_result(runs), written, json, out)
 
 
 def _slews(seed: int) -> "list[Manoeuvre]":
