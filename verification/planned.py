@@ -43,7 +43,7 @@ BETTER = 3.0
 AGREES = 0.15
 CHANCE = 2.0  # sd, chosen: one of twenty ratios beyond it is no news, beyond 15 % more it is
 ENOUGH = 80  # runs, chosen: the mean of nine ratios is then known to some 5 %
-KEPT = 0.99  # of platforms, within the tilt limit
+KEPT = 0.99  # of platforms, within the limits
 BELOW, ASIDE, ALONG = -80e-6, 5e-6, 10e-6  # m: where com is after balancing by hand, and sd
 EVEN = np.sqrt(3.0)  # half the width of an even distribution, in sd
 
@@ -148,15 +148,9 @@ def safety(who: str, testbed: Testbed, runs: Sequence[Run]) -> tuple[Row, ...]:
     )
 
 
-def rate_row(who: str, promised: Promise) -> Row:
-    """Return the greatest rate that is expected over platforms, beside its limit."""
-    name = f"{who}: greatest rate of {promised.tried} platforms, deg/s"
-    return at_most(name, float(np.degrees(promised.greatest_rate)), float(np.degrees(RATE)))
-
-
 def said_of(who: str, testbed: Testbed, promised: Promise, runs: Sequence[Run]) -> tuple[Row, ...]:
     """Return all rows of one manoeuvre."""
-    name = f"{who}: share of {promised.tried} imagined platforms within the tilt limit"
+    name = f"{who}: share of {promised.tried} imagined platforms within the limits"
     return (
         *agreement(who, promised, runs),
         *honesty(who, runs),
@@ -205,10 +199,9 @@ def camera_alone(
     plans["usual"] = usual(testbed, SECONDS, {})
     plans["planned"] = plan_of(testbed, SECONDS, trials)
     wish = wish_of(testbed)
-    promised = {who: promise(testbed, m, wish, 1) for who, m in plans.items()}
+    promised = {who: promise(testbed, m, wish, 1, RATE) for who, m in plans.items()}
     runs = {who: spread(partial(by_mujoco, testbed, m), seeds) for who, m in plans.items()}
     rows = gains(testbed, list(promised.values()), list(runs.values()))
-    rows.append(rate_row("planned", promised["planned"]))
     notes = [f"Planned: {words(plans['planned'])}."]
     for who in plans:
         rows += said_of(who, testbed, promised[who], runs[who])
@@ -233,18 +226,18 @@ def gyro_and_wheels(
     """Return rows and notes of the reference table."""
     testbed = steady_table()
     plan = plan_of(testbed, TABLE_SECONDS, trials)
-    promised = promise(testbed, plan, wish_of(testbed), 1)
+    promised = promise(testbed, plan, wish_of(testbed), 1, RATE)
     runs = spread(partial(by_bench, testbed, plan), seeds)
     who = "gyro and wheels"
     notes = [f"Gyro and wheels: {words(plan)}.", scale_note(who, promised, runs)]
-    rows = [rate_row(who, promised), *said_of(who, testbed, promised, runs)]
+    rows = list(said_of(who, testbed, promised, runs))
     return rows, [*notes, model_note(who, runs)]
 
 
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
-    """Carry out both manoeuvres for each seed; with gyro and wheels one for each fifth."""
+    """Carry out both manoeuvres for each seed; with gyro and wheels the plan for each second."""
     rows, notes = camera_alone(seeds, spread)
-    more, told = gyro_and_wheels(seeds[: max(len(seeds) // 5, 1)], spread)
+    more, told = gyro_and_wheels(seeds[: max(len(seeds) // 2, 1)], spread)
     claim = (
         "Camera alone, two minutes, the same limits: the planned manoeuvre tells the worst "
         "parameter at least three times better than the paper's move, by prediction and by the "

@@ -23,7 +23,7 @@ SPUN = Manoeuvre(
 @cache
 def both():
     testbed = hand_balanced()
-    promised = promise(testbed, SPUN, wish_of(testbed), 1)
+    promised = promise(testbed, SPUN, wish_of(testbed), 1, np.radians(10.0))
     return promised, [by_mujoco(testbed, SPUN, seed) for seed in range(SEEDS)]
 
 

@@ -124,9 +124,9 @@ def limits_line(promise: Promise, request: Request, who: str) -> str:
     testbed, expected, n = request.testbed, promise.expected, promise.tried
     text = (
         f"{who} tilts the platform that is expected by {PER_DEG * expected.peak_tilt:.3g} deg at "
-        f"most, {n} others by up to {PER_DEG * promise.greatest_tilt:.3g} deg (limit "
-        f"{PER_DEG * testbed.tilt_limit:.3g}, kept by {promise.kept}); rates reach "
-        f"{PER_DEG * promise.greatest_rate:.3g} deg/s (wanted: {request.rate_deg_s:g})"
+        f"most, {n} others by up to {PER_DEG * promise.greatest_tilt:.3g} deg, and reaches "
+        f"{PER_DEG * promise.greatest_rate:.3g} deg/s; {promise.kept} of them keep the limits of "
+        f"{PER_DEG * testbed.tilt_limit:.3g} deg and {request.rate_deg_s:g} deg/s"
     )
     if any(isinstance(d, ReactionWheel) for d in testbed.devices) or testbed.cmgs:
         text += f", stored momentum {expected.peak_momentum:.2g} N m s"
@@ -162,7 +162,7 @@ def verdict(done: Planning) -> str:
         "limit, and plan again with --seen"
     )
     kept = f"{done.planned.kept} of {done.planned.tried}"
-    return f"{text} The tilt limit is kept by {kept} platforms only; {advice}."
+    return f"{text} The limits are kept by {kept} platforms only; {advice}."
 
 
 def plan_json(done: Planning) -> View:
@@ -197,8 +197,8 @@ def promise_json(promise: Promise) -> View:
     return {
         "sd": dict(zip(promise.names, map(float, promise.sd), strict=True)),
         "platforms": promise.platforms,
-        "platforms_tried_for_tilt": promise.tried,
-        "within_tilt_limit": promise.kept,
+        "platforms_tried_for_limits": promise.tried,
+        "within_limits": promise.kept,
         "greatest_tilt_rad": promise.greatest_tilt,
         "greatest_rate_rad_s": promise.greatest_rate,
         "peak_momentum_N_m_s": promise.expected.peak_momentum,

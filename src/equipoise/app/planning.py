@@ -79,9 +79,9 @@ def run(request: Request) -> Planning:
         best = planned(space, wish, request.seed, request.trials, tell)
     before = usual(testbed, request.duration, standing)
     with busy("trying it on other platforms", announce=False):
-        first, second = (promise(testbed, m, wish, request.seed) for m in (before, best))
+        first, second = (promise(testbed, m, wish, request.seed, rate) for m in (before, best))
         fresh = replace(wish, known=None)
-        alone = promise(testbed, best, fresh, request.seed) if known else second
+        alone = promise(testbed, best, fresh, request.seed, rate) if known else second
     return Planning(request, first, second, alone)
 
 

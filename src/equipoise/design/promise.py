@@ -6,8 +6,8 @@ each platform let go by a hand that errs. It is the error to expect, squared and
 is not known, and so what a Monte Carlo over such platforms should find. What is not seen of one of
 them is not promised.
 
-Whether the tilt limit is kept is tried on more platforms, which takes no information. Where all n
-keep it, at least 1 - 3 / n of all platforms do (at 95 %).
+Whether limits are kept is tried on more platforms, which takes no information. Where all n keep
+them, at least 1 - 3 / n of all platforms do (at 95 %).
 
 Promised is a fit in the model that the testbed states. Where ``identify`` takes a term more, of
 torque or camera, less is told.
@@ -29,7 +29,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
 
 PLATFORMS = 60  # chosen: the rms of an sd that differs by half is known to 7 %
-TRIED = 300  # chosen: if all keep the tilt limit, then 99 % of all platforms do
+TRIED = 300  # chosen: if all keep the limits, then 99 % of all platforms do
 FRESH = 1  # added to the seed of a search: platforms that it did not see
 
 
@@ -44,7 +44,7 @@ class Promise:
     expected: Predicted  # of it, let go as planned
     platforms: int
     tried: int  # platforms of which only the motion was followed
-    kept: int  # of them, within the limit of tilt
+    kept: int  # of them, within the limits of tilt and rate
     greatest_tilt: float  # rad, of them
     greatest_rate: float  # rad/s
     sentences: tuple[str, ...]  # what is not seen
@@ -55,7 +55,7 @@ class Promise:
 
     @property
     def keeps(self) -> bool:
-        """Say whether all platforms that were tried keep within the tilt limit."""
+        """Say whether all platforms that were tried keep within the limits."""
         return self.kept == self.tried
 
 
@@ -83,8 +83,13 @@ def met(manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3) -> Manoeuvre:
     )
 
 
-def promise(testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, seed: int) -> Promise:
-    """Return what to expect of a manoeuvre on platforms that no search has seen."""
+def promise(
+    testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, seed: int, rate_limit: float
+) -> Promise:
+    """Return what to expect of a manoeuvre on platforms that no search has seen.
+
+    ``rate_limit`` in rad/s; the limit of tilt is the testbed's.
+    """
     rng = np.random.default_rng(seed + FRESH)
     drawn = scenarios(wish.belief, PLATFORMS + 1, rng)
     said = [
@@ -102,7 +107,7 @@ def promise(testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, seed: int) -> Pr
         expected,
         len(others),
         len(tilts),
-        int(np.sum(tilts <= testbed.tilt_limit)),
+        int(np.sum((tilts <= testbed.tilt_limit) & (rates <= rate_limit))),
         float(tilts.max()),
         float(rates.max()),
         tuple(dict.fromkeys(sentence for one in said for sentence in one.sentences)),

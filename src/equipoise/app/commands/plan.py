@@ -26,9 +26,9 @@ def plan(
     """Plan how to let a platform go and what to move meanwhile, to learn most from the record.
 
     Chosen are tilt and rate at the start, times and sizes of moves, and square waves for wheels and
-    gyros where there are any. The tilt limit is kept on platforms drawn from what is known, let go
-    by a hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep it. The
-    sd told are those of a fit in the model that the testbed states.
+    gyros where there are any. Limits are kept on platforms drawn from what is known, let go by a
+    hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep them. The sd
+    told are those of a fit in the model that the testbed states.
 
     Parameters
     ----------
