@@ -172,3 +172,17 @@ def test_level_axes_are_square_to_up_whatever_points_up():
     for up in (np.eye(3)[0], np.array([0.6, 0.0, 0.8])):
         axes = np.array([*level_axes(up), up])
         np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+
+
+def test_a_merit_is_of_the_mean_over_platforms():
+    """Criterion A is ln of a root of a mean square: squares of two platforms are averaged."""
+    testbed, where = bed(), Space(bed(), 60.0, 1, 100.0, 100.0, {})
+    search = search_for(where, Wish("both", "A", Params(), beforehand(testbed)), 1)
+    first, _, third, *_ = search.scenarios
+    m = usual(testbed, 60.0, {})
+    one, other, both = (
+        np.exp(2 * merit(replace(search, scenarios=drawn, guarded=search.guarded[:2]), m))
+        for drawn in ([first], [third], [first, third])
+    )
+    assert abs(other / one - 1) > 0.1
+    assert both == pytest.approx((one + other) / 2, rel=1e-3)

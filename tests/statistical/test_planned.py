@@ -61,3 +61,12 @@ def test_platforms_tilt_as_far_as_those_imagined():
     promised, runs = both()
     greatest = max(run.tilt for run in runs)
     assert promised.greatest_tilt / 3 < greatest <= promised.greatest_tilt
+
+
+def test_limits_of_tilt_and_rate_are_counted():
+    """It begins with 9 deg and 2 deg/s: none keeps 5 deg, nor 1 deg/s; nearly all 30 and 10."""
+    testbed, wish = hand_balanced(), wish_of(hand_balanced())
+    assert both()[0].kept > 0.9 * both()[0].tried
+    assert promise(testbed, SPUN, wish, 1, np.radians(1.0)).kept == 0
+    strict = replace(testbed, tilt_limit=np.radians(5.0))
+    assert promise(strict, SPUN, wish, 1, np.radians(10.0)).kept == 0
