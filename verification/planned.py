@@ -9,10 +9,10 @@ drives and chance make the record ask for one; it then says a larger sd, which n
 errors are compared with what was predicted where the model was kept, and with what `identify` says
 itself elsewhere; gains are measured over all runs, too.
 
-The RMSE of n runs has an sd of s / (2 m sqrt(n)) of itself, m and s being mean and sd of the squares
-of errors: 7 % with 100 runs of one normal distribution, more where a few platforms are told much
-less than the others. So the mean ratio of nine parameters has to agree within 15 %, each single one
-within that and twice this chance.
+The RMSE of n runs has an sd of s / (2 m sqrt(n)) of itself, m and s being mean and sd of the
+squares of errors: 7 % with 100 runs of one normal distribution, more where a few platforms are told
+much less than the others. So the mean ratio of nine parameters has to agree within 15 %, each
+single one within that and twice this chance.
 """
 
 from collections.abc import Sequence
