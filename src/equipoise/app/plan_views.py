@@ -152,7 +152,8 @@ def verdict(done: Planning) -> str:
         text = "The usual manoeuvre would tell more, and goes further than it may."
     else:
         gain = f"{before / after:.2g} times better"
-        text = f"What is known worst ({name}, then {other}) is known {gain}."
+        which = name if other == name else f"{name}, then {other}"
+        text = f"What is known worst ({which}) is known {gain}."
     if done.planned.keeps:
         return text
     advice = (
