@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from equipoise.actuators.drive_errors import across, directions, drive_errors, rails_of
+from equipoise.actuators.drive_errors import across, drive_errors, rails_of
+from equipoise.actuators.lost_motion import directions, play_of
 from equipoise.actuators.mass_errors import mass_errors, unit_of
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
 from equipoise.model.recording import Samples
@@ -13,9 +14,9 @@ DOUBT = DriveDoubt(0.1, 0.1, 1e-3)
 HOME = np.array([0.0, 0.2, -0.05])
 
 
-def rail(axis, doubt=DOUBT, gain=1.0):
-    return SlidingMass("x1", 0.5, HOME, np.array(axis), (-0.05, 0.05), 0.0, 0.0, 0.0, 0.01, 0.0,
-                       0.0, gain, doubt)  # fmt: skip
+def rail(axis, doubt=DOUBT, gain=1.0, backlash=4e-3):
+    return SlidingMass("x1", 0.5, HOME, np.array(axis), (-0.05, 0.05), 0.0, 0.0, backlash, 0.01,
+                       0.0, 0.0, gain, doubt)  # fmt: skip
 
 
 # Out by 20 mm from 10 to 12 s, back by 10 mm from 20 to 21 s.
@@ -35,16 +36,16 @@ def felt_at(name, t):
 @pytest.mark.parametrize(
     ("name", "owner", "expected"),
     [
-        ("gain_x1", 0, [0.0, 0.01, 0.02, 0.01]),
-        ("across_x1_1", 1, [0.0, 0.01, 0.02, 0.01]),
-        ("across_x1_2", 2, [0.0, 0.01, 0.02, 0.01]),
-        ("backlash_x1", 0, [0.0, -0.25, -0.5, 0.5]),
-        ("play_x1", 0, [0.0, 0.5, 1.0, 1.0]),
+        ("gain_x1", 0, [0.0, 0.001, 0.01, 0.02, 0.018, 0.01]),
+        ("across_x1_1", 1, [0.0, 0.001, 0.01, 0.02, 0.018, 0.01]),
+        ("across_x1_2", 2, [0.0, 0.001, 0.01, 0.02, 0.018, 0.01]),
+        ("backlash_x1", 0, [0.0, -0.25, -0.5, -0.5, 0.0, 0.5]),
+        ("play_x1", 0, [0.0, 0.5, 1.0, 1.0, 1.0, 1.0]),
     ],
 )
 def test_each_unknown_is_felt_as_derived(name, owner, expected):
-    """At home, half way out, out, and back."""
-    values, where = felt_at(name, [5.0, 11.0, 15.0, 25.0])
+    """At home, crossing half of 4 mm of play, half way out, out, crossing all of it, and back."""
+    values, where = felt_at(name, [5.0, 10.1, 11.0, 15.0, 20.2, 25.0])
     assert where == owner
     np.testing.assert_allclose(values, expected, atol=1e-12)
 
@@ -55,6 +56,29 @@ def test_rails_across_are_square_and_right_handed():
         frame = np.array([axis, v, w])
         np.testing.assert_allclose(frame @ frame.T, np.eye(3), atol=1e-12)
         assert np.linalg.det(frame) == pytest.approx(1.0)
+
+
+def test_a_travel_shorter_than_the_play_takes_the_mass_nowhere():
+    """Out 20 mm, back 3 of 4 mm, on 3 mm: the side goes 1, -1/2, 1, as a clipped sum says."""
+    t = np.array([0.0, 2.0, 4.0, 4.3, 5.0, 5.3])
+    d = np.array([0.0, 0.02, 0.02, 0.017, 0.017, 0.02])
+    play = play_of(t, d, directions(t, d, 0.01), 4e-3)
+    np.testing.assert_allclose(play.t, [0.0, 0.0, 0.2, 4.0, 4.3, 5.0, 5.3])
+    np.testing.assert_allclose(play.side, [0.0, 0.0, 1.0, 1.0, -0.5, -0.5, 1.0], atol=1e-12)
+
+
+def test_the_side_is_that_of_a_nut_followed_in_small_steps():
+    """The play operator x -> clip(x, d - b/2, d + b/2) of a walk with turns; s = 2 (d - x) / b."""
+    rng = np.random.default_rng(3)
+    t = np.arange(0.0, 40.0, 0.5)
+    d = np.cumsum(rng.choice([-1.0, 1.0], len(t)) * 5e-3 * rng.uniform(0.2, 1.0, len(t)))
+    fine = np.linspace(t[0], t[-1], 79 * 500 + 1)  # turns among them
+    x, side = d[0], []
+    for told in np.interp(fine, t, d):
+        x = min(max(x, told - 2e-3), told + 2e-3)
+        side.append((told - x) / 2e-3)
+    play = play_of(t, d, directions(t, d, 0.01), 4e-3)
+    np.testing.assert_allclose(np.interp(fine, play.t, play.side), side, atol=1e-3)
 
 
 def test_a_turn_back_without_rest_ends_a_travel():

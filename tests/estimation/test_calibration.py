@@ -50,11 +50,14 @@ def off(found, name, truth):
 
 
 def test_a_rail_3_deg_off_and_a_gain_5_percent_off_are_found(found):
-    """The sd must be worth something: 3 %, 0.3 deg level, 1 deg where only the period tells."""
+    """The sd must be worth something: 5 %, 0.3 deg level, 1.5 deg where only the period tells.
+
+    Drives that may give way cost some of it: what they make is hardly told from height.
+    """
     assert found.outcome.usable
     assert abs(off(found, "gain_x1", 1.05)) < 3.5
-    assert found.parameters[found.index("gain_x1")].sd < 0.03
-    for letter, truth, worth in zip("yz", RAIL[1:], (0.3, 1.0), strict=True):
+    assert found.parameters[found.index("gain_x1")].sd < 0.05
+    for letter, truth, worth in zip("yz", RAIL[1:], (0.3, 1.5), strict=True):
         name = f"axis_x1_{letter}"
         assert abs(off(found, name, truth)) < 3.5
         assert found.parameters[found.index(name)].sd < np.radians(worth)
@@ -63,16 +66,25 @@ def test_a_rail_3_deg_off_and_a_gain_5_percent_off_are_found(found):
     assert off(found, "backlash_x1", 0.0) > 2.0
 
 
+def test_stiff_drives_are_known_better(bed, recording, found):
+    """3 %: no elastic sag is sought of drives that are said not to hang."""
+    stiff = replace(bed, masses=tuple(replace(m, sag_sd=0.0) for m in bed.masses))
+    sure = calibrate(recording, stiff, CalibrateOptions(("y1",)))
+    assert abs(off(sure, "gain_x1", 1.05)) < 3.5
+    assert sure.parameters[sure.index("gain_x1")].sd < 0.03
+    assert found.parameters[found.index("gain_x1")].sd > 0.03
+
+
 def test_the_trusted_mass_sets_the_scale(bed, recording, found):
     assert found.values(("gain_y1",))[0] == 1.0
     assert any("that of y1" in sentence for sentence in found.unexplained)
     free = calibrate(recording, bed, CalibrateOptions())
     loose, tied = (e.parameters[e.index("gain_x1")].sd for e in (free, found))
     assert loose > 0.05  # two products believed to 10 % each: 7 %
-    assert tied < 0.5 * loose
+    assert tied < 0.7 * loose
     assert any("known to 7" in sentence for sentence in free.unexplained)
     ratio = {e.ratios[0].sd for e in (free, found)}
-    assert max(ratio) < 0.02
+    assert max(ratio) < 0.03
 
 
 def test_a_calibrated_testbed_balances_better(bed, found):

@@ -82,7 +82,24 @@ def test_stop_halts_all_where_they_are(rail):
     np.testing.assert_array_equal(motors.at(1.7), there)
     np.testing.assert_array_equal(motors.at(99.0), there)
     np.testing.assert_allclose(motors.at(99.0, REPORTED), [17.0, -17.0])
-    np.testing.assert_allclose(motors.track.t, [0.0, 1.7])
+    np.testing.assert_allclose(motors.track.t, [0.0, 0.05, 1.7])  # y crosses half its play first
+
+
+def test_a_mass_stands_until_its_play_is_taken_up(rail):
+    """2 mm of play at 10 mm/s: from its middle 0.1 s, to the other side 0.2 s, onwards at once."""
+    motors = Motors(rail(backlash=2 * MM))
+    motors.move(0.0, x=10)
+    for now, told, real in ((0.1, 1.0, 0.0), (0.55, 5.5, 4.5), (1.0, 10.0, 9.0)):
+        np.testing.assert_allclose(motors.at(now, REPORTED), told)
+        np.testing.assert_allclose(motors.at(now), real, atol=1e-12)
+    motors.move(2.0, x=5)
+    for now, real in ((2.2, 9.0), (2.35, 7.5), (2.5, 6.0)):
+        np.testing.assert_allclose(motors.at(now), real)
+    motors.move(3.0, x=0)
+    np.testing.assert_allclose(motors.at(3.25), 3.5)
+    motors.move(3.5, x=1.5)
+    np.testing.assert_allclose(motors.at(9.0), 1.0)  # 1.5 mm do not take it along
+    np.testing.assert_allclose(motors.track.t, [0, 0.1, 1, 2, 2.2, 2.5, 3, 3.5, 3.65])
 
 
 @pytest.mark.parametrize(("asked", "whole"), [(3.4, 3.5), (-3.4, -3.5), (3.2, 3.0), (50.0, 50.0)])

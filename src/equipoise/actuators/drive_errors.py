@@ -6,11 +6,13 @@ A mass m that is told to stand at d, on a rail along u, with v and w across it, 
 
 x_g    gain           relative, of the product m d: weight and steps are felt as one
 x_v,w  rail           tangents of its misalignment about w and v
-x_b    backlash       lost motion when the direction changes; s: direction of the last travel
+x_b    backlash       lost motion when the direction changes; s: side of the play on which the mass
+                      hangs, in the end the direction of the last travel
 x_p    play at home   how far, of what the backlash leaves open, the first travel began off; p: 1
                       from the first travel on
 
-s and p are 0 before the first travel and pass over with the travels, as errors of stops do. The
+s and p are 0 before the first travel and pass over while the play is taken up (``lost_motion``),
+for which the backlash has to be known roughly: it is that of the testbed, or of a fit before. The
 rails across begin at the same home and carry the same mass: two more coordinates of the
 propagator, displaced by nothing but these unknowns. The inertia of a displacement along both,
 -m (e_u e_v^T + e_v e_u^T), is left out: it is of second order, m d^2 x, 1e-5 of J.
@@ -22,12 +24,12 @@ Cannot see a travel shorter than the backlash for what it is; nor a rail that is
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.actuators.stops import MassError, is_travelling
+from equipoise.actuators.lost_motion import Play, directions, play_of
+from equipoise.actuators.stops import MassError
 from equipoise.model.arrays import Series1, Vector3
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
@@ -78,49 +80,41 @@ def on_rails(track: Samples | None, rails: int) -> Samples | None:
     return Samples(track.t, np.hstack([track.values, more]))
 
 
-def directions(t: Series1, d: Series1, speed: float) -> list[tuple[int, int, float]]:
-    """Return first row, last row and direction (1 or -1) of every travel; a reversal ends one."""
-    way = np.sign(np.diff(d)) * is_travelling(t, d, speed)
-    turns = [0, *(np.flatnonzero(np.diff(way)) + 1), len(way)]
-    return [(int(a), int(b), float(way[a])) for a, b in pairwise(turns) if b > a and way[a] != 0]
+def plays(track: Samples, masses: tuple[SlidingMass, ...]) -> dict[int, Play]:
+    """Return how each drive in doubt that travels takes up its play, by the mass's index."""
+    found: dict[int, Play] = {}
+    for i, mass in enumerate(masses):
+        d = track.values[:, i]
+        ways = directions(track.t, d, mass.speed) if mass.doubt is not None else []
+        if ways:
+            found[i] = play_of(track.t, d, ways, mass.backlash)
+    return found
 
 
-def last_direction(t: Series1, ways: list[tuple[int, int, float]]) -> Series1:
-    """Return s(t) at the rows."""
-    knots, levels, level = [t[0]], [0.0], 0.0
-    for first, last, way in ways:
-        knots += [t[first], t[last]]
-        levels, level = [*levels, level, way], way
-    return np.interp(t, knots, levels)
+def play_times(track: Samples, masses: tuple[SlidingMass, ...]) -> Series1:
+    """Return the times at which plays begin and end to be taken up."""
+    return np.concatenate([np.zeros(0), *(play.t for play in plays(track, masses).values())])
 
 
 def drive_errors(t: Series1, track: Samples, masses: tuple[SlidingMass, ...]) -> list[MassError]:
     """Return the unknowns of drives in doubt that travel, felt at the times ``t``."""
+    doubted = [i for i, mass in enumerate(masses) if mass.doubt is not None]
     found: list[MassError] = []
-    side = len(masses)
-    for i, mass in enumerate(masses):
-        if mass.doubt is None:
-            continue
-        ways = directions(track.t, track.values[:, i], mass.speed)
-        if ways:
-            found += of_one(t, track, (i, side), mass, ways)
-        side += SIDES
+    for i, play in plays(track, masses).items():
+        side = len(masses) + SIDES * doubted.index(i)
+        d = np.interp(t, track.t, track.values[:, i])
+        found += of_one(t, d, (i, side), masses[i], play)
     return found
 
 
 def of_one(
-    t: Series1,
-    track: Samples,
-    rail: tuple[int, int],
-    mass: SlidingMass,
-    ways: list[tuple[int, int, float]],
+    t: Series1, d: Series1, rail: tuple[int, int], mass: SlidingMass, play: Play
 ) -> list[MassError]:
     """Return the unknowns of one drive; ``rail`` are its rail and the first of those across."""
     assert mass.doubt is not None
     (along, side), names, doubt = rail, drive_names(mass.name), mass.doubt
-    d = np.interp(t, track.t, track.values[:, along])
-    s = np.interp(t, track.t, last_direction(track.t, ways))
-    p = np.interp(t, track.t[list(ways[0][:2])], [0.0, 1.0])
+    s = np.interp(t, play.t, play.side)
+    p = np.interp(t, play.t[1:3], [0.0, 1.0])
     found = [
         MassError(names.gain, doubt.gain, [(along, d)]),
         *(MassError(n, doubt.across, [(side + k, d)]) for k, n in enumerate(names.across)),

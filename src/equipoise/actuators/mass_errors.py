@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.drive_errors import ACROSS, GAIN, drive_errors, rails_of
+from equipoise.actuators.drive_errors import ACROSS, GAIN, drive_errors, play_times, rails_of
 from equipoise.actuators.lags import LAG, kinds_of, lag_errors, lag_times, sags, told
 from equipoise.actuators.stops import stop_errors
 from equipoise.model.arrays import Floats, Ints, Series1
@@ -43,7 +43,8 @@ def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassE
         return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), (), np.zeros(0))
     commands = told(track, masses)
     kinds = kinds_of(commands, masses)
-    t = lag_times(track, [sd for sd, kind in kinds.items() if kind])
+    late = lag_times(track, [sd for sd, kind in kinds.items() if kind])
+    t = np.union1d(late, play_times(track, masses))
     found = [*stop_errors(t, track, masses), *lag_errors(t, track, kinds)]
     found += drive_errors(t, track, masses)
     columns: list[Series1] = [column for each in found for _, column in each.felt]

@@ -1,8 +1,9 @@
 """Calibration: what each mass really does for its command, and how the sensors stand.
 
 A trajectory fit in which the drives of all masses that move are in doubt
-(``actuators.drive_errors``), the camera may lean and the gyro may be scaled and turned: plainly to
-find the rails, then in the model that the record supports (``reference``), about these. Then the
+(``actuators.drive_errors``) and may give way, the camera may lean and the gyro may be scaled and
+turned: plainly to find rails and backlashes, then in the model that the record supports
+(``reference``), about these. Then the
 numbers a person wants (``drive_calibration``, ``sensor_alignment``), y = f(x) of its unknowns x,
 
     cov y = F cov x F^T,      F = df/dx by central differences
@@ -40,8 +41,8 @@ from equipoise.estimation.methods.trajectory import params_of, run
 from equipoise.estimation.reference import check_sensors
 from equipoise.estimation.sensor_alignment import ALIGNMENT, GYRO, SCALES, alignment_of, matrix_of
 from equipoise.estimation.trajectory import Params, fit
-from equipoise.model import sensor_terms
-from equipoise.model.arrays import Floats, Vector3
+from equipoise.model import sensor_terms, torque_terms
+from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
 from equipoise.model.outcome import Outcome
@@ -51,8 +52,11 @@ from equipoise.model.testbed import DriveDoubt, SlidingMass, Testbed
 METHOD = "calibration"
 DOUBT = DriveDoubt(0.1, 0.1, 1e-3)  # chosen: a weight and a pitch unmeasured; 6 deg; a worn screw
 PLUMB = sensor_terms.GROUPS["plumb"]
+SAG = torque_terms.GROUPS["sag"]
 STEP = 1e-6  # in SI, chosen: the unknowns bend over whole units
-NEAR, ROUNDS = 1e-3, 5  # rad, chosen: stops err by 1e-3 mm aside then; plain fits at most
+NEAR = 1e-3  # rad, chosen: stops err by 1e-3 mm aside then
+NEAR_PLAY = 1e-4  # m, chosen: taken up within 10 ms at a usual speed
+ROUNDS = 5  # plain fits at most
 SURE = 4.0  # sd of a scatter before it counts as more than chance
 MIRRORED = "The gyro's axes are a mirror image of the body's: one has the wrong sign."
 UNMOVED = "No mass moves in this record: there is nothing to calibrate masses by."
@@ -89,19 +93,24 @@ def sensor_terms_for(recording: Recording) -> tuple[str, ...]:
     return (*(PLUMB if camera else ()), *(GYRO if camera and gyro else ()))
 
 
+def soft_terms(testbed: Testbed) -> tuple[str, ...]:
+    """Return what drives that give way make: elastic sag."""
+    return SAG if any(mass.sag_sd > 0 for mass in testbed.masses) else ()
+
+
 def calibrate(recording: Recording, testbed: Testbed, options: CalibrateOptions) -> Estimate:
     """Return the calibration; InputError for a mass to trust that does not exist."""
     recording = arranged(recording, testbed.mass_names)
     check_sensors(recording, testbed)
     doubted = in_doubt(testbed, options.reference)
-    terms = (*options.terms, *sensor_terms_for(recording))
+    terms = (*options.terms, *soft_terms(testbed), *sensor_terms_for(recording))
     asked = Options(terms, options.hold, options.use_prior)
-    rails = rails_found(recording, doubted, params_of(doubted, asked))
-    fitted = run(recording, on_rails(doubted, rails), asked)
+    about = drives_found(recording, doubted, params_of(doubted, asked))
+    fitted = run(recording, about, asked)
     lost = nothing(fitted)
     if lost is not None:
         return lost
-    drives = drives_of(doubted.masses, rails, recording, fitted)
+    drives = drives_of(doubted.masses, about.masses, recording, fitted)
     return concluded(fitted, drives, recording, options)
 
 
@@ -117,28 +126,32 @@ def nothing(fitted: Estimate) -> Estimate | None:
                    covariance=np.zeros((0, 0)), unobservable=())  # fmt: skip
 
 
-def on_rails(testbed: Testbed, rails: list[Vector3]) -> Testbed:
-    """Return the testbed with its masses on other rails."""
-    pairs = zip(testbed.masses, rails, strict=True)
-    return replace(testbed, masses=tuple(replace(mass, axis=rail) for mass, rail in pairs))
-
-
-def rails_found(recording: Recording, testbed: Testbed, params: Params) -> list[Vector3]:
-    """Return the rails of plain fits, each about those of the one before; as stated if unmoved."""
-    rails = [mass.axis for mass in testbed.masses]
+def drives_found(recording: Recording, testbed: Testbed, params: Params) -> Testbed:
+    """Return the testbed with rails and backlashes of plain fits, each about those of the last."""
+    about = testbed
     for _ in range(ROUNDS):
-        plain = fit(recording, on_rails(testbed, rails), params)
+        plain = fit(recording, about, params)
         found = conclude(plain, METHOD, recording)
         x = np.array([p.value for p in found.parameters])
-        drives = drives_of(testbed.masses, rails, recording, found)
-        pulls = {drive.mass.name: pull(drive, x) for drive in drives}
-        before = rails
-        pairs = zip(testbed.mass_names, rails, strict=True)
-        turned = [pulls.get(name, rail) for name, rail in pairs]
-        rails = [k / np.linalg.norm(k) for k in turned]
-        if max((np.abs(a - b).max() for a, b in zip(rails, before, strict=True)), default=0) < NEAR:
+        drives = drives_of(testbed.masses, about.masses, recording, found)
+        guesses = {drive.mass.name: guess(drive, x) for drive in drives}
+        before, masses = about.masses, [guesses.get(m.name, m) for m in about.masses]
+        about = replace(testbed, masses=tuple(masses))
+        if all(near(a, b) for a, b in zip(before, about.masses, strict=True)):
             break
-    return rails
+    return about
+
+
+def guess(drive: Drive, x: Floats) -> SlidingMass:
+    """Return a mass on the rail, and with the backlash, that a fit found."""
+    _, _, *axis, _, _, backlash = of_drive(drive, x)
+    return replace(drive.mass, axis=np.array(axis), backlash=max(backlash, 0.0))
+
+
+def near(one: SlidingMass, other: SlidingMass) -> bool:
+    """Say whether two guesses of a drive leave a fit the same."""
+    aside = float(np.abs(one.axis - other.axis).max())
+    return aside < NEAR and abs(one.backlash - other.backlash) < NEAR_PLAY
 
 
 @dataclass(frozen=True, slots=True, eq=False)

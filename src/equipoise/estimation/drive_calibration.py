@@ -19,7 +19,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.drive_errors import across, directions, drive_names
+from equipoise.actuators.drive_errors import across, drive_names
+from equipoise.actuators.lost_motion import directions
 from equipoise.model.arrays import Floats, Ints, Series1, Vector3
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.recording import Recording
@@ -47,24 +48,24 @@ class Drive:
 
 def drives_of(
     stated: tuple[SlidingMass, ...],
-    rails: list[Vector3],
+    about: tuple[SlidingMass, ...],
     recording: Recording,
     estimate: Estimate,
 ) -> tuple[Drive, ...]:
-    """Return the drives in doubt of which a fit about these rails says something.
+    """Return the drives in doubt of which a fit ``about`` masses with such rails says something.
 
     The recording's columns are the masses'.
     """
     index = {p.name: i for i, p in enumerate(estimate.parameters)}
     found: list[Drive] = []
-    for i, (mass, rail) in enumerate(zip(stated, rails, strict=True)):
+    for i, (mass, guess) in enumerate(zip(stated, about, strict=True)):
         names = drive_names(mass.name)
         if names.across[0] in index:
             assert recording.masses is not None
             ways = directions(recording.masses.t, recording.masses.values[:, i], mass.speed)
             columns = [index.get(n, -1) for n in (names.gain, *names.across, names.backlash)]
-            both = len({way for *_, way in ways}) > 1
-            found.append(Drive(mass, rail, np.array(columns), both))
+            both = len({way.sign for way in ways}) > 1
+            found.append(Drive(mass, guess.axis, np.array(columns), both))
     return tuple(found)
 
 

@@ -1,8 +1,8 @@
 """Sliding masses that are driven open loop, and where they really go.
 
 A stepper reports the steps it was told to make, so the reported displacement is the target rounded
-to the mass's resolution, reached in a straight line at the mass's speed. Meanwhile, in the same
-time, the mass goes in a straight line to where it really stops:
+to the mass's resolution, reached in a straight line at the mass's speed. The mass stands while the
+play is taken up, and goes in a straight line, in the time that is left, to where it really stops:
 
     carriage   += gain * (reported target - reported before)     gain 1: sound, 0: stuck
     held        = carriage, followed with a play of +-backlash/2
@@ -16,7 +16,7 @@ At home all is zero: home is where the mass properties are stated.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -35,6 +35,7 @@ class Travel:
     """The last way each of k masses was sent. Before it starts and after it ends they stand."""
 
     start: Floats  # (k,) s
+    taken: Floats  # (k,) s, when the mass is taken along, behind its play
     arrive: Floats  # (k,) s
     begin: Floats  # (4, k) m
     end: Floats  # (4, k) m
@@ -43,27 +44,37 @@ class Travel:
 
 def at_home(masses: Sequence[SlidingMass]) -> Travel:
     """Return masses that stand at home and have never moved."""
-    k = len(masses)
-    return Travel(np.zeros(k), np.zeros(k), np.zeros((4, k)), np.zeros((4, k)))
+    return standing(0.0, np.zeros((4, len(masses))))
+
+
+def standing(now: float, where: Floats) -> Travel:
+    """Return masses that stand somewhere (4, k), sent nowhere since ``now`` (s)."""
+    when = np.full(where.shape[1], now)
+    return Travel(when, when, when, where, where)
 
 
 def left_at(
     masses: Sequence[SlidingMass], at: Mapping[str, float], rng: np.random.Generator
 ) -> Travel:
     """Return masses that were sent to displacements (m) before time zero, or else stand at home."""
-    k, travel = len(masses), at_home(masses)
-    end = travel.end.copy()
+    end = np.zeros((4, len(masses)))
     for i, mass in enumerate(masses):
         if at.get(mass.name, 0.0) != 0.0:
             end[:, i] = stop_of(end[:, i], at[mass.name], mass, 1.0, rng.standard_normal())
-    return Travel(np.zeros(k), np.zeros(k), end, end)
+    return standing(0.0, end)
 
 
 def displacement(travel: Travel, t: float) -> Floats:
     """Return where the masses are at a time not before their last command, (4, k) m."""
-    length = np.maximum(travel.arrive - travel.start, 1e-12)
-    share = np.where(t >= travel.arrive, 1.0, (t - travel.start) / length)
+    told, taken = (share_of(t, begin, travel.arrive) for begin in (travel.start, travel.taken))
+    share = np.array([told, told, taken, taken])  # reported and carriage; held and real
     return (1.0 - share) * travel.begin + share * travel.end
+
+
+def share_of(t: float, start: Series1, end: Series1) -> Series1:
+    """Return how much of the time from start to end has passed, 0 to 1."""
+    length = np.maximum(end - start, 1e-12)
+    return np.where(t >= end, 1.0, np.clip((t - start) / length, 0.0, 1.0))
 
 
 def checked(
@@ -117,20 +128,26 @@ def sent(
 ) -> Travel:
     """Return the masses on their way to goals (m); the others go on as they were."""
     here = displacement(travel, now)
-    start, arrive = travel.start.copy(), travel.arrive.copy()
+    start, taken, arrive = travel.start.copy(), travel.taken.copy(), travel.arrive.copy()
     begin, end = travel.begin.copy(), travel.end.copy()
     for i, goal in goals.items():
         gain = gain_of(faults, masses[i].name, travel.moves + 1)
         start[i], begin[:, i] = now, here[:, i]
         end[:, i] = stop_of(here[:, i], goal, masses[i], gain, rng.standard_normal())
         arrive[i] = tick_one(now + abs(goal - here[REPORTED, i]) / masses[i].speed)
-    return Travel(start, arrive, begin, end, travel.moves + 1)
+        taken[i] = tick_one(now + free_share(here[:, i], end[:, i]) * (arrive[i] - now))
+    return Travel(start, taken, arrive, begin, end, travel.moves + 1)
+
+
+def free_share(here: Floats, there: Floats) -> float:
+    """Return the share of a carriage's way in which it crosses its play."""
+    way, taken_along = abs(there[CARRIAGE] - here[CARRIAGE]), abs(there[HELD] - here[HELD])
+    return 1.0 - taken_along / way if way > 0 else 0.0
 
 
 def halted(travel: Travel, now: float) -> Travel:
     """Return the masses standing where they are."""
-    here, when = displacement(travel, now), np.full(len(travel.start), now)
-    return Travel(when, when, here, here, travel.moves)
+    return replace(standing(now, displacement(travel, now)), moves=travel.moves)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -150,7 +167,8 @@ def track_home(masses: Sequence[SlidingMass]) -> Track:
 def retracked(track: Track, travel: Travel, now: float) -> Track:
     """Return the track up to a command at ``now`` (s) and on from there."""
     past = track.t < now
-    ahead = np.unique(np.append(travel.arrive[travel.arrive > now], now))
+    corners = np.append(travel.taken, travel.arrive)
+    ahead = np.unique(np.append(corners[corners > now], now))
     rows = np.array([displacement(travel, t) for t in ahead])
     return Track(
         np.append(track.t[past], ahead),

@@ -1,0 +1,59 @@
+"""How a drive with backlash takes up its play, by what it was told.
+
+A nut that is told to go the other way first crosses its play and takes the mass along then. With s
+the side of the play it is at, 1 or -1 behind a travel that was long enough, and D what it was told
+to go since the travel began,
+
+    s -> clip(s + 2 D / b, -1, 1)        b: backlash
+
+and the mass stands off what was told by -b s / 2. Before the first travel nobody knows s: 0.
+
+Cannot see friction: a mass that shakes in its play is not where it was left.
+"""
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.stops import is_travelling
+from equipoise.model.arrays import Series1
+
+LEAST = 1e-4  # m, chosen: what crosses a lesser play in no time passes over this way
+
+
+class Way(NamedTuple):
+    """One travel."""
+
+    first: int  # row
+    last: int
+    sign: float  # 1 or -1
+
+
+class Play(NamedTuple):
+    """The side s of the play, straight between knots; the first two behind the start begin it."""
+
+    t: Series1  # s
+    side: Series1
+
+
+def directions(t: Series1, d: Series1, speed: float) -> list[Way]:
+    """Return every travel; a reversal ends one."""
+    way = np.sign(np.diff(d)) * is_travelling(t, d, speed)
+    turns = [0, *(np.flatnonzero(np.diff(way)) + 1), len(way)]
+    return [Way(int(a), int(b), float(way[a])) for a, b in pairwise(turns) if b > a and way[a] != 0]
+
+
+def play_of(t: Series1, d: Series1, ways: list[Way], backlash: float) -> Play:
+    """Return how the play of a backlash (m) is taken up."""
+    play, side = max(backlash, LEAST), 0.0
+    knots, sides = [t[:1]], [np.zeros(1)]
+    for first, last, sign in ways:
+        rows = slice(first, last + 1)
+        gone = np.maximum.accumulate(np.abs(d[rows] - d[first]))
+        turn = min(play * abs(sign - side) / 2, gone[-1])
+        crossed = np.append(gone[gone < turn], turn)
+        knots.append(np.interp(crossed, gone, t[rows]))
+        sides.append(side + sign * 2 * crossed / play)
+        side = sides[-1][-1]
+    return Play(np.concatenate(knots), np.concatenate(sides))
