@@ -9,10 +9,15 @@ drives and chance make the record ask for one; it then says a larger sd, which n
 errors are compared with what was predicted where the model was kept, and with what `identify` says
 itself elsewhere; gains are measured over all runs, too.
 
-The RMSE of n runs has an sd of s / (2 m sqrt(n)) of itself, m and s being mean and sd of the
-squares of errors: 7 % with 100 runs of one normal distribution, more where a few platforms are told
-much less than the others. So the mean ratio of nine parameters has to agree within 15 %, each
-single one within that and twice this chance.
+Even when every prediction is right, the RMSE of n runs differs from it by chance. An error is
+normal with the variance v that is predicted of its platform, its square has mean v and mean square
+3 v^2, and over the promise's platforms
+
+    sd(RMSE) / RMSE = sqrt(3 E[v^2] - E[v]^2) / (2 E[v] sqrt(n)),
+
+7 % with 100 runs if all v are alike, twice that where a few platforms are told much less than the
+others. So the mean ratio of nine parameters has to agree within 15 %, each single one within that
+and twice this chance.
 """
 
 from collections.abc import Sequence
@@ -82,18 +87,21 @@ def rmse(runs: Sequence[Run]) -> Array:
     return np.sqrt(np.mean(np.array([run.error for run in runs]) ** 2, axis=0))
 
 
-def chance_of(runs: Sequence[Run]) -> Array:
-    """Return by what share of itself each RMSE may be off by chance."""
-    squares = np.array([run.error for run in runs]) ** 2
-    share = squares.std(axis=0, ddof=1) / squares.mean(axis=0)
-    return CHANCE * share / (2 * np.sqrt(len(runs)))
+def chance_of(sds: Array, n: int) -> Array:
+    """Return by what share of itself each RMSE of n runs may be off by chance.
+
+    ``sds`` are those predicted, (platforms, names).
+    """
+    v = sds**2
+    share = np.sqrt(3 * np.mean(v**2, axis=0) - v.mean(axis=0) ** 2) / v.mean(axis=0)
+    return CHANCE * share / (2 * np.sqrt(n))
 
 
 def agreement(who: str, promised: Promise, runs: Sequence[Run]) -> tuple[Row, ...]:
     """Return RMSE over what was predicted where the model was kept: mean and extremes of nine."""
     kept = [run for run in runs if run.as_stated]
     ratio, n = rmse(kept) / promised.sd_of(BODY), len(kept)
-    off = AGREES + chance_of(kept)
+    off = AGREES + chance_of(promised.sds_of(BODY), n)
     low, high = int(np.argmin(ratio)), int(np.argmax(ratio))
     of_mean = AGREES if n >= ENOUGH else float(off.mean())
     name = f"{who}, {n} runs: RMSE / predicted sd"

@@ -10,7 +10,7 @@ from equipoise.design.promise import promise
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.manoeuvre import Manoeuvre
 from verification.chance import mean_square_band
-from verification.planned import BODY, hand_balanced, wish_of
+from verification.planned import BODY, CHANCE, chance_of, hand_balanced, wish_of
 from verification.planned_runs import by_mujoco, truth_of
 
 SEEDS = 6
@@ -35,6 +35,23 @@ def test_errors_on_mujocos_records_are_as_large_as_promised():
     found = np.mean([(run.error / promised.sd_of(BODY)) ** 2 for run in kept])
     low, high = mean_square_band([run.covariance / np.outer(run.sd, run.sd) for run in kept])
     assert low < found < high
+
+
+def test_what_is_promised_is_the_rms_over_platforms():
+    promised, _ = both()
+    assert promised.platforms == len(promised.sds) == 240
+    np.testing.assert_allclose(promised.sd**2, np.sum(promised.sds**2, axis=0) / 240)
+
+
+def test_chance_of_an_rmse_is_that_of_drawn_errors():
+    """400 times the RMSE of 100 errors, on even platforms and with one in four told badly."""
+    rng = np.random.default_rng(5)
+    sds = np.array([[1.0, 1.0], [1.0, 1.0], [1.0, 1.0], [1.0, 4.0]])
+    drawn = sds[rng.integers(4, size=(400, 100))]
+    found = np.sqrt(np.mean((drawn * rng.normal(size=drawn.shape)) ** 2, axis=1))
+    spread = found.std(axis=0) / np.sqrt(np.mean(sds**2, axis=0))
+    np.testing.assert_allclose(chance_of(sds, 100) / CHANCE, spread, rtol=0.1)
+    np.testing.assert_allclose(chance_of(sds, 100)[0], CHANCE / np.sqrt(200))
 
 
 def as_let_go(truth):

@@ -28,9 +28,7 @@ from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
 
-PLATFORMS = (
-    240  # chosen: of 60 the rms changed by up to a third with the seed, a few being told least
-)
+PLATFORMS = 240  # chosen: of 60 the rms changed by a third with the seed, a few being told least
 TRIED = 300  # chosen: if all keep the limits, then 99 % of all platforms do
 FRESH = 1  # added to the seed of a search: platforms that it did not see
 
@@ -41,15 +39,28 @@ class Promise:
 
     manoeuvre: Manoeuvre
     names: tuple[str, ...]
-    sd: Floats  # SI, rms over platforms; infinite: not seen of one of them; 0: held
+    sds: Floats  # SI, (platforms, names); infinite: not seen of this one; 0: held
     body: MassProperties  # that is expected
     expected: Predicted  # of it, let go as planned
-    platforms: int
     tried: int  # platforms of which only the motion was followed
     kept: int  # of them, within the limits of tilt and rate
     greatest_tilt: float  # rad, of them
     greatest_rate: float  # rad/s
     sentences: tuple[str, ...]  # what is not seen
+
+    @property
+    def platforms(self) -> int:
+        """Return of how many platforms the sd are."""
+        return len(self.sds)
+
+    @property
+    def sd(self) -> Floats:
+        """Return the rms over platforms, SI; infinite: not seen of one of them; 0: held."""
+        return np.sqrt(np.mean(self.sds**2, axis=0))
+
+    def sds_of(self, names: tuple[str, ...]) -> Floats:
+        """Return several sd of each platform, SI."""
+        return self.sds[:, [self.names.index(name) for name in names]]
 
     def sd_of(self, names: tuple[str, ...]) -> Floats:
         """Return several sd, SI."""
@@ -99,15 +110,13 @@ def promise(
         for s in drawn
     ]
     expected, others = said[0], said[1:]
-    sd = np.sqrt(np.mean([one.sd_of((*INERTIA, *COM)) ** 2 for one in others], axis=0))
     tilts, rates = np.array(peaks_of(testbed, manoeuvre, wish, rng)).T
     return Promise(
         manoeuvre,
         (*INERTIA, *COM),
-        sd,
+        np.array([one.sd_of((*INERTIA, *COM)) for one in others]),
         wish.belief.body,
         expected,
-        len(others),
         len(tilts),
         int(np.sum((tilts <= testbed.tilt_limit) & (rates <= rate_limit))),
         float(tilts.max()),
