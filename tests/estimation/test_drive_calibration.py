@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.estimation.calibration import guess
 from equipoise.estimation.drive_calibration import Drive, of_drive, scatter_of
 from equipoise.estimation.drive_directions import groups, together
 from equipoise.io.presets import read_preset
@@ -42,6 +43,15 @@ def test_a_trusted_drive_keeps_its_gain():
     assert (gain, product, backlash) == (2.0, 1.0, 0.0)
     np.testing.assert_allclose(axis, [0.8, 0.0, 0.6], atol=1e-15)
     assert np.degrees(second) == pytest.approx(36.8699, abs=1e-4)
+
+
+def test_the_next_fit_is_about_the_rail_and_the_play_that_were_found():
+    """As above; a negative play, which noise may give, cannot be crossed."""
+    found = guess(drive(0, 1, 2, 3), np.array([1.0, 1.5, 0.0, 1e-3]))
+    np.testing.assert_allclose(found.axis, [0.8, 0.6, 0.0], atol=1e-15)
+    assert found.backlash == pytest.approx(0.4e-3)
+    assert (found.mass, found.gain) == (X1.mass, X1.gain)
+    assert guess(drive(0, 1, 2, 3), np.array([1.0, 1.5, 0.0, -1e-3])).backlash == 0.0
 
 
 def stops(*pairs):
