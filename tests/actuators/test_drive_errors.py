@@ -1,9 +1,11 @@
 """Drives in doubt: how gain, rail and backlash are felt."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from equipoise.actuators.drive_errors import across, drive_errors, rails_of
+from equipoise.actuators.drive_errors import across, drive_errors, plays, rails_of
 from equipoise.actuators.lost_motion import directions, play_of
 from equipoise.actuators.mass_errors import mass_errors, unit_of
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
@@ -50,6 +52,22 @@ def test_each_unknown_is_felt_as_derived(name, owner, expected):
     np.testing.assert_allclose(values, expected, atol=1e-12)
 
 
+def test_the_error_of_a_stop_passes_over_while_the_mass_is_taken_along():
+    """Play until 10.2 and 20.4 s: half way between 10.2 and 12, and between 20.4 and 21."""
+    coarse = replace(rail([1.0, 0.0, 0.0]), accuracy=1e-4)
+    errors = mass_errors(TRACK, (coarse,))
+    at = [10.0, 10.2, 11.1, 12.0, 20.0, 20.4, 20.7, 21.0, 30.0]
+    first, second = (errors.names.index(f"error_x1_{k}") for k in (1, 2))
+
+    def felt(index):
+        (column,) = np.flatnonzero(errors.owner[:, 1] == index)
+        return np.interp(at, errors.felt.t, errors.felt.values[:, column])
+
+    expected = [0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 0.5, 0.0, 0.0]
+    np.testing.assert_allclose(felt(first), expected, atol=1e-12)
+    np.testing.assert_allclose(felt(second), [*[0.0] * 6, 0.5, 1.0, 1.0], atol=1e-12)
+
+
 def test_rails_across_are_square_and_right_handed():
     for axis in ([1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [-0.48, 0.6, 0.64]):
         v, w = across(np.array(axis))
@@ -88,11 +106,12 @@ def test_a_turn_back_without_rest_ends_a_travel():
 
 def test_a_mass_that_is_trusted_has_no_gain_and_one_that_stands_nothing():
     trusted = rail([1.0, 0.0, 0.0], DriveDoubt(0.0, 0.1, 0.0))
-    assert [e.name for e in drive_errors(TRACK.t, TRACK, (trusted,))] == [
+    taken_up = plays(TRACK, (trusted,))
+    assert [e.name for e in drive_errors(TRACK.t, TRACK, (trusted,), taken_up)] == [
         "across_x1_1", "across_x1_2",
     ]  # fmt: skip
     still = Samples(TRACK.t, np.zeros((6, 1)))
-    assert drive_errors(still.t, still, (rail([1.0, 0.0, 0.0]),)) == []
+    assert plays(still, (rail([1.0, 0.0, 0.0]),)) == {}
     assert len(rails_of((rail([1.0, 0.0, 0.0], None),))) == 1
 
 

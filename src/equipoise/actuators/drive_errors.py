@@ -91,16 +91,13 @@ def plays(track: Samples, masses: tuple[SlidingMass, ...]) -> dict[int, Play]:
     return found
 
 
-def play_times(track: Samples, masses: tuple[SlidingMass, ...]) -> Series1:
-    """Return the times at which plays begin and end to be taken up."""
-    return np.concatenate([np.zeros(0), *(play.t for play in plays(track, masses).values())])
-
-
-def drive_errors(t: Series1, track: Samples, masses: tuple[SlidingMass, ...]) -> list[MassError]:
+def drive_errors(
+    t: Series1, track: Samples, masses: tuple[SlidingMass, ...], taken_up: dict[int, Play]
+) -> list[MassError]:
     """Return the unknowns of drives in doubt that travel, felt at the times ``t``."""
     doubted = [i for i, mass in enumerate(masses) if mass.doubt is not None]
     found: list[MassError] = []
-    for i, play in plays(track, masses).items():
+    for i, play in taken_up.items():
         side = len(masses) + SIDES * doubted.index(i)
         d = np.interp(t, track.t, track.values[:, i])
         found += of_one(t, d, (i, side), masses[i], play)

@@ -19,7 +19,7 @@ import numpy as np
 from equipoise.actuators.stops import is_travelling
 from equipoise.model.arrays import Series1
 
-LEAST = 1e-4  # m, chosen: what crosses a lesser play in no time passes over this way
+LEAST = 1e-5  # m, chosen: what crosses a lesser play in no time passes over this way
 
 
 class Way(NamedTuple):
@@ -31,10 +31,17 @@ class Way(NamedTuple):
 
 
 class Play(NamedTuple):
-    """The side s of the play, straight between knots; the first two behind the start begin it."""
+    """How a play is taken up; both courses are straight between their knots.
+
+    The side s of the play; the first two knots behind the start begin it. And when the mass was
+    told to go as far as it has gone: it stands while the play is taken up, and makes up for that
+    until the travel ends.
+    """
 
     t: Series1  # s
     side: Series1
+    gone: Series1  # s
+    told: Series1  # s
 
 
 def directions(t: Series1, d: Series1, speed: float) -> list[Way]:
@@ -47,13 +54,20 @@ def directions(t: Series1, d: Series1, speed: float) -> list[Way]:
 def play_of(t: Series1, d: Series1, ways: list[Way], backlash: float) -> Play:
     """Return how the play of a backlash (m) is taken up."""
     play, side = max(backlash, LEAST), 0.0
-    knots, sides = [t[:1]], [np.zeros(1)]
+    knots, sides, gone, told = [t[:1]], [np.zeros(1)], [t[:1]], [t[:1]]
     for first, last, sign in ways:
         rows = slice(first, last + 1)
-        gone = np.maximum.accumulate(np.abs(d[rows] - d[first]))
-        turn = min(play * abs(sign - side) / 2, gone[-1])
-        crossed = np.append(gone[gone < turn], turn)
-        knots.append(np.interp(crossed, gone, t[rows]))
+        way = np.maximum.accumulate(np.abs(d[rows] - d[first]))
+        turn = min(play * abs(sign - side) / 2, way[-1])
+        crossed = np.append(way[way < turn], turn)
+        knots.append(np.interp(crossed, way, t[rows]))
         sides.append(side + sign * 2 * crossed / play)
         side = sides[-1][-1]
-    return Play(np.concatenate(knots), np.concatenate(sides))
+        gone.append(np.array([t[first], knots[-1][-1], t[last]]))
+        told.append(t[[first, first, last]])
+    return Play(*map(np.concatenate, (knots, sides, gone, told)))
+
+
+def told_when(play: Play | None, t: Series1) -> Series1:
+    """Return when a mass was told to go as far as it has gone at ``t``; None: no play."""
+    return t if play is None else np.interp(t, play.gone, play.told)

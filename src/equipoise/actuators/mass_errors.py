@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.drive_errors import ACROSS, GAIN, drive_errors, play_times, rails_of
+from equipoise.actuators.drive_errors import ACROSS, GAIN, drive_errors, plays, rails_of
 from equipoise.actuators.lags import LAG, kinds_of, lag_errors, lag_times, sags, told
+from equipoise.actuators.lost_motion import told_when
 from equipoise.actuators.stops import stop_errors
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
@@ -44,9 +45,11 @@ def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassE
     commands = told(track, masses)
     kinds = kinds_of(commands, masses)
     late = lag_times(track, [sd for sd, kind in kinds.items() if kind])
-    t = np.union1d(late, play_times(track, masses))
-    found = [*stop_errors(t, track, masses), *lag_errors(t, track, kinds)]
-    found += drive_errors(t, track, masses)
+    taken_up = plays(track, masses)
+    t = np.unique(np.concatenate([late, *(play.t for play in taken_up.values())]))
+    gone = [told_when(taken_up.get(i), t) for i in range(len(masses))]
+    found = [*stop_errors(gone, track, masses), *lag_errors(t, track, kinds)]
+    found += drive_errors(t, track, masses, taken_up)
     columns: list[Series1] = [column for each in found for _, column in each.felt]
     pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.felt]
     return MassErrors(

@@ -1,10 +1,12 @@
 """Where masses stood still in a recording, and how far a wrong stop would be felt.
 
 A mass that is told to stop at d stops at d + error, with one error for each stop. Between stops
-the error passes over with the travel. At home the error is zero by definition: home is where the
+the error passes over with the travel of the mass, which waits while a play is taken up
+(``lost_motion``). At home the error is zero by definition: home is where the
 mass properties are stated.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -52,14 +54,16 @@ def stops_of(t: Series1, d: Series1, mass: SlidingMass) -> list[Floats]:
     return stands if abs(d[0]) > mass.accuracy else stands[1:]
 
 
-def stop_errors(t: Series1, track: Samples, masses: tuple[SlidingMass, ...]) -> list[MassError]:
+def stop_errors(
+    told: Sequence[Series1], track: Samples, masses: tuple[SlidingMass, ...]
+) -> list[MassError]:
     """Return an unknown displacement for each stop of a mass that stops with an accuracy.
 
-    Felt at the times ``t``, among which are the track's.
+    Of each mass i, felt when it has gone as far as it was told at the times ``told[i]``.
     """
     return [
         MassError(f"error_{mass.name}_{k + 1}", mass.accuracy, [(i, np.interp(t, track.t, stand))])
-        for i, mass in enumerate(masses)
+        for i, (mass, t) in enumerate(zip(masses, told, strict=True))
         if mass.accuracy > 0
         for k, stand in enumerate(stops_of(track.t, track.values[:, i], mass))
     ]

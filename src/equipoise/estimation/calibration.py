@@ -55,7 +55,7 @@ PLUMB = sensor_terms.GROUPS["plumb"]
 SAG = torque_terms.GROUPS["sag"]
 STEP = 1e-6  # in SI, chosen: the unknowns bend over whole units
 NEAR = 1e-3  # rad, chosen: stops err by 1e-3 mm aside then
-NEAR_PLAY = 1e-4  # m, chosen: taken up within 10 ms at a usual speed
+SOON = 5e-3  # s, chosen: by which plays may be taken up too late; 50 ms moved backlashes by 2 sd
 ROUNDS = 5  # plain fits at most
 SURE = 4.0  # sd of a scatter before it counts as more than chance
 MIRRORED = "The gyro's axes are a mirror image of the body's: one has the wrong sign."
@@ -151,7 +151,7 @@ def guess(drive: Drive, x: Floats) -> SlidingMass:
 def near(one: SlidingMass, other: SlidingMass) -> bool:
     """Say whether two guesses of a drive leave a fit the same."""
     aside = float(np.abs(one.axis - other.axis).max())
-    return aside < NEAR and abs(one.backlash - other.backlash) < NEAR_PLAY
+    return aside < NEAR and abs(one.backlash - other.backlash) < SOON * one.speed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
