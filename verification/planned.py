@@ -258,7 +258,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     claim = (
         "Camera alone, two minutes, the same limits: the planned manoeuvre tells the worst "
         "parameter at least three times better than the paper's move, by prediction and by the "
-        "errors of `identify` on MuJoCo's records; predicted sd and these errors agree within 15 %, "
-        "averaged over nine parameters, and each within that and chance."
+        "errors of `identify` on MuJoCo's records; predicted sd and these errors agree within "
+        "15 %, averaged over nine parameters, and each within that and chance."
     )
     return Result("planned", claim, (*rows, *more), (*notes, *told))
