@@ -31,7 +31,8 @@ MOVES = [(20.0 * (k + 1), {name: d}) for k, (name, d) in enumerate(ORDER)]
 def bed():
     preset = read_preset("sputnix")
     com = np.array([5.0, -8.0, -100.0]) * 1e-6
-    return replace(preset, truth=replace(preset.truth, drives=(DRIVE,), com=com))
+    stiff = tuple(replace(mass, sag_sd=0.0) for mass in preset.masses)
+    return replace(preset, masses=stiff, truth=replace(preset.truth, drives=(DRIVE,), com=com))
 
 
 @pytest.fixture(scope="module")
@@ -50,14 +51,11 @@ def off(found, name, truth):
 
 
 def test_a_rail_3_deg_off_and_a_gain_5_percent_off_are_found(found):
-    """The sd must be worth something: 5 %, 0.3 deg level, 1.5 deg where only the period tells.
-
-    Drives that may give way cost some of it: what they make is hardly told from height.
-    """
+    """The sd must be worth something: 3 %, 0.3 deg level, 1 deg where only the period tells."""
     assert found.outcome.usable
     assert abs(off(found, "gain_x1", 1.05)) < 3.5
-    assert found.parameters[found.index("gain_x1")].sd < 0.05
-    for letter, truth, worth in zip("yz", RAIL[1:], (0.3, 1.5), strict=True):
+    assert found.parameters[found.index("gain_x1")].sd < 0.03
+    for letter, truth, worth in zip("yz", RAIL[1:], (0.3, 1.0), strict=True):
         name = f"axis_x1_{letter}"
         assert abs(off(found, name, truth)) < 3.5
         assert found.parameters[found.index(name)].sd < np.radians(worth)
@@ -66,13 +64,14 @@ def test_a_rail_3_deg_off_and_a_gain_5_percent_off_are_found(found):
     assert off(found, "backlash_x1", 0.0) > 2.0
 
 
-def test_stiff_drives_are_known_better(bed, recording, found):
-    """3 %: no elastic sag is sought of drives that are said not to hang."""
-    stiff = replace(bed, masses=tuple(replace(m, sag_sd=0.0) for m in bed.masses))
-    sure = calibrate(recording, stiff, CalibrateOptions(("y1",)))
-    assert abs(off(sure, "gain_x1", 1.05)) < 3.5
-    assert sure.parameters[sure.index("gain_x1")].sd < 0.03
-    assert found.parameters[found.index("gain_x1")].sd > 0.03
+def test_drives_that_may_give_way_are_known_less(bed, recording, found):
+    """5 % and 1.5 deg: what elastic sag makes is hardly told from a mass that is higher."""
+    soft = replace(bed, masses=read_preset("sputnix").masses)
+    unsure = calibrate(recording, soft, CalibrateOptions(("y1",)))
+    for name, truth, worth in (("gain_x1", 1.05, 0.05), ("axis_x1_z", RAIL[2], np.radians(1.5))):
+        sd = unsure.parameters[unsure.index(name)].sd
+        assert found.parameters[found.index(name)].sd < sd < worth
+        assert abs(off(unsure, name, truth)) < 3.5
 
 
 def test_the_trusted_mass_sets_the_scale(bed, recording, found):
@@ -81,10 +80,10 @@ def test_the_trusted_mass_sets_the_scale(bed, recording, found):
     free = calibrate(recording, bed, CalibrateOptions())
     loose, tied = (e.parameters[e.index("gain_x1")].sd for e in (free, found))
     assert loose > 0.05  # two products believed to 10 % each: 7 %
-    assert tied < 0.7 * loose
+    assert tied < 0.5 * loose
     assert any("known to 7" in sentence for sentence in free.unexplained)
     ratio = {e.ratios[0].sd for e in (free, found)}
-    assert max(ratio) < 0.03
+    assert max(ratio) < 0.02
 
 
 def test_a_calibrated_testbed_balances_better(bed, found):

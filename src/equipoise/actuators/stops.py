@@ -2,8 +2,8 @@
 
 A mass that is told to stop at d stops at d + error, with one error for each stop. Between stops
 the error passes over with the travel of the mass, which waits while a play is taken up
-(``lost_motion``). At home the error is zero by definition: home is where the
-mass properties are stated.
+(``lost_motion``). At home the error is zero by definition: home is where the mass properties are
+stated.
 """
 
 from collections.abc import Sequence

@@ -28,7 +28,7 @@ from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
 
-PLATFORMS = 240  # chosen: of 60 the rms changed by a third with the seed, a few being told least
+PLATFORMS = 240  # chosen: of 60 the rms changed by up to a third, as a few are told least
 TRIED = 300  # chosen: if all keep the limits, then 99 % of all platforms do
 FRESH = 1  # added to the seed of a search: platforms that it did not see
 
