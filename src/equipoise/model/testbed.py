@@ -18,6 +18,7 @@ from equipoise.model.devices import (
     ReactionWheel,
     recorded_name,
 )
+from equipoise.model.hardware import Hardware
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.weights import Weight, WeightGrid
 
@@ -160,6 +161,7 @@ class Testbed:
     magnetic_field: MagneticField | None = None
     weights: tuple[Weight, ...] = ()  # to be placed by hand
     grids: tuple[WeightGrid, ...] = ()  # where they can be placed
+    hardware: Hardware | None = None  # what is connected; None: nothing, it can be simulated
 
     @property
     def devices(self) -> tuple[Device, ...]:

@@ -1,0 +1,1 @@
+"""Drivers of motor boards, one file each."""

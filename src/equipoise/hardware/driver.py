@@ -1,0 +1,102 @@
+"""What drivers have in common: conversations of bytes, without a port and without a clock.
+
+A driver is fed what has arrived and asked what to send; times come in as arguments, s, on the
+bench's clock. So each can be tested by the bytes of its manual, and fuzzed. Nothing that arrives
+raises: what cannot be understood is counted.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+from equipoise.model.reading import Counts, Reading
+
+Phase = Literal["connecting", "ready", "homing", "moving", "halted", "fault"]
+
+
+class SensorDriver(Protocol):
+    """The conversation with one sensor."""
+
+    def opened(self) -> None:
+        """Begin anew: the port has just been opened, half a message of before is void."""
+        ...
+
+    def feed(self, data: bytes) -> Sequence[Reading]:
+        """Return the rows that are complete with these bytes (for UDP: this datagram)."""
+        ...
+
+    def due(self, t: float) -> bytes:
+        """Return what to send now: a greeting, a request, a heartbeat; asked at every turn."""
+        ...
+
+    @property
+    def counts(self) -> Counts:
+        """How much was understood since the port was opened."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class BoardState:
+    """What is known of a board now."""
+
+    phase: Phase
+    sentence: str = ""  # of a fault, for people: what happened and what to do
+    position: Mapping[str, float] = field(default_factory=dict[str, float])  # m, displacement
+    goal: Mapping[str, float] = field(default_factory=dict[str, float])  # m, where masses are sent
+    reported: float | None = None  # s, when the position was last told; None: never
+    sure: bool = False  # the position is known: found by switches or by a person, not lost since
+
+
+class BoardDriver(Protocol):
+    """The conversation with one motor board.
+
+    Long ways are sent in legs of at most ``LEG`` each, at most two ahead, so that a board whose
+    computer has died stands still within twice that.
+    """
+
+    @property
+    def state(self) -> BoardState:
+        """What is known of it now."""
+        ...
+
+    @property
+    def counts(self) -> Counts:
+        """How much was understood since the port was opened."""
+        ...
+
+    def opened(self, t: float) -> None:
+        """Begin anew: the port has just been opened. What was sure of the position is lost."""
+        ...
+
+    def closed(self, t: float, why: str) -> None:
+        """Note that the port is gone: a fault."""
+        ...
+
+    def feed(self, data: bytes, t: float) -> None:
+        """Take in what has arrived."""
+        ...
+
+    def due(self, t: float) -> bytes:
+        """Return what to send now; asked at every turn, some hundred times a second."""
+        ...
+
+    def home(self, t: float) -> None:
+        """Find the position, then go to displacement zero; ends a fault whose cause is gone.
+
+        Without switches: masses stand at home now, a person says so.
+        """
+        ...
+
+    def go(self, goals: Mapping[str, float], t: float) -> None:
+        """Send masses on their way to displacements (m), checked before; others go on."""
+        ...
+
+    def halt(self, t: float) -> None:
+        """Stop every mass at once, slowing down in order; the position stays known."""
+        ...
+
+
+LEG = 0.25  # s, chosen: what a board does without its computer is over within twice that
+ASK = 0.1  # s, chosen: how often a board is asked where it is while masses stand
+ASK_MOVING = 0.05  # s, the same while they move
+SILENCE = 0.4  # s, chosen: a board that has not answered for so long is lost

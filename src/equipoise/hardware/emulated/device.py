@@ -1,0 +1,51 @@
+"""What emulated devices have in common: bytes in, bytes out, and a platform behind them.
+
+They open no port either; times are s on the platform's clock.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from equipoise.model.recording import Recording
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A mass on its way: from where it is at ``t`` straight to ``displacement`` at ``end``.
+
+    A leg replaces what is left of the one before; at the end the mass stands.
+    """
+
+    mass: str
+    t: float  # s
+    end: float  # s
+    displacement: float  # m
+
+
+class EmulatedSensor(Protocol):
+    """A sensor's far side."""
+
+    def take(self, data: bytes, t: float) -> bytes:
+        """Return the answer to what the host sent."""
+        ...
+
+    def tell(self, rows: Recording) -> Sequence[bytes]:
+        """Return the messages for the rows seen since the last call, in order of time.
+
+        Attitude and rate are those of the body; the unit's alignment and laboratory frame are
+        undone here.
+        """
+        ...
+
+
+class EmulatedBoard(Protocol):
+    """A motor board's far side."""
+
+    def take(self, data: bytes, t: float) -> bytes:
+        """Return what it answers at once to what the host sent."""
+        ...
+
+    def run(self, t: float) -> tuple[bytes, Sequence[Leg]]:
+        """Let time pass up to ``t``; return what it says meanwhile and the legs that began."""
+        ...

@@ -1,0 +1,29 @@
+"""What a device said: one row of a sensor, and how well it speaks."""
+
+from dataclasses import dataclass
+
+from equipoise.model.hardware import Gives
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """One row, in the sensor's own axes.
+
+    attitude: unit quaternion, scalar first, that turns sensor components into components of the
+    sensor's laboratory frame. rate: rad/s.
+    """
+
+    channel: Gives
+    values: tuple[float, ...]  # 4 or 3 numbers
+    stamp: float | None = None  # s, on the device's clock; None: it tells no time
+    number: int | None = None  # of the row, as the device counts; None: it does not
+    sd: float | None = None  # rad or rad/s, one sd per axis as the device states it
+
+
+@dataclass(frozen=True, slots=True)
+class Counts:
+    """What came over a port since it was opened."""
+
+    good: int = 0  # messages understood
+    corrupt: int = 0  # broken: checksum, half a line, a number that is none
+    foreign: int = 0  # whole, and of no use to us
