@@ -25,6 +25,7 @@ from verification import (
     drift,
     efficiency,
     independent_truth,
+    killed_recordings,
     laboratories,
     lagging_masses,
     laws,
@@ -85,6 +86,7 @@ CHECKS = {
     "lee": Check(lee.measure, 100),
     "planned": Check(planned.measure, 100),
     "design_predictions": Check(design_predictions.measure, 400),
+    "killed_recordings": Check(killed_recordings.measure, 200),
     "real_methods": Check(real_methods.measure, 1),
 }
 

@@ -177,7 +177,7 @@ def test_a_device_of_no_kind_is_not_written(tmp_path) -> None:
 @pytest.mark.parametrize("name", ["r.xlsx", "r"])
 def test_an_unknown_suffix_is_refused(tmp_path, name) -> None:
     """What is written is what the suffix says."""
-    with pytest.raises(InputError, match=r"\.csv or \.parquet"):
+    with pytest.raises(InputError, match=r"ending in \.csv, \.parquet,"):
         write_recording(simple(), tmp_path / name)
 
 

@@ -39,6 +39,12 @@ def column_of(device: str) -> DeviceColumn:
     return DeviceColumn(device, f"{match[1]}_{match[2]}_{unit}", factor)
 
 
+def si_column(device: str) -> str:
+    """Return the column of a device where all numbers are in SI, as in a log."""
+    native = column_of(device)
+    return native.column if native.factor == 1.0 else f"{native.column.rpartition('_')[0]}_rad"
+
+
 def wanted_column(name: str) -> str | None:
     """Return what the column of a device must look like; None if a name means no device's."""
     reported = name.split("_", 1)[0]

@@ -1,4 +1,4 @@
-"""Recording files, both ways: CSV and Parquet, ours and other programs'."""
+"""Recording files, both ways, ours and other programs'; ``recording_formats`` lists the kinds."""
 
 import hashlib
 from dataclasses import replace
@@ -7,22 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from equipoise.io.column_map import ColumnMap, Layout
-from equipoise.io.csv_table import cut
 from equipoise.io.dialects import detect, dialect_map
-from equipoise.io.parquet_table import MAGIC, parquet_bytes, read_parquet
-from equipoise.io.recording_columns import native_columns
+from equipoise.io.recording_formats import content_of, format_of, format_to_write
 from equipoise.io.recording_reading import recording_of
-from equipoise.io.recording_text import csv_text
-from equipoise.io.source_file import read_bytes, text_of
 from equipoise.io.table import Table
-from equipoise.io.whole_file import write_whole
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.recording import CHANNELS, Recording, Samples
 from equipoise.model.testbed import Testbed
-
-WANTED = "a recording (a table as CSV or Parquet)"
-TEXTS = (".csv", ".txt")
-PARQUET = ".parquet"
 
 
 def read_recording(
@@ -34,26 +25,20 @@ def read_recording(
     the recording may name no mass or device that it does not have. InputError says what cannot be
     used.
     """
-    content = read_bytes(path, WANTED)
+    content = content_of(Path(path))
     layout = dialect.layout if isinstance(dialect, ColumnMap) else Layout()
-    table = _table(content, str(path), layout)
-    recording = recording_of(table, _columns(table, dialect))
+    table, known = format_of(Path(path), content).read(Path(path), content, layout)
+    recording = recording_of(table, _columns(table, known, dialect))
     if testbed is not None:
         check_names(recording, testbed)
     return replace(recording, sha256=hashlib.sha256(content).hexdigest())
 
 
 def write_recording(recording: Recording, path: str | Path) -> None:
-    """Write a recording whole or not at all, as CSV or Parquet by the path's suffix."""
-    suffix = Path(path).suffix.lower()
-    if suffix not in (*TEXTS, PARQUET):
-        raise InputError(str(path), f"suffix '{suffix}'", "a file name ending in .csv or .parquet")
+    """Write a recording whole or not at all, in the format of the path's suffix."""
+    write = format_to_write(Path(path))
     _check_finite(recording, str(path))
-    columns = native_columns(recording)
-    if suffix == PARQUET:
-        write_whole(path, parquet_bytes(columns, str(path)))
-    else:
-        write_whole(path, csv_text(columns))
+    write(recording, Path(path))
 
 
 def check_names(recording: Recording, testbed: Testbed) -> None:
@@ -70,15 +55,15 @@ def check_names(recording: Recording, testbed: Testbed) -> None:
                 raise InputError(f"{recording.source}, header", f"{kind} '{name}'", wanted + of)
 
 
-def _table(content: bytes, source: str, layout: Layout) -> Table:
-    if content.startswith(MAGIC):
-        return read_parquet(content, source)
-    return cut(text_of(content, source, WANTED), source, layout)
-
-
-def _columns(table: Table, dialect: str | ColumnMap | None) -> ColumnMap:
+def _columns(table: Table, known: ColumnMap | None, dialect: str | ColumnMap | None) -> ColumnMap:
+    """Return what a table's columns mean: as told, as its format knows, or by the header."""
     if isinstance(dialect, ColumnMap):
         return dialect
+    if known is not None and dialect is not None:
+        found = f"dialect '{dialect}' for a log that says itself what it holds"
+        raise InputError(table.source, found, "no dialect, or a column map (--columns)")
+    if known is not None:
+        return known
     if dialect is None:
         return detect(table.names, table.source)
     return dialect_map(dialect, table.names, table.source)

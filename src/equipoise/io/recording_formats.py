@@ -1,0 +1,92 @@
+"""Every format of a recording, in one table: how it is known, read and written.
+
+A file is known by its first bytes; by its suffix only where those say nothing, as in a text.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from equipoise.io.column_map import ColumnMap, Layout
+from equipoise.io.csv_table import cut
+from equipoise.io.mcap_recording import read_mcap, write_mcap
+from equipoise.io.mcap_salvage import MAGIC as MCAP
+from equipoise.io.parquet_table import MAGIC as PARQUET
+from equipoise.io.parquet_table import parquet_bytes, read_parquet
+from equipoise.io.recording_columns import native_columns
+from equipoise.io.recording_text import csv_text
+from equipoise.io.source_file import read_bytes, text_of
+from equipoise.io.table import Table
+from equipoise.io.whole_file import whole_file, write_whole
+from equipoise.model.errors import InputError
+from equipoise.model.recording import Recording
+
+WANTED = "a recording (a table as CSV or Parquet)"
+Read = Callable[[Path, bytes, Layout], tuple[Table, ColumnMap | None]]  # None: by the header
+Write = Callable[[Recording, Path], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """One kind of file."""
+
+    name: str
+    suffixes: tuple[str, ...]
+    marks: tuple[bytes, ...]  # its first bytes; none: a text
+    read: Read
+    write: Write | None  # None: it is read only
+
+
+def content_of(path: Path) -> bytes:
+    """Return a file's bytes."""
+    return read_bytes(path, WANTED)
+
+
+def format_of(path: Path, content: bytes) -> Format:
+    """Return the format of a file: by its first bytes, then by its suffix; else it is a text."""
+    marked = [each for each in FORMATS if each.marks and content.startswith(each.marks)]
+    named = [each for each in FORMATS if path.suffix.lower() in each.suffixes]
+    return next(iter((*marked, *named)), FORMATS[0])
+
+
+def format_to_write(path: Path) -> Write:
+    """Return how a file of a suffix is written; InputError lists those that are."""
+    suffix = path.suffix.lower()
+    for each in FORMATS:
+        if suffix in each.suffixes and each.write is not None:
+            return each.write
+    written = [each.suffixes[0] for each in FORMATS if each.write is not None]
+    wanted = f"a file name ending in {', '.join(written[:-1])} or {written[-1]}"
+    raise InputError(str(path), f"suffix '{suffix}'", wanted)
+
+
+def _read_text(path: Path, content: bytes, layout: Layout) -> tuple[Table, None]:
+    return cut(text_of(content, path, WANTED), str(path), layout), None
+
+
+def _write_text(recording: Recording, path: Path) -> None:
+    write_whole(path, csv_text(native_columns(recording)))
+
+
+def _read_parquet(path: Path, content: bytes, _layout: Layout) -> tuple[Table, None]:
+    return read_parquet(content, str(path)), None
+
+
+def _write_parquet(recording: Recording, path: Path) -> None:
+    write_whole(path, parquet_bytes(native_columns(recording), str(path)))
+
+
+def _read_mcap(path: Path, content: bytes, _layout: Layout) -> tuple[Table, ColumnMap]:
+    return read_mcap(content, str(path))
+
+
+def _write_mcap(recording: Recording, path: Path) -> None:
+    with whole_file(path) as temporary:
+        write_mcap(recording, temporary)
+
+
+FORMATS = (
+    Format("csv", (".csv", ".txt"), (), _read_text, _write_text),
+    Format("parquet", (".parquet",), (PARQUET,), _read_parquet, _write_parquet),
+    Format("mcap", (".mcap",), (MCAP,), _read_mcap, _write_mcap),
+)
