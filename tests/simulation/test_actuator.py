@@ -3,6 +3,7 @@ import pytest
 from scipy.stats import chi2
 
 from equipoise.model.errors import InputError, MoveRefused
+from equipoise.model.mass_targets import in_steps
 from equipoise.model.testbed import Fault
 from equipoise.simulation.actuator import (
     CARRIAGE,
@@ -12,7 +13,6 @@ from equipoise.simulation.actuator import (
     checked,
     displacement,
     halted,
-    in_steps,
     lines,
     reported_rows,
     retracked,

@@ -11,7 +11,7 @@ from equipoise.app.recorded_bench import RecordedBench
 from equipoise.app.terminal import watched
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.bench import Bench
-from equipoise.model.errors import InputError
+from equipoise.model.errors import BenchStopped, InputError
 from equipoise.model.estimate import COM, END, INERTIA, Estimate
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
@@ -70,27 +70,42 @@ class Limits:
     plan: Manoeuvre | None = None  # to begin with
 
 
-def run(
-    bench: SimulatedBench, goal: Goal, limits: Limits, show: Callable[[Step], None] | None
-) -> Balancing:
-    """Balance a simulated bench, show each step as it comes; Ctrl-C halts the bench."""
-    before, recorded = bench.truth(), RecordedBench(bench)
+def run(bench: Bench, goal: Goal, limits: Limits, show: Callable[[Step], None] | None) -> Balancing:
+    """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
+
+    What stops a real bench is the last step. The truth is known of a simulated one alone.
+    """
+    simulated = bench if isinstance(bench, SimulatedBench) else None
+    before, recorded = None if simulated is None else simulated.truth(), RecordedBench(bench)
     steps: list[Step] = []
     truths: list[MassProperties] = []
     try:
-        for step in watched(procedure(recorded, goal, limits), "balancing"):
+        for step in watched(
+            until_stopped(recorded, procedure(recorded, goal, limits)), "balancing"
+        ):
             if show is not None:
                 show(step)
             steps.append(step)
-            truths.append(bench.truth())
+            if simulated is not None:
+                truths.append(simulated.truth())
     except KeyboardInterrupt as by_hand:
         bench.stop()
         raise KeyboardInterrupt(HALTED) from by_hand
     # A look of a law's may hold what is not known; its estimate is no belief to begin with.
     body, sd = bench.testbed.body, bench.testbed.com_sd
     known = None if limits.law == OWN.name else Believed(body.com, sd)
-    began = truths[0] if limits.plan is not None else before  # after the manoeuvre
+    planned = limits.plan is not None and bool(truths)
+    began = truths[0] if planned else before  # after the manoeuvre
     return Balancing(bench.testbed, goal, steps, recorded.recording(), began, truths, known)
+
+
+def until_stopped(bench: Bench, steps: Iterator[Step]) -> Iterator[Step]:
+    """Return the steps, and a stop with its reason where the bench was stopped under way."""
+    try:
+        yield from steps
+    except BenchStopped as stopped:
+        judged = Verdict(False, f"Stopped: {stopped}.", halted=True)
+        yield Step("stop", bench.time, judged.sentence, verdict=judged)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:

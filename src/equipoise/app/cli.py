@@ -15,9 +15,12 @@ from equipoise import __version__
 from equipoise.app.commands.assess import assess
 from equipoise.app.commands.balance import balance
 from equipoise.app.commands.calibrate import calibrate
+from equipoise.app.commands.check import check
 from equipoise.app.commands.compare import compare
 from equipoise.app.commands.demo import demo
 from equipoise.app.commands.design import design
+from equipoise.app.commands.devices import devices
+from equipoise.app.commands.emulate import emulate
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.inspect import inspect
 from equipoise.app.commands.laws import laws
@@ -25,6 +28,7 @@ from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
 from equipoise.app.commands.plan import plan
+from equipoise.app.commands.record import record
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
@@ -44,7 +48,8 @@ app = App(
 )
 COMMANDS = (
     demo, new, design, plan, simulate, inspect, observe, identify, calibrate, assess, methods,
-    balance, laws, compare, reproduce,
+    balance, laws, compare, reproduce, devices, check, emulate,
+    record,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command)

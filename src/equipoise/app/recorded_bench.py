@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from equipoise.model.bench import Bench
+from equipoise.model.errors import BenchStopped
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 
@@ -25,8 +26,12 @@ class RecordedBench:
         return self._bench.time
 
     def read(self, duration: float) -> Recording:
-        """Read and remember."""
-        self._parts.append(self._bench.read(duration))
+        """Read and remember, also what was heard before the bench was stopped."""
+        try:
+            self._parts.append(self._bench.read(duration))
+        except BenchStopped:
+            self._parts.append(self._bench.read(0.0))
+            raise
         return self._parts[-1]
 
     def move(self, targets: Mapping[str, float]) -> None:

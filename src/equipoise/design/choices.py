@@ -19,8 +19,8 @@ import numpy as np
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.devices import ControlMomentGyro, ReactionWheel
 from equipoise.model.manoeuvre import Manoeuvre, SquareWave
+from equipoise.model.mass_targets import in_steps
 from equipoise.model.testbed import SlidingMass, Testbed
-from equipoise.simulation.actuator import in_steps
 
 DEG = np.pi / 180
 TILT_STEP, SIDE_STEP, RATE_STEP = 0.5 * DEG, 5 * DEG, 0.1 * DEG  # chosen: what a person reads

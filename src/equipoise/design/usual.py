@@ -10,8 +10,8 @@ import numpy as np
 from equipoise.design.choices import LEVEL, level_axes
 from equipoise.model.arrays import Vector3
 from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.model.mass_targets import in_steps
 from equipoise.model.testbed import SlidingMass, Testbed
-from equipoise.simulation.actuator import in_steps
 
 TILT = np.radians(4.0)  # as in ``verification.paper_runs``: 3 to 5 deg
 RATE = (-0.010, -0.004, 0.011)  # rad/s, the paper's, about two level axes and the upright one

@@ -7,11 +7,14 @@ raises: what cannot be understood is counted.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal, Protocol
+from typing import Literal, Protocol, TypeVar
 
+from equipoise.model.errors import InputError, nearest
 from equipoise.model.reading import Counts, Reading
 
 Phase = Literal["connecting", "ready", "homing", "moving", "halted", "fault"]
+
+Kind = TypeVar("Kind")
 
 
 class SensorDriver(Protocol):
@@ -100,3 +103,10 @@ LEG = 0.25  # s, chosen: what a board does without its computer is over within t
 ASK = 0.1  # s, chosen: how often a board is asked where it is while masses stand
 ASK_MOVING = 0.05  # s, the same while they move
 SILENCE = 0.4  # s, chosen: a board that has not answered for so long is lost
+
+
+def driver_named(kinds: Mapping[str, Kind], driver: str, what: str) -> Kind:
+    """Return a registry's entry; InputError names the nearest for a ``what`` without a driver."""
+    if driver not in kinds:
+        raise InputError(f"hardware.{what}", f"driver '{driver}'", nearest(driver, list(kinds)))
+    return kinds[driver]

@@ -2,11 +2,18 @@
 
 import numpy as np
 
-from equipoise.io.axis_turns import axes_matrix, quaternion_of, to_z_up
+from equipoise.io.axis_turns import axes_matrix, to_z_up
 from equipoise.io.channels import Channel
 from equipoise.io.column_map import ColumnMap
 from equipoise.io.table import Table
-from equipoise.maths.attitude import conjugate, continuous, exponential, multiply, normalise
+from equipoise.maths.attitude import (
+    conjugate,
+    continuous,
+    exponential,
+    from_matrix,
+    multiply,
+    normalise,
+)
 from equipoise.model.arrays import Floats, Series1, Series4
 from equipoise.model.errors import InputError
 
@@ -72,7 +79,7 @@ def _in_our_axes(q: Series4, columns: ColumnMap) -> Series4:
     if columns.lab_up != "z":
         q = multiply(to_z_up(columns.lab_up), q)
     if columns.body != ("x", "y", "z"):
-        q = multiply(q, conjugate(quaternion_of(axes_matrix(columns.body))))
+        q = multiply(q, conjugate(from_matrix(axes_matrix(columns.body))))
     return q
 
 

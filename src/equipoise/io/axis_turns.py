@@ -29,14 +29,3 @@ def axes_matrix(axes: tuple[str, str, str]) -> Matrix3:
     for row, axis in enumerate(axes):
         rows[row, "xyz".index(axis[-1])] = -1.0 if axis.startswith("-") else 1.0
     return rows
-
-
-def quaternion_of(turn: Matrix3) -> Quaternion:
-    """Return the unit quaternion of a rotation matrix.
-
-    It is the eigenvector, for the greatest eigenvalue, of Bar-Itzhack's symmetric 4 x 4 matrix.
-    """
-    skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-    trace = np.trace(turn)
-    corner = turn + turn.T - trace * np.eye(3)
-    return np.linalg.eigh(np.block([[trace, skew], [skew[:, None], corner]]))[1][:, -1]

@@ -8,6 +8,7 @@ import numpy as np
 from equipoise.io import testbed_schema as schema
 from equipoise.io.devices_build import devices_of
 from equipoise.io.directions import unit_vector
+from equipoise.io.hardware_build import hardware_of
 from equipoise.io.inertia_check import check_inertia
 from equipoise.io.truth_build import truth_of
 from equipoise.io.weights_build import grids_of, weights_of
@@ -49,6 +50,7 @@ def testbed_of(table: schema.TestbedFile, source: str) -> Testbed:
         magnetic_field=devices.magnetic_field,
         weights=weights_of(table, source),
         grids=grids_of(table, source),
+        hardware=hardware_of(table.hardware, [mass.name for mass in masses], source),
     )
 
 

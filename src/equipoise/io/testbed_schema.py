@@ -15,6 +15,7 @@ from equipoise.io.devices_schema import (
     Magnetorquer,
     ReactionWheel,
 )
+from equipoise.io.hardware_schema import Hardware
 from equipoise.io.table_keys import (
     Five,
     Name,
@@ -228,5 +229,6 @@ class TestbedFile(Table):
     weight_grid: list[WeightGrid] = Field([])
     sensor: Sensors = Sensors()
     disturbance: Disturbance = Disturbance()
+    hardware: Hardware | None = None
     truth: Truth | None = None
     assumed: dict[str, str] = Field({}, description="dotted key of this file: why it is assumed")

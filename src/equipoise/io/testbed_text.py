@@ -4,6 +4,7 @@ import json
 import math
 
 from equipoise.io.devices_text import text_of_devices
+from equipoise.io.hardware_text import text_of_hardware
 from equipoise.io.toml_text import Value, number, numbers, table
 from equipoise.io.truth_text import text_of_truth
 from equipoise.io.weights_text import text_of_weights
@@ -27,6 +28,7 @@ def text_of_testbed(testbed: Testbed) -> str:
         table("[sensor.attitude]", _attitude(testbed.attitude)),
         table("[sensor.gyro]", _gyro(testbed.gyro)),
         table("[disturbance]", {"consider": list(testbed.disturbances)}),
+        text_of_hardware(testbed.hardware),
         text_of_truth(testbed.truth),
         table("[assumed]", assumed),
     ]

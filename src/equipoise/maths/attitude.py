@@ -5,7 +5,7 @@ Every function takes one quaternion or a series of them along the first axis.
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Quaternion, Series4, Vector3
+from equipoise.model.arrays import Floats, Matrix3, Quaternion, Series4, Vector3
 
 
 def normalise(q: Floats) -> Floats:
@@ -35,6 +35,17 @@ def to_matrix(q: Floats) -> Floats:
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def from_matrix(turn: Matrix3) -> Quaternion:
+    """Return the unit quaternion of a rotation matrix.
+
+    It is the eigenvector, for the greatest eigenvalue, of Bar-Itzhack's symmetric 4 x 4 matrix.
+    """
+    skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    trace = np.trace(turn)
+    corner = turn + turn.T - trace * np.eye(3)
+    return np.linalg.eigh(np.block([[trace, skew], [skew[:, None], corner]]))[1][:, -1]
 
 
 def exponential(vector: Floats) -> Floats:

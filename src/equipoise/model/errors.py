@@ -58,6 +58,10 @@ class DriveRefused(EquipoiseError):
         self.asked = asked
 
 
+class BenchStopped(EquipoiseError):
+    """Every motor of a real bench was stopped, or may not be moved; the text says why."""
+
+
 def nearest(name: str, known: list[str]) -> str:
     """Say which known name is meant, or list them: the tail of a 'wanted' text."""
     close = get_close_matches(name, known, n=1)

@@ -21,13 +21,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.model.arrays import Floats, Series1
-from equipoise.model.errors import InputError, MoveRefused, nearest
+from equipoise.model.mass_targets import checked_targets
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import Fault, SlidingMass
 from equipoise.simulation.clock import tick, tick_one
 
 REPORTED, CARRIAGE, HELD, REAL = range(4)  # rows of a displacement, m
-HAIR = 1e-9  # m, chosen: a target on the end of the rail may be rounded beyond it by so much
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,27 +79,8 @@ def share_of(t: float, start: Series1, end: Series1) -> Series1:
 def checked(
     travel: Travel, now: float, targets: Mapping[str, float], masses: Sequence[SlidingMass]
 ) -> dict[int, float]:
-    """Return targets by index, in whole steps (m); InputError or MoveRefused for the first bad."""
-    names = [mass.name for mass in masses]
-    here = displacement(travel, now)[REPORTED]
-    goals: dict[int, float] = {}
-    for name, asked in targets.items():
-        if name not in names:
-            wanted = nearest(name, names) if names else "no masses: this testbed has none"
-            raise InputError("move", f"a mass '{name}'", wanted)
-        if not np.isfinite(asked):
-            raise InputError(f"move: mass {name}", f"{asked}", "a displacement in m")
-        i = names.index(name)
-        goals[i] = in_steps(masses[i], float(asked))
-        low, high = masses[i].travel
-        if min(asked, goals[i]) < low - HAIR or max(asked, goals[i]) > high + HAIR:
-            raise MoveRefused(name, float(here[i]), float(asked), low, high)
-    return goals
-
-
-def in_steps(mass: SlidingMass, asked: float) -> float:
-    """Return the displacement (m) that a motor of this resolution is told to go to."""
-    return asked if mass.resolution == 0 else round(asked / mass.resolution) * mass.resolution
+    """Return targets by index, in whole steps (m); see ``model.mass_targets``."""
+    return checked_targets(masses, displacement(travel, now)[REPORTED], targets)
 
 
 def gain_of(faults: Sequence[Fault], name: str, move: int) -> float:
@@ -127,16 +107,32 @@ def sent(
     rng: np.random.Generator,
 ) -> Travel:
     """Return the masses on their way to goals (m); the others go on as they were."""
-    here = displacement(travel, now)
+    here = displacement(travel, now)[REPORTED]
+    way = replace(travel, moves=travel.moves + 1)
+    for i, goal in goals.items():
+        end = now + abs(goal - here[i]) / masses[i].speed
+        way = led(way, i, (now, end, goal), masses[i], faults, rng.standard_normal())
+    return way
+
+
+def led(
+    travel: Travel,
+    i: int,
+    leg: tuple[float, float, float],
+    mass: SlidingMass,
+    faults: Sequence[Fault],
+    normal: float,
+) -> Travel:
+    """Return mass ``i`` on a leg: when it starts, when it ends (s), and where (m)."""
+    now, until, goal = leg
+    here = displacement(travel, now)[:, i]
+    there = stop_of(here, goal, mass, gain_of(faults, mass.name, travel.moves), normal)
     start, taken, arrive = travel.start.copy(), travel.taken.copy(), travel.arrive.copy()
     begin, end = travel.begin.copy(), travel.end.copy()
-    for i, goal in goals.items():
-        gain = gain_of(faults, masses[i].name, travel.moves + 1)
-        start[i], begin[:, i] = now, here[:, i]
-        end[:, i] = stop_of(here[:, i], goal, masses[i], gain, rng.standard_normal())
-        arrive[i] = tick_one(now + abs(goal - here[REPORTED, i]) / masses[i].speed)
-        taken[i] = tick_one(now + free_share(here[:, i], end[:, i]) * (arrive[i] - now))
-    return Travel(start, taken, arrive, begin, end, travel.moves + 1)
+    start[i], begin[:, i], end[:, i] = now, here, there
+    arrive[i] = tick_one(until)
+    taken[i] = tick_one(now + free_share(here, there) * (arrive[i] - now))
+    return Travel(start, taken, arrive, begin, end, travel.moves)
 
 
 def free_share(here: Floats, there: Floats) -> float:

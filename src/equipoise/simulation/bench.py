@@ -62,6 +62,7 @@ from equipoise.simulation.sensor_errors import misfelt, misread, whole, whole_an
 
 REPORTS = 20.0  # Hz, chosen: how often devices report where no sensor sets the pace
 A_MOMENT = 1e-3  # s, chosen: the motion is followed on to now, or so far on when now is a node
+AT_ONCE = 1e-3  # s, chosen: a leg that begins so soon after another is the same way
 
 
 class SimulatedBench:
@@ -89,6 +90,7 @@ class SimulatedBench:
         self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
         self._travel = actuator.left_at(masses, standing or {}, self._stops_rng)
         self._track = actuator.retracked(actuator.track_home(masses), self._travel, 0.0)
+        self._normals = np.zeros(len(masses))  # stop errors of legs, of one sd
         self._noise = start_noise(truth.noise_torque, truth.noise_correlation, self._noise_rng)
         self._lead = max(lead(testbed.attitude), lead(testbed.gyro))
         self._time, self._read_until = 0.0, -1.0
@@ -127,6 +129,22 @@ class SimulatedBench:
         goals = actuator.checked(self._travel, self._time, targets, masses)
         travel = actuator.sent(self._travel, self._time, goals, masses, faults, self._stops_rng)
         self._command(travel)
+
+    def lead(self, name: str, start: float, end: float, displacement: float) -> None:
+        """Lead a mass on a leg, as a drive of its own does: from ``start`` to ``end`` (s), to m.
+
+        Nothing is checked: that is the drive's matter. A leg that follows at once has the stop
+        error of the one before.
+        """
+        i = self._testbed.mass_names.index(name)
+        fresh = start > self._travel.arrive[i] + AT_ONCE
+        if fresh:
+            self._travel = replace(self._travel, moves=self._travel.moves + 1)
+            self._normals[i] = self._stops_rng.standard_normal()
+        platform, leg = self.platform, (start, end, displacement)
+        mass, normal = platform.masses[i], float(self._normals[i])
+        travel = actuator.led(self._travel, i, leg, mass, platform.faults, normal)
+        self._travel, self._track = travel, actuator.retracked(self._track, travel, start)
 
     def drive(self, inputs: Mapping[str, float]) -> None:
         """Give devices their inputs (``model.devices``); all of them or none."""

@@ -1,5 +1,7 @@
 """`equipoise balance`: look, move, look again, until the verdict passes."""
 
+from collections.abc import Generator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,13 +16,14 @@ from equipoise.app.commands.by_hand import (
 from equipoise.app.commands.kinds import Flag, Triple, Whole
 from equipoise.app.commands.reading import WHOLE, Reading
 from equipoise.app.terminal import busy
+from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
     from equipoise.app.balancing import Balancing
     from equipoise.model.arrays import Vector3
+    from equipoise.model.bench import Bench
     from equipoise.model.manoeuvre import Manoeuvre
     from equipoise.model.testbed import Testbed
-    from equipoise.simulation.bench import SimulatedBench
 
 Until = tuple[int | None, float | None, float]  # moves, s, s of holding
 
@@ -39,11 +42,14 @@ def balance(
     hold_min: float = 0.0,
     by_hand: Manual = MOVED,
     reading: Reading = WHOLE,
+    bench: Flag = False,
+    record: Path | None = None,
     json: Flag = False,
     out: Path | None = None,
 ) -> int:
-    """Balance a simulated platform: look, move masses, look again; then test the result.
+    """Balance a platform: look, move masses, look again; then test the result.
 
+    The platform is simulated, or with --bench the real one that the testbed's [hardware] declares.
     With --manual a person places weights instead of masses that move, on a real platform if a
     --session is named. Ends with 1 when the verdict is that the platform is not balanced.
 
@@ -70,6 +76,10 @@ def balance(
         Then follow the drift and hold the balance for so many minutes. After look_and_move, which
         balances to a third of the tolerance before, since its errors stay; after momentum_buildup,
         whose masses follow the tilt too, by the sag that it found.
+    bench
+        Balance the real bench. Masses go home first; Ctrl-C halts them, a second one leaves.
+    record
+        With --bench: MCAP file to write as rows arrive, with every command and interlock.
     json
         Print one JSON document instead.
     out
@@ -81,8 +91,11 @@ def balance(
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
+    if record is not None and not bench:
+        raise InputError("--record", "no --bench", "a real bench, whose rows are recorded")
     if is_by_hand(by_hand, reading):
-        check_by_hand(by_hand, reading, _of_moving_masses(law, plan, until))
+        others = _of_moving_masses(law, plan, until) + ["--bench"] * bench
+        check_by_hand(by_hand, reading, others)
         from equipoise.app.balancing import Goal
 
         goal, seed = Goal(*where), seed_of(seed)
@@ -97,8 +110,8 @@ def balance(
         from equipoise.procedure.laws import CARDS
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
-        bench = _bench(bed, planned, seed)
-    done = run(bench, Goal(*where), limits, None if json else show_step)
+    with _real(bed, record) if bench else _simulated(bed, planned, seed) as platform:
+        done = run(platform, Goal(*where), limits, None if json else show_step)
     _tell(done, seed, json, out)
     return 0 if done.verdict.passed else 1
 
@@ -137,12 +150,26 @@ def _planned(plan: Path, bed: "Testbed") -> "Manoeuvre":
     return read_plan(plan, bed).manoeuvre
 
 
-def _bench(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "SimulatedBench":
+@contextmanager
+def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Generator[Bench]":
     """Return the simulated platform, let go as planned if there is a plan."""
-    from equipoise.simulation.bench import SimulatedBench
-    from equipoise.simulation.carried_out import bench_for
+    with busy("preparing the bench", announce=False):
+        from equipoise.simulation.bench import SimulatedBench
+        from equipoise.simulation.carried_out import bench_for
 
-    return SimulatedBench(bed, seed) if planned is None else bench_for(bed, planned, seed)
+        bench = SimulatedBench(bed, seed) if planned is None else bench_for(bed, planned, seed)
+    yield bench
+
+
+@contextmanager
+def _real(bed: "Testbed", record: Path | None) -> "Generator[Bench]":
+    """Return the real platform, masses at home and every sensor giving rows."""
+    from equipoise.app.kept_bench import real_bench
+
+    with ExitStack() as held:
+        with busy("the masses go home", announce=False):
+            bench = held.enter_context(real_bench(bed, record))
+        yield bench
 
 
 def _tell(done: "Balancing", seed: int, json: bool, out: Path | None) -> None:

@@ -1,0 +1,44 @@
+"""`equipoise check`: talk to each device, and say what is wrong in words."""
+
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Flag
+from equipoise.app.terminal import busy, stdout
+
+if TYPE_CHECKING:
+    from equipoise.app.bench_check import Told
+
+STREAMED = 2.0  # s of every sensor, as the usage says
+
+
+def check(testbed: str, /, *, yes: Flag = False) -> int:
+    """Talk to each device of a real bench: boards, sensors, frames; move each mass 1 mm and back.
+
+    Masses go home first. Turn the platform a little by hand while the sensors stream, so that the
+    signs of gyro and attitude can be compared. Ends with 1 when something is wrong.
+
+    Parameters
+    ----------
+    testbed
+        Testbed file with a [hardware] table.
+    yes
+        Move masses without asking.
+    """
+    from equipoise.app.bench_check import checked_bench
+    from equipoise.app.wiring import testbed_of
+
+    bed = testbed_of(testbed)
+    told: list[Told] = []
+    with busy("talking to the devices", announce=False):
+        steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else _asked)
+        for line in steps:
+            mark, style = ("ok     ", None) if line.good else ("PROBLEM", "bold red")
+            stdout().print(f"{mark}  {line.sentence}", style=style, markup=False)
+            told.append(line)
+    return 0 if all(line.good for line in told) else 1
+
+
+def _asked(question: str) -> bool:
+    """Ask a person; anything but yes is no."""
+    stdout().print(f"{question} [y/n] ", end="", markup=False)
+    return input().strip().lower() in ("y", "yes")

@@ -1,0 +1,60 @@
+"""`equipoise emulate`: a bench of emulated devices, to try the real thing without hardware."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Whole
+from equipoise.app.terminal import stdout
+
+if TYPE_CHECKING:
+    from equipoise.app.emulation import EmulatedBench
+
+
+def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | None = None) -> int:
+    """Start emulated devices that speak the real protocols, moved by a simulated platform.
+
+    They run until Ctrl-C. Meanwhile other commands reach them through the testbed file that is
+    written: equipoise balance OUT --bench.
+
+    Parameters
+    ----------
+    testbed
+        Testbed file with a [hardware] table, or a preset's name.
+    out
+        Testbed file to write: the same, with the ports at which the emulated devices are reached.
+    seed
+        Seed of all that is drawn: the same seed gives the same platform.
+    max_time_s
+        End by itself after so long.
+    """
+    from equipoise.app.emulation import emulate as emulated
+    from equipoise.app.options import positive, seed_of
+    from equipoise.app.wiring import testbed_of
+    from equipoise.io.testbed_file import write_testbed
+
+    longest = float("inf") if max_time_s is None else positive("--max-time-s", max_time_s)
+    bench = emulated(testbed_of(testbed), seed_of(seed))
+    try:
+        bed = bench.testbed()
+        write_testbed(bed, out)
+        assert bed.hardware is not None
+        for device in (*bed.hardware.boards, *bed.hardware.sensors):
+            stdout().print(f"{device.name}: {device.driver} at {device.port.address}", markup=False)
+        stdout().print(f"wrote {out}; Ctrl-C ends the emulation", markup=False)
+        _run(bench, longest)
+    finally:
+        bench.close()
+    return 0
+
+
+def _run(bench: "EmulatedBench", longest: float) -> None:
+    """Run as the clock on the wall does, until then or until Ctrl-C."""
+    from equipoise.hardware.wall_clock import WallClock
+
+    clock = WallClock()
+    try:
+        while clock.now < longest:
+            bench.run(clock.now)
+            clock.wait()
+    except KeyboardInterrupt:
+        stdout().print("the emulation has ended", markup=False)

@@ -1,0 +1,42 @@
+"""`equipoise record`: what a real bench shows, into a file that survives anything."""
+
+from pathlib import Path
+
+from equipoise.app.terminal import counted, stdout
+
+OFTEN = 0.5  # s, between signs of life
+
+
+def record(testbed: str, /, *, out: Path, duration_s: float = 60.0) -> int:
+    """Record every sensor of a real bench; masses stay where they are.
+
+    Rows are written as they arrive: what is older than a second is safe whatever happens. Ctrl-C
+    ends the record early.
+
+    Parameters
+    ----------
+    testbed
+        Testbed file with a [hardware] table.
+    out
+        MCAP file to write.
+    duration_s
+        How long.
+    """
+    from equipoise.app.kept_bench import real_bench
+    from equipoise.app.options import positive
+    from equipoise.app.wiring import testbed_of
+    from equipoise.io.whole_file import check_writable
+
+    duration = positive("--duration-s", duration_s)
+    bed = testbed_of(testbed)
+    check_writable(out)
+    with real_bench(bed, out, homing=False) as bench, counted("recording") as so_far:
+        begin = bench.time
+        try:
+            while (passed := bench.time - begin) < duration:
+                bench.read(min(OFTEN, duration - passed))
+                so_far(min(passed / duration, 1.0))
+        except KeyboardInterrupt:
+            pass
+    stdout().print(f"wrote {out}", markup=False)
+    return 0

@@ -1,0 +1,100 @@
+"""A real bench as a command uses it: wired, locked, recorded, in a process of its own."""
+
+from collections.abc import Generator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import time_ns
+
+from equipoise.app.emulation import hardware_of
+from equipoise.hardware.board_link import BoardLink
+from equipoise.hardware.boards.registry import BOARDS
+from equipoise.hardware.connection import Connection, Opener
+from equipoise.hardware.driver import driver_named
+from equipoise.hardware.keeper import Keeper, Links
+from equipoise.hardware.one_commander import commanding
+from equipoise.hardware.own_process import DistantKeeper
+from equipoise.hardware.port import open_port
+from equipoise.hardware.real_bench import RealBench
+from equipoise.hardware.sensor_link import SensorLink
+from equipoise.hardware.sensors.registry import DRIVERS
+from equipoise.io.live_recording import LiveRecording, Opening
+from equipoise.io.testbed_text import text_of_testbed
+from equipoise.model.testbed import Testbed
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Wanted:
+    """What the keeper's process is told when it begins."""
+
+    testbed: Testbed
+    record: Path | None  # MCAP file to write; None: no record
+
+
+class KeptBench:
+    """A keeper and its record, in the process that has the ports."""
+
+    def __init__(self, wanted: Wanted) -> None:
+        self._held = ExitStack()
+        try:
+            self.keeper = self._begun(wanted)
+        except BaseException:
+            self._held.close()
+            raise
+
+    def _begun(self, wanted: Wanted) -> Keeper:
+        hardware = hardware_of(wanted.testbed)
+        devices = (*hardware.boards, *hardware.sensors)
+        self._held.enter_context(commanding([device.port.address for device in devices]))
+        keeper = keeper_of(wanted.testbed)
+        self._held.callback(keeper.close)
+        if wanted.record is not None:
+            drivers = {device.name: device.driver for device in devices}
+            opening = Opening(time_ns(), text_of_testbed(wanted.testbed), drivers)
+            live = LiveRecording(wanted.record, opening)
+            self._held.callback(live.close)
+            keeper.listen(live)
+        return keeper
+
+    def close(self) -> None:
+        """Stop every mass, close ports, end the record."""
+        self._held.close()
+
+
+def keeper_of(testbed: Testbed, opener: Opener = open_port) -> Keeper:
+    """Return the keeper of a testbed's hardware; ports are opened at its first turn."""
+    hardware = hardware_of(testbed)
+    boards = [
+        BoardLink(
+            board,
+            driver_named(BOARDS, board.driver, "board")(board, testbed.masses),
+            Connection(board.port, opener),
+        )
+        for board in hardware.boards
+    ]
+    sensors = [
+        SensorLink(
+            unit, driver_named(DRIVERS, unit.driver, "sensor")(unit), Connection(unit.port, opener)
+        )
+        for unit in hardware.sensors
+    ]
+    return Keeper(testbed, hardware, Links(boards, sensors))
+
+
+@contextmanager
+def real_bench(testbed: Testbed, record: Path | None, homing: bool = True) -> Generator[RealBench]:
+    """Return the bench, ready: every device answers, masses are at home, sensors give rows.
+
+    Without ``homing`` masses stay where they are, and nothing can be moved.
+    When the block ends, however it ends, masses are halted and the record is closed.
+    """
+    distant = DistantKeeper(testbed, KeptBench, Wanted(testbed, record))
+    try:
+        bench = RealBench(distant, distant)
+        if homing:
+            bench.start()
+        else:
+            bench.watch()
+        yield bench
+    finally:
+        distant.close()

@@ -1,0 +1,313 @@
+"""Grbl 1.1, the usual firmware of stepper boards; G-code over a serial line or TCP.
+
+Masses move by jogs, $J=G53 G21 G90 X.. F.., in machine coordinates: a jog beyond the travel is
+refused and locks nothing, and what is queued of it is thrown away by a hold, so that nothing goes
+on by itself afterwards. One leg is sent when less than a leg is left of what was sent before.
+
+    displacement = position - zero, or the negative of it where the axis is reversed
+
+A board that has just been opened is reset: what it did before is over, and it must home. Masses
+without switches are put at home by a person, whose word is ``home``. Source: Grbl 1.1 wiki,
+"Interface", "Jogging", "Configuration".
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from equipoise.hardware.boards.grbl_report import (
+    Code,
+    Ok,
+    Report,
+    Setting,
+    Status,
+    Welcome,
+    parsed,
+)
+from equipoise.hardware.boards.grbl_settings import LETTERS, disagreement
+from equipoise.hardware.boards.grbl_words import alarm_sentence, error_sentence
+from equipoise.hardware.boards.legs import next_leg, time_left
+from equipoise.hardware.driver import ASK, ASK_MOVING, LEG, SILENCE, BoardState, Phase
+from equipoise.hardware.lines import Lines
+from equipoise.model.errors import BenchStopped
+from equipoise.model.hardware import MotorBoard
+from equipoise.model.reading import Counts
+from equipoise.model.testbed import SlidingMass
+
+RESET, HOLD, RESUME, CANCEL = b"\x18", b"!", b"~", b"\x85"
+PER_MM, PER_MIN = 1e3, 60.0
+BEGIN = 4.0  # s, chosen: an Arduino's loader takes two of them after the port is opened
+TRY = 1.5  # s, chosen: between resets while it has not begun
+LONGEST_HOMING = 60.0  # s, chosen: it answers nothing meanwhile
+THERE = 2e-6  # m, chosen: positions are told to 1 um
+SETTLED = 0.3  # s, chosen: standing for so long, it goes nowhere else
+
+
+class Grbl:
+    """The conversation with one board."""
+
+    def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
+        self._board, self._masses = board, tuple(masses)
+        self._speed = {mass.name: mass.speed for mass in masses}
+        self._lines = Lines()
+        self._counts: Counts = Counts()
+        self._zero = {axis.mass: axis.zero for axis in board.axes}
+        self._state = BoardState("connecting")
+        self._begin(0.0)
+
+    def _begin(self, t: float) -> None:
+        self._settings: dict[int, float] = {}
+        self._offset: tuple[float, ...] | None = None
+        self._urgent = b""  # to be sent before anything else
+        self._todo: list[str] = []  # of finding the position: settings, home, zero
+        self._awaited = ""  # what the next ok is for
+        self._sent: dict[str, float] = {}  # m, where the legs sent so far end
+        self._since, self._tried, self._asked = t, t, t
+        self._still = t  # s, since when it says that it stands
+        self._said = ""  # its last state
+
+    @property
+    def state(self) -> BoardState:
+        """What is known of it now."""
+        return self._state
+
+    @property
+    def counts(self) -> Counts:
+        """How much was understood since the port was opened."""
+        return self._counts
+
+    def opened(self, t: float) -> None:
+        """Begin anew, with a reset."""
+        self._lines.cleared()
+        self._counts = Counts()
+        self._begin(t)
+        self._state = BoardState("connecting")
+        self._urgent = RESET
+
+    def closed(self, t: float, why: str) -> None:
+        """Note that the port is gone."""
+        self._fault(f"its port is gone ({why}): unplugged, or without power", lost=True)
+
+    def feed(self, data: bytes, t: float) -> None:
+        """Take in what has arrived."""
+        for line in self._lines.cut(data):
+            report = parsed(line)
+            if report is None:
+                self._counts = replace(self._counts, corrupt=self._counts.corrupt + 1)
+            else:
+                self._counts = replace(self._counts, good=self._counts.good + 1)
+                self._heard(report, t)
+
+    def due(self, t: float) -> bytes:
+        """Return what to send now."""
+        self._watch(t)
+        said, self._urgent = self._urgent, b""
+        if self._state.phase != "connecting" and t - self._asked >= self._pause - 1e-9:
+            self._asked = t
+            said += b"?"
+        return said + self._next(t)
+
+    def home(self, t: float) -> None:
+        """Find the position, then go to displacement zero."""
+        self._state = BoardState("homing", reported=self._state.reported)
+        self._todo = ["settings", "home" if self._board.homing else "unlock", "zero"]
+        self._awaited, self._sent, self._since = "", {}, t
+
+    def go(self, goals: Mapping[str, float], t: float) -> None:
+        """Send masses on their way to displacements (m); BenchStopped while they may not move."""
+        if self._state.phase not in ("ready", "moving") or not self._state.sure:
+            why = self._state.sentence or f"it is {self._state.phase}, its position not known"
+            raise BenchStopped(f"board {self._board.name}: {why}")
+        self._aim({**self._state.goal, **goals})
+
+    def halt(self, t: float) -> None:
+        """Stop at once, slowing down in order; a homing is broken off by a reset."""
+        if self._state.phase == "homing":
+            self._urgent = RESET
+            self._fault("homing was broken off", lost=True)
+        elif self._state.phase == "moving":
+            self._urgent = HOLD + CANCEL
+            self._state = replace(self._state, phase="halted")
+            self._still = t
+
+    # --- What it says ------------------------------------------------------------------------
+
+    def _heard(self, report: Report, t: float) -> None:
+        if isinstance(report, Status):
+            self._status(report, t)
+        elif isinstance(report, Setting):
+            self._settings[report.number] = report.value
+        elif isinstance(report, Ok):
+            self._taken(t)
+        elif isinstance(report, Code):
+            self._trouble(report)
+        elif isinstance(report, Welcome):
+            self._welcomed(t)
+
+    def _welcomed(self, t: float) -> None:
+        nothing_lost = self._state.phase in ("halted", "ready") and not self._state.sure
+        if self._state.phase == "connecting" or nothing_lost:  # opening a port may reset it twice
+            self._todo, self._awaited, self._since = ["settings"], "", t
+            self._state = replace(self._state, phase="halted", reported=t)
+        elif self._state.phase != "fault":
+            self._fault("it began anew: its power failed or somebody reset it", lost=True)
+
+    def _trouble(self, code: Code) -> None:
+        if code.alarm:
+            self._fault(alarm_sentence(code.number), lost=True)
+        elif self._awaited:
+            what, self._awaited = self._awaited, ""
+            self._fault(error_sentence(code.number), lost=what != "leg")
+
+    def _taken(self, t: float) -> None:
+        """Note that the line under way was taken."""
+        done, self._awaited = self._awaited, ""
+        if done == "settings":
+            wrong = disagreement(self._board, self._masses, self._settings)
+            if wrong:
+                self._fault(f"{wrong}; mend one of the two", lost=True)
+            elif self._state.phase == "halted":
+                self._state = replace(self._state, phase="ready")
+        self._since = t
+
+    def _status(self, status: Status, t: float) -> None:
+        self._offset = status.offset or self._offset
+        machine = status.machine
+        if machine is None and status.work is not None and self._offset is not None:
+            machine = tuple(a + b for a, b in zip(status.work, self._offset, strict=False))
+        if status.state != self._said:
+            self._said, self._still = status.state, t
+        if machine is None:
+            self._state = replace(self._state, reported=t)
+            return
+        position = {
+            axis.mass: self._displacement(axis.mass, machine[LETTERS.index(axis.letter)])
+            for axis in self._board.axes
+            if LETTERS.index(axis.letter) < len(machine)
+        }
+        self._state = replace(self._state, position=position, reported=t)
+        self._settle(t)
+
+    def _settle(self, t: float) -> None:
+        """Let a way or a halt end when the board stands."""
+        state = self._state
+        if self._said == "Hold" and state.phase in ("halted", "ready"):
+            self._urgent = RESUME  # what it held was a jog, which is thrown away
+        if self._awaited or self._said != "Idle" or self._todo:
+            return
+        if state.phase == "halted" and t - self._still >= ASK and self._settings:
+            self._state = replace(state, phase="ready", goal=dict(state.position))
+        elif state.phase in ("moving", "homing") and state.goal and self._sent == state.goal:
+            there = max(abs(state.position[k] - v) for k, v in state.goal.items()) <= THERE
+            if there or t - max(self._still, self._since) > SETTLED:
+                self._state = replace(state, phase="ready", sure=True)
+
+    # --- What it is told ---------------------------------------------------------------------
+
+    def _next(self, t: float) -> bytes:
+        """Return the next line, one at a time."""
+        phase = self._state.phase
+        if self._awaited or phase in ("connecting", "fault"):
+            return b""
+        if self._todo:
+            return self._seek(t)
+        if phase in ("moving", "homing"):
+            return self._leg(t)
+        return self._stop_again(t)
+
+    def _seek(self, t: float) -> bytes:
+        """Return the next step of finding the position."""
+        step = self._todo[0]
+        if step == "zero":
+            return self._found(t)
+        self._todo.pop(0)
+        self._awaited, self._since = step, t
+        if step == "settings":
+            self._settings = {}
+        return {"settings": b"$$\n", "home": b"$H\n", "unlock": b"$X\n"}[step]
+
+    def _found(self, t: float) -> bytes:
+        """Begin the way to displacement zero once the board says where it is after homing."""
+        if self._said not in ("Idle", "Alarm") or (self._state.reported or 0.0) <= self._since:
+            return b""
+        if not self._state.position or self._said == "Alarm":
+            return b""
+        self._todo.pop(0)
+        if not self._board.homing:
+            for axis in self._board.axes:
+                sign = -1.0 if axis.reversed else 1.0
+                self._zero[axis.mass] += sign * self._state.position[axis.mass]
+            position = dict.fromkeys(self._state.position, 0.0)
+            self._state = replace(self._state, position=position)
+        self._aim(dict.fromkeys(self._state.position, 0.0))
+        return b""
+
+    def _aim(self, goal: Mapping[str, float]) -> None:
+        """Take up a goal; legs are sent from where the last ones end."""
+        if self._state.phase == "ready" or not self._sent:
+            self._sent = dict(self._state.position)
+        phase: Phase = "homing" if self._state.phase == "homing" else "moving"
+        whole = {name: goal.get(name, at) for name, at in self._sent.items()}
+        self._state = replace(self._state, phase=phase, goal=whole)
+
+    def _leg(self, t: float) -> bytes:
+        """Return the next leg when little is left of those before."""
+        if time_left(self._state.position, self._sent, self._speed) > LEG:
+            return b""
+        way = next_leg(self._sent, self._state.goal, self._speed)
+        if way is None:
+            self._sent = dict(self._state.goal)
+            return b""
+        words, square = "", 0.0
+        for axis in self._board.axes:
+            if axis.mass in way.to:
+                words += f" {axis.letter}{self._position(axis.mass, way.to[axis.mass]):.4f}"
+                square += (PER_MM * (way.to[axis.mass] - self._sent[axis.mass])) ** 2
+        feed = max(square**0.5 / way.duration * PER_MIN, 1.0)
+        self._sent = {**self._sent, **way.to}
+        self._awaited, self._since = "leg", t
+        return f"$J=G53 G21 G90{words} F{feed:.2f}\n".encode()
+
+    def _stop_again(self, t: float) -> bytes:
+        """Hold a leg, too, that was on its way to the board when it was told to hold."""
+        again = self._state.phase == "halted" and self._said in ("Jog", "Run")
+        return CANCEL if again and t - self._still > ASK else b""
+
+    # --- Time and trouble --------------------------------------------------------------------
+
+    @property
+    def _pause(self) -> float:
+        return ASK_MOVING if self._state.phase in ("moving", "homing", "halted") else ASK
+
+    def _watch(self, t: float) -> None:
+        """Notice a board that says nothing."""
+        if self._state.phase == "connecting":
+            if t - self._since > BEGIN:
+                self._fault("it does not answer: unplugged, without power, or no Grbl", lost=True)
+            elif t - self._tried > TRY:
+                self._tried, self._urgent = t, RESET
+            return
+        if self._state.phase == "fault":
+            return
+        patience = LONGEST_HOMING if self._awaited == "home" else SILENCE
+        heard = max(self._state.reported or 0.0, self._since)
+        if t - heard > patience:
+            self._fault("it does not answer: unplugged, or without power", lost=True)
+
+    def _fault(self, sentence: str, lost: bool) -> None:
+        self._todo, self._awaited = [], ""
+        sure = self._state.sure and not lost
+        self._state = replace(self._state, phase="fault", sentence=sentence, sure=sure)
+        if not lost:
+            self._urgent = CANCEL
+
+    def _displacement(self, name: str, position_mm: float) -> float:
+        sign = -1.0 if self._reversed(name) else 1.0
+        return sign * (position_mm / PER_MM - self._zero[name])
+
+    def _position(self, name: str, displacement: float) -> float:
+        """Return the board's position, mm."""
+        sign = -1.0 if self._reversed(name) else 1.0
+        return PER_MM * (self._zero[name] + sign * displacement)
+
+    def _reversed(self, name: str) -> bool:
+        return next(axis.reversed for axis in self._board.axes if axis.mass == name)

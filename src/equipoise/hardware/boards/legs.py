@@ -1,0 +1,45 @@
+"""Long ways cut into legs, so that a board never knows more of a way than two legs.
+
+Each mass goes at its own speed until it is there, as on a simulated bench: a leg ends when the
+first mass arrives, or after ``LEG``. A mass that crept along for as long as the slowest needs would
+not be seen to move by what looks for moves in a recording.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from equipoise.hardware.driver import LEG
+
+HAIR = 1e-7  # m, chosen: a way shorter than any step is none
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """A leg: where masses go (m), and the time that it takes (s)."""
+
+    to: Mapping[str, float]
+    duration: float
+
+
+def next_leg(
+    here: Mapping[str, float], goal: Mapping[str, float], speed: Mapping[str, float]
+) -> Way | None:
+    """Return the next leg from where masses will be, at ``speed`` m/s; None if they are there."""
+    ways = {name: goal[name] - here[name] for name in goal}
+    ways = {name: way for name, way in ways.items() if abs(way) > HAIR}
+    if not ways:
+        return None
+    left = {name: abs(way) / speed[name] for name, way in ways.items()}
+    taken = min([LEG, *left.values()])
+    to = {
+        name: goal[name] if left[name] <= taken else here[name] + way * taken / left[name]
+        for name, way in ways.items()
+    }
+    return Way(to, taken)
+
+
+def time_left(
+    here: Mapping[str, float], goal: Mapping[str, float], speed: Mapping[str, float]
+) -> float:
+    """Return how long masses still need to a goal, s."""
+    return max((abs(goal[name] - here[name]) / speed[name] for name in goal), default=0.0)

@@ -1,0 +1,202 @@
+"""Far sides of ports on this computer: where an emulated device is reached.
+
+A serial line becomes a pseudo terminal, a network bridge or a camera's server a TCP port of the
+loopback, a UDP device sends to a port of the loopback. What nobody listens to is dropped, as on a
+real wire.
+"""
+
+import errno
+import os
+import socket
+from contextlib import suppress
+from typing import Protocol
+
+from equipoise.model.errors import InputError
+from equipoise.model.hardware import Port
+
+LOOPBACK = "127.0.0.1"
+CHUNK = 65536  # bytes, taken at once
+FULL = 1 << 20  # bytes, chosen: kept for a listener that is slow; what is older is dropped
+
+
+class FarSide(Protocol):
+    """The end of a wire where the device is."""
+
+    @property
+    def address(self) -> str:
+        """Where the other end is, as ``model.hardware`` has it."""
+        ...
+
+    def receive(self) -> bytes:
+        """Return what has been sent to the device."""
+        ...
+
+    def send(self, data: bytes) -> None:
+        """Send to whoever listens."""
+        ...
+
+    def close(self) -> None:
+        """Pull it out."""
+        ...
+
+
+class Outbox:
+    """Bytes on their way to a listener who may be slow; the oldest go when there are too many."""
+
+    def __init__(self) -> None:
+        self.waiting = b""
+
+    def add(self, data: bytes) -> None:
+        """Put more behind."""
+        self.waiting = (self.waiting + data)[-FULL:]
+
+    def sent(self, count: int) -> None:
+        """Take away what is gone."""
+        self.waiting = self.waiting[count:]
+
+
+class PtyFarSide:
+    """A pseudo terminal."""
+
+    def __init__(self) -> None:
+        import tty
+
+        self._master, self._slave = os.openpty()
+        tty.setraw(self._slave)
+        os.set_blocking(self._master, False)
+        self.address = f"serial:{os.ttyname(self._slave)}"
+        self._outbox = Outbox()
+
+    def receive(self) -> bytes:
+        """Return what has been sent to the device."""
+        self._flush()
+        try:
+            return os.read(self._master, CHUNK)
+        except OSError as error:
+            if error.errno in (errno.EAGAIN, errno.EIO):  # nothing, or nobody holds the other end
+                return b""
+            raise
+
+    def send(self, data: bytes) -> None:
+        """Send to whoever listens."""
+        self._outbox.add(data)
+        self._flush()
+
+    def close(self) -> None:
+        """Pull it out."""
+        os.close(self._master)
+        os.close(self._slave)
+
+    def _flush(self) -> None:
+        with suppress(BlockingIOError):
+            while self._outbox.waiting:
+                self._outbox.sent(os.write(self._master, self._outbox.waiting))
+
+
+class TcpFarSide:
+    """A server on the loopback, for one listener at a time; the newest counts."""
+
+    def __init__(self, scheme: str = "tcp", path: str = "", number: int = 0) -> None:
+        self._server = socket.create_server((LOOPBACK, number))
+        self._server.setblocking(False)
+        host = f"{LOOPBACK}:{self._server.getsockname()[1]}"
+        self.address = f"{scheme}:{host}" if scheme == "tcp" else f"{scheme}://{host}{path}"
+        self._line: socket.socket | None = None
+        self._outbox = Outbox()
+
+    def receive(self) -> bytes:
+        """Return what has been sent to the device."""
+        self._accept()
+        self._flush()
+        if self._line is None:
+            return b""
+        try:
+            data = self._line.recv(CHUNK)
+        except BlockingIOError:
+            return b""
+        except OSError:
+            data = b""
+        if not data:
+            self._hang_up()
+        return data
+
+    def send(self, data: bytes) -> None:
+        """Send to whoever listens."""
+        self._accept()
+        if self._line is not None:
+            self._outbox.add(data)
+            self._flush()
+
+    def close(self) -> None:
+        """Pull it out."""
+        self._hang_up()
+        self._server.close()
+
+    def _accept(self) -> None:
+        with suppress(BlockingIOError):
+            line, _ = self._server.accept()
+            self._hang_up()
+            line.setblocking(False)
+            line.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            self._line = line
+
+    def _flush(self) -> None:
+        try:
+            while self._line is not None and self._outbox.waiting:
+                self._outbox.sent(self._line.send(self._outbox.waiting))
+        except BlockingIOError:
+            pass
+        except OSError:
+            self._hang_up()
+
+    def _hang_up(self) -> None:
+        if self._line is not None:
+            self._line.close()
+        self._line, self._outbox = None, Outbox()
+
+
+class UdpFarSide:
+    """A sender of datagrams to a port of the loopback."""
+
+    def __init__(self, number: int) -> None:
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.bind((LOOPBACK, 0))
+        self._socket.setblocking(False)
+        self._to = (LOOPBACK, number)
+        self.address = f"udp:{LOOPBACK}:{number}"
+
+    def receive(self) -> bytes:
+        """Return what has been sent to the device."""
+        with suppress(OSError):  # nothing, or nobody hears us yet
+            return self._socket.recv(CHUNK)
+        return b""
+
+    def send(self, data: bytes) -> None:
+        """Send to whoever listens."""
+        with suppress(OSError):
+            self._socket.sendto(data, self._to)
+
+    def close(self) -> None:
+        """Pull it out."""
+        self._socket.close()
+
+
+def free_udp_port() -> int:
+    """Return a port of the loopback that nobody holds now."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as trial:
+        trial.bind((LOOPBACK, 0))
+        return int(trial.getsockname()[1])
+
+
+def far_side(port: Port) -> FarSide:
+    """Return a far side of the kind that a port's address asks for."""
+    scheme, _, rest = port.address.partition(":")
+    if scheme == "serial":
+        return PtyFarSide() if hasattr(os, "openpty") else TcpFarSide()
+    if scheme == "tcp":
+        return TcpFarSide()
+    if scheme == "http":
+        return TcpFarSide("http", "/" + rest.removeprefix("//").partition("/")[2])
+    if scheme == "udp":
+        return UdpFarSide(free_udp_port())
+    raise InputError(f"port {port.address}", f"'{scheme}:'", "serial, tcp, udp or http to emulate")

@@ -1,0 +1,245 @@
+"""The keeper of a bench: its ports, its interlocks, and all that they say, turn by turn.
+
+One turn looks at every port, feeds the drivers, asks the interlocks, sends what is due and hands
+on what was heard. It does not wait and knows no clock. Whoever commands can be lost at any moment:
+then ``halt`` is called for it.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from equipoise.hardware.board_link import BoardLink
+from equipoise.hardware.heard import Heard
+from equipoise.hardware.interlocks import LAST, Seen, Trip, silence, tripped
+from equipoise.hardware.sensor_link import SensorLink
+from equipoise.model.arrays import Floats
+from equipoise.model.errors import BenchStopped, EquipoiseError
+from equipoise.model.hardware import Hardware
+from equipoise.model.mass_targets import checked_targets
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+REMEMBERED = 0.2  # s, chosen: between the two answers from which a mass's speed is told
+
+
+class Listener(Protocol):
+    """Who is told all that happens: a recording, a live view."""
+
+    def rows(self, recording: Recording) -> None:
+        """Take rows as they arrive."""
+        ...
+
+    def event(self, t: float, kind: str, sentence: str, data: Mapping[str, object]) -> None:
+        """Take a command, an interlock or a note, at t s."""
+        ...
+
+    def turn(self, t: float) -> None:
+        """Note that time has passed."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Links:
+    """The devices of a bench, each with its port."""
+
+    boards: Sequence[BoardLink]
+    sensors: Sequence[SensorLink]
+
+
+class Keeper:
+    """See above; ``hardware`` is the testbed's own."""
+
+    def __init__(self, testbed: Testbed, hardware: Hardware, links: Links) -> None:
+        self._testbed, self.links = testbed, links
+        self._limits = hardware.limits
+        self._listeners: list[Listener] = []
+        self._attitudes: list[tuple[float, Floats]] = []
+        self._rates: list[tuple[float, Floats]] = []
+        self._before: dict[str, tuple[float, float]] = {}
+        self._silent = ""
+        self._heard = Heard(testbed.masses)
+        self.t = 0.0
+        self._trip: Trip | None = None
+
+    @property
+    def testbed(self) -> Testbed:
+        """What is known of the bench beforehand."""
+        return self._testbed
+
+    @property
+    def trip(self) -> Trip | None:
+        """Why every motor is stopped; None: none is."""
+        return self._trip
+
+    def listen(self, listener: Listener) -> None:
+        """Tell someone all that happens from now on."""
+        self._listeners.append(listener)
+
+    def turn(self, t: float) -> None:
+        """Look at everything once."""
+        self.t = t
+        for link in self.links.sensors:
+            self._sensed(link, t)
+        for link in self.links.boards:
+            link.turn(t)
+        self._heard.masses(self.positions, self._reported)
+        self._guard(t)
+        for link in self.links.boards:
+            link.send(t)
+        self._tell(t)
+
+    def taken(self) -> Recording:
+        """Return the rows heard since this was last asked."""
+        return self._heard.taken()
+
+    @property
+    def positions(self) -> dict[str, float]:
+        """Where the boards say that masses are, m."""
+        return {k: v for link in self.links.boards for k, v in link.driver.state.position.items()}
+
+    @property
+    def ready(self) -> bool:
+        """Say whether every board stands and knows where."""
+        states = [link.driver.state for link in self.links.boards]
+        return all(state.phase == "ready" and state.sure for state in states)
+
+    @property
+    def answered(self) -> bool:
+        """Say whether every board has said how it is."""
+        states = [link.driver.state for link in self.links.boards]
+        return all(state.phase != "connecting" for state in states)
+
+    @property
+    def fresh(self) -> bool:
+        """Say whether every sensor gives rows."""
+        return silence(self._seen(self.t), self._limits) is None
+
+    @property
+    def trouble(self) -> str:
+        """What keeps masses from being moved now; empty if nothing does."""
+        quiet = silence(self._seen(self.t), self._limits)
+        if quiet is not None:
+            return quiet.sentence
+        for link in self.links.boards:
+            if link.why:
+                return f"board {link.board.name} cannot be reached: {link.why}"
+            state = link.driver.state
+            if state.phase == "fault" or not state.sure:
+                why = state.sentence or "it has not found its position"
+                return f"board {link.board.name}: {why}"
+        return ""
+
+    def home(self) -> None:
+        """Let every board find its position; ends a stop whose cause is gone."""
+        self._note("command", "home", {})
+        self._trip = None
+        self._before = {}
+        for link in self.links.boards:
+            link.driver.home(self.t)
+
+    def go(self, targets: Mapping[str, float]) -> None:
+        """Send masses to displacements (m): all or none.
+
+        Raises InputError or MoveRefused for a target that cannot be, BenchStopped while masses
+        may not move.
+        """
+        here = np.array([self.positions.get(name, 0.0) for name in self._testbed.mass_names])
+        goals = checked_targets(self._testbed.masses, here, targets)
+        why = self._trip.sentence if self._trip is not None else self.trouble
+        if why:
+            raise BenchStopped(f"nothing was moved: {why}")
+        by_name = {self._testbed.masses[i].name: goal for i, goal in goals.items()}
+        self._note("command", "go", by_name)
+        for link in self.links.boards:
+            own = {
+                axis.mass: by_name[axis.mass] for axis in link.board.axes if axis.mass in by_name
+            }
+            if own:
+                link.driver.go(own, self.t)
+
+    def halt(self, sentence: str = "") -> None:
+        """Stop every mass; with a sentence, masses stay until ``home``."""
+        if sentence:
+            self._stop(Trip("operator", sentence))
+            return
+        self._note("command", "halt", {})
+        self._halt_boards()
+
+    def close(self) -> None:
+        """Stop every mass and close every port."""
+        self._halt_boards()
+        for link in self.links.boards:
+            link.send(self.t)
+        for link in (*self.links.boards, *self.links.sensors):
+            link.close()
+
+    def _sensed(self, link: SensorLink, t: float) -> None:
+        for row in link.turn(t):
+            if self._heard.row(row):
+                last = self._attitudes if row.channel == "attitude" else self._rates
+                last.append((row.t, row.values))
+                del last[:-LAST]
+
+    def _guard(self, t: float) -> None:
+        """Ask the interlocks; note a sensor that falls silent or comes back while masses stand."""
+        seen = self._seen(t)
+        found = tripped(seen, self._testbed, self._limits)
+        if found is not None and (self._trip is None or self._trip.kind != found.kind):
+            self._stop(found)
+        quiet = silence(seen, self._limits)
+        said = "" if quiet is None else quiet.sentence.split(" has ")[0]
+        if said != self._silent:
+            text = f"{said} is silent" if said else f"{self._silent} gives rows again"
+            self._note("interlock", text, {})
+            self._silent = said
+        self._remember(t)
+
+    def _seen(self, t: float) -> Seen:
+        silent = {link.unit.name: link.silent_for(t) for link in self.links.sensors}
+        boards = {link.board.name: link.driver.state for link in self.links.boards}
+        return Seen(t, self._attitudes, self._rates, silent, boards, self._before)
+
+    def _remember(self, t: float) -> None:
+        """Keep an earlier answer of each board, from which speeds are told."""
+        for link in self.links.boards:
+            state = link.driver.state
+            if state.reported is None or not state.sure:
+                continue
+            for name, at in state.position.items():
+                if state.reported - self._before.get(name, (float("-inf"), 0.0))[0] > REMEMBERED:
+                    self._before[name] = (state.reported, at)
+
+    @property
+    def _reported(self) -> float | None:
+        """When the last of the boards told a position, s; None while one never has."""
+        times = [link.driver.state.reported for link in self.links.boards]
+        known = [t for t in times if t is not None]
+        return max(known) if known and len(known) == len(times) else None
+
+    def _stop(self, trip: Trip) -> None:
+        self._halt_boards()
+        self._trip = trip
+        self._note("interlock", trip.sentence, {"kind": trip.kind})
+
+    def _halt_boards(self) -> None:
+        for link in self.links.boards:
+            link.driver.halt(self.t)
+
+    def _note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
+        for listener in self._listeners:
+            listener.event(self.t, kind, sentence, data)
+
+    def _tell(self, t: float) -> None:
+        """Hand on what was heard; who cannot take it any more stops the bench, and only once."""
+        fresh = self._heard.fresh()
+        for listener in list(self._listeners):
+            try:
+                if fresh is not None:
+                    listener.rows(fresh)
+                listener.turn(t)
+            except EquipoiseError as error:
+                self._listeners.remove(listener)
+                self._stop(Trip("fault", str(error)))

@@ -1,0 +1,72 @@
+"""One commander at a time: a lock on each port of a bench, kept by the operating system.
+
+The lock is on a file named for the port, which says who holds it. It goes with the process that
+holds it, however that ends. Observers need none.
+"""
+
+import hashlib
+import os
+import tempfile
+from collections.abc import Generator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import IO
+
+from equipoise.model.errors import EquipoiseError
+
+FOLDER = "equipoise-benches"
+
+
+class BenchTaken(EquipoiseError):
+    """Another process commands a device of this bench."""
+
+
+@contextmanager
+def commanding(addresses: Sequence[str]) -> Generator[None]:
+    """Hold the ports of a bench. Raises BenchTaken and says who holds one of them."""
+    with ExitStack() as held:
+        for address in sorted(set(addresses)):
+            held.enter_context(_held(address))
+        yield
+
+
+@contextmanager
+def _held(address: str) -> Generator[None]:
+    folder = Path(tempfile.gettempdir()) / FOLDER
+    folder.mkdir(exist_ok=True)
+    path = folder / f"{hashlib.sha256(address.encode()).hexdigest()[:16]}.lock"
+    with path.open("a+", encoding="utf-8") as file:
+        if not _lock(file):
+            file.seek(0)
+            by = file.read().strip() or "another process"
+            raise BenchTaken(
+                f"{address} is commanded by {by}; wait for it to end, or stop it; "
+                "any number of programs may look on meanwhile"
+            )
+        file.truncate(0)
+        file.write(f"process {os.getpid()}")
+        file.flush()
+        yield
+
+
+if os.name == "nt":  # pragma: no cover
+    import msvcrt
+
+    def _lock(file: IO[str]) -> bool:
+        """Lock one byte far behind the text, so that the text can be read by others."""
+        try:
+            file.seek(1 << 20)
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        except OSError:
+            return False
+        return True
+
+else:
+    import fcntl
+
+    def _lock(file: IO[str]) -> bool:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            return False
+        return True

@@ -1,0 +1,191 @@
+"""VectorNav VN-100 and VN-200, ASCII over a serial line.
+
+    $VNQMR,x,y,z,w,mx,my,mz,ax,ay,az,p,q,r*CS       CS: two hex digits, the exclusive or of all
+                                                   bytes between $ and *; or four, CRC-16-CCITT
+
+Source: VN-100 user manual, sections "Communication interface" and "Asynchronous outputs" (registers
+6 and 7). Quaternions come vector first. Their numbers are those of the turn that takes sensor
+components to north-east-down ones: a device turned by +psi about down says (0, 0, sin psi/2,
+cos psi/2), and its own matrix, printed in the manual for the way from NED to the sensor, is the
+transpose of ours. Angles are yaw, pitch, roll in degrees, 3-2-1. Rates are rad/s.
+
+The device tells no time here, so rows are stamped as they arrive.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+from equipoise.hardware.lines import Lines
+from equipoise.model.errors import InputError
+from equipoise.model.hardware import Gives, SensorUnit
+from equipoise.model.reading import Counts, Reading
+
+Values = Sequence[float]
+
+
+def quaternion(v: Values) -> tuple[float, ...]:
+    """Return the quaternion at the front, scalar first."""
+    return (v[3], v[0], v[1], v[2])
+
+
+def from_angles(v: Values) -> tuple[float, ...]:
+    """Return the quaternion of yaw, pitch, roll (deg) at the front; 3-2-1."""
+    (cy, sy), (cp, sp), (cr, sr) = (
+        (math.cos(half), math.sin(half)) for half in (math.radians(a) / 2 for a in v[:3])
+    )
+    return (
+        cr * cp * cy + sr * sp * sy,
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+    )
+
+
+def last_three(v: Values) -> tuple[float, ...]:
+    """Return the rates at the end."""
+    return tuple(v[-3:])
+
+
+class Message(NamedTuple):
+    """A kind of message: how many numbers, and what they hold."""
+
+    width: int
+    code: int  # of register 6, which asks for it
+    attitude: Callable[[Values], tuple[float, ...]] | None = None
+    rate: Callable[[Values], tuple[float, ...]] | None = None
+
+
+MESSAGES = {
+    b"VNYPR": Message(3, 1, from_angles),
+    b"VNQTN": Message(4, 2, quaternion),
+    b"VNQMR": Message(13, 8, quaternion, last_three),
+    b"VNGYR": Message(3, 12, None, last_three),
+    b"VNYMR": Message(12, 14, from_angles, last_three),
+}
+UNIT = 1e-3  # chosen: a quaternion of six decimals is of length one within this
+KEYS = ("message", "rate_hz")
+
+
+class VectorNav:
+    """The conversation; settings: ``message`` such as VNQMR and ``rate_hz``, asked for if given."""
+
+    def __init__(self, unit: SensorUnit) -> None:
+        self._lines, self._counts = Lines(), Counts()
+        self._greeting = _greeting(unit)
+        self._greet = False
+
+    @property
+    def counts(self) -> Counts:
+        """How much was understood since the port was opened."""
+        return self._counts
+
+    def opened(self) -> None:
+        """Begin anew."""
+        self._lines.cleared()
+        self._counts, self._greet = Counts(), True
+
+    def due(self, t: float) -> bytes:
+        """Return what asks for messages, once."""
+        greet, self._greet = self._greet, False
+        return self._greeting if greet else b""
+
+    def feed(self, data: bytes) -> Sequence[Reading]:
+        """Return the rows that are complete with these bytes."""
+        return [reading for line in self._lines.cut(data) for reading in self._line(line)]
+
+    def _line(self, line: bytes) -> list[Reading]:
+        body = checked(line)
+        if body is None:
+            self._counts = replace(self._counts, corrupt=self._counts.corrupt + 1)
+            return []
+        name, *fields = body.split(b",")
+        message = MESSAGES.get(name)
+        if message is None:
+            self._counts = replace(self._counts, foreign=self._counts.foreign + 1)
+            return []
+        readings = _readings(message, numbers(fields))
+        good = replace(self._counts, good=self._counts.good + 1)
+        bad = replace(self._counts, corrupt=self._counts.corrupt + 1)
+        self._counts = good if readings else bad
+        return readings
+
+
+def checked(line: bytes) -> bytes | None:
+    """Return what stands between $ and *; None if the checksum says that it is broken."""
+    start = line.rfind(b"$")  # what stands before it is a rest of another line
+    body, star, told = line[start + 1 :].partition(b"*")
+    if start < 0 or not star:
+        return None
+    right = {2: exclusive_or, 4: crc16}.get(len(told))
+    try:
+        return body if right is not None and int(told, 16) == right(body) else None
+    except ValueError:
+        return None
+
+
+def exclusive_or(body: bytes) -> int:
+    """Return the 8-bit checksum."""
+    total = 0
+    for byte in body:
+        total ^= byte
+    return total
+
+
+def crc16(body: bytes) -> int:
+    """Return the 16-bit checksum: CRC-CCITT, polynomial 0x1021, begun at zero."""
+    crc = 0
+    for byte in body:
+        crc ^= byte << 8
+        for _ in range(8):
+            crc = (crc << 1) ^ 0x1021 if crc & 0x8000 else crc << 1
+    return crc & 0xFFFF
+
+
+def numbers(fields: Sequence[bytes]) -> list[float]:
+    """Return fields as finite numbers; an empty list if one is none."""
+    try:
+        found = [float(field) for field in fields]
+    except ValueError:
+        return []
+    return found if all(map(math.isfinite, found)) else []
+
+
+def _readings(message: Message, values: list[float]) -> list[Reading]:
+    if len(values) != message.width:
+        return []
+    found: list[Reading] = []
+    wanted: tuple[tuple[Gives, Callable[[Values], tuple[float, ...]] | None], ...] = (
+        ("attitude", message.attitude),
+        ("rate", message.rate),
+    )
+    for channel, taken in wanted:
+        if taken is None:
+            continue
+        row = taken(values)
+        length = math.hypot(*row)
+        if channel == "attitude":
+            if abs(length - 1) > UNIT:
+                return []
+            row = tuple(value / length for value in row)
+        found.append(Reading(channel, row))
+    return found
+
+
+def _greeting(unit: SensorUnit) -> bytes:
+    """Return the commands that ask for a message and its rate."""
+    where, settings = f"hardware.sensor {unit.name}: settings", unit.settings
+    for key in settings:
+        if key not in KEYS:
+            raise InputError(where, f"'{key}'", " or ".join(KEYS))
+    commands: list[bytes] = []
+    if "message" in settings:
+        message = MESSAGES.get(str(settings["message"]).encode())
+        if message is None:
+            known = ", ".join(name.decode() for name in MESSAGES)
+            raise InputError(where, f"message '{settings['message']}'", f"one of {known}")
+        commands.append(b"VNWRG,06,%d" % message.code)
+    if "rate_hz" in settings:
+        commands.append(b"VNWRG,07,%d" % int(settings["rate_hz"]))  # type: ignore[arg-type]
+    return b"".join(b"$%s*%02X\r\n" % (body, exclusive_or(body)) for body in commands)
