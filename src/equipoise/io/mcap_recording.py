@@ -10,7 +10,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -65,7 +65,7 @@ def events_of(path: str | Path) -> tuple[LoggedEvent, ...]:
         if type(data) is dict:
             t = (message.log_time - zero) / PER_S
             kind, sentence = str(told.get("kind", "")), str(told.get("sentence", ""))
-            events.append(LoggedEvent(t, kind, sentence, data))
+            events.append(LoggedEvent(t, kind, sentence, cast("dict[str, Any]", data)))
     return tuple(events)
 
 
@@ -151,4 +151,4 @@ def _json(data: bytes) -> Any:
         told: Any = json.loads(data)
     except ValueError:
         return {}
-    return told if type(told) is dict else {}
+    return cast("dict[str, Any]", told) if type(told) is dict else {}

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.commands.kinds import Whole
-from equipoise.app.terminal import stdout
+from equipoise.app.terminal import busy, stdout
 
 if TYPE_CHECKING:
     from equipoise.app.emulation import EmulatedBench
@@ -31,9 +31,13 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
     from equipoise.app.options import positive, seed_of
     from equipoise.app.wiring import testbed_of
     from equipoise.io.testbed_file import write_testbed
+    from equipoise.simulation.bench import SimulatedBench
 
+    bed, drawn = testbed_of(testbed), seed_of(seed)
+    with busy("preparing the platform", announce=False):
+        SimulatedBench(bed, drawn).read(1.0)  # compiles: a device that pauses looks unplugged
     longest = float("inf") if max_time_s is None else positive("--max-time-s", max_time_s)
-    bench = emulated(testbed_of(testbed), seed_of(seed))
+    bench = emulated(bed, drawn)
     try:
         bed = bench.testbed()
         write_testbed(bed, out)

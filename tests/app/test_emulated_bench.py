@@ -1,0 +1,224 @@
+"""The real bench at emulated devices, end to end through real ports: it balances, or stops in words.
+
+Emulated devices and keeper share one clock that goes as fast as it can; see ``app.lockstep``.
+"""
+
+import contextlib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hardware.faulty_wire import FaultyWire, garbage, half, noisy, repeated, silent
+
+from equipoise.app.emulation import Station, emulate
+from equipoise.app.kept_bench import keeper_of
+from equipoise.app.lockstep import LockstepClock
+from equipoise.hardware.real_bench import RealBench
+from equipoise.io.presets import read_preset
+from equipoise.model.bench import Bench
+from equipoise.model.errors import BenchStopped, InputError, MoveRefused
+from equipoise.procedure.balance import BalanceOptions, balance
+
+BED = read_preset("nanosat")
+# Left to itself it swings far: where balancing is not the matter, it may.
+FREE = replace(BED, tilt_limit=3.0)
+MM = 1e-3
+
+
+class Lab:
+    """An emulated bench with faulty wires, and the real bench at its ports."""
+
+    def __init__(self, bed, seed):
+        self.emulated = emulate(bed, seed)
+        for stations in (self.emulated.boards, self.emulated.sensors):
+            stations[:] = [Station(each.device, FaultyWire(each.wire)) for each in stations]
+        self.keeper = keeper_of(self.emulated.testbed())
+        self.clock = LockstepClock(self.emulated)
+        self.bench = RealBench(self.keeper, self.clock)
+        self.events = []
+        self.keeper.listen(self)
+
+    @property
+    def board(self):
+        return self.emulated.boards[0]
+
+    @property
+    def imu(self):
+        return self.emulated.sensors[0]
+
+    def wait(self, seconds):
+        """Let time pass, whether sensors give rows or not."""
+        end = self.emulated.time + seconds
+        while self.emulated.time < end:
+            self.clock.wait()
+            self.keeper.turn(self.clock.now)
+
+    def rows(self, recording):
+        pass
+
+    def event(self, t, kind, sentence, data):
+        self.events.append((t, kind, sentence))
+
+    def turn(self, t):
+        pass
+
+
+@contextlib.contextmanager
+def lab(bed=FREE, seed=1):
+    found = Lab(bed, seed)
+    try:
+        found.bench.start()
+        yield found
+    finally:
+        found.keeper.close()
+        found.emulated.close()
+
+
+@pytest.mark.parametrize("seed", [0, 3])
+def test_it_balances_through_real_ports_and_the_verdict_is_true(seed):
+    """As on the simulated bench: (2, 2, 3) um in 3 moves and 120 s, errors as large as stated."""
+    options = BalanceOptions()
+    with lab(BED, seed) as found:
+        assert isinstance(found.bench, Bench)
+        steps = list(balance(found.bench, options))
+        truth = found.emulated.platform.truth().com
+        verdict = steps[-1].verdict
+        assert verdict.passed
+        assert sum(step.move is not None for step in steps) <= options.max_moves
+        assert found.emulated.platform.time <= options.max_time
+        assert np.all(np.abs(truth - options.target) < options.tolerance)
+        # chi-square of three degrees of freedom: beyond 16.3 in one of a thousand
+        assert np.sum(((verdict.com - truth) / verdict.sd) ** 2) < 16.3
+        assert [k for _, k, _ in found.events if k == "interlock"] == []
+
+
+def test_rows_are_those_of_the_sensors_and_a_move_is_seen_as_it_was():
+    with lab() as found:
+        found.bench.move({"x": 4 * MM})
+        seen = found.bench.read(2.0)
+        assert len(seen.attitude) == pytest.approx(80, abs=2)
+        assert len(seen.rate) == pytest.approx(80, abs=2)
+        assert np.all(np.diff(seen.attitude.t) > 0)
+        x = seen.masses.values[:, 0]
+        assert x[-1] == pytest.approx(4 * MM, abs=2e-6)
+        going = np.flatnonzero(np.diff(x) > 0)
+        taken = seen.masses.t[going[-1] + 1] - seen.masses.t[going[0]]
+        assert taken == pytest.approx(0.5, abs=0.06)  # 4 mm at 8 mm/s, told every 50 ms
+
+
+def test_a_move_beyond_the_rail_is_refused_and_nothing_moves():
+    with lab() as found:
+        with pytest.raises(MoveRefused):
+            found.bench.move({"x": 1 * MM, "y": 15.1 * MM})
+        with pytest.raises(InputError, match="'w'"):
+            found.bench.move({"w": 0.0})
+        found.bench.read(1.0)
+        assert np.all(found.emulated.platform.displacements == 0.0)
+
+
+def test_stop_halts_masses_where_they_are_and_they_can_go_on():
+    with lab() as found:
+        found.bench.move({"x": 14 * MM})
+        found.bench.read(0.5)
+        found.bench.stop()
+        found.bench.read(1.0)
+        at = found.emulated.platform.displacements[0]
+        assert 2 * MM < at < 7 * MM
+        found.bench.read(0.5)
+        assert found.emulated.platform.displacements[0] == at
+        found.bench.move({"x": 0.0})
+        assert found.bench.read(3.0).masses.values[-1, 0] == pytest.approx(0.0, abs=2e-6)
+
+
+def stopped_while_moving(found, trouble, within=1.5):
+    """Return the sentence with which a long move ends, and how far it went on afterwards."""
+    found.bench.move({"z": -14 * MM})
+    found.bench.read(0.4)
+    trouble()
+    begun = found.emulated.time
+    with pytest.raises(BenchStopped) as stop:
+        found.bench.read(5.0)
+    assert found.emulated.time - begun < within
+    found.wait(0.5)
+    at = found.emulated.platform.displacements[2]
+    found.wait(1.0)
+    assert found.emulated.platform.displacements[2] == at > -13 * MM
+    return str(stop.value)
+
+
+def spoil(station, how):
+    def put_in():
+        station.wire.spoil = how
+
+    return put_in
+
+
+@pytest.mark.parametrize(
+    ("trouble", "said"),
+    [
+        (lambda lab: spoil(lab.imu, silent), "sensor imu has given no row"),
+        (lambda lab: spoil(lab.imu, repeated), "sensor imu has given no row"),
+        (lambda lab: spoil(lab.imu, half), "sensor imu has given no row"),
+        (lambda lab: spoil(lab.board, silent), "does not answer"),
+        (lambda lab: spoil(lab.board, half), "board masses: "),
+        (lambda lab: lab.board.device.press_reset, "position is lost"),
+        (lambda lab: lab.board.device.hit_limit, "a limit switch was hit"),
+        (lambda lab: lambda: lab.board.device.switch(False), "unplugged, or without power"),
+        (lambda lab: lab.board.wire.unplug, "its port is gone"),
+    ],
+)
+def test_trouble_in_a_move_stops_the_masses_and_says_why(trouble, said):
+    with lab() as found:
+        assert said in stopped_while_moving(found, trouble(found))
+        with pytest.raises(BenchStopped, match="nothing was moved"):
+            found.bench.move({"x": 0.0})
+
+
+@pytest.mark.parametrize("how", [noisy, garbage])
+def test_a_bad_cable_of_the_sensor_costs_rows_and_no_more(how):
+    """One byte of a hundred wrong breaks two of three messages of 110 bytes; the rest are rows."""
+    with lab() as found:
+        found.imu.wire.spoil = how
+        seen = found.bench.read(4.0)
+        assert 20 <= len(seen.attitude) <= 162
+        (link,) = found.keeper.links.sensors
+        assert link.driver.counts.corrupt > 10
+        turn = np.abs(np.sum(seen.attitude.values[1:] * seen.attitude.values[:-1], axis=1))
+        assert np.degrees(2 * np.arccos(np.minimum(turn, 1.0))).max() < 10
+
+
+def test_a_sensor_that_is_hidden_for_ten_seconds_is_waited_for():
+    """Masses stand, so nothing is stopped; a move waits, and the silence is in the record."""
+    with lab() as found:
+        spoil(found.imu, silent)()
+        found.wait(0.6)
+        begun = found.emulated.time
+        held = LockstepClock.wait
+
+        def back_after_ten_seconds(clock):
+            if found.emulated.time > begun + 10:
+                found.imu.wire.spoil = None
+            held(clock)
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(LockstepClock, "wait", back_after_ten_seconds)
+            found.bench.move({"x": 2 * MM})
+        assert 10 < found.emulated.time - begun < 11
+        said = [sentence for _, kind, sentence in found.events if kind == "interlock"]
+        assert said == ["sensor imu is silent", "sensor imu gives rows again"]
+        assert found.bench.read(1.0).masses.values[-1, 0] == pytest.approx(2 * MM, abs=2e-6)
+
+
+def test_a_sensor_that_does_not_come_back_ends_the_run_in_words():
+    with lab() as found:
+        spoil(found.imu, silent)()
+        with pytest.raises(BenchStopped, match="no sensor has given a row for 30 s"):
+            found.bench.read(1.0)
+
+
+def test_after_a_stop_masses_move_again_once_they_have_come_home():
+    with lab() as found:
+        stopped_while_moving(found, found.board.device.hit_limit)
+        found.bench.start()
+        found.bench.move({"x": 3 * MM})
+        assert found.bench.read(1.0).masses.values[-1, 0] == pytest.approx(3 * MM, abs=2e-6)

@@ -1,0 +1,86 @@
+"""Who commands is killed in the middle of a move: the masses stand within a second.
+
+In real time and through real ports: this process is the far side of every wire.
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import pytest
+
+from equipoise.app.emulation import emulate
+from equipoise.hardware.wall_clock import WallClock
+from equipoise.io.presets import read_preset
+from equipoise.io.testbed_file import write_testbed
+
+COMMANDER = """
+import sys, time
+from pathlib import Path
+from equipoise.app.kept_bench import real_bench
+from equipoise.io.testbed_file import read_testbed
+
+def main():
+    with real_bench(read_testbed(sys.argv[1]), Path(sys.argv[2])) as bench:
+        bench.move({"x": 0.014})
+        print(bench._keeper._process.pid, flush=True)
+        while True:
+            bench.read(0.1)
+
+if __name__ == "__main__":
+    main()
+"""
+
+
+def without_switches():
+    """Return the preset with a board that needs no homing, and a platform that may swing."""
+    bed = read_preset("nanosat")
+    (board,) = bed.hardware.boards
+    hardware = replace(bed.hardware, boards=(replace(board, homing=False),))
+    return replace(bed, hardware=hardware, tilt_limit=3.0)
+
+
+def turned(bench, clock, until, longest):
+    """Let the emulated bench go on with the clock on the wall until something is so."""
+    end = clock.now + longest
+    while not until():
+        assert clock.now < end, "it did not come about"
+        bench.run(clock.now)
+        clock.wait()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no pseudo terminals, no SIGKILL")
+@pytest.mark.parametrize("victim", ["commander", "keeper"])
+def test_a_killed_process_leaves_the_masses_standing_within_a_second(tmp_path, victim):
+    bench = emulate(without_switches(), 1)
+    bench.platform.read(0.01)  # compiles, so that no device pauses later
+    clock = WallClock()
+    write_testbed(bench.testbed(), tmp_path / "t.toml")
+    (tmp_path / "commander.py").write_text(COMMANDER)
+    arguments = [str(tmp_path / name) for name in ("commander.py", "t.toml", "run.mcap")]
+    with subprocess.Popen([sys.executable, *arguments], stdout=subprocess.PIPE) as commander:
+        turned(bench, clock, lambda: bench.platform.displacements[0] > 2e-3, 60.0)
+        keeper = int(commander.stdout.readline())
+        os.kill(commander.pid if victim == "commander" else keeper, signal.SIGKILL)
+        killed = clock.now
+        turned(bench, clock, lambda: clock.now > killed + 1.0, 2.0)
+        at = bench.platform.displacements[0]
+        turned(bench, clock, lambda: clock.now > killed + 1.5, 2.0)
+        commander.kill()
+    assert bench.platform.displacements[0] == at < 9e-3  # 1.75 s of way, killed after 0.25
+    bench.close()
+
+
+def test_ports_are_free_again_after_a_kill(tmp_path):
+    """The lock goes with the process; the record of before can be read."""
+    from equipoise.hardware.one_commander import commanding
+
+    script = "import os, signal\nfrom equipoise.hardware.one_commander import commanding\n"
+    script += "with commanding(['tcp:x:1']):\n    os.kill(os.getpid(), signal.SIGKILL)\n"
+    subprocess.run([sys.executable, "-c", script], check=False)
+    start = time.monotonic()
+    with commanding(["tcp:x:1"]):
+        assert time.monotonic() - start < 1.0

@@ -1,0 +1,59 @@
+"""A wire that does what wires do: silence, garbage, half of what was sent, the same again."""
+
+import numpy as np
+
+
+class FaultyWire:
+    """Stands between an emulated device and its port; ``spoil`` is put in by a test."""
+
+    def __init__(self, wire, seed=0):
+        self._wire, self._rng = wire, np.random.default_rng(seed)
+        self.address = wire.address
+        self.spoil = None
+        self.last = b""
+
+    def receive(self):
+        return b"" if self._wire is None else self._wire.receive()
+
+    def unplug(self):
+        self._wire.close()
+        self._wire = None
+
+    def send(self, data):
+        if self.spoil is not None and data:
+            data = self.spoil(data, self)
+        self.last = data or self.last
+        if self._wire is not None:
+            self._wire.send(data)
+
+    def close(self):
+        if self._wire is not None:
+            self._wire.close()
+
+    def noise(self, share, data):
+        """Return bytes of which a share is changed, as a wrong baud rate or a bad cable does."""
+        values = np.frombuffer(data, np.uint8).copy()
+        bad = self._rng.random(len(values)) < share
+        values[bad] = self._rng.integers(0, 256, int(bad.sum()))
+        return values.tobytes()
+
+
+def silent(_data, _wire):
+    return b""
+
+
+def noisy(data, wire):
+    return wire.noise(0.01, data)
+
+
+def garbage(data, wire):
+    return data + wire.noise(1.0, bytes(40)) + b"\n"
+
+
+def half(data, _wire):
+    return data[: len(data) // 2]
+
+
+def repeated(_data, wire):
+    """Say the same for ever: a device that hangs."""
+    return wire.last
