@@ -22,6 +22,9 @@ COMMANDS = (
     "design",
     "compare",
     "reproduce",
+    "convert",
+    "repair",
+    "replay",
 )
 HEAVY = ("numpy", "scipy", "numba", "matplotlib", "pydantic", "pyarrow", "jaxtyping")
 PROMPT = 0.5  # s, what the issue asks for

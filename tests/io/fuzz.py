@@ -10,8 +10,6 @@ from equipoise.io.recording_reading import recording_of
 from equipoise.model.errors import InputError
 
 
-
-
 def mcap_bytes(content: bytes) -> None:
     """A file as ``read_recording`` takes it."""
     with contextlib.suppress(InputError):

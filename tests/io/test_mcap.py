@@ -1,5 +1,6 @@
 """MCAP both ways; a cut or garbled file gives what is whole, and never a wrong number."""
 
+import contextlib
 import functools
 import io
 import json
@@ -16,7 +17,6 @@ from foxglove.messages import FrameTransform, Pose, PoseInFrame, Quaternion, Tim
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.writer import Writer
-from tests.io.fuzz import PARSERS
 
 from equipoise.io.live_recording import LiveRecording, Opening
 from equipoise.io.mcap_recording import events_of
@@ -25,6 +25,7 @@ from equipoise.io.protobuf_fields import double, fields, whole
 from equipoise.io.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
+from tests.io.fuzz import PARSERS
 
 EXAMPLES = int(os.environ.get("EQUIPOISE_FUZZ", "300"))
 
@@ -124,10 +125,9 @@ def test_a_garbled_place_costs_two_chunks_at_most(place, junk):
     garbled = content[:at] + junk + content[at + len(junk) :]
     assert len(salvaged(garbled, "garbled").messages) >= 60 - 2 * 10
     with tempfile.TemporaryDirectory() as folder:
-        try:
+        in_the_start = at < content.index(b"zstd")  # where the zero of time stands
+        with contextlib.suppress(*[InputError] * in_the_start):
             assert_part_of(read_bytes_as(garbled, Path(folder)), record())
-        except InputError as error:
-            assert at < content.index(b"zstd"), error  # the start, where the zero of time stands
 
 
 @pytest.mark.parametrize(("name", "parse"), PARSERS, ids=[name for name, _ in PARSERS])
@@ -250,7 +250,7 @@ def test_attitudes_in_json_are_read(tmp_path):
 
 def test_protobuf_by_hand():
     """Field 1 varint 300 (ac 02), field 2 the double 1.0, field 3 the bytes 'hi'."""
-    data = bytes.fromhex("08ac02" "11000000000000f03f" "1a026869")
+    data = bytes.fromhex("08ac0211000000000000f03f1a026869")
     found = fields(data)
     assert (whole(found, 1), double(found, 2), found[3]) == (300, 1.0, b"hi")
     with pytest.raises(ValueError, match="beyond"):

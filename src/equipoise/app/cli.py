@@ -16,6 +16,7 @@ from equipoise.app.commands.assess import assess
 from equipoise.app.commands.balance import balance
 from equipoise.app.commands.calibrate import calibrate
 from equipoise.app.commands.compare import compare
+from equipoise.app.commands.convert import convert
 from equipoise.app.commands.demo import demo
 from equipoise.app.commands.design import design
 from equipoise.app.commands.identify import identify
@@ -25,6 +26,8 @@ from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
 from equipoise.app.commands.plan import plan
+from equipoise.app.commands.repair import repair
+from equipoise.app.commands.replay import replay
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
@@ -44,7 +47,7 @@ app = App(
 )
 COMMANDS = (
     demo, new, design, plan, simulate, inspect, observe, identify, calibrate, assess, methods,
-    balance, laws, compare, reproduce,
+    balance, laws, compare, reproduce, convert, repair, replay,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command)
