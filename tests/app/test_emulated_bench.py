@@ -1,4 +1,4 @@
-"""The real bench at emulated devices, end to end through real ports: it balances, or stops in words.
+"""The real bench at emulated devices, through real ports: it balances, or stops in words.
 
 Emulated devices and keeper share one clock that goes as fast as it can; see ``app.lockstep``.
 """

@@ -22,6 +22,13 @@ COMMANDS = (
     "design",
     "compare",
     "reproduce",
+    "devices",
+    "check",
+    "emulate",
+    "record",
+    "convert",
+    "repair",
+    "replay",
 )
 HEAVY = ("numpy", "scipy", "numba", "matplotlib", "pydantic", "pyarrow", "jaxtyping")
 PROMPT = 0.5  # s, what the issue asks for

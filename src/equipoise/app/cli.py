@@ -17,6 +17,7 @@ from equipoise.app.commands.balance import balance
 from equipoise.app.commands.calibrate import calibrate
 from equipoise.app.commands.check import check
 from equipoise.app.commands.compare import compare
+from equipoise.app.commands.convert import convert
 from equipoise.app.commands.demo import demo
 from equipoise.app.commands.design import design
 from equipoise.app.commands.devices import devices
@@ -29,6 +30,8 @@ from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
 from equipoise.app.commands.plan import plan
 from equipoise.app.commands.record import record
+from equipoise.app.commands.repair import repair
+from equipoise.app.commands.replay import replay
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.terminal import complain
@@ -48,8 +51,7 @@ app = App(
 )
 COMMANDS = (
     demo, new, design, plan, simulate, inspect, observe, identify, calibrate, assess, methods,
-    balance, laws, compare, reproduce, devices, check, emulate,
-    record,
+    balance, laws, compare, reproduce, devices, check, emulate, record, convert, repair, replay,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command)

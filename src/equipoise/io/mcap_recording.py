@@ -10,7 +10,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -44,7 +44,7 @@ def read_mcap(content: bytes, source: str) -> tuple[LogTable, ColumnMap]:
     """Return an MCAP file's rows and what they mean; InputError if there are none."""
     found = salvaged(content, source)
     notes = loss_notes(found)
-    zero = _zero_ns(found)
+    zero = time_zero(found)
     if zero is None:
         topics = foreign_topics(found, source)
         channels, told = chosen(topics, source)
@@ -56,16 +56,16 @@ def read_mcap(content: bytes, source: str) -> tuple[LogTable, ColumnMap]:
 def events_of(path: str | Path) -> tuple[LoggedEvent, ...]:
     """Return the events of a recording that we wrote, in order."""
     found = salvaged(read_bytes(path, WANTED), str(path))
-    zero = _zero_ns(found) or 0
+    zero = time_zero(found) or 0
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
     events: list[LoggedEvent] = []
     for message in found.messages:
         told: Any = _json(message.data) if message.channel_id in ids else {}
         data: Any = told.get("data")
-        if type(data) is dict:
+        if _is_object(data):
             t = (message.log_time - zero) / PER_S
             kind, sentence = str(told.get("kind", "")), str(told.get("sentence", ""))
-            events.append(LoggedEvent(t, kind, sentence, cast("dict[str, Any]", data)))
+            events.append(LoggedEvent(t, kind, sentence, data))
     return tuple(events)
 
 
@@ -95,7 +95,7 @@ def loss_notes(found: Salvage) -> tuple[str, ...]:
     return ("; ".join([f"{cut}: it was read as far as it is whole", *told]) + ".",)
 
 
-def _zero_ns(found: Salvage) -> int | None:
+def time_zero(found: Salvage) -> int | None:
     """Return the clock's reading at time zero; None if the file is another program's."""
     for each in found.metadata:
         zero = each.metadata.get(ZERO_KEY, "") if each.name == METADATA else ""
@@ -151,4 +151,8 @@ def _json(data: bytes) -> Any:
         told: Any = json.loads(data)
     except ValueError:
         return {}
-    return cast("dict[str, Any]", told) if type(told) is dict else {}
+    return told if _is_object(told) else {}
+
+
+def _is_object(told: Any) -> bool:
+    return isinstance(told, dict)

@@ -8,7 +8,8 @@ five bytes of which the first is an opcode are a place to try.
 """
 
 import re
-from collections.abc import Generator, Iterator
+import zlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from io import BytesIO
 from typing import Any
@@ -18,6 +19,16 @@ from equipoise.io.log_libraries import log_library
 MAGIC = b"\x89MCAP0\r\n"
 PLACE = re.compile(rb"[\x01-\x0f](?=.{4}\x00{4})", re.DOTALL)
 HEAD = 9  # bytes of opcode and length
+KINDS = dict(
+    enumerate(
+        (
+            "Header", "Footer", "Schema", "Channel", "Message", "Chunk", "MessageIndex",
+            "ChunkIndex", "Attachment", "AttachmentIndex", "Statistics", "Metadata",
+            "MetadataIndex", "SummaryOffset", "DataEnd",
+        ),
+        start=1,
+    )
+)  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -99,65 +110,74 @@ class _Reading:
 
     def __init__(self, content: bytes, source: str) -> None:
         self._content = content
-        self._stream_reader = log_library("mcap.stream_reader", source)
+        self._records = log_library("mcap.records", source)
+        self._stream = log_library("mcap.data_stream", source).ReadDataStream
+        self._breakup = log_library("mcap.stream_reader", source).breakup_chunk
         self.lost_bytes = self.lost_places = 0
 
     def records(self) -> Iterator[Any]:
         """Yield the records, those of chunks in place of the chunks."""
         at = len(MAGIC) if self._content.startswith(MAGIC) else 0
-        while at < len(self._content):
-            end = yield from self._run(at)
-            if end >= len(self._content):
-                return
-            at = self._next_place(end)
-            self.lost_bytes += at - end
-            self.lost_places += 1
-
-    def _run(self, at: int) -> Generator[Any, None, int]:
-        """Yield records from a place on; return where the last sound one ends."""
-        stream = BytesIO(self._content)
-        stream.seek(at)
-        reader = self._stream_reader.StreamReader(
-            stream, skip_magic=True, emit_chunks=True, record_size_limit=len(self._content)
-        )
-        try:
-            for record in reader.records:
-                inside = self._inside(record)
-                at = stream.tell()
-                yield from inside
-        except Exception:  # a parser of broken bytes raises anything, MemoryError too
-            return at
-        return len(self._content)
-
-    def _inside(self, record: Any) -> list[Any]:
-        """Return a chunk's records, its checksum tested; another record is itself."""
-        if type(record).__name__ != "Chunk":
-            return [record]
-        return self._stream_reader.breakup_chunk(record, validate_crc=True)
+        while at < len(self._content) and self._content[at:] != MAGIC:
+            found, stop = self._record(at)
+            if found is None:
+                stop = self._next_place(at)
+                self.lost_bytes += stop - at
+                self.lost_places += 1
+            else:
+                yield from found
+            at = stop
 
     def _next_place(self, after: int) -> int:
-        """Return the next place where a record fits into what is left, or the end."""
-        end = len(self._content)
+        """Return the next place where a record makes sense, or the end."""
         for place in PLACE.finditer(self._content, after + 1):
-            at = place.start()
-            size = int.from_bytes(self._content[at + 1 : at + HEAD], "little")
-            if at + HEAD + size <= end and self._fits(at, size):
-                return at
-        return end
+            if self._record(place.start())[0] is not None:
+                return place.start()
+        return len(self._content)
 
-    def _fits(self, at: int, size: int) -> bool:
-        """Say whether a record at a place makes sense from end to end."""
-        stop = at + HEAD + size
-        stream = BytesIO(self._content[at:stop])
-        reader = self._stream_reader.StreamReader(stream, skip_magic=True, emit_chunks=True)
+    def _record(self, at: int) -> tuple[list[Any] | None, int]:
+        """Return the record at a place, or those of a chunk, and where it ends; None: no record."""
+        stop = at + HEAD + int.from_bytes(self._content[at + 1 : at + HEAD], "little")
+        if stop > len(self._content):
+            return None, stop
+        body = self._content[at + HEAD : stop]
         try:
-            record = next(reader.records)
-            self._inside(record)
-        except Exception:
-            return False
-        # A footer is followed by the magic; any other by a record or by the cut.
-        return stream.tell() == len(stream.getvalue()) and self._followed(stop)
+            found, exact = self._read(self._content[at], body)
+        except Exception:  # a parser of broken bytes raises anything, MemoryError too
+            return None, stop
+        return (found if exact or self._followed(stop) else None), stop
+
+    def _read(self, opcode: int, body: bytes) -> tuple[list[Any], bool]:
+        """Return what a record holds, and whether its own lengths fill it exactly.
+
+        A record may have more at its end, of a later version of the format, and there may be
+        records of other kinds; either is believed only if another record follows.
+        """
+        kind = KINDS.get(opcode)
+        if kind is None:
+            return [], False
+        stream = self._stream(_Strict(body))
+        if kind == "Message":  # it has no length of its own
+            return [self._records.Message.read(stream, len(body))], False
+        record = getattr(self._records, kind).read(stream)
+        if kind == "Chunk":
+            return self._breakup(record, validate_crc=True), True
+        if kind == "Attachment" and zlib.crc32(body[:-4]).to_bytes(4, "little") != body[-4:]:
+            raise ValueError("checksum")
+        return [record], stream.count == len(body)
 
     def _followed(self, stop: int) -> bool:
+        """Say whether a record, the magic or the cut follows."""
         rest = self._content[stop : stop + HEAD]
-        return len(rest) < HEAD or rest.startswith(MAGIC) or PLACE.match(rest) is not None
+        return len(rest) < HEAD or PLACE.match(rest) is not None
+
+
+class _Strict(BytesIO):
+    """Bytes that are not read beyond their end."""
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        """Return so many bytes, or raise."""
+        found = super().read(size)
+        if size is not None and len(found) < size:
+            raise EOFError
+        return found

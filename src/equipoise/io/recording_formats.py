@@ -9,19 +9,24 @@ from pathlib import Path
 
 from equipoise.io.column_map import ColumnMap, Layout
 from equipoise.io.csv_table import cut
+from equipoise.io.mat_table import MAGIC as MAT
+from equipoise.io.mat_table import MAGIC_73, mat_bytes, read_mat
 from equipoise.io.mcap_recording import read_mcap, write_mcap
 from equipoise.io.mcap_salvage import MAGIC as MCAP
 from equipoise.io.parquet_table import MAGIC as PARQUET
 from equipoise.io.parquet_table import parquet_bytes, read_parquet
 from equipoise.io.recording_columns import native_columns
 from equipoise.io.recording_text import csv_text
+from equipoise.io.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
 from equipoise.io.source_file import read_bytes, text_of
 from equipoise.io.table import Table
+from equipoise.io.ulog_file import MAGIC as ULOG
+from equipoise.io.ulog_file import read_ulog
 from equipoise.io.whole_file import whole_file, write_whole
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 
-WANTED = "a recording (a table as CSV or Parquet)"
+WANTED = "a recording (CSV, Parquet, MCAP, MAT, a bag of ROS, or ULog)"
 Read = Callable[[Path, bytes, Layout], tuple[Table, ColumnMap | None]]  # None: by the header
 Write = Callable[[Recording, Path], None]
 
@@ -38,12 +43,16 @@ class Format:
 
 
 def content_of(path: Path) -> bytes:
-    """Return a file's bytes."""
-    return read_bytes(path, WANTED)
+    """Return a file's bytes; of a bag that is a folder those of its files, in order of name."""
+    if not (path / FOLDER_MARK).is_file():
+        return read_bytes(path, WANTED)
+    return b"".join(each.read_bytes() for each in sorted(path.iterdir()) if each.is_file())
 
 
 def format_of(path: Path, content: bytes) -> Format:
     """Return the format of a file: by its first bytes, then by its suffix; else it is a text."""
+    if path.is_dir():
+        return BAG
     marked = [each for each in FORMATS if each.marks and content.startswith(each.marks)]
     named = [each for each in FORMATS if path.suffix.lower() in each.suffixes]
     return next(iter((*marked, *named)), FORMATS[0])
@@ -85,8 +94,28 @@ def _write_mcap(recording: Recording, path: Path) -> None:
         write_mcap(recording, temporary)
 
 
+def _read_mat(path: Path, content: bytes, _layout: Layout) -> tuple[Table, None]:
+    return read_mat(content, str(path)), None
+
+
+def _write_mat(recording: Recording, path: Path) -> None:
+    write_whole(path, mat_bytes(native_columns(recording)))
+
+
+def _read_bag(path: Path, content: bytes, _layout: Layout) -> tuple[Table, ColumnMap]:
+    return read_bag(path, content)
+
+
+def _read_ulog(path: Path, content: bytes, _layout: Layout) -> tuple[Table, ColumnMap]:
+    return read_ulog(content, str(path))
+
+
+BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), _read_bag, None)
 FORMATS = (
     Format("csv", (".csv", ".txt"), (), _read_text, _write_text),
     Format("parquet", (".parquet",), (PARQUET,), _read_parquet, _write_parquet),
     Format("mcap", (".mcap",), (MCAP,), _read_mcap, _write_mcap),
+    Format("mat", (".mat",), (MAT, MAGIC_73), _read_mat, _write_mat),
+    BAG,
+    Format("ulog", (".ulg", ".ulog"), (ULOG,), _read_ulog, None),
 )

@@ -1,0 +1,33 @@
+"""`equipoise convert`: a recording from one format into another."""
+
+from pathlib import Path
+
+from equipoise.app.commands.reading import WHOLE, Reading
+from equipoise.app.terminal import stdout, tell_paths
+
+
+def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
+    """Read a recording of any known format, and write it in another.
+
+    Lines with '~' say what was set right or left aside. Events stay in the file that has them.
+
+    Parameters
+    ----------
+    file
+        Recording: CSV, Parquet, MCAP, MAT, a bag of ROS 1 or 2, or a log of PX4 (ULog).
+    out
+        File to write: .csv, .parquet, .mcap or .mat.
+    """
+    from equipoise.app.wiring import recording_of
+    from equipoise.io.recording_file import write_recording
+    from equipoise.io.recording_formats import format_to_write
+    from equipoise.io.whole_file import check_writable
+
+    format_to_write(out)  # a suffix that is not written is told before anything is read
+    check_writable(out)
+    recording = recording_of(file, reading)
+    write_recording(recording, out)
+    for note in recording.notes:
+        stdout().print(f"~ {note}", markup=False)
+    tell_paths([out])
+    return 0

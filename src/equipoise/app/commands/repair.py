@@ -1,0 +1,52 @@
+"""`equipoise repair`: what is whole of a recording that was cut off or garbled."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.terminal import stdout, tell_paths
+
+if TYPE_CHECKING:
+    from equipoise.io.mcap_repair import Repaired
+
+
+def repair(file: str, /, *, out: Path) -> int:
+    """Save every whole record of a cut or garbled recording, and say what is lost.
+
+    A recording that is whole is said to be whole, and nothing is written.
+
+    Parameters
+    ----------
+    file
+        Recording, as MCAP.
+    out
+        File to write, .mcap.
+    """
+    from equipoise.io.mcap_repair import repair as repaired
+    from equipoise.io.whole_file import check_writable
+
+    check_writable(out)
+    done = repaired(file, out)
+    for sentence in _sentences(file, done):
+        stdout().print(sentence, markup=False)
+    if not done.whole:
+        tell_paths([out])
+    return 0
+
+
+def _sentences(file: str, done: "Repaired") -> list[str]:
+    kept = f"{done.messages} messages, up to {done.last:.3f} s"
+    if done.whole:
+        return [f"{file} is whole: {kept}. Nothing was written."]
+    told = [f"Saved: {kept}."]
+    if done.lost_places:
+        places = f"{done.lost_bytes} bytes in {_counted(done.lost_places, 'place')}"
+        told.append(f"Lost: {places} that made no sense.")
+    if done.lost_messages:
+        told.append(f"Lost: {_counted(done.lost_messages, 'message')}, as the file itself counts.")
+    if not done.ended:
+        told.append("The file has no end: how many messages followed is not known.")
+    return told
+
+
+def _counted(count: int, thing: str) -> str:
+    return f"{count} {thing}{'s' * (count != 1)}"

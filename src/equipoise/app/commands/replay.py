@@ -1,0 +1,56 @@
+"""`equipoise replay`: a recording as if it were seen now."""
+
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Flag
+from equipoise.app.commands.reading import WHOLE, Reading
+from equipoise.app.terminal import stdout
+
+if TYPE_CHECKING:
+    from equipoise.app.replaying import Onlooker
+
+
+def replay(
+    file: str,
+    /,
+    *,
+    testbed: str,
+    speed: float = 1.0,
+    foxglove: Flag = False,
+    reading: Reading = WHOLE,
+) -> int:
+    """Show a recording as it was seen: time, tilt and where the masses are.
+
+    Cut off from a terminal, a line is printed for every second of the recording.
+
+    Parameters
+    ----------
+    file
+        Recording, in any format that `equipoise convert` reads.
+    testbed
+        Testbed file, or a preset's name.
+    speed
+        How many seconds of the recording pass in one; 0: as fast as possible.
+    foxglove
+        Also serve it to Foxglove, Lichtblick or PlotJuggler, on this computer.
+    """
+    from contextlib import ExitStack
+
+    from equipoise.app.options import not_negative
+    from equipoise.app.replaying import replayed, shown_lines
+    from equipoise.app.wiring import fitting_recording_of, testbed_of
+
+    not_negative("--speed", speed)
+    bed = testbed_of(testbed)
+    recording = fitting_recording_of(file, reading, bed)
+    with ExitStack() as stack:
+        onlookers: list[Onlooker] = [stack.enter_context(shown_lines(bed))]
+        if foxglove:
+            from equipoise.app.replaying import begun_ns
+            from equipoise.io.live_view import LiveView
+
+            view = stack.enter_context(LiveView(begun_ns(recording)))
+            stdout().print(f"Foxglove WebSocket: {view.address}", markup=False)
+            onlookers.append(view.rows)
+        replayed(bed, recording, speed, onlookers)
+    return 0

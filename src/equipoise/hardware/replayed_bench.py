@@ -1,0 +1,116 @@
+"""A recording as a bench: what was seen is seen again, at any speed.
+
+The four verbs of ``model.bench``. What a recording cannot do again is to obey: a move is checked
+against the travel, as any bench checks it, and noted; masses then do as they did. Time is the
+recording's.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.model.errors import EquipoiseError, InputError, MoveRefused, nearest
+from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.testbed import Testbed
+
+HAIR = 1e-9  # m, chosen: a target on the end of the rail may be rounded beyond it by so much
+Wait = Callable[[float], None]  # s
+
+
+class RecordingEnded(EquipoiseError):
+    """There is nothing more to see."""
+
+    def __init__(self, source: str, end: float) -> None:
+        super().__init__(f"{source or 'recording'}: it ends at {end:.3f} s; nothing more is seen")
+        self.end = end
+
+
+class ReplayedBench:
+    """A bench whose readings are a recording's."""
+
+    def __init__(self, testbed: Testbed, recording: Recording, wait: Wait | None = None) -> None:
+        """Begin at the first row; ``wait`` is asked to let each reading's time pass, None: no."""
+        self._testbed, self._recording, self._wait = testbed, recording, wait
+        self._time, self._end = recording.span
+        self._seen = -math.inf  # s, up to which rows have been handed out
+        self._notes: list[str] = []
+
+    @property
+    def testbed(self) -> Testbed:
+        """What is known of it beforehand."""
+        return self._testbed
+
+    @property
+    def time(self) -> float:
+        """Time of the recording, s."""
+        return self._time
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was asked for and could not be done again."""
+        return tuple(self._notes)
+
+    def read(self, duration: float) -> Recording:
+        """Return the rows of the next ``duration`` seconds; RecordingEnded when none are left."""
+        if not 0 <= duration < math.inf:
+            raise InputError("read", f"a duration of {duration} s", "zero or more seconds")
+        if self._seen >= self._end:
+            raise RecordingEnded(self._recording.source, self._end)
+        if self._wait is not None:
+            self._wait(duration)
+        since, self._time = self._seen, self._time + duration
+        self._seen = self._time
+        return _rows(self._recording, since, self._time)
+
+    def move(self, targets: Mapping[str, float]) -> None:
+        """Check displacements (m) against the travel; masses do as was recorded."""
+        names = list(self._testbed.mass_names)
+        for name, asked in targets.items():
+            if name not in names:
+                wanted = nearest(name, names) if names else "no masses: this testbed has none"
+                raise InputError("move", f"a mass '{name}'", wanted)
+            if not math.isfinite(asked):
+                raise InputError(f"move: mass {name}", f"{asked}", "a displacement in m")
+            low, high = self._testbed.mass_named(name).travel
+            if not low - HAIR <= asked <= high + HAIR:
+                raise MoveRefused(name, self._displacement(name), float(asked), low, high)
+        told = ", ".join(f"{name} to {asked * 1e3:.3g} mm" for name, asked in targets.items())
+        self._note(f"asked to move {told}; masses do as was recorded")
+
+    def drive(self, inputs: Mapping[str, float]) -> None:
+        """Note what devices were asked for; they do as was recorded."""
+        names = [device.name for device in self._testbed.devices]
+        for name in inputs:
+            if name not in names:
+                wanted = nearest(name, names) if names else "no devices: this testbed has none"
+                raise InputError("drive", f"a device '{name}'", wanted)
+        self._note(f"asked to drive {', '.join(inputs)}; devices do as was recorded")
+
+    def stop(self) -> None:
+        """Note it: what was recorded cannot be stopped."""
+        self._note("asked to stop; what was recorded goes on")
+
+    def _note(self, what: str) -> None:
+        self._notes.append(f"{self._time:.3f} s: {what}.")
+
+    def _displacement(self, name: str) -> float:
+        """Return where a mass is now, m; at home if that was not recorded."""
+        masses, names = self._recording.masses, self._recording.mass_names
+        if masses is None or name not in names or not len(masses):
+            return 0.0
+        return float(np.interp(self._time, masses.t, masses.values[:, names.index(name)]))
+
+
+def _rows(recording: Recording, since: float, until: float) -> Recording:
+    """Return the rows after one time and up to another; a channel without any is absent."""
+
+    def part(channel: Samples | None) -> Samples | None:
+        if channel is None:
+            return None
+        first, last = np.searchsorted(channel.t, [since, until], side="right")
+        return Samples(channel.t[first:last], channel.values[first:last]) if last > first else None
+
+    parts = {name: part(getattr(recording, name)) for name in (*CHANNELS, "attitude_norm")}
+    return replace(recording, **parts)
