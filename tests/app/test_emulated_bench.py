@@ -17,9 +17,23 @@ from equipoise.hardware.real_bench import RealBench
 from equipoise.io.presets import read_preset
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError, MoveRefused
+from equipoise.model.hardware import Port
 from equipoise.procedure.balance import BalanceOptions, balance
 
-BED = read_preset("nanosat")
+
+def over_tcp(bed):
+    """Return a testbed whose devices are behind network bridges.
+
+    What is sent over the loopback is there at once; a pseudo terminal may take as long as the
+    system likes, which is a pause on a clock that goes twenty times too fast.
+    """
+    hardware = bed.hardware
+    boards = tuple(replace(b, port=Port(f"tcp:board:{k}")) for k, b in enumerate(hardware.boards))
+    units = tuple(replace(u, port=Port(f"tcp:unit:{k}")) for k, u in enumerate(hardware.sensors))
+    return replace(bed, hardware=replace(hardware, boards=boards, sensors=units))
+
+
+BED = over_tcp(read_preset("nanosat"))
 # Left to itself it swings far: where balancing is not the matter, it may.
 FREE = replace(BED, tilt_limit=3.0)
 MM = 1e-3

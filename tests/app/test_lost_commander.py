@@ -35,6 +35,9 @@ if __name__ == "__main__":
 """
 
 
+TRIES = 4  # chosen: a real-time test on a computer that does other things too
+
+
 def without_switches():
     """Return the preset with a board that needs no homing, and a platform that may swing."""
     bed = read_preset("nanosat")
@@ -52,17 +55,34 @@ def turned(bench, clock, until, longest):
         clock.wait()
 
 
+def under_way(bench):
+    return bench.platform.displacements[0] > 2e-3
+
+
 @pytest.mark.skipif(os.name == "nt", reason="no pseudo terminals, no SIGKILL")
 @pytest.mark.parametrize("victim", ["commander", "keeper"])
 def test_a_killed_process_leaves_the_masses_standing_within_a_second(tmp_path, victim):
+    for _ in range(TRIES):
+        if stands_after_a_kill(tmp_path, victim):
+            return
+    pytest.fail("the computer was too busy for real time: no move came under way")
+
+
+def stands_after_a_kill(tmp_path, victim):
+    """Return False if the commander was stopped before the kill, by a device that paused."""
     bench = emulate(without_switches(), 1)
     bench.platform.read(0.01)  # compiles, so that no device pauses later
     clock = WallClock()
     write_testbed(bench.testbed(), tmp_path / "t.toml")
     (tmp_path / "commander.py").write_text(COMMANDER)
-    arguments = [str(tmp_path / name) for name in ("commander.py", "t.toml", "run.mcap")]
+    arguments = [
+        str(tmp_path / name) for name in ("commander.py", "t.toml", f"run{time.time_ns()}.mcap")
+    ]
     with subprocess.Popen([sys.executable, *arguments], stdout=subprocess.PIPE) as commander:
-        turned(bench, clock, lambda: bench.platform.displacements[0] > 2e-3, 60.0)
+        turned(bench, clock, lambda: under_way(bench) or commander.poll() is not None, 60.0)
+        if commander.poll() is not None:
+            bench.close()
+            return False
         keeper = int(commander.stdout.readline())
         os.kill(commander.pid if victim == "commander" else keeper, signal.SIGKILL)
         killed = clock.now
@@ -72,6 +92,7 @@ def test_a_killed_process_leaves_the_masses_standing_within_a_second(tmp_path, v
         commander.kill()
     assert bench.platform.displacements[0] == at < 9e-3  # 1.75 s of way, killed after 0.25
     bench.close()
+    return True
 
 
 def test_ports_are_free_again_after_a_kill(tmp_path):
