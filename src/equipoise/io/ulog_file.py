@@ -72,7 +72,8 @@ def _data(log: Any, topic: str, columns: tuple[str, ...]) -> Any:
 
 
 def _channel(name: str, data: Any, columns: tuple[str, ...]) -> LogChannel:
-    us = np.asarray(data.get("timestamp_sample", data["timestamp"]), dtype=np.uint64)
+    sampled = data.get("timestamp_sample", data["timestamp"])
+    us = sampled if sampled.dtype.kind == "u" else data["timestamp"]
     timed = us < LATEST_US
     values = np.stack([np.asarray(data[column], dtype=np.float64) for column in columns], axis=1)
     return LogChannel(name, us[timed].astype(np.int64) * PER_US, values[timed])
