@@ -1,11 +1,13 @@
 """Every format in the table: round trip for those that are written, the foreign library's own file
 for those that are read, and for all of them a sentence when they are broken."""
 
+import io
 import struct
 from pathlib import Path
 
 import numpy as np
 import pytest
+from pyulog import ULog
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
@@ -14,6 +16,7 @@ from scipy.io import savemat
 
 from equipoise.io.recording_file import read_recording, write_recording
 from equipoise.io.recording_formats import FORMATS
+from equipoise.io.ulog_messages import ulog_topics
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 
@@ -196,6 +199,29 @@ def ulog(rates: str) -> bytes:
         out += told(b"D", struct.pack("<HQQ4f", 0, us + 999, us, *q))
         out += told(b"D", struct.pack("<HQ3f", 1, us, 1.0, 0.25, -0.5))
     return out
+
+
+@pytest.mark.parametrize("rates", ["vehicle_angular_velocity", "sensor_combined"])
+def test_pyulog_finds_the_same_rows(rates):
+    theirs = ULog(io.BytesIO(ulog(rates)))
+    ours = ulog_topics(ulog(rates))
+    for topic in ("vehicle_attitude", rates):
+        wanted = theirs.get_dataset(topic).data
+        found = ours.columns(topic)
+        assert found.keys() == wanted.keys()
+        for name, values in wanted.items():
+            np.testing.assert_array_equal(found[name], values)
+
+
+def test_a_broken_place_of_a_log_costs_the_rows_up_to_the_next_sync():
+    """Row 2 is garbled, a sync follows row 3: rows 0, 1 and 4 are left."""
+    whole, sync = ulog("sensor_combined"), bytes.fromhex("0800532f731320250cbb12")
+    at = [k for k in range(len(whole)) if whole.startswith(struct.pack("<HBH", 34, 68, 0), k)]
+    garbled = whole[: at[2]] + bytes(37) + whole[at[2] + 37 : at[4]] + sync + whole[at[4] :]
+    found = ulog_topics(garbled)
+    assert found.broken == 1
+    times = found.columns("vehicle_attitude")["timestamp_sample"]
+    np.testing.assert_array_equal(times, [5_000_000, 5_100_000, 5_400_000])
 
 
 @pytest.mark.parametrize("rates", ["vehicle_angular_velocity", "sensor_combined"])

@@ -9,6 +9,7 @@ SciPy's reader ends the whole program on some broken files.
 import io
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any, cast
 
 import numpy as np
 from scipy.io import savemat
@@ -72,5 +73,5 @@ def read_mat(content: bytes, source: str) -> MatTable:
 def mat_bytes(columns: Mapping[str, Series1]) -> bytes:
     """Return columns as a MAT file's bytes (version 5, which MATLAB and Octave read)."""
     stream = io.BytesIO()
-    savemat(stream, dict(columns), oned_as="column")
+    savemat(cast(Any, stream), dict(columns), oned_as="column")
     return stream.getvalue()
