@@ -7,12 +7,11 @@ recording's.
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 
 import numpy as np
 
 from equipoise.model.errors import EquipoiseError, InputError, MoveRefused, nearest
-from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.recording import Recording, rows_between
 from equipoise.model.testbed import Testbed
 
 HAIR = 1e-9  # m, chosen: a target on the end of the rail may be rounded beyond it by so much
@@ -62,7 +61,7 @@ class ReplayedBench:
             self._wait(duration)
         since, self._time = self._seen, self._time + duration
         self._seen = self._time
-        return _rows(self._recording, since, self._time)
+        return rows_between(self._recording, since, self._time)
 
     def move(self, targets: Mapping[str, float]) -> None:
         """Check displacements (m) against the travel; masses do as was recorded."""
@@ -101,16 +100,3 @@ class ReplayedBench:
         if masses is None or name not in names or not len(masses):
             return 0.0
         return float(np.interp(self._time, masses.t, masses.values[:, names.index(name)]))
-
-
-def _rows(recording: Recording, since: float, until: float) -> Recording:
-    """Return the rows after one time and up to another; a channel without any is absent."""
-
-    def part(channel: Samples | None) -> Samples | None:
-        if channel is None:
-            return None
-        first, last = np.searchsorted(channel.t, [since, until], side="right")
-        return Samples(channel.t[first:last], channel.values[first:last]) if last > first else None
-
-    parts = {name: part(getattr(recording, name)) for name in (*CHANNELS, "attitude_norm")}
-    return replace(recording, **parts)

@@ -21,8 +21,9 @@ PORT = 8765  # the protocol's customary port
 class LiveView:
     """A server of the rows that it is given."""
 
-    def __init__(self, zero_ns: int, port: int = PORT) -> None:
-        """Begin to listen, 0: at any free port; ``zero_ns`` is UTC at bench time zero."""
+    def __init__(self, zero_ns: int, port: int | None = None) -> None:
+        """Begin to listen, at 0: any free port; ``zero_ns`` is UTC at bench time zero."""
+        port = PORT if port is None else port
         where = f"live view on {LOOPBACK}:{port}"
         foxglove = log_library("foxglove", where)
         context = foxglove.Context()

@@ -21,6 +21,7 @@ from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.errors import InputError
 
 FIELD = ("field_x_T", "field_y_T", "field_z_T")
+LARGEST = 1e150  # chosen: its square is still a double; no sensor's number
 TRIADS = {"rate": RATE, "momentum": MOMENTUM, "torque": TORQUE, "field": FIELD}
 
 
@@ -125,7 +126,7 @@ def log_map(
 
 def _tidy(channel: LogChannel) -> tuple[LogChannel, tuple[str, ...]]:
     """Return a channel in order of time, each time once, without rows that hold no number."""
-    sound = np.isfinite(channel.values).all(axis=1)
+    sound = (np.abs(channel.values) < LARGEST).all(axis=1)  # not a number is not either
     ns, values = channel.ns[sound], channel.values[sound]
     times, first = np.unique(ns, return_index=True)
     told = (

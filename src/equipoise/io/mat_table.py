@@ -1,18 +1,20 @@
-"""MAT files of MATLAB and Octave (version 4 to 7): each variable is a column of a table.
+"""MAT files of MATLAB and Octave (version 5 to 7): each variable is a column of a table.
 
 A file that we write has the native column names as variables, each a column vector, NaN for no
 reading. Of other files the variables that are real vectors of the same length make the table.
-Version 7.3 is another format (HDF5), which is not read.
+Version 7.3 is another format (HDF5), which is not read. SciPy writes and ``mat_elements`` reads:
+SciPy's reader ends the whole program on some broken files.
 """
 
 import io
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
-from scipy.io import loadmat, savemat
+from scipy.io import savemat
 
+from equipoise.io.mat_elements import vectors
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
@@ -57,31 +59,19 @@ def read_mat(content: bytes, source: str) -> MatTable:
         wanted = "one of version 7: save with `save(file, '-v7')` in MATLAB"
         raise InputError(source, "a MAT file of version 7.3", wanted)
     try:
-        file: Any = io.BytesIO(content)  # SciPy's stubs know paths alone
-        found: dict[str, Any] = loadmat(file, struct_as_record=False)
-    except Exception as error:  # a parser of broken bytes raises anything
+        columns = vectors(content)
+    except ValueError as error:
         raise InputError(source, f"a broken MAT file ({error})", WANTED) from error
-    vectors = {name: _vector(value) for name, value in found.items() if not name.startswith("__")}
-    columns = {name: vector for name, vector in vectors.items() if vector is not None}
     if not columns:
         raise InputError(source, "no variable that is a vector of numbers", WANTED)
     lengths = {len(vector) for vector in columns.values()}
     if len(lengths) > 1:
-        found_ = f"vectors of {min(lengths)} to {max(lengths)} numbers"
-        raise InputError(source, found_, WANTED)
+        raise InputError(source, f"vectors of {min(lengths)} to {max(lengths)} numbers", WANTED)
     return MatTable(source, columns)
 
 
 def mat_bytes(columns: Mapping[str, Series1]) -> bytes:
     """Return columns as a MAT file's bytes (version 5, which MATLAB and Octave read)."""
-    stream: Any = io.BytesIO()
-    savemat(stream, dict(columns), oned_as="column")
+    stream = io.BytesIO()
+    savemat(cast(Any, stream), dict(columns), oned_as="column")
     return stream.getvalue()
-
-
-def _vector(value: Any) -> Series1 | None:
-    """Return a variable as a column; None if it is a text, a matrix, a cell or one number."""
-    array: Any = value
-    if not isinstance(value, np.ndarray) or array.dtype.kind not in "iufb" or array.size < 2:
-        return None
-    return array.astype(np.float64).ravel() if max(array.shape) == array.size else None

@@ -24,10 +24,10 @@ from equipoise.io.log_time import PER_S, nanoseconds
 from equipoise.io.log_topics import LATEST, chosen
 from equipoise.io.mcap_salvage import Salvage, salvaged
 from equipoise.io.source_file import read_bytes
-from equipoise.model.recording import CHANNELS, Recording
+from equipoise.model.recording import CHANNELS, Recording, rows_between
 
 WANTED = "a recording (MCAP)"
-Row = tuple[int, tuple[float, ...]]  # ns, values
+SLICE = 2.0  # s to a chunk of a file that is written in one go (chosen: what a broken byte costs)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,11 +77,17 @@ def stored_testbed(path: str | Path) -> str:
 
 
 def write_mcap(recording: Recording, path: str | Path) -> None:
-    """Write a recording in one go; one that bears no date begins in 1970."""
-    starts = [c.t[0] for name in CHANNELS if (c := getattr(recording, name)) is not None and len(c)]
-    first = min(map(float, starts), default=0.0)
+    """Write a recording in one go; one that bears no date ends in 1970."""
+    channels = [c for name in CHANNELS if (c := getattr(recording, name)) is not None]
+    times = np.unique(np.concatenate([np.zeros(0), *(channel.t for channel in channels)]))
+    first = float(times[0]) if len(times) else 0.0
+    ends = np.append(np.flatnonzero(np.diff(np.floor((times - first) / SLICE))), len(times) - 1)
     with LiveRecording(path, Opening(zero_ns=max(-nanoseconds(first), 0))) as file:
-        file.rows(recording)
+        since = -np.inf
+        for until in times[ends] if len(times) else ():
+            file.rows(rows_between(recording, since, until))
+            file.turn(float(until))
+            since = until
 
 
 def loss_notes(found: Salvage) -> tuple[str, ...]:

@@ -54,9 +54,10 @@ def read_parquet(content: bytes, source: str) -> ParquetTable:
     parquet = _pyarrow("pyarrow.parquet", source)
     try:
         arrow = parquet.read_table(io.BytesIO(content))
+        names = tuple(arrow.column_names)
     except (OSError, ValueError) as error:
         raise InputError(source, "broken Parquet", "a whole Parquet file") from error
-    return ParquetTable(source, tuple(arrow.column_names), arrow)
+    return ParquetTable(source, names, arrow)
 
 
 def parquet_bytes(columns: Mapping[str, Series1], source: str) -> bytes:

@@ -1,32 +1,30 @@
 """Logs of PX4 (ULog): attitude and rate of the vehicle.
 
-Format (public: docs.px4.io/main/en/dev_log/ulog_file_format.html), read by pyulog. Topics:
+Topics (public: PX4's message reference), read by ``ulog_messages``:
 
     vehicle_attitude           q[0..3]: w x y z, turns FRD body axes into NED
     vehicle_angular_velocity   xyz[0..2]: rad/s, FRD, filtered; or, where that is not logged,
     sensor_combined            gyro_rad[0..2]: rad/s, FRD
 
 Times are timestamp_sample where there is one, else timestamp, both microseconds since the board
-started. FRD (x ahead, y right, z down) becomes our ahead, left, up; NED becomes north, west, up:
-half a turn about x on either side. So a platform that is level in the log is level here, and a
+started. FRD (x ahead, y right, z down) becomes ahead, left, up; NED becomes north, west, up: half
+a turn about x on either side. So a platform that is level in the log is level here, and a
 testbed's body axes are ahead, left, up of the board.
 """
 
-import contextlib
-from io import BytesIO, StringIO
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from equipoise.io.column_map import ColumnMap
-from equipoise.io.log_libraries import log_library
 from equipoise.io.log_table import LogChannel, LogTable, log_map, log_table
-from equipoise.model.errors import InputError
+from equipoise.io.ulog_messages import ulog_topics
 
 MAGIC = b"ULog\x01\x12\x35"
 PER_US = 1000  # ns
 LATEST_US = 2**62 // PER_US  # beyond, a count is no time (chosen)
-# Topic: its columns; the first that is there is taken.
+# Topics and their columns; the first that is there is taken.
 SOURCES = {
     "attitude": (("vehicle_attitude", tuple(f"q[{k}]" for k in range(4))),),
     "rate": (
@@ -38,20 +36,14 @@ FLU = ("x", "-y", "-z")  # ahead, left, up in terms of ahead, right, down
 
 
 def read_ulog(content: bytes, source: str) -> tuple[LogTable, ColumnMap]:
-    """Return a log's rows and what they mean; InputError if it is broken or holds none."""
-    core: Any = log_library("pyulog.core", source)
-    wanted = [name for topics in SOURCES.values() for name, _ in topics]
-    try:
-        with contextlib.redirect_stdout(StringIO()):  # it prints its doubts
-            log = core.ULog(BytesIO(content), wanted)
-    except Exception as error:  # a parser of broken bytes raises anything
-        raise InputError(source, f"a broken log ({error})", "a log of PX4 (ULog)") from error
+    """Return a log's rows and what they mean; InputError if it holds none."""
+    log = ulog_topics(content)
     channels: list[LogChannel] = []
-    notes = ["The log is damaged: it was read as far as it is whole."] * log.file_corruption
+    notes = ["The log is damaged: it was read as far as it is whole."] * (log.broken > 0)
     for name, topics in SOURCES.items():
         for topic, columns in topics:
-            data = _data(log, topic, columns)
-            if data is not None:
+            data = log.columns(topic)
+            if {"timestamp", *columns} <= data.keys():
                 channels.append(_channel(name, data, columns))
                 notes.append(f"{name}: taken from topic '{topic}'.")
                 break
@@ -59,20 +51,12 @@ def read_ulog(content: bytes, source: str) -> tuple[LogTable, ColumnMap]:
     return table, log_map("ulog", channels, lab_up="-z", body=FLU)
 
 
-def _data(log: Any, topic: str, columns: tuple[str, ...]) -> Any:
-    """Return the columns of a topic's first instance; None if they are not all there."""
-    for each in log.data_list:
-        if (
-            each.name == topic
-            and each.multi_id == 0
-            and {"timestamp", *columns} <= each.data.keys()
-        ):
-            return each.data
-    return None
-
-
-def _channel(name: str, data: Any, columns: tuple[str, ...]) -> LogChannel:
-    us = np.asarray(data.get("timestamp_sample", data["timestamp"]), dtype=np.uint64)
+def _channel(
+    name: str, data: Mapping[str, NDArray[np.generic]], columns: tuple[str, ...]
+) -> LogChannel:
+    sampled = data.get("timestamp_sample", data["timestamp"])
+    us = np.array(sampled if sampled.dtype.kind == "u" else [], dtype=np.uint64)
     timed = us < LATEST_US
-    values = np.stack([np.asarray(data[column], dtype=np.float64) for column in columns], axis=1)
-    return LogChannel(name, us[timed].astype(np.int64) * PER_US, values[timed])
+    with np.errstate(invalid="ignore"):  # broken bytes may be a NaN that signals
+        values = np.stack([np.array(data[each], dtype=np.float64) for each in columns], axis=1)
+    return LogChannel(name, us[timed].astype(np.int64) * PER_US, values[: len(us)][timed])

@@ -96,6 +96,19 @@ def window(recording: Recording, start: float, end: float) -> Recording:
     )
 
 
+def rows_between(recording: Recording, since: float, until: float) -> Recording:
+    """Return the rows after one time (s) and up to another; a channel without any is absent."""
+
+    def part(channel: Samples | None) -> Samples | None:
+        if channel is None:
+            return None
+        first, last = np.searchsorted(channel.t, [since, until], side="right")
+        return Samples(channel.t[first:last], channel.values[first:last]) if last > first else None
+
+    parts = {name: part(getattr(recording, name)) for name in (*CHANNELS, "attitude_norm")}
+    return replace(recording, **parts)
+
+
 def join(first: Recording, second: Recording) -> Recording:
     """Return the two, one after the other; rows of the second at or before the first's end go."""
 

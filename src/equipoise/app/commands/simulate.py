@@ -24,7 +24,7 @@ def simulate(
     testbed
         Testbed file, or a preset's name. Its [truth] says what the simulated platform is like.
     out
-        File to write, .csv or .parquet.
+        File to write: .csv, .parquet, .mcap or .mat.
     duration_s
         Length of the record: 120, or as the plan has it.
     plan
