@@ -82,6 +82,7 @@ def lab(bed=FREE, seed=1):
     found = Lab(bed, seed)
     try:
         found.bench.start()
+        found.bench.watch()
         yield found
     finally:
         found.keeper.close()
@@ -234,5 +235,6 @@ def test_after_a_stop_masses_move_again_once_they_have_come_home():
     with lab() as found:
         stopped_while_moving(found, found.board.device.hit_limit)
         found.bench.start()
+        found.bench.watch()
         found.bench.move({"x": 3 * MM})
         assert found.bench.read(1.0).masses.values[-1, 0] == pytest.approx(3 * MM, abs=2e-6)

@@ -5,7 +5,12 @@ import time
 import numpy as np
 import pytest
 
+from equipoise.app.commands.reading import WHOLE, Reading
+from equipoise.app.wiring import fitting_recording_of
+from equipoise.io.live_recording import LiveRecording, Opening
+from equipoise.io.presets import read_preset
 from equipoise.io.recording_file import read_recording
+from equipoise.model.recording import Recording, Samples, rows_between
 
 
 @pytest.mark.parametrize("suffix", ["parquet", "mcap", "mat"])
@@ -88,3 +93,20 @@ def test_a_replay_is_served_to_foxglove(equipoise, record_file, monkeypatch):
     words = ("--speed", 0, "--foxglove", "--from-s", 10, "--to-s", 12)
     told = equipoise("replay", record_file, "--testbed", "sputnix", *words)
     assert "ws://127.0.0.1:" in told.out
+
+
+def test_a_benchs_own_record_is_fitted_from_where_the_platform_was_let_go(tmp_path):
+    """Rows before it stay in the file; an earlier or later time may be asked for."""
+    t = np.arange(0.0, 6.0, 0.05)
+    attitude = Samples(t, np.tile([1.0, 0.0, 0.0, 0.0], (len(t), 1)))
+    path = tmp_path / "run.mcap"
+    with LiveRecording(path, Opening(10**18)) as live:
+        for start, end in ((-1.0, 2.0), (2.0, 4.0), (4.0, 6.0)):
+            live.rows(rows_between(Recording(attitude=attitude), start, end))
+            if end < 6.0:
+                live.event(end, "start", "the platform is free from here on", {})
+    assert read_recording(path).span == pytest.approx((0.0, 5.95))
+    bed = read_preset("nanosat")
+    fitted = fitting_recording_of(str(path), WHOLE, bed)
+    assert fitted.span == pytest.approx((4.0, 5.95))
+    assert fitting_recording_of(str(path), Reading(from_s=1.0), bed).span[0] == pytest.approx(1.0)

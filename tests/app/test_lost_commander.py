@@ -24,7 +24,7 @@ from equipoise.app.kept_bench import real_bench
 from equipoise.io.testbed_file import read_testbed
 
 def main():
-    with real_bench(read_testbed(sys.argv[1]), Path(sys.argv[2])) as bench:
+    with real_bench(read_testbed(sys.argv[1]), Path(sys.argv[2]), lambda: None) as bench:
         bench.move({"x": 0.014})
         print(bench._keeper._process.pid, flush=True)
         while True:

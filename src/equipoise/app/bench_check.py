@@ -42,6 +42,7 @@ def checked_bench(
     bench = RealBench(keeper, WallClock())
     try:
         yield from _started(keeper, bench, agreed)
+        bench.watch()
         recording = bench.read(streamed)
         yield from _streams(keeper, recording, streamed)
         yield from _frames(recording, testbed)

@@ -1,6 +1,6 @@
 """A real bench as a command uses it: wired, locked, recorded, in a process of its own."""
 
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +21,8 @@ from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.io.live_recording import LiveRecording, Opening
 from equipoise.io.testbed_text import text_of_testbed
 from equipoise.model.testbed import Testbed
+
+HAND = 1.0  # s, chosen: for a hand to leave the platform
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,19 +84,23 @@ def keeper_of(testbed: Testbed, opener: Opener = open_port) -> Keeper:
 
 
 @contextmanager
-def real_bench(testbed: Testbed, record: Path | None, homing: bool = True) -> Generator[RealBench]:
+def real_bench(
+    testbed: Testbed, record: Path | None, let_go: Callable[[], None] | None = None
+) -> Generator[RealBench]:
     """Return the bench, ready: every device answers, masses are at home, sensors give rows.
 
-    Without ``homing`` masses stay where they are, and nothing can be moved.
+    ``let_go`` is called when masses are at home; the platform is taken to be free ``HAND`` later.
+    Without it masses stay where they are, and nothing can be moved.
     When the block ends, however it ends, masses are halted and the record is closed.
     """
     distant = DistantKeeper(testbed, KeptBench, Wanted(testbed, record))
     try:
         bench = RealBench(distant, distant)
-        if homing:
+        if let_go is not None:
             bench.start()
-        else:
-            bench.watch()
+            let_go()
+            bench.read(HAND)
+        bench.watch()
         yield bench
     finally:
         distant.close()

@@ -83,8 +83,12 @@ def _columns(reading: Reading) -> str | ColumnMap | None:
 
 
 def part_of(recording: Recording, reading: Reading) -> Recording:
-    """Return the part between two times; one that is left out stands for the end there is."""
+    """Return the part between two times; one that is left out stands for the end there is.
+
+    A bench's own record begins where the platform was let go, unless another time is asked for.
+    """
     (first, last), start, end = recording.span, reading.from_s, reading.to_s
+    start = recording.free_from if start is None else start
     part = window(recording, first if start is None else start, last if end is None else end)
     if max(len(c) for c in (part.attitude, part.rate, ()) if c is not None) < FEWEST:
         found = f"fewer than {FEWEST} rows between --from-s and --to-s"

@@ -59,11 +59,19 @@ class Heard:
         """Take a sensor's row; say whether it is later than the one before and so was kept."""
         return self._append(row.channel, row.t, row.values)
 
-    def masses(self, at: Mapping[str, float], reported: float | None) -> None:
-        """Take where masses are (m), as reported at a time; masses without a board stay home."""
+    def masses(
+        self, at: Mapping[str, float], wants: Mapping[str, bool], reported: float | None
+    ) -> None:
+        """Take where masses are (m) and which have still to go, as reported at a time.
+
+        Masses without a board stay home. Without a time no position is known: what comes next has
+        no row before it.
+        """
         if reported is None or not self._names:
+            self._answer = None
             return
         where = np.array([at.get(name, 0.0) for name in self._names])
+        short = np.array([wants.get(name, False) for name in self._names])
         before = self._answer
         if before is None:
             self._answer = Answer(reported, where, np.zeros(len(where), dtype=np.bool_))
@@ -71,9 +79,9 @@ class Heard:
             return
         if reported <= before.t:
             return
-        corners, self._answer = rows_to(before, reported, where, self._speed)
+        rows, self._answer = rows_to(before, reported, where, short, self._speed)
         if bool(np.any(where != before.at)):
-            for row in (before, *corners, self._answer):
+            for row in (before, *rows):
                 self._append("masses", row.t, row.at)
         elif reported - self._last["masses"] >= BEAT:
             self._append("masses", reported, where)

@@ -14,8 +14,10 @@ import numpy as np
 from equipoise.hardware.board_link import BoardLink
 from equipoise.hardware.heard import Heard
 from equipoise.hardware.interlocks import LAST, Seen, Trip, silence, tripped
+from equipoise.hardware.mass_rows import on_the_way
 from equipoise.hardware.sensor_link import SensorLink
 from equipoise.model.arrays import Floats
+from equipoise.model.bench_units import MM
 from equipoise.model.errors import BenchStopped, EquipoiseError
 from equipoise.model.hardware import Hardware
 from equipoise.model.mass_targets import checked_targets
@@ -85,7 +87,7 @@ class Keeper:
             self._sensed(link, t)
         for link in self.links.boards:
             link.turn(t)
-        self._heard.masses(self.positions, self._reported)
+        self._heard.masses(self.positions, self._wants, self._reported)
         self._guard(t)
         for link in self.links.boards:
             link.send(t)
@@ -94,6 +96,11 @@ class Keeper:
     def taken(self) -> Recording:
         """Return the rows heard since this was last asked."""
         return self._heard.taken()
+
+    def begin(self) -> None:
+        """Note that the platform is free from now on, and forget the rows before."""
+        self._note("start", "the platform is free from here on", {})
+        self._heard.taken()
 
     @property
     def positions(self) -> dict[str, float]:
@@ -152,7 +159,8 @@ class Keeper:
         if why:
             raise BenchStopped(f"nothing was moved: {why}")
         by_name = {self._testbed.masses[i].name: goal for i, goal in goals.items()}
-        self._note("command", "go", by_name)
+        told = ", ".join(f"{name} to {MM * goal:.3f} mm" for name, goal in by_name.items())
+        self._note("command", f"go: {told}", by_name)
         for link in self.links.boards:
             own = {
                 axis.mass: by_name[axis.mass] for axis in link.board.axes if axis.mass in by_name
@@ -214,10 +222,16 @@ class Keeper:
 
     @property
     def _reported(self) -> float | None:
-        """When the last of the boards told a position, s; None while one never has."""
-        times = [link.driver.state.reported for link in self.links.boards]
-        known = [t for t in times if t is not None]
-        return max(known) if known and len(known) == len(times) else None
+        """When the last of the boards told a position, s; None while one is not sure of its own."""
+        states = [link.driver.state for link in self.links.boards]
+        known = [s.reported for s in states if s.reported is not None and s.sure]
+        return max(known) if known and len(known) == len(states) else None
+
+    @property
+    def _wants(self) -> dict[str, bool]:
+        """Which masses are not yet where they were sent."""
+        parts = [on_the_way(link.driver.state, link.board.axes) for link in self.links.boards]
+        return {name: short for part in parts for name, short in part.items()}
 
     def _stop(self, trip: Trip) -> None:
         self._halt_boards()

@@ -4,7 +4,7 @@ The two speak through a pipe. When it breaks, because the commander has ended, b
 crashed, the keeper halts every mass, closes the record and ends. Ctrl-C reaches the commander
 alone. The keeper never waits for the commander: what it has to say waits in a queue.
 
-    commander to keeper    ("go", targets)   ("home",)   ("halt", sentence)
+    commander to keeper    ("go", targets)   ("home",)   ("begin",)   ("halt", sentence)
     keeper to commander    ("news", News)    ("answer", None or an error)
 """
 
@@ -26,6 +26,7 @@ from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 
 BEAT = 0.05  # s, chosen: between news when nothing is new
+BEGIN = 60.0  # s, chosen: for the keeper's process to begin, on a slow computer
 ANSWER = 5.0  # s, chosen: for the keeper to carry out a command
 LEAVING = 2.0  # s, chosen: for the keeper to end
 
@@ -100,7 +101,7 @@ def _news(keeper: Keeper, t: float) -> News:
 
 def _carried_out(keeper: Keeper, command: tuple[Any, ...]) -> EquipoiseError | None:
     """Carry out a command; return what was wrong with it."""
-    verbs = {"go": keeper.go, "home": keeper.home, "halt": keeper.halt}
+    verbs = {"go": keeper.go, "home": keeper.home, "begin": keeper.begin, "halt": keeper.halt}
     try:
         verbs[command[0]](*command[1:])
     except EquipoiseError as error:
@@ -126,7 +127,7 @@ class DistantKeeper:
         self.testbed = testbed
         self._news = News(0.0, None, "", False, False, False, None)
         self._parts: list[Recording] = []
-        self._answer()
+        self._answer(BEGIN)
 
     @property
     def now(self) -> float:
@@ -172,6 +173,11 @@ class DistantKeeper:
         parts, self._parts = self._parts, []
         return joined([Recording(mass_names=self.testbed.mass_names), *parts])
 
+    def begin(self) -> None:
+        """Note that the platform is free from now on, and forget the rows before."""
+        self._ask("begin")
+        self._parts = []
+
     def go(self, targets: Mapping[str, float]) -> None:
         """Send masses to displacements (m): all or none."""
         self._ask("go", dict(targets))
@@ -195,16 +201,16 @@ class DistantKeeper:
         self._pipe.send(command)
         self._answer()
 
-    def _answer(self) -> None:
+    def _answer(self, patience: float = ANSWER) -> None:
         """Wait until the keeper has carried out what it was told; raise what it says."""
-        while self._pipe.poll(ANSWER):
+        while self._pipe.poll(patience):
             kind, what = self._receive()
             if kind == "answer":
                 if what is not None:
                     raise what
                 return
             self._take(kind, what)
-        raise BenchStopped(f"the keeper of the bench has not answered for {ANSWER:g} s")
+        raise BenchStopped(f"the keeper of the bench has not answered for {patience:g} s")
 
     def _receive(self) -> tuple[str, Any]:
         try:

@@ -74,6 +74,10 @@ class Kept(Protocol):
         """Return the rows heard since this was last asked."""
         ...
 
+    def begin(self) -> None:
+        """Note that the platform is free from now on, and forget the rows before."""
+        ...
+
     def go(self, targets: Mapping[str, float]) -> None:
         """Send masses to displacements (m): all or none."""
         ...
@@ -105,7 +109,7 @@ class RealBench:
         return self._clock.now
 
     def start(self) -> None:
-        """Wait until every device answers, and let boards that need it find their position.
+        """Wait until every board answers, and let those that need it find their position.
 
         Raises BenchStopped if that does not come about.
         """
@@ -114,12 +118,11 @@ class RealBench:
         if not keeper.ready:
             keeper.home()
         self._until(lambda: keeper.ready, HOMING, "the masses do not come home")
-        self.watch()
 
     def watch(self) -> None:
         """Wait until every sensor gives rows, and begin there; masses may be anywhere."""
         self._until(lambda: self._keeper.fresh, PATIENCE, "not every sensor gives rows")
-        self._keeper.taken()
+        self._keeper.begin()
 
     def read(self, duration: float) -> Recording:
         """Wait ``duration`` seconds and return what was recorded since the last read."""

@@ -74,4 +74,5 @@ class ColumnMap:
     mean_of_frames: bool = False  # rows may be means of several quaternions, hence short
     native: bool = False  # our own files keep our own rules: time never goes back, no blank time
     notes: tuple[str, ...] = ()  # what the dialect left aside
+    free_from: float | None = None  # s, when the platform was let go, where the file tells
     layout: Layout = Layout()

@@ -26,6 +26,7 @@ from equipoise.model.recording import CHANNELS, Recording, Samples
 ATTITUDE_TOPIC, LOG_TOPIC, EVENT_TOPIC = "/attitude", "/log", "/events"
 LABORATORY, BODY = "laboratory", "body"
 CHANNEL_KEY, NAMES_KEY = "equipoise.channel", "equipoise.names"  # of a channel's metadata
+START = "start"  # kind of the event with which the platform is free
 LEVELS = {"interlock": "Error", "fault": "Warning"}  # how loud a kind of event is; else Info
 XYZ_UNITS = {"rate": "rad_s", "momentum": "N_m_s", "torque": "N_m", "field": "T"}
 

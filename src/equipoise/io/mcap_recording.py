@@ -8,7 +8,7 @@ garbled file is read as far as it is sound, and that is noted.
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,14 @@ from equipoise.io.column_map import ColumnMap
 from equipoise.io.foreign_mcap import foreign_topics
 from equipoise.io.foxglove_messages import frame_transform
 from equipoise.io.live_recording import METADATA, TESTBED_FILE, ZERO_KEY, LiveRecording, Opening
-from equipoise.io.log_messages import CHANNEL_KEY, EVENT_TOPIC, NAMES_KEY, topic_of, value_names
+from equipoise.io.log_messages import (
+    CHANNEL_KEY,
+    EVENT_TOPIC,
+    NAMES_KEY,
+    START,
+    topic_of,
+    value_names,
+)
 from equipoise.io.log_table import LogChannel, LogTable, log_map, log_table
 from equipoise.io.log_time import PER_S, nanoseconds
 from equipoise.io.log_topics import LATEST, chosen
@@ -50,12 +57,17 @@ def read_mcap(content: bytes, source: str) -> tuple[LogTable, ColumnMap]:
         channels, told = chosen(topics, source)
         return log_table(source, channels, None, (*notes, *told)), log_map("mcap", channels)
     ours = _our_channels(found, source)
-    return log_table(source, ours, zero, notes), log_map("mcap", ours, ours=True)
+    known = log_map("mcap", ours, ours=True)
+    starts = [event.t for event in _events(found) if event.kind == START]
+    return log_table(source, ours, zero, notes), replace(known, free_from=max(starts, default=None))
 
 
 def events_of(path: str | Path) -> tuple[LoggedEvent, ...]:
     """Return the events of a recording that we wrote, in order."""
-    found = salvaged(read_bytes(path, WANTED), str(path))
+    return _events(salvaged(read_bytes(path, WANTED), str(path)))
+
+
+def _events(found: Salvage) -> tuple[LoggedEvent, ...]:
     zero = time_zero(found) or 0
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
     events: list[LoggedEvent] = []

@@ -68,6 +68,7 @@ def recording_of(table: Table, columns: ColumnMap) -> Recording:
         field=_samples(field),
         attitude_norm=_samples(norm),
         source=table.source,
+        free_from=columns.free_from,
         notes=(*notes, *of_momentum, *of_torque, *of_devices, *of_field, *gaps),
     )
 

@@ -15,11 +15,11 @@ from equipoise.app.commands.by_hand import (
 )
 from equipoise.app.commands.kinds import Flag, Triple, Whole
 from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.terminal import busy
+from equipoise.app.terminal import busy, stderr
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
-    from equipoise.app.balancing import Balancing
+    from equipoise.app.balancing import Balancing, Goal, Limits
     from equipoise.model.arrays import Vector3
     from equipoise.model.bench import Bench
     from equipoise.model.manoeuvre import Manoeuvre
@@ -44,6 +44,7 @@ def balance(
     reading: Reading = WHOLE,
     bench: Flag = False,
     record: Path | None = None,
+    yes: Flag = False,
     json: Flag = False,
     out: Path | None = None,
 ) -> int:
@@ -77,9 +78,12 @@ def balance(
         balances to a third of the tolerance before, since its errors stay; after momentum_buildup,
         whose masses follow the tilt too, by the sag that it found.
     bench
-        Balance the real bench. Masses go home first; Ctrl-C halts them, a second one leaves.
+        Balance the real bench. The procedure is practised in simulation, then masses go home, then
+        the platform is let go. Ctrl-C halts the masses, a second one leaves.
     record
         With --bench: MCAP file to write as rows arrive, with every command and interlock.
+    yes
+        With --bench: do not ask whether somebody holds the platform.
     json
         Print one JSON document instead.
     out
@@ -91,8 +95,9 @@ def balance(
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
-    if record is not None and not bench:
-        raise InputError("--record", "no --bench", "a real bench, whose rows are recorded")
+    for option, given in (("--record", record is not None), ("--yes", yes)):
+        if given and not bench:
+            raise InputError(option, "no --bench", "a real bench")
     if is_by_hand(by_hand, reading):
         others = _of_moving_masses(law, plan, until) + ["--bench"] * bench
         check_by_hand(by_hand, reading, others)
@@ -110,8 +115,11 @@ def balance(
         from equipoise.procedure.laws import CARDS
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
+        goal = Goal(*where)
+    if bench:
+        _prepare(bed, goal, limits, yes)
     with _real(bed, record) if bench else _simulated(bed, planned, seed) as platform:
-        done = run(platform, Goal(*where), limits, None if json else show_step)
+        done = run(platform, goal, limits, None if json else show_step)
     _tell(done, seed, json, out)
     return 0 if done.verdict.passed else 1
 
@@ -161,14 +169,31 @@ def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Gener
     yield bench
 
 
+def _prepare(bed: "Testbed", goal: "Goal", limits: "Limits", yes: bool) -> None:
+    """Practise in simulation, say what comes of it, and ask whether the platform is held."""
+    from equipoise.app.asking import agreed
+    from equipoise.app.practice import practised
+
+    with busy("practising on a simulated platform", announce=True):
+        verdict = practised(bed, goal, limits)
+    if verdict is not None and not verdict.passed:
+        stderr().print(f"In practice, simulated: {verdict.sentence}", markup=False)
+    question = "The masses will go home. Is the platform held level, and their way free?"
+    if not yes and not agreed(question):
+        raise InputError("the platform", "not ready", "somebody who holds it; then yes, or --yes")
+
+
 @contextmanager
 def _real(bed: "Testbed", record: Path | None) -> "Generator[Bench]":
-    """Return the real platform, masses at home and every sensor giving rows."""
+    """Return the real platform, masses at home, let go, and every sensor giving rows."""
     from equipoise.app.kept_bench import real_bench
 
+    def let_go() -> None:
+        stderr().print("Masses are at home: let the platform go.", style="bold")
+
     with ExitStack() as held:
-        with busy("the masses go home", announce=False):
-            bench = held.enter_context(real_bench(bed, record))
+        with busy("the masses go home", announce=True):
+            bench = held.enter_context(real_bench(bed, record, let_go))
         yield bench
 
 

@@ -24,21 +24,16 @@ def check(testbed: str, /, *, yes: Flag = False) -> int:
     yes
         Move masses without asking.
     """
+    from equipoise.app.asking import agreed
     from equipoise.app.bench_check import checked_bench
     from equipoise.app.wiring import testbed_of
 
     bed = testbed_of(testbed)
     told: list[Told] = []
     with busy("talking to the devices", announce=False):
-        steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else _asked)
+        steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else agreed)
         for line in steps:
             mark, style = ("ok     ", None) if line.good else ("PROBLEM", "bold red")
             stdout().print(f"{mark}  {line.sentence}", style=style, markup=False)
             told.append(line)
     return 0 if all(line.good for line in told) else 1
-
-
-def _asked(question: str) -> bool:
-    """Ask a person; anything but yes is no."""
-    stdout().print(f"{question} [y/n] ", end="", markup=False)
-    return input().strip().lower() in ("y", "yes")

@@ -53,6 +53,7 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
 
 def _run(bench: "EmulatedBench", longest: float) -> None:
     """Run as the clock on the wall does, until then or until Ctrl-C."""
+    from equipoise.app.units import UM
     from equipoise.hardware.wall_clock import WallClock
 
     clock = WallClock()
@@ -61,4 +62,6 @@ def _run(bench: "EmulatedBench", longest: float) -> None:
             bench.run(clock.now)
             clock.wait()
     except KeyboardInterrupt:
-        stdout().print("the emulation has ended", markup=False)
+        pass
+    com = ", ".join(f"{UM * x:.2f}" for x in bench.platform.truth().com)
+    stdout().print(f"the emulation has ended; the true centre of mass is at ({com}) um")

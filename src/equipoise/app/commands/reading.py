@@ -13,7 +13,8 @@ class Reading:
     Attributes
     ----------
     from_s
-        Leave out what is before this time.
+        Leave out what is before this time. Left out: of a bench's own record what is before the
+        platform was let go, else nothing.
     to_s
         Leave out what is after this time.
     dialect

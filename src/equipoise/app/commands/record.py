@@ -30,7 +30,7 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0) -> int:
     duration = positive("--duration-s", duration_s)
     bed = testbed_of(testbed)
     check_writable(out)
-    with real_bench(bed, out, homing=False) as bench, counted("recording") as so_far:
+    with real_bench(bed, out) as bench, counted("recording") as so_far:
         begin = bench.time
         try:
             while (passed := bench.time - begin) < duration:
