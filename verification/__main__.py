@@ -24,6 +24,8 @@ from verification import (
     design_predictions,
     drift,
     efficiency,
+    emulated_balancing,
+    faulty_benches,
     independent_truth,
     killed_recordings,
     laboratories,
@@ -86,6 +88,8 @@ CHECKS = {
     "lee": Check(lee.measure, 100),
     "planned": Check(planned.measure, 100),
     "design_predictions": Check(design_predictions.measure, 400),
+    "emulated_nanosat": Check(emulated_balancing.of("nanosat", "Grbl and VN-100"), 60),
+    "faulty_benches": Check(faulty_benches.measure, 306),
     "killed_recordings": Check(killed_recordings.measure, 200),
     "real_methods": Check(real_methods.measure, 1),
 }

@@ -8,30 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hardware.faulty_wire import FaultyWire, garbage, half, noisy, repeated, silent
 
-from equipoise.app.emulation import Station, emulate
-from equipoise.app.kept_bench import keeper_of
-from equipoise.app.lockstep import LockstepClock
-from equipoise.hardware.real_bench import RealBench
 from equipoise.io.presets import read_preset
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError, MoveRefused
-from equipoise.model.hardware import Port
 from equipoise.procedure.balance import BalanceOptions, balance
-
-
-def over_tcp(bed):
-    """Return a testbed whose devices are behind network bridges.
-
-    What is sent over the loopback is there at once; a pseudo terminal may take as long as the
-    system likes, which is a pause on a clock that goes twenty times too fast.
-    """
-    hardware = bed.hardware
-    boards = tuple(replace(b, port=Port(f"tcp:board:{k}")) for k, b in enumerate(hardware.boards))
-    units = tuple(replace(u, port=Port(f"tcp:unit:{k}")) for k, u in enumerate(hardware.sensors))
-    return replace(bed, hardware=replace(hardware, boards=boards, sensors=units))
-
+from tests import emulated_lab
+from tests.emulated_lab import over_tcp
+from tests.hardware.faulty_wire import garbage, half, noisy, repeated, silent
 
 BED = over_tcp(read_preset("nanosat"))
 # Left to itself it swings far: where balancing is not the matter, it may.
@@ -39,54 +23,12 @@ FREE = replace(BED, tilt_limit=3.0)
 MM = 1e-3
 
 
-class Lab:
-    """An emulated bench with faulty wires, and the real bench at its ports."""
-
-    def __init__(self, bed, seed):
-        self.emulated = emulate(bed, seed)
-        for stations in (self.emulated.boards, self.emulated.sensors):
-            stations[:] = [Station(each.device, FaultyWire(each.wire)) for each in stations]
-        self.keeper = keeper_of(self.emulated.testbed())
-        self.clock = LockstepClock(self.emulated)
-        self.bench = RealBench(self.keeper, self.clock)
-        self.events = []
-        self.keeper.listen(self)
-
-    @property
-    def board(self):
-        return self.emulated.boards[0]
-
-    @property
-    def imu(self):
-        return self.emulated.sensors[0]
-
-    def wait(self, seconds):
-        """Let time pass, whether sensors give rows or not."""
-        end = self.emulated.time + seconds
-        while self.emulated.time < end:
-            self.clock.wait()
-            self.keeper.turn(self.clock.now)
-
-    def rows(self, recording):
-        pass
-
-    def event(self, t, kind, sentence, data):
-        self.events.append((t, kind, sentence))
-
-    def turn(self, t):
-        pass
 
 
 @contextlib.contextmanager
 def lab(bed=FREE, seed=1):
-    found = Lab(bed, seed)
-    try:
-        found.bench.start()
-        found.bench.watch()
+    with emulated_lab.lab(bed, seed) as found:
         yield found
-    finally:
-        found.keeper.close()
-        found.emulated.close()
 
 
 @pytest.mark.parametrize("seed", [0, 3])
@@ -208,16 +150,8 @@ def test_a_sensor_that_is_hidden_for_ten_seconds_is_waited_for():
         spoil(found.imu, silent)()
         found.wait(0.6)
         begun = found.emulated.time
-        held = LockstepClock.wait
-
-        def back_after_ten_seconds(clock):
-            if found.emulated.time > begun + 10:
-                found.imu.wire.spoil = None
-            held(clock)
-
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(LockstepClock, "wait", back_after_ten_seconds)
-            found.bench.move({"x": 2 * MM})
+        found.clock.at(begun + 10, lambda: spoil(found.imu, None)())
+        found.bench.move({"x": 2 * MM})
         assert 10 < found.emulated.time - begun < 11
         said = [sentence for _, kind, sentence in found.events if kind == "interlock"]
         assert said == ["sensor imu is silent", "sensor imu gives rows again"]

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from equipoise.hardware.emulated.far_side import TcpFarSide
+
 
 class FaultyWire:
     """Stands between an emulated device and its port; ``spoil`` is put in by a test."""
@@ -18,6 +20,10 @@ class FaultyWire:
     def unplug(self):
         self._wire.close()
         self._wire = None
+
+    def plug_in(self):
+        """Put it back where it was: behind the same port of TCP."""
+        self._wire = TcpFarSide(number=int(self.address.rpartition(":")[2]))
 
     def send(self, data):
         if self.spoil is not None and data:

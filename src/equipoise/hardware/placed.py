@@ -10,6 +10,7 @@ S: sensor to body (``SensorUnit.alignment``). L: the sensor's laboratory to ours
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -39,9 +40,11 @@ def as_sensed(unit: SensorUnit, channel: Gives, values: Floats) -> Floats:
     return multiply(multiply(conjugate(_laboratory(unit)), values), _aligned(unit))
 
 
+@lru_cache(maxsize=64)  # by the unit itself: asked for each row
 def _laboratory(unit: SensorUnit) -> Quaternion:
     return np.array(TO_OURS[unit.laboratory])
 
 
+@lru_cache(maxsize=64)
 def _aligned(unit: SensorUnit) -> Quaternion:
     return from_matrix(unit.alignment)

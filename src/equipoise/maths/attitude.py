@@ -20,10 +20,18 @@ def conjugate(q: Floats) -> Floats:
 
 def multiply(p: Floats, q: Floats) -> Floats:
     """Return p (x) q: first q, then p."""
-    pw, pv = p[..., :1], p[..., 1:]
-    qw, qv = q[..., :1], q[..., 1:]
-    scalar = pw * qw - np.sum(pv * qv, axis=-1, keepdims=True)
-    return np.concatenate([scalar, pw * qv + qw * pv + np.cross(pv, qv)], axis=-1)
+    # By components: a general cross product takes ten times as long for one row.
+    pw, px, py, pz = p[..., 0], p[..., 1], p[..., 2], p[..., 3]
+    qw, qx, qy, qz = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    return np.stack(
+        [
+            pw * qw - (px * qx + py * qy + pz * qz),
+            pw * qx + qw * px + (py * qz - pz * qy),
+            pw * qy + qw * py + (pz * qx - px * qz),
+            pw * qz + qw * pz + (px * qy - py * qx),
+        ],
+        axis=-1,
+    )
 
 
 def to_matrix(q: Floats) -> Floats:

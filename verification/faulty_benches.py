@@ -1,0 +1,180 @@
+"""A fault at a random moment of a balancing through emulated devices: what becomes of it?
+
+It ends well in one of two ways. It balances all the same: the verdict passes and the truth is
+within tolerance. Or it is not balanced and says why: the bench was stopped with the sentence that
+belongs to the fault, or the verdict on fresh data fails. In either case no mass moves afterwards.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from equipoise.app.balancing import until_stopped
+from equipoise.io.presets import read_preset
+from equipoise.model.testbed import Testbed
+from equipoise.procedure.balance import BalanceOptions, balance
+from tests.emulated_lab import Lab, lab, over_tcp
+from tests.hardware.faulty_wire import garbage, half, noisy, repeated, silent
+from verification.result import Result, Row, Spread, at_least, at_most, in_turn
+
+OPTIONS = BalanceOptions()
+LATEST = 25.0  # s after the platform is let go, chosen: as long as a balancing takes
+AFTER = 2.0  # s in which no mass may move when all is over
+LOST_SENSOR = ("sensor imu", "no sensor", "not every sensor")
+LOST_BOARD = ("board masses", "not every board")
+TILT = ("the platform tilts", "the platform turns")  # it may swing too far while rows are awaited
+
+Strike = Callable[[Any, np.random.Generator], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Something that goes wrong, and what may be said if the bench is stopped for it."""
+
+    name: str
+    strike: Strike
+    said: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """What became of one balancing."""
+
+    seed: int
+    fault: str
+    ending: str  # balanced, failed, stopped
+    good: bool
+    sentence: str
+
+
+def spoilt(where: str, how: Any, for_s: float = np.inf) -> Strike:
+    """Return a fault of a wire, for so long."""
+
+    def strike(found: Lab, _rng: np.random.Generator) -> None:
+        wire = getattr(found, where).wire
+        wire.spoil = how
+        found.clock.at(found.emulated.time + for_s, lambda: setattr(wire, "spoil", None))
+
+    return strike
+
+
+def unplugged(where: str, for_s: float) -> Strike:
+    """Return a plug that is pulled, and put back after so long."""
+
+    def strike(found: Lab, _rng: np.random.Generator) -> None:
+        wire = getattr(found, where).wire
+        wire.unplug()
+        found.clock.at(found.emulated.time + for_s, wire.plug_in)
+
+    return strike
+
+
+def moved_in_part(share: float) -> Strike:
+    """Return a motor that goes only a share of each way, and its board does not know."""
+
+    def strike(found: Lab, rng: np.random.Generator) -> None:
+        found.board.device.done[str(rng.choice(["x", "y", "z"]))] = share
+
+    return strike
+
+
+def of_board(name: str, *values: Any) -> Strike:
+    """Return what somebody does to the board."""
+    return lambda found, _rng: getattr(found.board.device, name)(*values)
+
+
+def clock_jumps(found: Lab, rng: np.random.Generator) -> None:
+    """Let the sensor's clock jump, forth or back."""
+    found.imu.device.by = float(rng.choice([-5.0, 0.3, 1000.0]))
+
+
+FAULTS = (
+    Fault("IMU unplugged, put back after 3 s", unplugged("imu", 3.0), (*LOST_SENSOR, *TILT)),
+    Fault("IMU unplugged for good", unplugged("imu", np.inf), LOST_SENSOR),
+    Fault("board unplugged", unplugged("board", np.inf), LOST_BOARD),
+    Fault("garbage from the IMU", spoilt("imu", garbage), LOST_SENSOR),
+    Fault("garbage from the board", spoilt("board", garbage), LOST_BOARD),
+    Fault("half lines from the IMU", spoilt("imu", half, 2.0), (*LOST_SENSOR, *TILT)),
+    Fault("half lines from the board", spoilt("board", half), LOST_BOARD),
+    Fault("noise on the IMU's line", spoilt("imu", noisy), (*LOST_SENSOR, *TILT)),
+    Fault("noise on the board's line", spoilt("board", noisy), LOST_BOARD),
+    Fault("IMU frozen", spoilt("imu", repeated), LOST_SENSOR),
+    Fault("attitude hidden for 10 s", spoilt("imu", silent, 10.0), (*LOST_SENSOR, *TILT)),
+    Fault("motor stuck", moved_in_part(0.0), TILT),
+    Fault("motor slips", moved_in_part(0.7), TILT),
+    Fault("board reset", of_board("press_reset"), LOST_BOARD),
+    Fault("limit switch hit", of_board("hit_limit"), LOST_BOARD),
+    Fault("board without power", of_board("switch", False), LOST_BOARD),
+    Fault("the IMU's clock jumps", clock_jumps, TILT),
+)
+
+
+@cache
+def bed_for(fault: str) -> Testbed:
+    """Return the preset; where a clock is the matter, with a sensor that has one."""
+    bed = over_tcp(read_preset("nanosat"))
+    if "clock" not in fault or bed.hardware is None:
+        return bed
+    (unit,) = bed.hardware.sensors
+    columns = ("t_ms", "qw", "qx", "qy", "qz", "gx_deg_s", "gy_deg_s", "gz_deg_s")
+    stamped = replace(unit, driver="lines", settings={"format": "csv", "columns": columns})
+    return replace(bed, hardware=replace(bed.hardware, sensors=(stamped,)))
+
+
+def struck(seed: int) -> Run:
+    """Balance a platform to which one fault happens."""
+    fault, rng = FAULTS[seed % len(FAULTS)], np.random.default_rng(seed)
+    with lab(bed_for(fault.name), seed) as found:
+        when = found.emulated.time + float(rng.uniform(0.0, LATEST))
+        found.clock.at(when, lambda: fault.strike(found, rng))
+        *_, last = until_stopped(found.bench, balance(found.bench, OPTIONS))
+        platform = found.emulated.platform
+        off = platform.truth().com - OPTIONS.target
+        at = platform.displacements.copy()
+        found.wait(AFTER)
+        stands = bool(np.all(platform.displacements == at))
+    verdict, sentence = last.verdict, last.sentence
+    assert verdict is not None
+    ending = "stopped" if verdict.halted else "balanced" if verdict.passed else "failed"
+    right = {
+        "stopped": any(part in sentence for part in fault.said),
+        "balanced": bool(np.all(np.abs(off) <= OPTIONS.tolerance)),
+        "failed": len(sentence) > 0,
+    }[ending]
+    return Run(seed, fault.name, ending, right and stands, sentence)
+
+
+def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
+    """Let one fault happen in each of as many balancings as there are seeds."""
+    runs = spread(struck, seeds)
+    claim = (
+        "Preset nanosat through emulated Grbl and VN-100 over TCP; one of "
+        f"{len(FAULTS)} faults happens at a random moment of the first {LATEST:g} s. The run ends "
+        "balanced, and truly so, or unbalanced in words that belong to the fault; then no mass "
+        f"moves. {len(runs)} seeds."
+    )
+    endings = Counter(run.ending for run in runs)
+    told = ", ".join(f"{count} {ending}" for ending, count in sorted(endings.items()))
+    by_fault = (
+        f"{fault.name}: "
+        + ", ".join(
+            f"{count} {ending}"
+            for ending, count in sorted(
+                Counter(run.ending for run in runs if run.fault == fault.name).items()
+            )
+        )
+        for fault in FAULTS
+        if any(run.fault == fault.name for run in runs)
+    )
+    odd = (f"Seed {r.seed}, {r.fault}, {r.ending}: {r.sentence}" for r in runs if not r.good)
+    rows: tuple[Row, ...] = (
+        at_least("recovered, or stopped in the right words", np.mean([r.good for r in runs]), 1.0,
+                 ".1%"),
+        at_most("passed and truly out of tolerance",
+                sum(r.ending == "balanced" and not r.good for r in runs), 0, "d"),
+    )  # fmt: skip
+    return Result("faulty_benches", claim, rows, (f"Endings: {told}.", *by_fault, *odd))
