@@ -210,7 +210,8 @@ class Tmcl:
             return True
         if self._talk.value(SEEN) != MARK:
             self._fault(ANEW)
-        elif any(self._talk.value(q) for q in self._each(w.RFS, w.STATUS)):
+            return False
+        if any(self._talk.value(q) for q in self._each(w.RFS, w.STATUS)):
             if t - self._since > LONGEST_SEARCH:
                 self._fault("homing did not find a switch")
             return False

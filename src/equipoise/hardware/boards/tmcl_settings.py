@@ -32,7 +32,7 @@ from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass
 
 CLOCK = 16e6  # Hz
-GREATEST = 2047  # of a TMC429's speed
+GREATEST, MOST_DIVISOR = 2047, 13  # of a TMC429: speed and the powers of two that divide it
 NEAR = 0.01  # relative, chosen: of a speed, as a TMC429 has steps of it
 SLOWING = 0.1  # s, chosen: a mass that takes longer to stop is beyond its leg when it must halt
 WANTED = (AT, MICROSTEPS, MOST_ACCELERATION, RIGHT_OFF, LEFT_OFF)
@@ -79,6 +79,10 @@ def _of_axis(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
             return f"it is no stepper module, or has no motor {axis.letter}: {what}"
     if _told(axis, UNITS, answers) == 0:
         return f"motor {axis.letter} counts in units of its own (255 is 0); wanted pps (255 is 1)"
+    for type_ in (PULSE_DIVISOR, RAMP_DIVISOR):
+        divisor = _told(axis, type_, answers)
+        if divisor is not None and not 0 <= divisor <= MOST_DIVISOR:
+            return f"motor {axis.letter} has divisor {divisor} ({type_}); wanted 0 to {MOST_DIVISOR}"
     return _speed(axis, mass, answers) or _slowing(axis, mass, answers)
 
 
