@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hardware.board_wire import board_of
 from hardware.faulty_wire import FaultyWire, garbage, half, noisy, repeated, silent
 
 from equipoise.app.emulation import Station, emulate
@@ -88,11 +89,17 @@ def lab(bed=FREE, seed=1):
         found.emulated.close()
 
 
-@pytest.mark.parametrize("seed", [0, 3])
-def test_it_balances_through_real_ports_and_the_verdict_is_true(seed):
+def bed_with(kind):
+    """Return the testbed with another kind of motor board."""
+    board = replace(board_of(kind), port=BED.hardware.boards[0].port)
+    return replace(BED, hardware=replace(BED.hardware, boards=(board,)))
+
+
+@pytest.mark.parametrize(("kind", "seed"), [("grbl", 0), ("grbl", 3), ("tmcl", 0)])
+def test_it_balances_through_real_ports_and_the_verdict_is_true(kind, seed):
     """As on the simulated bench: (2, 2, 3) um in 3 moves and 120 s, errors as large as stated."""
     options = BalanceOptions()
-    with lab(BED, seed) as found:
+    with lab(bed_with(kind), seed) as found:
         assert isinstance(found.bench, Bench)
         steps = list(balance(found.bench, options))
         truth = found.emulated.platform.truth().com

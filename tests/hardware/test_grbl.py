@@ -1,7 +1,8 @@
 """Grbl: transcripts of its public documentation; what every board does is in ``test_boards``."""
 
-import pytest
 from dataclasses import replace
+
+import pytest
 from hardware.board_wire import BED, MM, Wire, board_of
 
 from equipoise.hardware.boards.grbl_report import Code, Ok, Setting, Status, Welcome, parsed

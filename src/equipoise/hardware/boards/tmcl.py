@@ -236,7 +236,9 @@ class Tmcl:
             if self._state.phase != "fault":
                 self._fault(ANEW)
             return
-        told = {k: self._talk.value(Request(w.GAP, w.AT, self._steps.motor(k))) for k in self._names}
+        told = {
+            k: self._talk.value(Request(w.GAP, w.AT, self._steps.motor(k))) for k in self._names
+        }
         at = self._at | {k: value for k, value in told.items() if value is not None}
         if at != self._at:
             self._still = t

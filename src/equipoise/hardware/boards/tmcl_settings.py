@@ -82,7 +82,9 @@ def _of_axis(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
     for type_ in (PULSE_DIVISOR, RAMP_DIVISOR):
         divisor = _told(axis, type_, answers)
         if divisor is not None and not 0 <= divisor <= MOST_DIVISOR:
-            return f"motor {axis.letter} has divisor {divisor} ({type_}); wanted 0 to {MOST_DIVISOR}"
+            return (
+                f"motor {axis.letter} has divisor {divisor} ({type_}); wanted 0 to {MOST_DIVISOR}"
+            )
     return _speed(axis, mass, answers) or _slowing(axis, mass, answers)
 
 
