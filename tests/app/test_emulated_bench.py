@@ -15,6 +15,7 @@ from equipoise.model.errors import BenchStopped, InputError, MoveRefused
 from equipoise.procedure.balance import BalanceOptions, balance
 from tests import emulated_lab
 from tests.emulated_lab import over_tcp
+from tests.hardware.board_wire import board_of
 from tests.hardware.faulty_wire import garbage, half, noisy, repeated, silent
 
 BED = over_tcp(read_preset("nanosat"))
@@ -31,11 +32,17 @@ def lab(bed=FREE, seed=1):
         yield found
 
 
-@pytest.mark.parametrize("seed", [0, 3])
-def test_it_balances_through_real_ports_and_the_verdict_is_true(seed):
+def bed_with(kind):
+    """Return the testbed with another kind of motor board."""
+    board = replace(board_of(kind), port=BED.hardware.boards[0].port)
+    return replace(BED, hardware=replace(BED.hardware, boards=(board,)))
+
+
+@pytest.mark.parametrize(("kind", "seed"), [("grbl", 0), ("grbl", 3), ("tmcl", 0)])
+def test_it_balances_through_real_ports_and_the_verdict_is_true(kind, seed):
     """As on the simulated bench: (2, 2, 3) um in 3 moves and 120 s, errors as large as stated."""
     options = BalanceOptions()
-    with lab(BED, seed) as found:
+    with lab(bed_with(kind), seed) as found:
         assert isinstance(found.bench, Bench)
         steps = list(balance(found.bench, options))
         truth = found.emulated.platform.truth().com

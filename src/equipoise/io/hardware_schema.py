@@ -38,7 +38,7 @@ class Board(Table):
     """A board that moves sliding masses."""
 
     name: Name
-    driver: str = Field(description="grbl or trinamic")
+    driver: str = Field(description="grbl or tmcl")
     port: Address = Field(description=ADDRESSES)
     baud: Baud = 115200
     homing: bool = Field(True, description="it has switches; else a person puts masses at home")

@@ -14,6 +14,7 @@ without switches are put at home by a person, whose word is ``home``. Source: Gr
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from equipoise.hardware.boards.axis_letters import check_letters
 from equipoise.hardware.boards.grbl_report import (
     Code,
     Ok,
@@ -46,6 +47,7 @@ class Grbl:
     """The conversation with one board."""
 
     def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
+        check_letters(board, LETTERS, "Grbl names its axes")
         self._board, self._masses = board, tuple(masses)
         self._speed = {mass.name: mass.speed for mass in masses}
         self._lines = Lines()

@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from equipoise.hardware.boards.axis_letters import check_letters
 from equipoise.hardware.emulated.device import Leg
 from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass
@@ -40,6 +41,7 @@ class EmulatedGrbl:
     """The firmware and its motors."""
 
     def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
+        check_letters(board, LETTERS, "Grbl names its axes")
         self._axes = board.axes
         self._count = max(3, *(LETTERS.index(axis.letter) + 1 for axis in board.axes))
         self._settings = _defaults(board, masses, self._count)

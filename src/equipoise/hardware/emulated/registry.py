@@ -4,11 +4,13 @@ from collections.abc import Callable, Sequence
 
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor
 from equipoise.hardware.emulated.grbl import EmulatedGrbl
+from equipoise.hardware.emulated.tmcl import EmulatedTmcl
 from equipoise.hardware.emulated.vectornav import EmulatedVectorNav
 from equipoise.model.hardware import MotorBoard, SensorUnit
 from equipoise.model.testbed import SlidingMass
 
 BOARDS: dict[str, Callable[[MotorBoard, Sequence[SlidingMass]], EmulatedBoard]] = {
     "grbl": EmulatedGrbl,
+    "tmcl": EmulatedTmcl,
 }
 SENSORS: dict[str, Callable[[SensorUnit], EmulatedSensor]] = {"vectornav": EmulatedVectorNav}

@@ -1,0 +1,299 @@
+"""Trinamic's stepper modules with TMCL firmware, in binary, over a serial line, USB or TCP.
+
+Everything is a script of requests (``tmcl_talk``). Opened, a module is asked what it is and how it
+is set, is told the speed of each mass, and given a mark: a variable of its working memory, which
+is 0 again after a reset. While masses stand or move, one round of questions follows another:
+
+    targets of masses on their way, where these are, a limit switch ahead of one, the mark
+
+A round counts once its mark is seen, so that no position of a module that began anew is believed.
+Masses find their position by the module's own reference search; those without switches stand at
+home when a person says so. Source: TMCM-6110 TMCL Firmware Manual V1.31, 4.6 and chapters 5, 6.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+from equipoise.hardware.boards import tmcl_words as w
+from equipoise.hardware.boards.axis_letters import check_letters
+from equipoise.hardware.boards.tmcl_settings import disagreement, guards, questions, speed_value
+from equipoise.hardware.boards.tmcl_steps import Steps
+from equipoise.hardware.boards.tmcl_talk import Talk
+from equipoise.hardware.boards.tmcl_words import Request
+from equipoise.hardware.driver import ASK, ASK_MOVING, BoardState, Phase
+from equipoise.model.errors import BenchStopped
+from equipoise.model.hardware import MotorBoard
+from equipoise.model.reading import Counts
+from equipoise.model.testbed import SlidingMass
+
+MOTORS = "012345"
+MARK, BANK, VARIABLE = 0x45515550, 2, 255  # chosen: any number but 0; the last user variable
+SEEN = Request(w.GGP, VARIABLE, BANK)
+BEGIN = 4.0  # s, chosen: a radio bridge may take as long to join
+LONGEST_SEARCH = 60.0  # s, chosen
+SETTLED = 0.5  # s, chosen: standing for so long, a mass goes nowhere else
+ABSENT = "it does not answer: unplugged, without power, or just reset; its position is lost"
+ANEW = "it began anew: its power failed or somebody reset it; its position is lost"
+
+
+class Tmcl:
+    """The conversation with one module."""
+
+    def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
+        check_letters(board, MOTORS, "a Trinamic module numbers its motors")
+        self._board, self._masses = board, {mass.name: mass for mass in masses}
+        self._steps, self._talk = Steps(board, masses), Talk()
+        self._names = [axis.mass for axis in board.axes]
+        self._guards: dict[str, Mapping[int, int]] = {}
+        self._state = BoardState("connecting")
+        self._begin(0.0)
+
+    def _begin(self, t: float) -> None:
+        self._plan: list[str] = []  # what comes before the rounds of questions
+        self._doing = ""  # what the script under way is: a step of the plan, halt or round
+        self._at: dict[str, int] = {}  # microsteps
+        self._sent: dict[str, int] = {}  # microsteps, targets
+        self._asked: dict[str, Request] = {}  # the limit switch asked for in this round, by mass
+        self._turn = 0  # whose limit switch is asked for
+        self._still = self._since = self._next = t  # s
+        self._mute = False  # it was silent; nothing is said until somebody wants it
+
+    @property
+    def state(self) -> BoardState:
+        """What is known of it now."""
+        return self._state
+
+    @property
+    def counts(self) -> Counts:
+        """How much was understood since the port was opened."""
+        return self._talk.counts
+
+    def opened(self, t: float) -> None:
+        """Begin anew."""
+        self._talk.begin()
+        self._begin(t)
+        self._state = BoardState("connecting")
+        self._plan = ["version", "settings", "mark"]
+
+    def closed(self, t: float, why: str) -> None:
+        """Note that the port is gone."""
+        self._fault(f"its port is gone ({why}): unplugged, or without power", silent=True)
+
+    def feed(self, data: bytes, t: float) -> None:
+        """Take in what has arrived."""
+        self._talk.feed(data, t)
+
+    def due(self, t: float) -> bytes:
+        """Return what to send now."""
+        if self._talk.silent(t):
+            self._unanswered(t)
+        if self._talk.over and self._doing:
+            done, self._doing = self._doing, ""
+            self._done(done, t)
+        if self._talk.over and not self._mute and t >= self._next - 1e-9:
+            self._more(t)
+        return self._talk.due(t)
+
+    def home(self, t: float) -> None:
+        """Find the position, then go to displacement zero."""
+        if self._mute:
+            self._talk.give_up()
+        counts = self._state.reported
+        self._begin(t)
+        self._talk.say([])
+        self._state = BoardState("homing", position=self._state.position, reported=counts)
+        find = ["search", "searched"] if self._board.homing else ["place"]
+        self._plan = ["version", "stop", "stopped", "settings", "mark", *find]
+
+    def go(self, goals: Mapping[str, float], t: float) -> None:
+        """Send masses on their way to displacements (m); BenchStopped while they may not move."""
+        if self._state.phase not in ("ready", "moving") or not self._state.sure:
+            why = self._state.sentence or f"it is {self._state.phase}, its position not known"
+            raise BenchStopped(f"board {self._board.name}: {why}")
+        self._aim({**self._state.goal, **goals}, t)
+
+    def halt(self, t: float) -> None:
+        """Stop every mass, slowing down in order; a reference search is broken off."""
+        if self._state.phase == "homing":
+            self._fault("homing was broken off")
+        elif self._state.phase == "moving":
+            self._state = replace(self._state, phase="halted")
+            self._say("halt", self._each(w.MST), t)
+
+    # --- Scripts -----------------------------------------------------------------------------
+
+    def _more(self, t: float) -> None:
+        """Say the next step of the plan, or ask another round."""
+        doing = self._plan[0] if self._plan else "round"
+        script = self._round() if doing == "round" else self._script(doing)
+        self._say(doing, script, t)
+
+    def _say(self, doing: str, script: Sequence[Request], t: float) -> None:
+        quick = self._state.phase in ("moving", "homing", "halted")
+        self._doing, self._next = doing, t + (ASK_MOVING if quick else ASK)
+        self._talk.say(script)
+
+    def _script(self, step: str) -> Sequence[Request]:
+        scripts: dict[str, Callable[[], Sequence[Request]]] = {
+            "version": lambda: [Request(w.VERSION, w.BINARY, 0)],
+            "stop": lambda: [*self._each(w.RFS, w.STOP), *self._each(w.MST)],
+            "stopped": lambda: self._each(w.GAP, w.SPEED),
+            "settings": lambda: questions(self._board),
+            "mark": lambda: [*self._speeds, Request(w.SGP, VARIABLE, BANK, MARK)],
+            "search": lambda: self._each(w.RFS, w.START),
+            "searched": lambda: [*self._each(w.RFS, w.STATUS), SEEN],
+            "place": lambda: [
+                Request(w.SAP, w.AT, self._steps.motor(name), self._steps.steps(name, 0.0))
+                for name in self._names
+            ],
+        }
+        return scripts[step]()
+
+    def _round(self) -> Sequence[Request]:
+        """Return a round of questions, with the targets of masses on their way before them."""
+        if self._state.phase in ("ready", "fault"):
+            return [*self._each(w.GAP, w.AT), SEEN]
+        if self._state.phase == "halted" or not self._state.goal:
+            return [*self._each(w.GAP, w.SPEED), *self._each(w.GAP, w.AT), SEEN]
+        going = self._going
+        targets = {k: self._steps.target(k, self._at[k], self._state.goal[k]) for k in going}
+        told = [
+            Request(w.MVP, w.ABSOLUTE, self._steps.motor(k), target)
+            for k, target in targets.items()
+            if self._sent.get(k) != target
+        ]
+        self._sent |= targets
+        asked = [Request(w.GAP, w.AT, self._steps.motor(k)) for k in going]
+        return [*told, *asked, *self._switch_ahead(going), SEEN]
+
+    def _switch_ahead(self, going: Sequence[str]) -> Sequence[Request]:
+        """Return the question for the limit switch ahead of one mass, the next in turn."""
+        self._asked = {}
+        if going:
+            self._turn += 1
+            name = going[self._turn % len(going)]
+            switch = self._guards[name].get(1 if self._sent[name] > self._at[name] else -1)
+            if switch is not None:
+                self._asked = {name: Request(w.GAP, switch, self._steps.motor(name))}
+        return list(self._asked.values())
+
+    def _each(self, command: int, type_: int = 0) -> Sequence[Request]:
+        return [Request(command, type_, self._steps.motor(name)) for name in self._names]
+
+    @property
+    def _going(self) -> Sequence[str]:
+        goal = self._state.goal
+        return [k for k in self._names if self._at[k] != self._steps.steps(k, goal[k])]
+
+    # --- What was answered -------------------------------------------------------------------
+
+    def _done(self, step: str, t: float) -> None:
+        """Draw the conclusion from a script that was answered."""
+        refused = self._talk.refused
+        if self._state.phase != "fault" and refused and step != "settings":
+            self._fault(refused)
+        elif step == "round":
+            self._rounded(t)
+        elif step in self._plan and self._concluded(step, t):
+            self._plan.remove(step)
+            self._since, self._next = t, t
+            if not self._plan and self._state.phase == "connecting":
+                self._state = replace(self._state, phase="halted")
+
+    def _concluded(self, step: str, t: float) -> bool:
+        """Say whether a step of the plan is done, and need not be said again."""
+        if step == "settings":
+            return self._agreed()
+        if step == "stopped":
+            return not any(a.value for a in self._talk.answers.values())
+        if step != "searched":
+            return True
+        if self._talk.value(SEEN) != MARK:
+            self._fault(ANEW)
+            return False
+        if any(self._talk.value(q) for q in self._each(w.RFS, w.STATUS)):
+            if t - self._since > LONGEST_SEARCH:
+                self._fault("homing did not find a switch")
+            return False
+        return True
+
+    def _agreed(self) -> bool:
+        masses, answers = list(self._masses.values()), self._talk.answers
+        wrong = disagreement(self._board, masses, answers)
+        if wrong:
+            self._fault(f"{wrong}; mend one of the two")
+            return False
+        self._guards = {k: guards(axis, answers) for k, axis in self._steps.axes.items()}
+        self._speeds = [
+            Request(w.SAP, w.MOST_SPEED, int(a.letter), speed_value(a, self._masses[k], answers))
+            for k, a in self._steps.axes.items()
+        ]
+        return True
+
+    def _rounded(self, t: float) -> None:
+        """Take over the positions of a round."""
+        if self._talk.value(SEEN) != MARK:
+            if self._state.phase != "fault":
+                self._fault(ANEW)
+            return
+        told = {
+            k: self._talk.value(Request(w.GAP, w.AT, self._steps.motor(k))) for k in self._names
+        }
+        at = self._at | {k: value for k, value in told.items() if value is not None}
+        if at != self._at:
+            self._still = t
+        self._at = at
+        position = {k: self._steps.displacement(k, value) for k, value in at.items()}
+        self._state = replace(self._state, position=position, reported=self._read_at(t))
+        self._settle(t)
+
+    def _read_at(self, t: float) -> float:
+        """Return the middle of the times at which positions of this round were told."""
+        when = [a.t for q, a in self._talk.answers.items() if (q.command, q.type) == (w.GAP, w.AT)]
+        return (when[0] + when[-1]) / 2 if when else t
+
+    def _settle(self, t: float) -> None:
+        """Let a way or a halt end when masses stand; a way that meets a switch is a fault."""
+        state = self._state
+        hit = [name for name, q in self._asked.items() if self._talk.value(q)]
+        if state.phase in ("moving", "homing") and state.goal:
+            if hit:
+                self._fault(f"a limit switch was hit (mass {hit[0]}); the position is likely lost")
+            elif not self._going or t - self._still > SETTLED:
+                self._state = replace(state, phase="ready", sure=True)
+        elif state.phase == "homing":
+            self._aim(dict.fromkeys(self._names, 0.0), t)
+        elif state.phase == "halted":
+            speeds = [self._talk.value(q) for q in self._each(w.GAP, w.SPEED)]
+            if speeds and not any(speeds):
+                self._state = replace(state, phase="ready", goal=dict(state.position))
+
+    def _aim(self, goal: Mapping[str, float], t: float) -> None:
+        """Take up a goal."""
+        if self._state.phase != "moving":
+            self._sent, self._asked = dict(self._at), {}
+        phase: Phase = "homing" if self._state.phase == "homing" else "moving"
+        whole = {name: goal.get(name, self._state.position[name]) for name in self._names}
+        self._state = replace(self._state, phase=phase, goal=whole)
+        self._still = self._next = t
+
+    # --- Trouble -----------------------------------------------------------------------------
+
+    def _unanswered(self, t: float) -> None:
+        self._talk.give_up()
+        self._doing = ""
+        if self._state.phase != "connecting":
+            self._fault(ABSENT, silent=True)
+        elif self._plan[0] != "version" or t - self._since > BEGIN:
+            self._fault("it does not answer: unplugged, without power, or no TMCL", silent=True)
+
+    def _fault(self, sentence: str, silent: bool = False) -> None:
+        """Stop, as far as it hears; nothing moves until it has come home."""
+        self._plan, self._doing, self._mute = [], "", silent
+        if self._state.phase != "fault":
+            self._state = replace(self._state, phase="fault", sentence=sentence, sure=False)
+        if silent:
+            self._talk.give_up()
+        else:
+            self._doing = "halt"
+            self._talk.say([*self._each(w.RFS, w.STOP), *self._each(w.MST)])

@@ -1,0 +1,81 @@
+"""A board's driver and its emulated far side, turn by turn, and the true way of every mass."""
+
+from dataclasses import replace
+
+from equipoise.app.emulation import ahead_of
+from equipoise.hardware.boards.registry import BOARDS
+from equipoise.hardware.emulated.registry import BOARDS as FAR_SIDES
+from equipoise.io.presets import read_preset
+
+BED = read_preset("nanosat")  # 8 mm/s, zero at -17 mm, 800 steps per mm
+MM = 1e-3
+TURN = 0.01  # s
+LETTERS = {"grbl": "XYZ", "tmcl": "012"}  # what each kind of board calls its first three axes
+
+
+def board_of(kind, **changes):
+    """Return the preset's board as one of another kind."""
+    (board,) = BED.hardware.boards
+    named = zip(board.axes, LETTERS[kind], strict=True)
+    axes = tuple(replace(axis, letter=letter) for axis, letter in named)
+    return replace(board, driver=kind, axes=axes, **changes)
+
+
+class Wire:
+    """Carries bytes there and back."""
+
+    def __init__(self, kind, board=None, turn=TURN):
+        self.board = board_of(kind) if board is None else board
+        self.driver = BOARDS[kind](self.board, BED.masses)
+        self.far = FAR_SIDES[kind](self.board, BED.masses)
+        self.t, self.turn, self.sent, self.legs = 0.0, turn, b"", []
+        self.cut = False  # what the board says does not arrive
+        self.told = []  # s, positions: every state that tells of another time
+        self.driver.opened(0.0)
+
+    def run(self, seconds, listen=True, until=""):
+        """Let time pass, or until a phase; ``listen=False`` is a computer that has died."""
+        end = self.t + seconds
+        while self.t < end - 1e-9 and self.driver.state.phase != until:
+            self.t = round(self.t + self.turn, 9)
+            said, legs = self.far.run(self.t)
+            self.legs += legs
+            if listen:
+                self._talk(said)
+        return self.driver.state
+
+    def _talk(self, said):
+        if not self.cut:
+            self.driver.feed(said, self.t)
+        told = self.driver.due(self.t)
+        self.sent += told
+        answer = self.far.take(told, self.t) if told else b""
+        if not self.cut:
+            self.driver.feed(answer, self.t)
+        state = self.driver.state
+        if state.position and (not self.told or self.told[-1][0] != state.reported):
+            self.told.append((state.reported, dict(state.position)))
+
+    def at_home(self):
+        self.run(0.5)
+        self.driver.home(self.t)
+        assert self.run(20.0, until="ready").sure
+        self.run(0.2)
+        return self
+
+    def true(self, name, t=None):
+        """Return where a mass really is, m."""
+        t = self.t if t is None else t
+        at, before = 0.0, None
+        for leg in ahead_of([], [leg for leg in self.legs if leg.mass == name]):
+            if leg.t > t:
+                break
+            at = 0.0 if before is None else _along(before, at, leg.t)
+            before = leg
+        return at if before is None else _along(before, at, t)
+
+
+def _along(leg, begin, t):
+    if t >= leg.end:
+        return leg.displacement
+    return begin + (t - leg.t) / (leg.end - leg.t) * (leg.displacement - begin)
