@@ -49,7 +49,7 @@ class SensorUnit(Table):
     """A device that sees attitude, rate or both."""
 
     name: Name
-    driver: str = Field(description="vectornav, line, mavlink, natnet, rosbridge or camera")
+    driver: str = Field(description="vectornav, lines, mavlink, natnet, rosbridge or camera")
     port: Address = Field(description=ADDRESSES)
     baud: Baud = 115200
     gives: Annotated[list[Literal["attitude", "rate"]], Field(min_length=1)]
