@@ -9,7 +9,8 @@ Row = tuple[float, ...]
 def from_angles(yaw: float, pitch: float, roll: float) -> Row:
     """Return the quaternion of angles (deg): first yaw about z, then pitch about y, then roll."""
     (cy, sy), (cp, sp), (cr, sr) = (
-        (math.cos(half), math.sin(half)) for half in (math.radians(a) / 2 for a in (yaw, pitch, roll))
+        (math.cos(half), math.sin(half))
+        for half in (math.radians(a) / 2 for a in (yaw, pitch, roll))
     )
     return (
         cr * cp * cy + sr * sp * sy,

@@ -3,9 +3,11 @@
 from collections.abc import Callable
 
 from equipoise.hardware.driver import SensorDriver
+from equipoise.hardware.sensors.line_protocol import LineProtocol
 from equipoise.hardware.sensors.vectornav import VectorNav
 from equipoise.model.hardware import SensorUnit
 
 DRIVERS: dict[str, Callable[[SensorUnit], SensorDriver]] = {
+    "lines": LineProtocol,
     "vectornav": VectorNav,
 }
