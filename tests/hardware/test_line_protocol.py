@@ -49,7 +49,8 @@ def test_an_object_of_json_by_hand():
     columns = ("t_s", "imu.qw", "imu.qx", "imu.qy", "qz=imu.last", "gx_rad_s=w.x", "gy_rad_s=w.y",
                "gz_rad_s=w.z")  # fmt: skip
     driver = LineProtocol(unit("lines", format="json", columns=columns))
-    line = b'{"t_s": 1.5, "imu": {"qw": 0.5, "qx": 0.5, "qy": -0.5, "last": 0.5}, "w": {"x": 1, "y": 2, "z": -3}}\n'
+    line = (b'{"t_s": 1.5, "imu": {"qw": 0.5, "qx": 0.5, "qy": -0.5, "last": 0.5}, '
+            b'"w": {"x": 1, "y": 2, "z": -3}}\n')  # fmt: skip
     attitude, rate = driver.feed(line)
     assert attitude.values == (0.5, 0.5, -0.5, 0.5)
     assert rate.values == (1.0, 2.0, -3.0)
@@ -67,10 +68,11 @@ def test_an_object_of_json_by_hand():
 def test_what_is_no_row_is_counted():
     driver = LineProtocol(unit("lines"))
     good = b"1,1,0,0,0,0,0,0\n"
-    for bad in (b"1,1,0,0,0,0,0\n", b"1,1,0,0,0,0,0,x\n", b"1,1,1,0,0,0,0,0\n", b"1,nan,0,0,0,0,0,0\n",
-                b"1,1,0,,0,0,0,0\n"):  # fmt: skip
+    bad_rows = [b"1,1,0,0,0,0,0\n", b"1,1,0,0,0,0,0,x\n", b"1,1,1,0,0,0,0,0\n",
+                b"1,nan,0,0,0,0,0,0\n", b"1,1,0,,0,0,0,0\n"]  # fmt: skip
+    for bad in bad_rows:
         assert driver.feed(bad) == []
-    assert driver.counts.corrupt == 5
+    assert driver.counts.corrupt == len(bad_rows)
     assert driver.feed(b"BNO055 ready\n# t, q\n") == []
     assert driver.counts.foreign == 2
     assert len(driver.feed(good)) == 2

@@ -24,7 +24,7 @@ TIMES = {"t_s": 1.0, "t_ms": 1e-3, "t_us": 1e-6}  # s
 NUMBER, SKIPPED = "n", "-"
 QUATERNION = ("qw", "qx", "qy", "qz")
 ANGLES = ("yaw_deg", "pitch_deg", "roll_deg")
-RATES = {
+RATES: dict[tuple[str, ...], float] = {
     ("gx_rad_s", "gy_rad_s", "gz_rad_s"): 1.0,
     ("gx_deg_s", "gy_deg_s", "gz_deg_s"): math.pi / 180,
 }
@@ -68,7 +68,7 @@ def attitude_of(values: Sequence[float]) -> Row | None:
 
 
 def columns_of(unit: SensorUnit, settings: Settings, names: Sequence[str]) -> Columns:
-    """Return the columns of these names, checked: whole sets, each once, and what the unit gives."""
+    """Return the columns of these names, checked: whole sets, each once, all that is given."""
     for name in names:
         if name not in KNOWN:
             raise settings.wrong(f"column '{name}'", nearest(name, KNOWN))

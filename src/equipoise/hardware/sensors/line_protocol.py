@@ -20,7 +20,7 @@ import json
 import math
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, cast
 
 from equipoise.hardware.lines import Lines
 from equipoise.hardware.sensors.columns import SKIPPED, columns_of
@@ -136,8 +136,11 @@ def _declared(column: str) -> tuple[str, str]:
 
 
 def _at(told: Any, path: Sequence[str]) -> Any:
+    """Return what stands at a path; None if nothing does."""
     for key in path:
-        told = told.get(key) if isinstance(told, dict) else None  # type: ignore[misc]
+        if not isinstance(told, dict):
+            return None
+        told = cast("dict[str, Any]", told).get(key)
     return told
 
 
