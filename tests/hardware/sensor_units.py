@@ -11,6 +11,7 @@ ROW = ("t_ms", "qw", "qx", "qy", "qz", "gx_deg_s", "gy_deg_s", "gz_deg_s")
 # port, what it gives, settings
 NEEDS = {
     "lines": ("serial:X", BOTH, {"columns": ROW}),
+    "mavlink": ("serial:X", BOTH, {}),
     "vectornav": ("serial:X", BOTH, {}),
 }
 MESSAGES = {"natnet", "rosbridge"}  # fed a message at a time, others a byte at a time

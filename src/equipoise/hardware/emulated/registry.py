@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor
 from equipoise.hardware.emulated.grbl import EmulatedGrbl
 from equipoise.hardware.emulated.line_protocol import EmulatedLineProtocol
+from equipoise.hardware.emulated.mavlink import EmulatedMavlink
 from equipoise.hardware.emulated.vectornav import EmulatedVectorNav
 from equipoise.model.hardware import MotorBoard, SensorUnit
 from equipoise.model.testbed import SlidingMass
@@ -14,5 +15,6 @@ BOARDS: dict[str, Callable[[MotorBoard, Sequence[SlidingMass]], EmulatedBoard]] 
 }
 SENSORS: dict[str, Callable[[SensorUnit], EmulatedSensor]] = {
     "lines": EmulatedLineProtocol,
+    "mavlink": EmulatedMavlink,
     "vectornav": EmulatedVectorNav,
 }
