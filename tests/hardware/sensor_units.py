@@ -12,6 +12,7 @@ ROW = ("t_ms", "qw", "qx", "qy", "qz", "gx_deg_s", "gy_deg_s", "gz_deg_s")
 NEEDS = {
     "lines": ("serial:X", BOTH, {"columns": ROW}),
     "mavlink": ("serial:X", BOTH, {}),
+    "natnet": ("udp:239.255.42.99:1511", TURN, {"body": 1.0}),
     "vectornav": ("serial:X", BOTH, {}),
 }
 MESSAGES = {"natnet", "rosbridge"}  # fed a message at a time, others a byte at a time

@@ -12,11 +12,12 @@ from equipoise.io.table_keys import Name, Positive, Square, Table
 Address = Annotated[
     str,
     Field(
-        pattern=r"^(serial:.+|tcp:.+:\d+|udp:(.+:)?\d+|ws://.+|wss://.+|https?://.+|camera:\d+)$"
+        pattern=r"^(serial:.+|tcp:.+:\d+|udp:(.+:)?\d+|udpout:.+:\d+|ws://.+|wss://.+|https?://.+|camera:\d+)$"
     ),
 ]
 ADDRESSES = (
-    "serial:/dev/ttyUSB0, serial:COM3, tcp:HOST:PORT, udp:PORT, ws://..., http://..., camera:0"
+    "serial:/dev/ttyUSB0, serial:COM3, tcp:HOST:PORT, udp:PORT, udpout:HOST:PORT, ws://..., "
+    "http://..., camera:0"
 )
 Baud = Annotated[int, Field(gt=0)]
 IDENTITY = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]

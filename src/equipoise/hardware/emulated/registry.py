@@ -6,6 +6,7 @@ from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor
 from equipoise.hardware.emulated.grbl import EmulatedGrbl
 from equipoise.hardware.emulated.line_protocol import EmulatedLineProtocol
 from equipoise.hardware.emulated.mavlink import EmulatedMavlink
+from equipoise.hardware.emulated.natnet import EmulatedNatNet
 from equipoise.hardware.emulated.vectornav import EmulatedVectorNav
 from equipoise.model.hardware import MotorBoard, SensorUnit
 from equipoise.model.testbed import SlidingMass
@@ -16,5 +17,6 @@ BOARDS: dict[str, Callable[[MotorBoard, Sequence[SlidingMass]], EmulatedBoard]] 
 SENSORS: dict[str, Callable[[SensorUnit], EmulatedSensor]] = {
     "lines": EmulatedLineProtocol,
     "mavlink": EmulatedMavlink,
+    "natnet": EmulatedNatNet,
     "vectornav": EmulatedVectorNav,
 }
