@@ -13,6 +13,7 @@ NEEDS = {
     "lines": ("serial:X", BOTH, {"columns": ROW}),
     "mavlink": ("serial:X", BOTH, {}),
     "natnet": ("udp:239.255.42.99:1511", TURN, {"body": 1.0}),
+    "rosbridge": ("ws://ros:9090", BOTH, {"topic_attitude": "/imu", "topic_rate": "/imu"}),
     "vectornav": ("serial:X", BOTH, {}),
 }
 MESSAGES = {"natnet", "rosbridge"}  # fed a message at a time, others a byte at a time

@@ -112,8 +112,10 @@ def test_what_the_far_side_tells_comes_back(name, laboratory):
     half = 0.5 * np.linalg.norm(rate[0]) * t
     spin = np.column_stack([np.cos(half), np.sin(half)[:, None] * axis])
     q = multiply(from_euler321(0.2, 0.1, 1.0), spin)
-    messages = SENSORS[name](device).tell(Recording(Samples(t, q), Samples(t, rate)))
-    driver, rows = DRIVERS[name](device), {"attitude": [], "rate": []}
+    far, driver = SENSORS[name](device), DRIVERS[name](device)
+    far.take(driver.due(0.0), 0.0)
+    messages = far.tell(Recording(Samples(t, q), Samples(t, rate)))
+    rows = {"attitude": [], "rate": []}
     for message in messages:
         for piece in pieces(name, message):
             for reading in driver.feed(piece):

@@ -203,7 +203,7 @@ class WebSocketPort:
 
         self._address, self._lost = address, (OSError, WebSocketException)
         try:
-            self._connection = connect(address, open_timeout=PATIENCE)
+            self._connection = connect(address, open_timeout=PATIENCE, close_timeout=PATIENCE)
         except self._lost as error:
             raise PortLost(address, error) from error
 

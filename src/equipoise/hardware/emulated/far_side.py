@@ -1,8 +1,8 @@
 """Far sides of ports on this computer: where an emulated device is reached.
 
 A serial line becomes a pseudo terminal, a network bridge or a camera's server a TCP port of the
-loopback, a UDP device sends to a port of the loopback. What nobody listens to is dropped, as on a
-real wire.
+loopback, a UDP device sends to a port of the loopback, a WebSocket has a server there. What nobody
+listens to is dropped, as on a real wire.
 """
 
 import errno
@@ -206,4 +206,9 @@ def far_side(port: Port) -> FarSide:
         return TcpFarSide("http", "/" + rest.removeprefix("//").partition("/")[2])
     if scheme in ("udp", "udpout"):
         return UdpFarSide(free_udp_port() if scheme == "udp" else None)
-    raise InputError(f"port {port.address}", f"'{scheme}:'", "serial, tcp, udp or http to emulate")
+    if scheme == "ws":
+        from equipoise.hardware.emulated.ws_far_side import WsFarSide
+
+        return WsFarSide("/" + rest.removeprefix("//").partition("/")[2])
+    known = "serial, tcp, udp, udpout, ws or http to emulate"
+    raise InputError(f"port {port.address}", f"'{scheme}:'", known)

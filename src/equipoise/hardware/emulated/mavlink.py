@@ -33,7 +33,8 @@ class EmulatedMavlink:
     def take(self, data: bytes, t: float) -> bytes:
         """Return acknowledgements of commands."""
         answers: list[bytes] = []
-        for message in self._link.parse_buffer(data) or []:
+        messages: list[Any] = self._link.parse_buffer(data) or []
+        for message in messages:
             if message.get_type() == "COMMAND_LONG" and message.target_system in (0, 1):
                 known = message.command == self._dialect.MAV_CMD_SET_MESSAGE_INTERVAL
                 if known:

@@ -7,6 +7,7 @@ from equipoise.hardware.emulated.grbl import EmulatedGrbl
 from equipoise.hardware.emulated.line_protocol import EmulatedLineProtocol
 from equipoise.hardware.emulated.mavlink import EmulatedMavlink
 from equipoise.hardware.emulated.natnet import EmulatedNatNet
+from equipoise.hardware.emulated.rosbridge import EmulatedRosBridge
 from equipoise.hardware.emulated.vectornav import EmulatedVectorNav
 from equipoise.model.hardware import MotorBoard, SensorUnit
 from equipoise.model.testbed import SlidingMass
@@ -18,5 +19,6 @@ SENSORS: dict[str, Callable[[SensorUnit], EmulatedSensor]] = {
     "lines": EmulatedLineProtocol,
     "mavlink": EmulatedMavlink,
     "natnet": EmulatedNatNet,
+    "rosbridge": EmulatedRosBridge,
     "vectornav": EmulatedVectorNav,
 }

@@ -80,7 +80,7 @@ class Mavlink:
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows that are complete with these bytes."""
-        messages = self._heard.parse_buffer(data) or []
+        messages: list[Any] = self._heard.parse_buffer(data) or []
         return [reading for message in messages for reading in self._message(message)]
 
     def _request(self, message_id: int, microseconds: float) -> bytes:

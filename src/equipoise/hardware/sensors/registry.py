@@ -6,6 +6,7 @@ from equipoise.hardware.driver import SensorDriver
 from equipoise.hardware.sensors.line_protocol import LineProtocol
 from equipoise.hardware.sensors.mavlink import Mavlink
 from equipoise.hardware.sensors.natnet import NatNet
+from equipoise.hardware.sensors.rosbridge import RosBridge
 from equipoise.hardware.sensors.vectornav import VectorNav
 from equipoise.model.hardware import SensorUnit
 
@@ -13,5 +14,6 @@ DRIVERS: dict[str, Callable[[SensorUnit], SensorDriver]] = {
     "lines": LineProtocol,
     "mavlink": Mavlink,
     "natnet": NatNet,
+    "rosbridge": RosBridge,
     "vectornav": VectorNav,
 }
