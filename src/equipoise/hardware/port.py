@@ -7,7 +7,7 @@ pulled out, closed by the far side or never there.
 import select
 import socket
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from typing import Protocol
 
 from equipoise.hardware.extras import needed
@@ -202,8 +202,10 @@ class WebSocketPort:
         from websockets.sync.client import connect
 
         self._address, self._lost = address, (OSError, WebSocketException)
+        self._held = ExitStack()
         try:
-            self._connection = connect(address, open_timeout=PATIENCE, close_timeout=PATIENCE)
+            opened = connect(address, open_timeout=PATIENCE, close_timeout=PATIENCE)
+            self._connection = self._held.enter_context(opened)
         except self._lost as error:
             raise PortLost(address, error) from error
 
@@ -231,7 +233,7 @@ class WebSocketPort:
     def close(self) -> None:
         """Close it."""
         with suppress(*self._lost):
-            self._connection.close()
+            self._held.close()
 
 
 def _websocket(port: Address, _rest: str) -> Port:

@@ -76,7 +76,7 @@ class RosBridge:
         try:
             told = json.loads(data)
             readings = self._published(cast("Message", told)) if _is_published(told) else []
-        except (ValueError, TypeError, KeyError, OverflowError, RecursionError):
+        except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
             self._tally.corrupt()
             return []
         if readings:
