@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hardware.board_wire import BED, LETTERS, MM, TURN, Wire, board_of
+from tests.hardware.board_wire import BED, LETTERS, MM, TURN, Wire, board_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from hardware.board_wire import BED, MM, Wire, board_of
+from tests.hardware.board_wire import BED, MM, Wire, board_of
 
 from equipoise.hardware.boards.grbl_report import Code, Ok, Setting, Status, Welcome, parsed
 from equipoise.hardware.boards.grbl_settings import disagreement

@@ -6,7 +6,7 @@ Checked against Trinamic's own package, which the driver does not need.
 from dataclasses import replace
 
 import pytest
-from hardware.board_wire import BED, MM, TURN, Wire, board_of
+from tests.hardware.board_wire import BED, MM, TURN, Wire, board_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -7,7 +7,7 @@ pulled out, closed by the far side or never there.
 import select
 import socket
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from typing import Protocol
 
 from equipoise.hardware.extras import needed
@@ -58,10 +58,13 @@ def open_port(port: Address) -> Port:
 class SocketPort:
     """A stream or a socket for datagrams."""
 
-    def __init__(self, address: str, connection: socket.socket) -> None:
+    def __init__(
+        self, address: str, connection: socket.socket, to: tuple[str, int] | None = None
+    ) -> None:
         self._address, self._socket = address, connection
         self._stream = connection.type == socket.SOCK_STREAM
-        self._from: tuple[str, int] | None = None  # who sent the last datagram
+        self._to = to  # where datagrams go; None: to whom the last one came from
+        self._from: tuple[str, int] | None = None
         connection.setblocking(False)
 
     def receive(self) -> list[bytes]:
@@ -80,12 +83,13 @@ class SocketPort:
         return found
 
     def send(self, data: bytes) -> None:
-        """Send all of it, to whom the last datagram came from."""
+        """Send all of it; a datagram that nobody is known for yet is dropped."""
+        to = self._to or self._from
         try:
             if self._stream:
                 self._all(data)
-            elif self._from is not None:
-                self._socket.sendto(data, self._from)
+            elif to is not None:
+                self._socket.sendto(data, to)
         except OSError as error:
             raise PortLost(self._address, error.strerror or error) from error
 
@@ -128,6 +132,19 @@ def _udp(port: Address, rest: str) -> Port:
         connection.close()
         raise
     return SocketPort(port.address, connection)
+
+
+def _udp_out(port: Address, rest: str) -> Port:
+    """Return a socket that sends to another computer and hears what it answers."""
+    host, _, number = rest.rpartition(":")
+    to = (socket.gethostbyname(host), int(number))
+    connection = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    try:
+        connection.bind(("", 0))
+    except OSError:
+        connection.close()
+        raise
+    return SocketPort(port.address, connection, to)
 
 
 def _is_group(host: str) -> bool:
@@ -185,8 +202,10 @@ class WebSocketPort:
         from websockets.sync.client import connect
 
         self._address, self._lost = address, (OSError, WebSocketException)
+        self._held = ExitStack()
         try:
-            self._connection = connect(address, open_timeout=PATIENCE)
+            opened = connect(address, open_timeout=PATIENCE, close_timeout=PATIENCE)
+            self._connection = self._held.enter_context(opened)
         except self._lost as error:
             raise PortLost(address, error) from error
 
@@ -214,7 +233,7 @@ class WebSocketPort:
     def close(self) -> None:
         """Close it."""
         with suppress(*self._lost):
-            self._connection.close()
+            self._held.close()
 
 
 def _websocket(port: Address, _rest: str) -> Port:
@@ -225,6 +244,7 @@ OPENERS: dict[str, Callable[[Address, str], Port]] = {
     "serial": _serial,
     "tcp": _tcp,
     "udp": _udp,
+    "udpout": _udp_out,
     "ws": _websocket,
     "wss": _websocket,
     "http": _http,

@@ -8,7 +8,7 @@ from equipoise.hardware.device_clock import DeviceClock, learnt, to_bench
 from equipoise.hardware.driver import SensorDriver
 from equipoise.hardware.heard import Row
 from equipoise.hardware.placed import placed
-from equipoise.model.hardware import SensorUnit
+from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Reading
 
 
@@ -17,7 +17,8 @@ class SensorLink:
 
     def __init__(self, unit: SensorUnit, driver: SensorDriver, connection: Connection) -> None:
         self.unit, self.driver, self._connection = unit, driver, connection
-        self.clock, self.arrivals = DeviceClock(), Arrivals()
+        self.clocks: dict[Gives, DeviceClock] = {}  # channels may come in messages of two clocks
+        self.arrivals = Arrivals()
         self._last: float | None = None  # s, when a row last came
         self._since: float | None = None  # s, when it was first waited for
 
@@ -58,8 +59,9 @@ class SensorLink:
             return None
         self._last, when = t, t
         if reading.stamp is not None:
-            self.clock = learnt(self.clock, reading.stamp, t)
-            when = min(to_bench(self.clock, reading.stamp), t)
+            before = self.clocks.get(reading.channel, DeviceClock())
+            clock = self.clocks[reading.channel] = learnt(before, reading.stamp, t)
+            when = min(to_bench(clock, reading.stamp), t)
         return Row(
             reading.channel, when, placed(self.unit, reading.channel, np.array(reading.values))
         )

@@ -12,11 +12,12 @@ from equipoise.io.table_keys import Name, Positive, Square, Table
 Address = Annotated[
     str,
     Field(
-        pattern=r"^(serial:.+|tcp:.+:\d+|udp:(.+:)?\d+|ws://.+|wss://.+|https?://.+|camera:\d+)$"
+        pattern=r"^(serial:.+|tcp:.+:\d+|udp:(.+:)?\d+|udpout:.+:\d+|ws://.+|wss://.+|https?://.+|camera:\d+)$"
     ),
 ]
 ADDRESSES = (
-    "serial:/dev/ttyUSB0, serial:COM3, tcp:HOST:PORT, udp:PORT, ws://..., http://..., camera:0"
+    "serial:/dev/ttyUSB0, serial:COM3, tcp:HOST:PORT, udp:PORT, udpout:HOST:PORT, ws://..., "
+    "http://..., camera:0"
 )
 Baud = Annotated[int, Field(gt=0)]
 IDENTITY = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
@@ -49,7 +50,7 @@ class SensorUnit(Table):
     """A device that sees attitude, rate or both."""
 
     name: Name
-    driver: str = Field(description="vectornav, line, mavlink, natnet, rosbridge or camera")
+    driver: str = Field(description="vectornav, lines, mavlink, natnet, rosbridge or camera")
     port: Address = Field(description=ADDRESSES)
     baud: Baud = 115200
     gives: Annotated[list[Literal["attitude", "rate"]], Field(min_length=1)]

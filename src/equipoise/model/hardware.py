@@ -5,6 +5,7 @@ A port's address says how a device is reached:
     serial:/dev/ttyUSB0   serial:COM3     a serial line, at ``baud``
     tcp:192.168.4.1:23                    a serial line behind a network bridge
     udp:14550   udp:239.255.42.99:1511    datagrams to a port of this computer, or to a group
+    udpout:192.168.1.5:1510               datagrams to another computer, and its answers
     ws://localhost:9090                   messages of a WebSocket
     http://192.168.4.2:81/stream          a camera that sends pictures one after the other (MJPEG)
     camera:0                              a camera of this computer

@@ -1,8 +1,8 @@
 """Far sides of ports on this computer: where an emulated device is reached.
 
 A serial line becomes a pseudo terminal, a network bridge or a camera's server a TCP port of the
-loopback, a UDP device sends to a port of the loopback. What nobody listens to is dropped, as on a
-real wire.
+loopback, a UDP device sends to a port of the loopback, a WebSocket has a server there. What nobody
+listens to is dropped, as on a real wire.
 """
 
 import errno
@@ -156,25 +156,32 @@ class TcpFarSide:
 
 
 class UdpFarSide:
-    """A sender of datagrams to a port of the loopback."""
+    """A sender of datagrams to a port of the loopback; without one, to whoever last sent any."""
 
-    def __init__(self, number: int) -> None:
+    def __init__(self, number: int | None) -> None:
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.bind((LOOPBACK, 0))
         self._socket.setblocking(False)
-        self._to = (LOOPBACK, number)
-        self.address = f"udp:{LOOPBACK}:{number}"
+        self._answers = number is None
+        self._to: tuple[str, int] | None = None if number is None else (LOOPBACK, number)
+        own = self._socket.getsockname()[1]
+        self.address = f"udpout:{LOOPBACK}:{own}" if number is None else f"udp:{LOOPBACK}:{number}"
 
     def receive(self) -> bytes:
         """Return what has been sent to the device."""
-        with suppress(OSError):  # nothing, or nobody hears us yet
-            return self._socket.recv(CHUNK)
-        return b""
+        try:
+            data, sender = self._socket.recvfrom(CHUNK)
+        except OSError:  # nothing, or nobody hears us yet
+            return b""
+        if self._answers:
+            self._to = sender
+        return data
 
     def send(self, data: bytes) -> None:
         """Send to whoever listens."""
         with suppress(OSError):
-            self._socket.sendto(data, self._to)
+            if self._to is not None:
+                self._socket.sendto(data, self._to)
 
     def close(self) -> None:
         """Pull it out."""
@@ -197,6 +204,11 @@ def far_side(port: Port) -> FarSide:
         return TcpFarSide()
     if scheme == "http":
         return TcpFarSide("http", "/" + rest.removeprefix("//").partition("/")[2])
-    if scheme == "udp":
-        return UdpFarSide(free_udp_port())
-    raise InputError(f"port {port.address}", f"'{scheme}:'", "serial, tcp, udp or http to emulate")
+    if scheme in ("udp", "udpout"):
+        return UdpFarSide(free_udp_port() if scheme == "udp" else None)
+    if scheme == "ws":
+        from equipoise.hardware.emulated.ws_far_side import WsFarSide
+
+        return WsFarSide("/" + rest.removeprefix("//").partition("/")[2])
+    known = "serial, tcp, udp, udpout, ws or http to emulate"
+    raise InputError(f"port {port.address}", f"'{scheme}:'", known)

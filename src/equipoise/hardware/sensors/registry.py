@@ -3,9 +3,17 @@
 from collections.abc import Callable
 
 from equipoise.hardware.driver import SensorDriver
+from equipoise.hardware.sensors.line_protocol import LineProtocol
+from equipoise.hardware.sensors.mavlink import Mavlink
+from equipoise.hardware.sensors.natnet import NatNet
+from equipoise.hardware.sensors.rosbridge import RosBridge
 from equipoise.hardware.sensors.vectornav import VectorNav
 from equipoise.model.hardware import SensorUnit
 
 DRIVERS: dict[str, Callable[[SensorUnit], SensorDriver]] = {
+    "lines": LineProtocol,
+    "mavlink": Mavlink,
+    "natnet": NatNet,
+    "rosbridge": RosBridge,
     "vectornav": VectorNav,
 }

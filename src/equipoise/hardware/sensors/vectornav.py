@@ -14,11 +14,12 @@ The device tells no time here, so rows are stamped as they arrive.
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 from equipoise.hardware.lines import Lines
-from equipoise.model.errors import InputError
+from equipoise.hardware.sensors.attitudes import from_angles, unit_row
+from equipoise.hardware.sensors.settings import Settings
+from equipoise.hardware.sensors.tally import Tally
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Counts, Reading
 
@@ -30,17 +31,9 @@ def quaternion(v: Values) -> tuple[float, ...]:
     return (v[3], v[0], v[1], v[2])
 
 
-def from_angles(v: Values) -> tuple[float, ...]:
+def angles(v: Values) -> tuple[float, ...]:
     """Return the quaternion of yaw, pitch, roll (deg) at the front; 3-2-1."""
-    (cy, sy), (cp, sp), (cr, sr) = (
-        (math.cos(half), math.sin(half)) for half in (math.radians(a) / 2 for a in v[:3])
-    )
-    return (
-        cr * cp * cy + sr * sp * sy,
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-    )
+    return from_angles(v[0], v[1], v[2])
 
 
 def last_three(v: Values) -> tuple[float, ...]:
@@ -58,11 +51,11 @@ class Message(NamedTuple):
 
 
 MESSAGES = {
-    b"VNYPR": Message(3, 1, from_angles),
+    b"VNYPR": Message(3, 1, angles),
     b"VNQTN": Message(4, 2, quaternion),
     b"VNQMR": Message(13, 8, quaternion, last_three),
     b"VNGYR": Message(3, 12, None, last_three),
-    b"VNYMR": Message(12, 14, from_angles, last_three),
+    b"VNYMR": Message(12, 14, angles, last_three),
 }
 UNIT = 1e-3  # chosen: a quaternion of six decimals is of length one within this
 KEYS = ("message", "rate_hz")
@@ -72,19 +65,20 @@ class VectorNav:
     """The conversation; settings: ``message`` such as VNQMR and ``rate_hz``, asked for if given."""
 
     def __init__(self, unit: SensorUnit) -> None:
-        self._lines, self._counts = Lines(), Counts()
+        self._lines, self._tally = Lines(), Tally()
         self._greeting = _greeting(unit)
         self._greet = False
 
     @property
     def counts(self) -> Counts:
         """How much was understood since the port was opened."""
-        return self._counts
+        return self._tally.counts
 
     def opened(self) -> None:
         """Begin anew."""
         self._lines.cleared()
-        self._counts, self._greet = Counts(), True
+        self._tally.cleared()
+        self._greet = True
 
     def due(self, t: float) -> bytes:
         """Return what asks for messages, once."""
@@ -98,17 +92,18 @@ class VectorNav:
     def _line(self, line: bytes) -> list[Reading]:
         body = checked(line)
         if body is None:
-            self._counts = replace(self._counts, corrupt=self._counts.corrupt + 1)
+            self._tally.corrupt()
             return []
         name, *fields = body.split(b",")
         message = MESSAGES.get(name)
         if message is None:
-            self._counts = replace(self._counts, foreign=self._counts.foreign + 1)
+            self._tally.foreign()
             return []
         readings = _readings(message, numbers(fields))
-        good = replace(self._counts, good=self._counts.good + 1)
-        bad = replace(self._counts, corrupt=self._counts.corrupt + 1)
-        self._counts = good if readings else bad
+        if readings:
+            self._tally.good()
+        else:
+            self._tally.corrupt()
         return readings
 
 
@@ -164,28 +159,23 @@ def _readings(message: Message, values: list[float]) -> list[Reading]:
         if taken is None:
             continue
         row = taken(values)
-        length = math.hypot(*row)
         if channel == "attitude":
-            if abs(length - 1) > UNIT:
-                return []
-            row = tuple(value / length for value in row)
+            row = unit_row(row, UNIT)
+        if row is None:
+            return []
         found.append(Reading(channel, row))
     return found
 
 
 def _greeting(unit: SensorUnit) -> bytes:
     """Return the commands that ask for a message and its rate."""
-    where, settings = f"hardware.sensor {unit.name}: settings", unit.settings
-    for key in settings:
-        if key not in KEYS:
-            raise InputError(where, f"'{key}'", " or ".join(KEYS))
+    settings = Settings(unit, KEYS)
+    name, rate = settings.text("message"), settings.positive("rate_hz")
     commands: list[bytes] = []
-    if "message" in settings:
-        message = MESSAGES.get(str(settings["message"]).encode())
-        if message is None:
-            known = ", ".join(name.decode() for name in MESSAGES)
-            raise InputError(where, f"message '{settings['message']}'", f"one of {known}")
-        commands.append(b"VNWRG,06,%d" % message.code)
-    if "rate_hz" in settings:
-        commands.append(b"VNWRG,07,%d" % int(settings["rate_hz"]))  # type: ignore[arg-type]
+    if name:
+        known = [each.decode() for each in MESSAGES]
+        code = MESSAGES[settings.text("message", among=known).encode()].code
+        commands.append(b"VNWRG,06,%d" % code)
+    if rate is not None:
+        commands.append(b"VNWRG,07,%d" % int(rate))
     return b"".join(b"$%s*%02X\r\n" % (body, exclusive_or(body)) for body in commands)

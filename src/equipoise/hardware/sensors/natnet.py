@@ -1,0 +1,108 @@
+"""OptiTrack Motive by NatNet 3.0 to 4.x: the attitude of a rigid body, datagram by datagram.
+
+    port = "udp:239.255.42.99:1511"      Motive's multicast group, as it is set by default
+    port = "udpout:192.168.1.5:1510"     Motive's own address, for unicast
+
+Quaternions turn the body's axes, as they were when it was made in Motive, into the streamed
+laboratory: ``y_up`` unless Motive is set to Z up. A frame in which the body was not tracked
+repeats what it was: it is no row. Rows bear Motive's frame number and its time. The mean error is
+one of markers, in metres, and no sd of the attitude: that would need to know where they are.
+
+See ``natnet_packet`` for the bytes. They are parsed here, since the library of that name reads
+numbers of the computer's own size (wrong on Windows) and fills the memory for a wrong count.
+"""
+
+import math
+from collections.abc import Sequence
+
+from equipoise.hardware.sensors import natnet_packet as natnet
+from equipoise.hardware.sensors.attitudes import unit_row
+from equipoise.hardware.sensors.settings import Settings, check_gives
+from equipoise.hardware.sensors.tally import Tally
+from equipoise.model.hardware import SensorUnit
+from equipoise.model.reading import Counts, Reading
+
+BEAT = 1.0  # s, chosen: between signs of life; Motive forgets who has been silent for long
+UNIT = 1e-3  # chosen: a quaternion of single precision is of length one well within this
+UNICAST = "udpout:"
+
+
+class NatNet:
+    """The conversation; setting: ``body``, a rigid body's streaming id or its name."""
+
+    def __init__(self, unit: SensorUnit) -> None:
+        settings = Settings(unit, ("body",))
+        check_gives(unit, ["attitude"], '"attitude" alone: NatNet tells no rate')
+        self._asks = unit.port.address.startswith(UNICAST)
+        self._name, self._id = _body(unit, settings, self._asks)
+        self._tally = Tally()
+        self._next = float("-inf")
+
+    @property
+    def counts(self) -> Counts:
+        """How much was understood since the port was opened."""
+        return self._tally.counts
+
+    def opened(self) -> None:
+        """Begin anew; a body may have another id by now."""
+        self._tally.cleared()
+        self._next = float("-inf")
+        if self._name:
+            self._id = None
+
+    def due(self, t: float) -> bytes:
+        """Return a sign of life each second, and before the body is known what asks for names."""
+        if not self._asks or t < self._next:
+            return b""
+        self._next = t + BEAT
+        if self._tally.counts.good == 0:
+            return natnet.packet(natnet.CONNECT, b"Ping\0")
+        kind = natnet.ALIVE if self._id is not None else natnet.ASK_NAMES
+        return natnet.packet(kind, b"\0")
+
+    def feed(self, data: bytes) -> Sequence[Reading]:
+        """Return the row of a datagram."""
+        try:
+            kind, payload = natnet.opened(data)
+            readings = self._readings(kind, payload)
+        except natnet.BrokenPacket:
+            self._tally.corrupt()
+            return []
+        if readings is None:
+            self._tally.foreign()
+            return []
+        self._tally.good()
+        return readings
+
+    def _readings(self, kind: int, payload: bytes) -> list[Reading] | None:
+        """Return the row of a frame; None if a packet is of no use."""
+        if kind == natnet.SERVER:
+            return []
+        if kind == natnet.NAMES and self._name:
+            self._id = natnet.names_of(payload).get(self._name)
+            return []
+        if kind != natnet.FRAME:
+            return None
+        frame = natnet.frame_of(payload)
+        body = next((body for body in frame.bodies if body.id == self._id), None)
+        if body is None or not body.tracked:
+            return None
+        x, y, z, w = body.turn
+        turn = unit_row((w, x, y, z), UNIT)
+        if turn is None or not math.isfinite(frame.stamp):
+            raise natnet.BrokenPacket
+        return [Reading("attitude", turn, frame.stamp, frame.number)]
+
+
+def _body(unit: SensorUnit, settings: Settings, asks: bool) -> tuple[str, int | None]:
+    """Return the name or the id of the body; a name needs somebody to ask for its id."""
+    if not isinstance(unit.settings.get("body", 0.0), str):
+        number = settings.positive("body")
+        if number is None or number != int(number):
+            raise settings.wrong(f"body {number}", "a rigid body's streaming id, or its name")
+        return "", int(number)
+    name = settings.text("body")
+    if not asks:
+        wanted = "its streaming id, or a port udpout:HOST:1510 that can be asked for names"
+        raise settings.wrong(f"body '{name}' at {unit.port.address}", wanted)
+    return name, None

@@ -1,0 +1,157 @@
+"""ROS 2 topics by rosbridge: JSON messages of a WebSocket.
+
+    {"op": "subscribe", "topic": "/imu", "type": "sensor_msgs/msg/Imu"}                  we say
+    {"op": "publish", "topic": "/imu", "msg": {"header": {"stamp": ...}, ...}}           it says
+
+Source: rosbridge v2.0 protocol specification; sensor_msgs/Imu, geometry_msgs/PoseStamped and REP
+145 for what they hold. Quaternions x, y, z, w turn the frame of the message into its world, whose
+Z is up; rates are rad/s about the axes of the message. -1 as the first number of a covariance says
+that a quantity is not there. A covariance of zeros is one that is not known; else the sd is of the
+mean variance of the three axes.
+
+An attitude may come as Imu or as PoseStamped, a rate as Imu, from one topic or from two.
+"""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, cast
+
+from equipoise.hardware.sensors.attitudes import unit_row
+from equipoise.hardware.sensors.settings import Settings, check_gives
+from equipoise.hardware.sensors.tally import Tally
+from equipoise.model.hardware import Gives, SensorUnit
+from equipoise.model.reading import Counts, Reading
+
+IMU, POSE = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PoseStamped"
+KEYS = ("topic_attitude", "topic_rate", "type_attitude")
+UNIT = 1e-3  # chosen: a quaternion in double precision is of length one well within this
+NONE = -1.0  # REP 145
+
+Message = Mapping[str, Any]
+
+
+class NotThere(Exception):
+    """A message in which a quantity is declared not to be."""
+
+
+class RosBridge:
+    """The conversation; settings: ``topic_attitude``, ``topic_rate`` and ``type_attitude``."""
+
+    def __init__(self, unit: SensorUnit) -> None:
+        settings = Settings(unit, KEYS)
+        told: dict[Gives, str] = {
+            "attitude": settings.text("topic_attitude"),
+            "rate": settings.text("topic_rate"),
+        }
+        can = [channel for channel, topic in told.items() if topic]
+        check_gives(unit, can, "a setting topic_... for it")
+        self._topics = {channel: told[channel] for channel in unit.gives}
+        self._types = {"attitude": settings.text("type_attitude", IMU, (IMU, POSE)), "rate": IMU}
+        if len(set(self._topics.values())) < len(self._topics) and self._types["attitude"] == POSE:
+            raise settings.wrong(f"one topic of {POSE} for both", f"{IMU}, or two topics")
+        self._tally, self._greet = Tally(), True
+
+    @property
+    def counts(self) -> Counts:
+        """How much was understood since the port was opened."""
+        return self._tally.counts
+
+    def opened(self) -> None:
+        """Begin anew."""
+        self._tally.cleared()
+        self._greet = True
+
+    def due(self, t: float) -> bytes:
+        """Return the subscriptions, once, a line each."""
+        greet, self._greet = self._greet, False
+        if not greet:
+            return b""
+        types = {topic: self._types[channel] for channel, topic in self._topics.items()}
+        asked = ({"op": "subscribe", "topic": t, "type": kind} for t, kind in types.items())
+        return b"".join(json.dumps(each).encode() + b"\n" for each in asked)
+
+    def feed(self, data: bytes) -> Sequence[Reading]:
+        """Return the rows of a message."""
+        try:
+            told = json.loads(data)
+            readings = self._published(cast("Message", told)) if _is_published(told) else []
+        except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
+            self._tally.corrupt()
+            return []
+        if readings:
+            self._tally.good()
+        else:
+            self._tally.foreign()
+        return readings
+
+    def _published(self, told: Message) -> list[Reading]:
+        """Return the rows of a topic; raises for one that is not what it should be."""
+        found: list[Reading] = []
+        for channel in (c for c, topic in self._topics.items() if topic == told["topic"]):
+            take = _rate if channel == "rate" else TAKEN[self._types[channel]]
+            try:
+                found.append(take(told["msg"]))
+            except NotThere:
+                continue
+        return found
+
+
+def _is_published(told: Any) -> bool:
+    return isinstance(told, dict) and cast("Message", told).get("op") == "publish"
+
+
+def _of_imu(message: Message) -> Reading:
+    sd = _sd(message["orientation_covariance"])
+    return Reading("attitude", _turn(message["orientation"]), _stamp(message), sd=sd)
+
+
+def _of_pose(message: Message) -> Reading:
+    return Reading("attitude", _turn(message["pose"]["orientation"]), _stamp(message))
+
+
+def _rate(message: Message) -> Reading:
+    sd = _sd(message["angular_velocity_covariance"])
+    return Reading("rate", _numbers(message["angular_velocity"], "xyz"), _stamp(message), sd=sd)
+
+
+TAKEN = {IMU: _of_imu, POSE: _of_pose}
+
+
+def _turn(told: Message) -> tuple[float, ...]:
+    row = unit_row(_numbers(told, "wxyz"), UNIT)
+    if row is None:
+        raise ValueError
+    return row
+
+
+def _numbers(told: Message, keys: str) -> tuple[float, ...]:
+    """Return finite numbers by their keys."""
+    found = tuple(_number(told[key]) for key in keys)
+    if not all(map(math.isfinite, found)):
+        raise ValueError
+    return found
+
+
+def _number(told: Any) -> float:
+    if type(told) not in (int, float):
+        raise TypeError
+    return float(told)
+
+
+def _stamp(message: Message) -> float | None:
+    """Return the time of a message; None if it was never filled in."""
+    stamp = message["header"]["stamp"]
+    seconds, nanoseconds = _numbers({"s": stamp["sec"], "n": stamp["nanosec"]}, "sn")
+    return seconds + 1e-9 * nanoseconds or None
+
+
+def _sd(covariance: Sequence[Any]) -> float | None:
+    """Return the sd of one axis; None if it is not known. Raises NotThere for no quantity."""
+    first, second, third = (_number(covariance[k]) for k in (0, 4, 8))
+    if first == NONE:
+        raise NotThere
+    variances = (first, second, third)
+    if not all(math.isfinite(each) and each > 0 for each in variances):
+        return None
+    return math.sqrt(sum(variances) / 3)
