@@ -24,8 +24,6 @@ FREE = replace(BED, tilt_limit=3.0)
 MM = 1e-3
 
 
-
-
 @contextlib.contextmanager
 def lab(bed=FREE, seed=1):
     with emulated_lab.lab(bed, seed) as found:

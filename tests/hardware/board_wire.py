@@ -5,6 +5,7 @@ from dataclasses import replace
 from equipoise.app.emulation import ahead_of
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.emulated.registry import BOARDS as FAR_SIDES
+from equipoise.hardware.mass_rows import on_the_way
 from equipoise.io.presets import read_preset
 
 BED = read_preset("nanosat")  # 8 mm/s, zero at -17 mm, 800 steps per mm
@@ -30,7 +31,7 @@ class Wire:
         self.far = FAR_SIDES[kind](self.board, BED.masses)
         self.t, self.turn, self.sent, self.legs = 0.0, turn, b"", []
         self.cut = False  # what the board says does not arrive
-        self.told = []  # s, positions: every state that tells of another time
+        self.told = []  # s, positions, which have to go: every state that tells of another time
         self.driver.opened(0.0)
 
     def run(self, seconds, listen=True, until=""):
@@ -54,7 +55,8 @@ class Wire:
             self.driver.feed(answer, self.t)
         state = self.driver.state
         if state.position and (not self.told or self.told[-1][0] != state.reported):
-            self.told.append((state.reported, dict(state.position)))
+            wants = on_the_way(state, self.board.axes)
+            self.told.append((state.reported, dict(state.position), wants))
 
     def at_home(self):
         self.run(0.5)

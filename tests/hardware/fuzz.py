@@ -3,11 +3,11 @@
 from collections.abc import Callable
 
 import numpy as np
-from tests.hardware.sensor_units import unit
 
 from equipoise.hardware.emulated.registry import SENSORS
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.model.recording import Recording, Samples
+from tests.hardware.sensor_units import unit
 
 
 def heard(name: str) -> Callable[[bytes], None]:

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hardware.board_wire import BED, LETTERS, MM, TURN, Wire, board_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -14,6 +13,7 @@ from equipoise.hardware.driver import LEG
 from equipoise.hardware.emulated.registry import BOARDS as FAR_SIDES
 from equipoise.hardware.heard import Heard
 from equipoise.model.errors import BenchStopped, InputError
+from tests.hardware.board_wire import BED, LETTERS, MM, TURN, Wire, board_of
 
 SPEED = 8 * MM
 every_board = pytest.mark.parametrize("kind", sorted(BOARDS))
@@ -265,8 +265,8 @@ def test_what_is_recorded_is_where_masses_were(kind, turn):
     wire.driver.halt(wire.t)
     wire.run(1.0)
     heard = Heard(BED.masses)
-    for t, position in wire.told:
-        heard.masses(position, t)
+    for t, position, wants in wire.told:
+        heard.masses(position, wants, t)
     rows = heard.taken().masses
     t = np.arange(begun, wire.t - 0.2, 0.005)
     for k, name in enumerate("xyz"):

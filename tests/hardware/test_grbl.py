@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import pytest
-from tests.hardware.board_wire import BED, MM, Wire, board_of
 
 from equipoise.hardware.boards.grbl_report import Code, Ok, Setting, Status, Welcome, parsed
 from equipoise.hardware.boards.grbl_settings import disagreement
+from tests.hardware.board_wire import BED, MM, Wire, board_of
 
 BOARD = board_of("grbl")
 

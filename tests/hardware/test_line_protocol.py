@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from tests.hardware.sensor_units import ROW, unit
 
 from equipoise.hardware.emulated.line_protocol import EmulatedLineProtocol
 from equipoise.hardware.sensors.line_protocol import LineProtocol
@@ -12,6 +11,7 @@ from equipoise.maths.attitude import from_euler321
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port, SensorUnit
 from equipoise.model.recording import Recording, Samples
+from tests.hardware.sensor_units import ROW, unit
 
 HALF = math.sqrt(0.5)
 

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hardware.sensor_units import unit
 from pymavlink.dialects.v20 import common
 
 from equipoise.hardware.emulated.mavlink import EmulatedMavlink
@@ -16,6 +15,7 @@ from equipoise.hardware.sensors.mavlink import Mavlink
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
+from tests.hardware.sensor_units import unit
 
 HALF = math.sqrt(0.5)
 

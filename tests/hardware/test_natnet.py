@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hardware.sensor_units import unit
 
 from equipoise.hardware.emulated.natnet import EmulatedNatNet
 from equipoise.hardware.placed import placed
@@ -16,6 +15,7 @@ from equipoise.maths.attitude import to_matrix
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port
 from equipoise.model.recording import Recording, Samples
+from tests.hardware.sensor_units import unit
 
 HALF = math.sqrt(0.5)
 TURN = (0.0, HALF, 0.0, HALF)  # x y z w: a quarter turn about y

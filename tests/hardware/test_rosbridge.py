@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hardware.sensor_units import unit
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,6 +18,7 @@ from equipoise.hardware.sensors.rosbridge import RosBridge
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port
 from equipoise.model.reading import Reading
+from tests.hardware.sensor_units import unit
 
 POSE = "geometry_msgs/msg/PoseStamped"
 
@@ -106,7 +106,8 @@ def test_what_is_no_row_is_counted():
     empty = imu()
     empty["orientation_covariance"] = [0, 0]
     for bad in (imu(turn=(1, 1, 0, 0)), imu(turn=(None, 0, 0, 1)), imu(turn=(math.nan, 0, 0, 1)),
-                imu(turn=(True, 0, 0, 0)), imu(turn=("1", 0, 0, 0)), {}, [], "x", empty):  # fmt: skip
+                imu(turn=(True, 0, 0, 0)), imu(turn=("1", 0, 0, 0)), {}, [],
+                "x", empty):  # fmt: skip
         assert driver.feed(published(bad)) == []
     assert driver.feed(published(imu())[:-1]) == []
     assert driver.feed(b"[" * 100_000) == []

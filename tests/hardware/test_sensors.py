@@ -5,7 +5,6 @@ import math
 
 import numpy as np
 import pytest
-from tests.hardware.sensor_units import pieces, unit
 
 from equipoise.hardware.arrivals import FROZEN, Arrivals, arrived
 from equipoise.hardware.device_clock import DeviceClock, drift_of, learnt, to_bench
@@ -17,6 +16,7 @@ from equipoise.maths.attitude import from_euler321, from_matrix, multiply, to_ma
 from equipoise.model.errors import InputError
 from equipoise.model.reading import Reading
 from equipoise.model.recording import Recording, Samples
+from tests.hardware.sensor_units import pieces, unit
 
 HALF = math.sqrt(0.5)
 

@@ -6,7 +6,6 @@ Checked against Trinamic's own package, which the driver does not need.
 from dataclasses import replace
 
 import pytest
-from tests.hardware.board_wire import BED, MM, TURN, Wire, board_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -15,6 +14,7 @@ from equipoise.hardware.boards.tmcl_settings import disagreement, guards, questi
 from equipoise.hardware.boards.tmcl_talk import Answer, Talk
 from equipoise.hardware.boards.tmcl_words import Reply, Request, packed, replies_in
 from equipoise.hardware.emulated.tmcl import EmulatedTmcl
+from tests.hardware.board_wire import BED, MM, TURN, Wire, board_of
 
 BOARD = board_of("tmcl")
 SPEED = 6400  # microsteps/s: 8 mm/s of 800 steps

@@ -4,11 +4,11 @@ from collections.abc import Callable, Sequence
 
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor
 from equipoise.hardware.emulated.grbl import EmulatedGrbl
-from equipoise.hardware.emulated.tmcl import EmulatedTmcl
 from equipoise.hardware.emulated.line_protocol import EmulatedLineProtocol
 from equipoise.hardware.emulated.mavlink import EmulatedMavlink
 from equipoise.hardware.emulated.natnet import EmulatedNatNet
 from equipoise.hardware.emulated.rosbridge import EmulatedRosBridge
+from equipoise.hardware.emulated.tmcl import EmulatedTmcl
 from equipoise.hardware.emulated.vectornav import EmulatedVectorNav
 from equipoise.model.hardware import MotorBoard, SensorUnit
 from equipoise.model.testbed import SlidingMass
