@@ -173,5 +173,24 @@ def test_a_clock_that_jumps_is_begun_anew():
     assert learnt(clock, 3.0, 33.0).jumps == 2
 
 
+@pytest.mark.parametrize("jump", [-0.3, 0.3, 2.0])
+def test_a_small_jump_of_the_clock_costs_no_time(jump):
+    """Stamps are ahead or behind by so much from then on; rows are told when they came, or so."""
+    clock, rng = clock_after(0.0, 12.0, 20.0), np.random.default_rng(1)
+    for stamp in np.arange(20.0, 40.0, 0.02):
+        arrival = 12.0 + stamp + rng.exponential(5e-3)
+        clock = learnt(clock, float(stamp) + jump, float(arrival))
+        assert to_bench(clock, float(stamp) + jump) == pytest.approx(12.0 + stamp, abs=0.04)
+    assert clock.jumps == 1
+
+
+def test_the_first_row_may_have_waited_in_the_port():
+    clock = DeviceClock()
+    for k in range(500):
+        clock = learnt(clock, 0.02 * k, 5.0 + 0.02 * k + (0.2 if k == 0 else 0.001))
+    assert clock.jumps == 0
+    assert to_bench(clock, 8.0) == pytest.approx(13.001, abs=1e-6)
+
+
 def test_a_clock_remembers_no_more_than_two_minutes():
     assert len(clock_after(0.0, 0.0, 400.0).quickest) == 24

@@ -7,14 +7,17 @@ time. So the line is the one below all arrivals that is nearest to them: through
 of each of the last ``SPANS`` spans, the one of the two outer ones that leaves none below. What it
 cannot see is the least delay itself: rows are late by that.
 
-A stamp that goes back, or is far from where it should be, is a clock that began anew.
+A stamp that goes back is a clock that began anew; so is a row much earlier than the line, which is
+below all rows, or one so late that no delay explains it. During the first span the line is not
+settled: there a row early by that only begins the count anew.
 """
 
 from dataclasses import dataclass, replace
 
 SPAN = 5.0  # s, chosen: some hundred rows
 SPANS = 24  # chosen: two minutes, in which a quartz drifts evenly
-JUMP = 1.0  # s, chosen: no row is so late or so early without a jump
+LATE = 1.0  # s, chosen: no row is so late without a jump of the clock
+EARLY = 0.05  # s, chosen: nor so early; the line is within a ms of the quickest rows
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,9 +35,10 @@ def learnt(clock: DeviceClock, stamp: float, arrival: float) -> DeviceClock:
     """Return the clock with one more row."""
     if not clock.quickest:
         return _begun(clock, stamp, arrival)
-    early = stamp - clock.last
-    if early < 0 or abs(arrival - to_bench(clock, stamp)) > JUMP:
-        return replace(_begun(clock, stamp, arrival), jumps=clock.jumps + 1)
+    late = arrival - to_bench(clock, stamp)
+    if stamp < clock.last or not -EARLY <= late <= LATE:
+        unsettled = -LATE <= late < 0 and len(clock.quickest) == 1
+        return replace(_begun(clock, stamp, arrival), jumps=clock.jumps + (not unsettled))
     if stamp >= clock.span_end:
         rows = (*clock.quickest, (stamp, arrival))[-SPANS:]
         return replace(clock, last=stamp, quickest=rows, span_end=stamp + SPAN)
