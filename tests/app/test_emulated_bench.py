@@ -12,10 +12,13 @@ import pytest
 from equipoise.io.presets import read_preset
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError, MoveRefused
+from equipoise.model.hardware import Port
+from equipoise.model.recording import Samples
 from equipoise.procedure.balance import BalanceOptions, balance
 from tests import emulated_lab
 from tests.emulated_lab import over_tcp
 from tests.hardware.board_wire import board_of
+from tests.hardware.sensor_units import NEEDS
 from tests.hardware.faulty_wire import garbage, half, noisy, repeated, silent
 
 BED = over_tcp(read_preset("nanosat"))
@@ -66,6 +69,52 @@ def test_rows_are_those_of_the_sensors_and_a_move_is_seen_as_it_was():
         going = np.flatnonzero(np.diff(x) > 0)
         taken = seen.masses.t[going[-1] + 1] - seen.masses.t[going[0]]
         assert taken == pytest.approx(0.5, abs=0.06)  # 4 mm at 8 mm/s, told every 50 ms
+
+
+def with_sensor(driver):
+    """Return the testbed with another sensor at its place, and masses that need no homing."""
+    hardware = BED.hardware
+    address, gives, settings = NEEDS[driver]
+    port = Port("tcp:unit:0" if address.startswith("serial:") else address)
+    (imu,) = hardware.sensors
+    imu = replace(imu, driver=driver, port=port, gives=gives, settings=settings)
+    boards = tuple(replace(board, homing=False) for board in hardware.boards)
+    return replace(FREE, hardware=replace(hardware, boards=boards, sensors=(imu,)))
+
+
+@pytest.mark.parametrize("driver", sorted(NEEDS))
+def test_each_sensor_gives_the_rows_that_its_far_side_was_told(driver):
+    """In number, in time, and in value: attitude and rate come back as they went in."""
+    with lab(with_sensor(driver)) as found:
+        device, told = found.imu.device, []
+        found.wait(0.2)
+        tell = device.tell
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(device, "tell", lambda rows: told.append(rows) or tell(rows))
+            found.bench.read(0.0)
+            seen = found.bench.read(2.0)
+        (link,) = found.keeper.links.sensors
+        assert link.driver.counts.corrupt == 0
+        for channel in link.unit.gives:
+            ours, theirs = joined([seen], channel), joined(told, channel)
+            assert len(ours) == pytest.approx(80, abs=4)
+            apart = np.abs(theirs.values[:, None] - ours.values).max(axis=2)
+            row = apart.argmin(axis=0)  # noise makes each row one of its kind
+            assert apart.min(axis=0).max() < 2e-6
+            assert np.all(np.diff(row) == 1)
+            assert np.abs(theirs.t[row] - ours.t).max() < 0.021  # at most a tick late
+
+
+def joined(recordings, channel):
+    """Return the rows of one channel of all recordings."""
+    parts = [part for each in recordings if (part := getattr(each, channel)) is not None]
+    values = np.concatenate([part.values for part in parts])
+    return Samples(np.concatenate([part.t for part in parts]), upright(values))
+
+
+def upright(values):
+    """Return quaternions of which each has a positive first number; rates as they are."""
+    return values * np.sign(values[:, :1]) if values.shape[1] == 4 else values
 
 
 def test_a_move_beyond_the_rail_is_refused_and_nothing_moves():
