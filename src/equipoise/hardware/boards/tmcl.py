@@ -6,8 +6,8 @@ is 0 again after a reset. While masses stand or move, one round of questions fol
 
     targets of masses on their way, where these are, a limit switch ahead of one, the mark
 
-A round counts once its mark is seen, so that no position of a module that began anew is believed.
-Masses find their position by the module's own reference search; those without switches stand at
+A round counts once its mark is seen, so that no position of a module that began anew is believed,
+nor the end of a search that a reset ended. Masses find their position by the module's own reference search; those without switches stand at
 home when a person says so. Source: TMCM-6110 TMCL Firmware Manual V1.31, 4.6 and chapters 5, 6.
 """
 
@@ -141,7 +141,7 @@ class Tmcl:
             "settings": lambda: questions(self._board),
             "mark": lambda: [*self._speeds, Request(w.SGP, VARIABLE, BANK, MARK)],
             "search": lambda: self._each(w.RFS, w.START),
-            "searched": lambda: [*self._each(w.RFS, w.STATUS), SEEN],
+            "searched": lambda: self._each(w.RFS, w.STATUS),
             "place": lambda: [
                 Request(w.SAP, w.AT, self._steps.motor(name), self._steps.steps(name, 0.0))
                 for name in self._names
@@ -208,10 +208,7 @@ class Tmcl:
             return not any(a.value for a in self._talk.answers.values())
         if step != "searched":
             return True
-        if self._talk.value(SEEN) != MARK:
-            self._fault(ANEW)
-            return False
-        if any(self._talk.value(q) for q in self._each(w.RFS, w.STATUS)):
+        if any(a.value for a in self._talk.answers.values()):
             if t - self._since > LONGEST_SEARCH:
                 self._fault("homing did not find a switch")
             return False
