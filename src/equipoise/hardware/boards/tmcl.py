@@ -7,8 +7,9 @@ is 0 again after a reset. While masses stand or move, one round of questions fol
     targets of masses on their way, where these are, a limit switch ahead of one, the mark
 
 A round counts once its mark is seen, so that no position of a module that began anew is believed,
-nor the end of a search that a reset ended. Masses find their position by the module's own reference search; those without switches stand at
-home when a person says so. Source: TMCM-6110 TMCL Firmware Manual V1.31, 4.6 and chapters 5, 6.
+nor the end of a search that a reset ended. Masses find their position by the module's own reference
+search; those without switches stand at home when a person says so. Source: TMCM-6110 TMCL Firmware
+Manual V1.31, 4.6 and chapters 5, 6.
 """
 
 from collections.abc import Callable, Mapping, Sequence
