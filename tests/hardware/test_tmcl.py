@@ -323,15 +323,37 @@ def test_a_reversed_axis_counts_down():
     assert packed(Request(4, 0, 0, -16800)) in wire.sent  # -17 - 4 mm
 
 
-def test_masses_on_their_way_stand_before_a_person_says_that_they_are_at_home():
-    """With the slowest ramps that are taken, 0.1 s, and the quickest conversation."""
-    wire = Wire("tmcl", board_of("tmcl", homing=False), turn=0.001)
+def slowly_stopping(**changes):
+    """Return the slowest ramps that are taken, 0.1 s, and the quickest conversation."""
+    wire = Wire("tmcl", board_of("tmcl", **changes), turn=0.001)
     for motor in wire.far._motors:
         motor.stored[5] = motor.now[5] = 64000
-    wire.at_home()
+    return wire.at_home()
+
+
+def test_a_module_is_ready_after_a_halt_when_its_masses_stand():
+    wire = slowly_stopping()
+    wire.driver.go({"x": 14 * MM}, wire.t)
+    wire.run(0.4)
+    wire.driver.halt(wire.t)
+    wire.run(1.0, until="ready")
+    at = wire.true("x")
+    state = wire.run(0.5)
+    assert wire.true("x") == at
+    assert state.goal["x"] == state.position["x"] == pytest.approx(at, abs=2e-6)
+
+
+def test_masses_on_their_way_stand_before_a_person_says_that_they_are_at_home():
+    wire = slowly_stopping(homing=False)
     wire.driver.go({"x": 14 * MM}, wire.t)
     wire.run(0.4)
     wire.driver.home(wire.t)
+    wire.sent = b""
+    while packed(Request(5, 1, 0, -13600)) not in wire.sent:
+        wire.run(0.001)
+    at = wire.true("x")
+    wire.run(0.01)
+    assert wire.true("x") == at
     state = wire.run(2.0)
     assert (state.phase, state.position["x"]) == ("ready", pytest.approx(0.0, abs=2e-6))
     at = wire.true("x")

@@ -135,12 +135,12 @@ class EmulatedTmcl:
         return OK, self._variables.get(type_, 0)
 
     def _stop(self, motor: Motor) -> tuple[int, int]:
-        """Let it go on, at its speed, for as far as its ramp would take it: v^2 / 2 a."""
+        """Let it go on as far and for as long as its ramp would: v^2 / 2 a at v / 2."""
         if self._now < motor.end:
             speed = abs(motor.to - motor.begin) / (motor.end - motor.start)
             slowed = min(speed**2 / (2 * motor.now[5]), speed * (motor.end - self._now))
             way = slowed if motor.to > motor.begin else -slowed
-            self._lead(motor, motor.place(self._now) + way, round(speed))
+            self._lead(motor, motor.place(self._now) + way, max(1, round(speed / 2)))
         return OK, 0
 
     def _move(self, motor: Motor, type_: int, value: int) -> tuple[int, int]:
