@@ -105,13 +105,18 @@ def test_a_long_way_is_gone_without_a_pause_between_legs(kind, turn):
 
 
 @every_board
-def test_a_halt_stops_at_once_and_the_position_stays_known(kind):
-    wire = Wire(kind).at_home()
+@pytest.mark.parametrize("turn", [0.002, 0.01])
+def test_a_halt_stops_at_once_and_the_position_stays_known(kind, turn):
+    """It says that it is ready when the masses stand."""
+    wire = Wire(kind, turn=turn).at_home()
     wire.driver.go({"x": 14 * MM, "z": -14 * MM}, wire.t)
     wire.run(0.6)
     wire.driver.halt(wire.t)
     halted = wire.t
+    wire.run(1.0, until="ready")
+    stood = wire.true("x")
     state = wire.run(1.0)
+    assert wire.true("x") == stood
     assert (state.phase, state.sure) == ("ready", True)
     assert state.goal == state.position
     for name in "xz":

@@ -86,6 +86,11 @@ def test_what_is_no_answer_is_dropped_and_the_next_one_found(broken):
     assert (found, breaks, rest) == ([Reply(100, 6, 711)], 1, POSITION[:4])
 
 
+def test_an_answer_is_found_behind_any_number_of_broken_bytes():
+    for k in range(1, 20):
+        assert replies_in(b"\x55" * k + POSITION) == ([Reply(100, 6, 711)], 1, b"")
+
+
 def test_one_question_at_a_time_and_an_answer_to_another_is_foreign():
     talk = Talk()
     talk.say([Request(6, 1, 0), Request(6, 1, 1)])
@@ -316,3 +321,80 @@ def test_a_reversed_axis_counts_down():
     wire.driver.go({"x": 4 * MM}, wire.t)
     wire.run(1.5)
     assert packed(Request(4, 0, 0, -16800)) in wire.sent  # -17 - 4 mm
+
+
+def slowly_stopping(**changes):
+    """Return the slowest ramps that are taken, 0.1 s, and the quickest conversation."""
+    wire = Wire("tmcl", board_of("tmcl", **changes), turn=0.001)
+    for motor in wire.far._motors:
+        motor.stored[5] = motor.now[5] = 64000
+    return wire.at_home()
+
+
+def test_a_module_is_ready_after_a_halt_when_its_masses_stand():
+    wire = slowly_stopping()
+    wire.driver.go({"x": 14 * MM}, wire.t)
+    wire.run(0.4)
+    wire.driver.halt(wire.t)
+    wire.run(1.0, until="ready")
+    at = wire.true("x")
+    state = wire.run(0.5)
+    assert wire.true("x") == at
+    assert state.goal["x"] == state.position["x"] == pytest.approx(at, abs=2e-6)
+
+
+def test_masses_on_their_way_stand_before_a_person_says_that_they_are_at_home():
+    wire = slowly_stopping(homing=False)
+    wire.driver.go({"x": 14 * MM}, wire.t)
+    wire.run(0.4)
+    wire.driver.home(wire.t)
+    wire.sent = b""
+    while packed(Request(5, 1, 0, -13600)) not in wire.sent:
+        wire.run(0.001)
+    at = wire.true("x")
+    wire.run(0.01)
+    assert wire.true("x") == at
+    state = wire.run(2.0)
+    assert (state.phase, state.position["x"]) == ("ready", pytest.approx(0.0, abs=2e-6))
+    at = wire.true("x")
+    assert at < 5 * MM
+    wire.driver.go({"x": 1 * MM}, wire.t)
+    wire.run(1.0)
+    assert wire.true("x") == pytest.approx(at + 1 * MM, abs=2e-6)
+
+
+def test_a_way_is_over_when_masses_are_there_and_not_later():
+    wire = Wire("tmcl").at_home()
+    wire.driver.go({"x": 4 * MM}, wire.t)
+    assert wire.run(0.65).phase == "ready"
+
+
+def test_a_mass_that_does_not_go_is_told_to_stand_elsewhere_than_its_goal():
+    """The interlocks then say so."""
+    wire = Wire("tmcl").at_home()
+    obey = wire.far._obey
+    wire.far._obey = lambda *all_: (100, 0) if all_[0] == 4 else obey(*all_)
+    wire.driver.go({"x": 4 * MM}, wire.t)
+    state = wire.run(1.0)
+    assert (state.phase, state.goal["x"]) == ("ready", 4 * MM)
+    assert state.position["x"] == pytest.approx(0.0, abs=2e-6)
+
+
+def test_after_a_halt_a_mass_can_be_sent_where_it_was_going():
+    wire = Wire("tmcl").at_home()
+    wire.driver.go({"x": 4 * MM}, wire.t)
+    wire.run(0.3)
+    wire.driver.halt(wire.t)
+    assert wire.run(0.5).position["x"] < 3 * MM
+    wire.driver.go({"x": 4 * MM}, wire.t)
+    assert wire.run(1.0).position["x"] == pytest.approx(4 * MM, abs=2e-6)
+
+
+def test_a_module_that_falls_silent_while_it_is_asked_for_its_settings_is_a_fault():
+    """Nothing is asked again: an answer that came late would be taken for another motor's."""
+    wire = Wire("tmcl")
+    wire.run(0.1)
+    wire.cut = True
+    sent = len(wire.sent)
+    assert "does not answer" in wire.run(0.5).sentence
+    assert len(wire.sent) <= sent + 9

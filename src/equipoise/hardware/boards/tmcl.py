@@ -6,17 +6,19 @@ is 0 again after a reset. While masses stand or move, one round of questions fol
 
     targets of masses on their way, where these are, a limit switch ahead of one, the mark
 
-A round counts once its mark is seen, so that no position of a module that began anew is believed.
-Masses find their position by the module's own reference search; those without switches stand at
-home when a person says so. Source: TMCM-6110 TMCL Firmware Manual V1.31, 4.6 and chapters 5, 6.
+A round counts once its mark is seen, so that no position of a module that began anew is believed,
+nor the end of a search that a reset ended. Masses find their position by the module's own reference
+search; those without switches stand at home when a person says so. Source: TMCM-6110 TMCL Firmware
+Manual V1.31, 4.6 and chapters 5, 6.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from equipoise.hardware.boards import tmcl_words as w
 from equipoise.hardware.boards.axis_letters import check_letters
-from equipoise.hardware.boards.tmcl_settings import disagreement, guards, questions, speed_value
+from equipoise.hardware.boards.tmcl_scripts import MARK, SEEN, Scripts
+from equipoise.hardware.boards.tmcl_settings import disagreement, guards, speed_value
 from equipoise.hardware.boards.tmcl_steps import Steps
 from equipoise.hardware.boards.tmcl_talk import Talk
 from equipoise.hardware.boards.tmcl_words import Request
@@ -27,8 +29,6 @@ from equipoise.model.reading import Counts
 from equipoise.model.testbed import SlidingMass
 
 MOTORS = "012345"
-MARK, BANK, VARIABLE = 0x45515550, 2, 255  # chosen: any number but 0; the last user variable
-SEEN = Request(w.GGP, VARIABLE, BANK)
 BEGIN = 4.0  # s, chosen: a radio bridge may take as long to join
 LONGEST_SEARCH = 60.0  # s, chosen
 SETTLED = 0.5  # s, chosen: standing for so long, a mass goes nowhere else
@@ -43,6 +43,7 @@ class Tmcl:
         check_letters(board, MOTORS, "a Trinamic module numbers its motors")
         self._board, self._masses = board, {mass.name: mass for mass in masses}
         self._steps, self._talk = Steps(board, masses), Talk()
+        self._scripts = Scripts(board, self._steps)
         self._names = [axis.mass for axis in board.axes]
         self._guards: dict[str, Mapping[int, int]] = {}
         self._state = BoardState("connecting")
@@ -118,14 +119,14 @@ class Tmcl:
             self._fault("homing was broken off")
         elif self._state.phase == "moving":
             self._state = replace(self._state, phase="halted")
-            self._say("halt", self._each(w.MST), t)
+            self._say("halt", self._scripts.each(w.MST), t)
 
     # --- Scripts -----------------------------------------------------------------------------
 
     def _more(self, t: float) -> None:
         """Say the next step of the plan, or ask another round."""
         doing = self._plan[0] if self._plan else "round"
-        script = self._round() if doing == "round" else self._script(doing)
+        script = self._round() if doing == "round" else self._scripts.step(doing)
         self._say(doing, script, t)
 
     def _say(self, doing: str, script: Sequence[Request], t: float) -> None:
@@ -133,28 +134,12 @@ class Tmcl:
         self._doing, self._next = doing, t + (ASK_MOVING if quick else ASK)
         self._talk.say(script)
 
-    def _script(self, step: str) -> Sequence[Request]:
-        scripts: dict[str, Callable[[], Sequence[Request]]] = {
-            "version": lambda: [Request(w.VERSION, w.BINARY, 0)],
-            "stop": lambda: [*self._each(w.RFS, w.STOP), *self._each(w.MST)],
-            "stopped": lambda: self._each(w.GAP, w.SPEED),
-            "settings": lambda: questions(self._board),
-            "mark": lambda: [*self._speeds, Request(w.SGP, VARIABLE, BANK, MARK)],
-            "search": lambda: self._each(w.RFS, w.START),
-            "searched": lambda: [*self._each(w.RFS, w.STATUS), SEEN],
-            "place": lambda: [
-                Request(w.SAP, w.AT, self._steps.motor(name), self._steps.steps(name, 0.0))
-                for name in self._names
-            ],
-        }
-        return scripts[step]()
-
     def _round(self) -> Sequence[Request]:
         """Return a round of questions, with the targets of masses on their way before them."""
         if self._state.phase in ("ready", "fault"):
-            return [*self._each(w.GAP, w.AT), SEEN]
+            return [*self._scripts.each(w.GAP, w.AT), SEEN]
         if self._state.phase == "halted" or not self._state.goal:
-            return [*self._each(w.GAP, w.SPEED), *self._each(w.GAP, w.AT), SEEN]
+            return [*self._scripts.each(w.GAP, w.SPEED), *self._scripts.each(w.GAP, w.AT), SEEN]
         going = self._going
         targets = {k: self._steps.target(k, self._at[k], self._state.goal[k]) for k in going}
         told = [
@@ -176,9 +161,6 @@ class Tmcl:
             if switch is not None:
                 self._asked = {name: Request(w.GAP, switch, self._steps.motor(name))}
         return list(self._asked.values())
-
-    def _each(self, command: int, type_: int = 0) -> Sequence[Request]:
-        return [Request(command, type_, self._steps.motor(name)) for name in self._names]
 
     @property
     def _going(self) -> Sequence[str]:
@@ -208,10 +190,7 @@ class Tmcl:
             return not any(a.value for a in self._talk.answers.values())
         if step != "searched":
             return True
-        if self._talk.value(SEEN) != MARK:
-            self._fault(ANEW)
-            return False
-        if any(self._talk.value(q) for q in self._each(w.RFS, w.STATUS)):
+        if any(a.value for a in self._talk.answers.values()):
             if t - self._since > LONGEST_SEARCH:
                 self._fault("homing did not find a switch")
             return False
@@ -224,10 +203,9 @@ class Tmcl:
             self._fault(f"{wrong}; mend one of the two")
             return False
         self._guards = {k: guards(axis, answers) for k, axis in self._steps.axes.items()}
-        self._speeds = [
-            Request(w.SAP, w.MOST_SPEED, int(a.letter), speed_value(a, self._masses[k], answers))
-            for k, a in self._steps.axes.items()
-        ]
+        self._scripts.speeds = {
+            k: speed_value(axis, self._masses[k], answers) for k, axis in self._steps.axes.items()
+        }
         return True
 
     def _rounded(self, t: float) -> None:
@@ -244,13 +222,10 @@ class Tmcl:
             self._still = t
         self._at = at
         position = {k: self._steps.displacement(k, value) for k, value in at.items()}
-        self._state = replace(self._state, position=position, reported=self._read_at(t))
+        self._state = replace(
+            self._state, position=position, reported=self._talk.middle(w.GAP, w.AT, t)
+        )
         self._settle(t)
-
-    def _read_at(self, t: float) -> float:
-        """Return the middle of the times at which positions of this round were told."""
-        when = [a.t for q, a in self._talk.answers.items() if (q.command, q.type) == (w.GAP, w.AT)]
-        return (when[0] + when[-1]) / 2 if when else t
 
     def _settle(self, t: float) -> None:
         """Let a way or a halt end when masses stand; a way that meets a switch is a fault."""
@@ -264,7 +239,7 @@ class Tmcl:
         elif state.phase == "homing":
             self._aim(dict.fromkeys(self._names, 0.0), t)
         elif state.phase == "halted":
-            speeds = [self._talk.value(q) for q in self._each(w.GAP, w.SPEED)]
+            speeds = [self._talk.value(q) for q in self._scripts.each(w.GAP, w.SPEED)]
             if speeds and not any(speeds):
                 self._state = replace(state, phase="ready", goal=dict(state.position))
 
@@ -296,4 +271,4 @@ class Tmcl:
             self._talk.give_up()
         else:
             self._doing = "halt"
-            self._talk.say([*self._each(w.RFS, w.STOP), *self._each(w.MST)])
+            self._talk.say([*self._scripts.each(w.RFS, w.STOP), *self._scripts.each(w.MST)])

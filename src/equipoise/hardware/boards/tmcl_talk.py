@@ -70,6 +70,12 @@ class Talk:
         answer = self.answers.get(request)
         return answer.value if answer is not None and answer.done else None
 
+    def middle(self, command: int, type_: int, t: float) -> float:
+        """Return the middle of the times at which these were answered; ``t`` if none was."""
+        same = (a.t for q, a in self.answers.items() if (q.command, q.type) == (command, type_))
+        when = list(same) or [t]
+        return (when[0] + when[-1]) / 2
+
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
         replies, breaks, self._rest = replies_in(self._rest + data)

@@ -1,9 +1,10 @@
 """An emulated six-axis Trinamic module (TMCM-6212, speeds in microsteps/s) with TMCL in binary.
 
 Written from the firmware manuals' chapters on the binary format, the commands and the axis
-parameters, apart from the driver. Ways are straight and of constant speed: the ramps are left out.
-It boots at once, which is harder to notice than a boot that takes a while. While it has not
-answered it does not listen: of two requests sent at once the second is lost.
+parameters, apart from the driver. Ways are straight and of constant speed, without ramps; but a
+motor that is stopped goes as far as its ramp would take it. It boots at once, which is harder to
+notice than a boot that takes a while. While it has not answered it does not listen: of two requests
+sent at once the second is lost.
 """
 
 import struct
@@ -134,7 +135,12 @@ class EmulatedTmcl:
         return OK, self._variables.get(type_, 0)
 
     def _stop(self, motor: Motor) -> tuple[int, int]:
-        self._stand(motor)
+        """Let it go on as far and for as long as its ramp would: v^2 / 2 a at v / 2."""
+        if self._now < motor.end:
+            speed = abs(motor.to - motor.begin) / (motor.end - motor.start)
+            slowed = min(speed**2 / (2 * motor.now[5]), speed * (motor.end - self._now))
+            way = slowed if motor.to > motor.begin else -slowed
+            self._lead(motor, motor.place(self._now) + way, max(1, round(speed / 2)))
         return OK, 0
 
     def _move(self, motor: Motor, type_: int, value: int) -> tuple[int, int]:

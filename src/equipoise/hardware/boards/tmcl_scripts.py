@@ -1,0 +1,52 @@
+"""What a TMCL module is told and asked in each step: when it is opened, and to find its position.
+
+The mark is a variable of its working memory: after a reset it is 0 again. Source: TMCM-6110 TMCL
+Firmware Manual V1.31, 4.6.13 "RFS", chapter 6 "Global parameters", bank 2.
+"""
+
+from collections.abc import Callable, Sequence
+
+from equipoise.hardware.boards import tmcl_words as w
+from equipoise.hardware.boards.tmcl_settings import questions
+from equipoise.hardware.boards.tmcl_steps import Steps
+from equipoise.hardware.boards.tmcl_words import Request
+from equipoise.model.hardware import MotorBoard
+
+MARK, BANK, VARIABLE = 0x45515550, 2, 255  # chosen: any number but 0; the last user variable
+SEEN = Request(w.GGP, VARIABLE, BANK)
+
+
+class Scripts:
+    """The scripts for one module; ``speeds`` are in its units, by mass."""
+
+    def __init__(self, board: MotorBoard, steps: Steps) -> None:
+        self._board, self._steps = board, steps
+        self.speeds: dict[str, int] = {}
+
+    def each(self, command: int, type_: int = 0) -> Sequence[Request]:
+        """Return the same request to each motor."""
+        return [Request(command, type_, int(axis.letter)) for axis in self._board.axes]
+
+    def step(self, name: str) -> Sequence[Request]:
+        """Return the script of a step."""
+        scripts: dict[str, Callable[[], Sequence[Request]]] = {
+            "version": lambda: [Request(w.VERSION, w.BINARY, 0)],
+            "stop": lambda: [*self.each(w.RFS, w.STOP), *self.each(w.MST)],
+            "stopped": lambda: self.each(w.GAP, w.SPEED),
+            "settings": lambda: questions(self._board),
+            "mark": self._marked,
+            "search": lambda: self.each(w.RFS, w.START),
+            "searched": lambda: self.each(w.RFS, w.STATUS),
+            "place": lambda: [
+                Request(w.SAP, w.AT, int(axis.letter), self._steps.steps(axis.mass, 0.0))
+                for axis in self._board.axes
+            ],
+        }
+        return scripts[name]()
+
+    def _marked(self) -> Sequence[Request]:
+        told = [
+            Request(w.SAP, w.MOST_SPEED, self._steps.motor(name), speed)
+            for name, speed in self.speeds.items()
+        ]
+        return [*told, Request(w.SGP, VARIABLE, BANK, MARK)]
