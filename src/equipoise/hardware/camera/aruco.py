@@ -1,0 +1,95 @@
+"""OpenCV's ArUco, as this package uses it: all that differs between its releases 4.8 to 5 is here.
+
+Markers: S. Garrido-Jurado et al. (2014), "Automatic generation and detection of highly reliable
+fiducial markers under occlusion", Pattern Recognition 47(6), 2280-2292.
+
+Coordinates of pixels: whole numbers are centres, (0, 0) that of the first.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equipoise.hardware.extras import needed
+from equipoise.model.arrays import Floats
+from equipoise.model.errors import InputError, nearest
+
+Picture = NDArray[np.uint8]
+PREFIX = "DICT_"
+WINDOW = 5  # px, half the window of the corner search, chosen: less than a third of a marker's side
+THRESHOLD = 23  # px, window of the adaptive threshold, chosen: one size, for markers of 20 to 200 px
+
+
+def opencv(where: str) -> Any:
+    """Return OpenCV; InputError says how to install it."""
+    return needed("cv2", "camera", where)
+
+
+def dictionary(name: str, where: str) -> Any:
+    """Return the markers of a dictionary such as 4X4_50 or APRILTAG_36H11."""
+    aruco = opencv(where).aruco
+    known = sorted(key[len(PREFIX) :] for key in dir(aruco) if key.startswith(PREFIX))
+    wanted = name.upper().removeprefix(PREFIX)
+    if wanted not in known:
+        raise InputError(where, f"dictionary '{name}'", nearest(wanted, known))
+    return aruco.getPredefinedDictionary(getattr(aruco, PREFIX + wanted))
+
+
+def detector(markers: Any) -> Any:
+    """Return what finds markers of a dictionary, with corners between the pixels."""
+    aruco = opencv("camera").aruco
+    how = aruco.DetectorParameters()
+    how.adaptiveThreshWinSizeMin = how.adaptiveThreshWinSizeMax = THRESHOLD
+    how.cornerRefinementMethod = aruco.CORNER_REFINE_SUBPIX
+    how.cornerRefinementWinSize = WINDOW
+    how.cornerRefinementMaxIterations = 20
+    how.cornerRefinementMinAccuracy = 0.005
+    return aruco.ArucoDetector(markers, how)
+
+
+def found(seeker: Any, picture: Picture) -> list[tuple[int, Floats]]:
+    """Return id and corners (4, 2) px of each marker in a picture."""
+    corners, ids, _ = seeker.detectMarkers(picture)
+    if ids is None:
+        return []
+    pairs = zip(np.ravel(ids), corners, strict=True)
+    return [(int(number), np.asarray(four, float).reshape(4, 2)) for number, four in pairs]
+
+
+def drawn(markers: Any, number: int, side: int) -> Picture:
+    """Return the picture of one marker, its black border included."""
+    return opencv("camera").aruco.generateImageMarker(markers, number, side)
+
+
+def count_of(markers: Any) -> int:
+    """Return how many markers a dictionary has."""
+    return len(markers.bytesList)
+
+
+def decoded(data: bytes) -> Picture | None:
+    """Return an encoded picture in greys; None for what is none."""
+    cv2 = opencv("camera")
+    if not data:
+        return None
+    try:
+        return cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
+    except cv2.error:
+        return None
+
+
+def calibrated(
+    points: Sequence[Floats], seen: Sequence[Floats], size: tuple[int, int]
+) -> tuple[float, Floats, Floats, Floats]:
+    """Return rms (px), camera matrix, five coefficients of distortion and the matrix's sds (px).
+
+    Points are on the plane z = 0 of a board (m) and in the pictures (px), view by view.
+    """
+    cv2 = opencv("camera")
+    told = [np.asarray(p, np.float32).reshape(-1, 1, 3) for p in points]
+    views = [np.asarray(v, np.float32).reshape(-1, 1, 2) for v in seen]
+    rms, matrix, distortion, _, _, sds, *_ = cv2.calibrateCameraExtended(
+        told, views, size, None, None
+    )
+    return float(rms), np.asarray(matrix), np.ravel(distortion)[:5], np.ravel(sds)[:4]

@@ -1,0 +1,65 @@
+"""A board of square markers in rows and columns.
+
+Its frame: origin in the middle of the board, X to the right and Y up as it is printed, Z out of
+the print towards who looks at it. Markers count from the upper left, row by row; the corners of
+one go round as its picture is read: upper left, upper right, lower right, lower left.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.hardware.camera import aruco
+from equipoise.model.arrays import Floats
+from equipoise.model.errors import InputError
+
+LEAST = 2  # markers, chosen: one alone is seen alike from two sides too easily
+
+
+@dataclass(frozen=True, slots=True)
+class TagBoard:
+    """What is printed."""
+
+    dictionary: str
+    columns: int
+    rows: int
+    marker: float  # m, side of a marker with its black border
+    gap: float  # m, between neighbours
+    first: int = 0  # id of the upper left marker
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height over all markers, m."""
+        pitch = self.marker + self.gap
+        return self.columns * pitch - self.gap, self.rows * pitch - self.gap
+
+    @property
+    def ids(self) -> range:
+        """The markers' ids."""
+        return range(self.first, self.first + self.columns * self.rows)
+
+    def corners(self, number: int) -> Floats:
+        """Return the corners (4, 3) of a marker, m, board axes."""
+        row, column = divmod(number - self.first, self.columns)
+        pitch, (width, height) = self.marker + self.gap, self.size
+        left, top = column * pitch - width / 2, height / 2 - row * pitch
+        right, bottom = left + self.marker, top - self.marker
+        return np.array(
+            [[left, top, 0.0], [right, top, 0.0], [right, bottom, 0.0], [left, bottom, 0.0]]
+        )
+
+
+def checked_board(board: TagBoard, where: str) -> TagBoard:
+    """Return a board; InputError if its dictionary has too few markers, or it is none."""
+    count = board.columns * board.rows
+    if board.columns < 1 or board.rows < 1 or count < LEAST:
+        wanted = f"at least {LEAST} markers"
+        raise InputError(where, f"{board.columns} columns and {board.rows} rows", wanted)
+    if board.marker <= 0 or board.gap <= 0:
+        found = f"marker_mm {1e3 * board.marker:g} and gap_mm {1e3 * board.gap:g}"
+        raise InputError(where, found, "lengths greater than zero")
+    there = aruco.count_of(aruco.dictionary(board.dictionary, where))
+    if board.first < 0 or board.ids.stop > there:
+        found = f"markers {board.first} to {board.ids.stop - 1} of {board.dictionary}"
+        raise InputError(where, found, f"markers 0 to {there - 1}")
+    return board
