@@ -7,7 +7,7 @@ A port's address says how a device is reached:
     udp:14550   udp:239.255.42.99:1511    datagrams to a port of this computer, or to a group
     ws://localhost:9090                   messages of a WebSocket
     http://192.168.4.2:81/stream          a camera that sends pictures one after the other (MJPEG)
-    camera:0                              a camera of this computer
+    camera:0   camera:0@1280x960          a camera of this computer, asked for a size of picture
 """
 
 from collections.abc import Mapping
@@ -60,7 +60,7 @@ class SensorUnit:
     """
 
     name: str
-    driver: str  # of ``hardware.sensors.registry``, or camera
+    driver: str  # of ``hardware.sensors.registry``
     port: Port
     gives: tuple[Gives, ...]
     alignment: Matrix3  # rotation, sensor axes to body axes

@@ -18,8 +18,9 @@ from equipoise.model.errors import InputError, nearest
 
 Picture = NDArray[np.uint8]
 PREFIX = "DICT_"
-WINDOW = 5  # px, half the window of the corner search, chosen: less than a third of a marker's side
-THRESHOLD = 23  # px, window of the adaptive threshold, chosen: one size, for markers of 20 to 200 px
+THRESHOLD = (
+    23  # px, window of the adaptive threshold, chosen: one size, for markers of 20 to 200 px
+)
 
 
 def opencv(where: str) -> Any:
@@ -38,14 +39,11 @@ def dictionary(name: str, where: str) -> Any:
 
 
 def detector(markers: Any) -> Any:
-    """Return what finds markers of a dictionary, with corners between the pixels."""
+    """Return what finds markers of a dictionary."""
     aruco = opencv("camera").aruco
     how = aruco.DetectorParameters()
     how.adaptiveThreshWinSizeMin = how.adaptiveThreshWinSizeMax = THRESHOLD
-    how.cornerRefinementMethod = aruco.CORNER_REFINE_SUBPIX
-    how.cornerRefinementWinSize = WINDOW
-    how.cornerRefinementMaxIterations = 20
-    how.cornerRefinementMinAccuracy = 0.005
+    how.cornerRefinementMethod = aruco.CORNER_REFINE_NONE  # borders tell more, see ``borders``
     return aruco.ArucoDetector(markers, how)
 
 
@@ -63,6 +61,11 @@ def drawn(markers: Any, number: int, side: int) -> Picture:
     return opencv("camera").aruco.generateImageMarker(markers, number, side)
 
 
+def cells(markers: Any) -> int:
+    """Return of how many cells a marker's side consists, its black border included."""
+    return int(markers.markerSize) + 2
+
+
 def count_of(markers: Any) -> int:
     """Return how many markers a dictionary has."""
     return len(markers.bytesList)
@@ -77,6 +80,12 @@ def decoded(data: bytes) -> Picture | None:
         return cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
     except cv2.error:
         return None
+
+
+def encoded(picture: Picture, quality: int) -> bytes:
+    """Return a picture as JPEG."""
+    cv2 = opencv("camera")
+    return cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, quality])[1].tobytes()
 
 
 def calibrated(

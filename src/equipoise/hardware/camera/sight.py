@@ -10,13 +10,14 @@ import numpy as np
 
 from equipoise.hardware.camera import aruco
 from equipoise.hardware.camera.aruco import Picture
+from equipoise.hardware.camera.first_pose import Corners
 from equipoise.hardware.camera.lens import Lens
-from equipoise.hardware.camera.pose import Corners, Pose, Unseen, pose_of
-from equipoise.hardware.camera.tag_board import LEAST, TagBoard
+from equipoise.hardware.camera.pose import Pose, Unseen, chosen, poses_of
+from equipoise.hardware.camera.tag_board import LEAST, Borders, TagBoard
 from equipoise.model.arrays import Floats
 
-AROUND = 0.15  # of the board's extent in the picture, chosen: what it may move between two pictures
-MOST_LOST = 0.2  # of the markers, chosen: when more than that are gone, all of the picture is searched
+AROUND = 0.15  # of the board's extent, chosen: what it may move from picture to picture
+MOST_LOST = 0.2  # of the markers, chosen: when more are gone, all of the picture is searched
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +36,7 @@ class Sight:
     def __init__(self, board: TagBoard, lens: Lens, where: str) -> None:
         self._board, self._lens = board, lens
         self._seeker = aruco.detector(aruco.dictionary(board.dictionary, where))
+        self._borders = {number: board.borders(number) for number in board.ids}
         self._before: Pose | None = None
         self._region: Region | None = None
         self._count = 0  # of markers seen in the picture before
@@ -48,7 +50,8 @@ class Sight:
             return Unseen.NO_BOARD
         self._region = _around(np.concatenate(list(markers.values())), picture)
         turn = None if self._before is None else self._before.turn
-        pose = pose_of(self._matched(markers), self._lens, turn)
+        corners, borders = self._matched(markers)
+        pose = chosen(poses_of(picture, self._lens, corners, borders), turn)
         self._before = pose if isinstance(pose, Pose) else None
         return pose
 
@@ -72,13 +75,17 @@ class Sight:
             if number in self._board.ids and ids.count(number) == 1
         }
 
-    def _matched(self, markers: dict[int, Floats]) -> Corners:
-        own = [self._board.corners(number) for number in markers]
-        side = self._board.marker
-        inward = [2 / side * (four.mean(axis=0) - four) for four in own]
-        return Corners(
-            np.concatenate(own), np.concatenate(inward), np.concatenate(list(markers.values()))
+    def _matched(self, markers: dict[int, Floats]) -> tuple[Corners, Borders]:
+        """Return what is on the board where the markers were seen."""
+        own = np.concatenate([self._board.corners(number) for number in markers])
+        each = [self._borders[number] for number in markers]
+        borders = Borders(
+            np.concatenate([b.points for b in each]),
+            np.concatenate([b.along for b in each]),
+            np.concatenate([b.outward for b in each]),
+            self._board.ink,
         )
+        return Corners(own, np.concatenate(list(markers.values()))), borders
 
 
 def _around(corners: Floats, picture: Picture) -> Region:

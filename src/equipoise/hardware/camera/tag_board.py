@@ -13,6 +13,7 @@ from equipoise.hardware.camera import aruco
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
 
+POINTS, MARGIN = 8, 0.12  # on each side of a marker, chosen: and off its corners, which blur rounds
 LEAST = 2  # markers, chosen: one alone is seen alike from two sides too easily
 
 
@@ -38,6 +39,12 @@ class TagBoard:
         """The markers' ids."""
         return range(self.first, self.first + self.columns * self.rows)
 
+    @property
+    def ink(self) -> float:
+        """How wide the black border of a marker is, or the paper around it if that is less, m."""
+        cells = aruco.cells(aruco.dictionary(self.dictionary, "board"))
+        return min(self.marker / cells, self.gap)
+
     def corners(self, number: int) -> Floats:
         """Return the corners (4, 3) of a marker, m, board axes."""
         row, column = divmod(number - self.first, self.columns)
@@ -47,6 +54,26 @@ class TagBoard:
         return np.array(
             [[left, top, 0.0], [right, top, 0.0], [right, bottom, 0.0], [left, bottom, 0.0]]
         )
+
+    def borders(self, number: int) -> "Borders":
+        """Return points on the border of a marker."""
+        corners = self.corners(number)[:, None]
+        way = np.roll(corners, -1, axis=0) - corners
+        along = (way / self.marker).repeat(POINTS, axis=1).reshape(-1, 3)
+        shares = (np.arange(POINTS) + 0.5) / POINTS
+        points = corners + (MARGIN + (1 - 2 * MARGIN) * shares[:, None]) * way
+        outward = along[:, [1, 0, 2]] * [-1.0, 1.0, 0.0]
+        return Borders(points.reshape(-1, 3), along, outward, self.ink)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Borders:
+    """Points on the borders of markers, board axes: paper is outside, ink inside."""
+
+    points: Floats  # (n, 3) m
+    along: Floats  # (n, 3) unit, along the border
+    outward: Floats  # (n, 3) unit, from ink to paper
+    ink: float  # m, how wide the ink is within a border, or the paper around it if that is less
 
 
 def checked_board(board: TagBoard, where: str) -> TagBoard:

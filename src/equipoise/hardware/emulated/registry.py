@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
+from equipoise.hardware.emulated.camera import EmulatedCamera
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor
 from equipoise.hardware.emulated.grbl import EmulatedGrbl
 from equipoise.hardware.emulated.vectornav import EmulatedVectorNav
@@ -11,4 +12,7 @@ from equipoise.model.testbed import SlidingMass
 BOARDS: dict[str, Callable[[MotorBoard, Sequence[SlidingMass]], EmulatedBoard]] = {
     "grbl": EmulatedGrbl,
 }
-SENSORS: dict[str, Callable[[SensorUnit], EmulatedSensor]] = {"vectornav": EmulatedVectorNav}
+SENSORS: dict[str, Callable[[SensorUnit], EmulatedSensor]] = {
+    "camera": EmulatedCamera,
+    "vectornav": EmulatedVectorNav,
+}

@@ -34,7 +34,6 @@ class Look:
     noise: float = 2.0  # grey levels, sd
     covered: float = 0.0  # of the board's width: a disc before it, as a hand or a cable
     finer: int = 1  # samples per pixel and axis
-    quality: int = 90  # of JPEG
 
 
 class Renderer:
@@ -116,15 +115,14 @@ class Renderer:
             radius = int(0.5 * self._look.covered * width)
             opencv("camera").circle(part, middle, radius, BEFORE, -1)
 
-    def _blurred(self, part: NDArray[np.float32]) -> NDArray[np.float32]:
-        cv2, look = opencv("camera"), self._look
+    def _blurred(self, sharp: NDArray[np.float32]) -> NDArray[np.float32]:
+        cv2, look, part = opencv("camera"), self._look, sharp
         if look.blur > 0:
             part = cv2.GaussianBlur(part, (0, 0), look.finer * look.blur)
         if look.smear > 0:
             part = cv2.filter2D(part, -1, self._way(look.finer * look.smear))
         if look.finer > 1:
-            height, width = part.shape
-            size = (width // look.finer, height // look.finer)
+            size = (sharp.shape[1] // look.finer, sharp.shape[0] // look.finer)
             part = cv2.resize(part, size, interpolation=cv2.INTER_AREA)
         return part
 
@@ -183,7 +181,7 @@ def texture_of(board: TagBoard, scale: float) -> tuple[NDArray[np.float32], Floa
     across, down = int(np.ceil(width * scale)), int(np.ceil(height * scale))
     paper = np.full((down, across), WHITE, np.float32)
     markers = aruco.dictionary(board.dictionary, "camera")
-    cells = int(markers.markerSize) + 2
+    cells = aruco.cells(markers)
     for k in range(board.columns * board.rows):
         bits = aruco.drawn(markers, board.first + k, cells) < 128
         row, column = divmod(k, board.columns)

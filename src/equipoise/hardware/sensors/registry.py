@@ -3,9 +3,11 @@
 from collections.abc import Callable
 
 from equipoise.hardware.driver import SensorDriver
+from equipoise.hardware.sensors.camera import Camera
 from equipoise.hardware.sensors.vectornav import VectorNav
 from equipoise.model.hardware import SensorUnit
 
 DRIVERS: dict[str, Callable[[SensorUnit], SensorDriver]] = {
+    "camera": Camera,
     "vectornav": VectorNav,
 }
