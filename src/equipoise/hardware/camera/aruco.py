@@ -28,6 +28,11 @@ def opencv(where: str) -> Any:
     return needed("cv2", "camera", where)
 
 
+def floats(values: Any) -> Floats:
+    """Return what OpenCV gave as numbers in double precision."""
+    return np.asarray(values, np.float64)
+
+
 def dictionary(name: str, where: str) -> Any:
     """Return the markers of a dictionary such as 4X4_50 or APRILTAG_36H11."""
     aruco = opencv(where).aruco
@@ -52,8 +57,9 @@ def found(seeker: Any, picture: Picture) -> list[tuple[int, Floats]]:
     corners, ids, _ = seeker.detectMarkers(picture)
     if ids is None:
         return []
-    pairs = zip(np.ravel(ids), corners, strict=True)
-    return [(int(number), np.asarray(four, float).reshape(4, 2)) for number, four in pairs]
+    numbers = np.asarray(ids, np.int64).ravel().tolist()
+    fours = [floats(four).reshape(4, 2) for four in corners]
+    return list(zip(numbers, fours, strict=True))
 
 
 def drawn(markers: Any, number: int, side: int) -> Picture:
@@ -101,4 +107,4 @@ def calibrated(
     rms, matrix, distortion, _, _, sds, *_ = cv2.calibrateCameraExtended(
         told, views, size, None, None
     )
-    return float(rms), np.asarray(matrix), np.ravel(distortion)[:5], np.ravel(sds)[:4]
+    return float(rms), floats(matrix), floats(distortion).ravel()[:5], floats(sds).ravel()[:4]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.hardware.camera.aruco import opencv
+from equipoise.hardware.camera.aruco import floats, opencv
 from equipoise.hardware.camera.lens import Lens
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.arrays import Floats, Matrix3, Vector3
@@ -47,7 +47,9 @@ def places_of(corners: Corners, lens: Lens) -> list[Place]:
         ]
     except cv2.error:
         return []
-    found = [_place(corners, lens, np.ravel(turn), np.ravel(where)) for turn, where in both]
+    found = [
+        _place(corners, lens, floats(turn).ravel(), floats(where).ravel()) for turn, where in both
+    ]
     best, *others = sorted(found, key=lambda place: place.squares)
     others = [other for other in others if angle_between(other.turn, best.turn) > SAME]
     return [place for place in (best, *others) if _possible(place)]
@@ -62,7 +64,7 @@ def _place(corners: Corners, lens: Lens, vector: Vector3, position: Vector3) -> 
     seen = opencv("camera").projectPoints(
         corners.board, vector, position, lens.matrix, lens.coefficients
     )[0]
-    left = seen.reshape(-1, 2) - corners.picture
+    left = floats(seen).reshape(-1, 2) - corners.picture
     return Place(to_matrix(exponential(vector)), position, float(np.mean(left**2)))
 
 

@@ -22,7 +22,7 @@ from enum import Enum
 
 import numpy as np
 
-from equipoise.hardware.camera.aruco import Picture
+from equipoise.hardware.camera.aruco import Picture, floats
 from equipoise.hardware.camera.borders import Offsets, offsets
 from equipoise.hardware.camera.first_pose import SAME, Corners, Place, angle_between, places_of
 from equipoise.hardware.camera.lens import Lens
@@ -113,7 +113,7 @@ def _step(seen: Offsets) -> Step | None:
     if np.count_nonzero(used) < ENOUGH:
         return None
     J, off = seen.slopes[used], seen.off[used]
-    step: Floats = np.linalg.lstsq(J, off, rcond=None)[0]
+    step = floats(np.linalg.lstsq(J, off, rcond=None)[0])
     return Step(step, J, off - J @ step)
 
 
@@ -129,5 +129,5 @@ def _used(seen: Offsets) -> Bools:
 def _stated(turn: Matrix3, position: Vector3, last: Step) -> Pose:
     squares, count = float(last.left @ last.left), len(last.left)
     square = max(squares / (count - UNKNOWNS), FLOOR**2)
-    whole: Floats = square * np.linalg.inv(last.slopes.T @ last.slopes)
+    whole = square * floats(np.linalg.inv(last.slopes.T @ last.slopes))
     return Pose(turn, position, whole[:3, :3], (squares / count) ** 0.5, count)

@@ -115,14 +115,14 @@ class Renderer:
             radius = int(0.5 * self._look.covered * width)
             opencv("camera").circle(part, middle, radius, BEFORE, -1)
 
-    def _blurred(self, sharp: NDArray[np.float32]) -> NDArray[np.float32]:
-        cv2, look, part = opencv("camera"), self._look, sharp
+    def _blurred(self, part: NDArray[np.float32]) -> NDArray[np.float32]:
+        cv2, look = opencv("camera"), self._look
+        size = (part.shape[1] // look.finer, part.shape[0] // look.finer)
         if look.blur > 0:
             part = cv2.GaussianBlur(part, (0, 0), look.finer * look.blur)
         if look.smear > 0:
             part = cv2.filter2D(part, -1, self._way(look.finer * look.smear))
         if look.finer > 1:
-            size = (sharp.shape[1] // look.finer, sharp.shape[0] // look.finer)
             part = cv2.resize(part, size, interpolation=cv2.INTER_AREA)
         return part
 
