@@ -6,7 +6,8 @@ fiducial markers under occlusion", Pattern Recognition 47(6), 2280-2292.
 Coordinates of pixels: whole numbers are centres, (0, 0) that of the first.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -108,3 +109,47 @@ def calibrated(
         told, views, size, None, None
     )
     return float(rms), floats(matrix), floats(distortion).ravel()[:5], floats(sds).ravel()[:4]
+
+
+@dataclass(frozen=True, slots=True)
+class Charuco:
+    """A chessboard with markers in its white squares, for calibrating a lens."""
+
+    dictionary: str
+    columns: int  # squares
+    rows: int  # squares
+    square: float  # m, side
+    marker: float  # m, side
+
+    def board(self, where: str) -> Any:
+        """Return OpenCV's own board."""
+        size, markers = (self.columns, self.rows), dictionary(self.dictionary, where)
+        return opencv(where).aruco.CharucoBoard(size, self.square, self.marker, markers)
+
+
+def charuco_points(
+    charuco: Charuco, pictures: Iterable[Picture]
+) -> Iterator[tuple[Floats, Floats]]:
+    """Return the chessboard's corners seen in each picture: (n, 3) m on the board, (n, 2) px."""
+    board = charuco.board("calibrate-camera")
+    seeker = opencv("camera").aruco.CharucoDetector(board)
+    corners = floats(board.getChessboardCorners()).reshape(-1, 3)
+    for picture in pictures:
+        seen, ids, _, _ = seeker.detectBoard(picture)
+        if ids is None or len(ids) == 0:
+            yield np.empty((0, 3)), np.empty((0, 2))
+        else:
+            yield corners[np.asarray(ids, np.int64).ravel()], floats(seen).reshape(-1, 2)
+
+
+def charuco_print(charuco: Charuco, dpi: int) -> Picture:
+    """Return the chessboard at its true size, half a square of paper around it."""
+    board = charuco.board("print-board")
+    squares, margin = (charuco.columns, charuco.rows), charuco.square / 2
+    width, height = (dots(n * charuco.square + 2 * margin, dpi) for n in squares)
+    return board.generateImage((width, height), marginSize=dots(margin, dpi))
+
+
+def dots(length: float, dpi: int) -> int:
+    """Return a length (m) in dots of a printer."""
+    return round(length / 0.0254 * dpi)

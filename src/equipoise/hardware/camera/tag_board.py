@@ -90,3 +90,18 @@ def checked_board(board: TagBoard, where: str) -> TagBoard:
         found = f"markers {board.first} to {board.ids.stop - 1} of {board.dictionary}"
         raise InputError(where, found, f"markers 0 to {there - 1}")
     return board
+
+
+def board_print(board: TagBoard, dpi: int) -> aruco.Picture:
+    """Return the board at its true size, a gap of paper around it."""
+    pitch = board.marker + board.gap
+    width, height = (
+        aruco.dots(count * pitch + board.gap, dpi) for count in (board.columns, board.rows)
+    )
+    side, paper = aruco.dots(board.marker, dpi), np.full((height, width), 255, np.uint8)
+    markers = aruco.dictionary(board.dictionary, "print-board")
+    for number in board.ids:
+        row, column = divmod(number - board.first, board.columns)
+        left, top = (aruco.dots(board.gap + pitch * k, dpi) for k in (column, row))
+        paper[top : top + side, left : left + side] = aruco.drawn(markers, number, side)
+    return paper
