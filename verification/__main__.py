@@ -19,6 +19,8 @@ from equipoise.model.errors import InputError
 from verification import (
     balanced,
     calibration,
+    camera,
+    camera_bench,
     compared,
     defective_logs,
     design_predictions,
@@ -87,6 +89,8 @@ CHECKS = {
     "planned": Check(planned.measure, 100),
     "design_predictions": Check(design_predictions.measure, 400),
     "killed_recordings": Check(killed_recordings.measure, 200),
+    "camera": Check(camera.measure, 25),
+    "camera_bench": Check(camera_bench.measure, 60),
     "real_methods": Check(real_methods.measure, 1),
 }
 

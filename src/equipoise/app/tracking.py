@@ -18,20 +18,19 @@ from equipoise.hardware.camera.sight import Sight
 from equipoise.hardware.camera.upright import level_up
 from equipoise.hardware.connection import Connection
 from equipoise.hardware.driver import driver_named
-from equipoise.hardware.placed import placed
+from equipoise.hardware.placed import as_sensed, placed
 from equipoise.hardware.port import open_port
 from equipoise.hardware.sensor_link import SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.wall_clock import WallClock
 from equipoise.io.camera_file import read_camera_keys
-from equipoise.maths.attitude import continuous, from_matrix
+from equipoise.maths.attitude import continuous, from_matrix, to_matrix
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port, SensorUnit
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
-STRANGE = "a board that is seen"
 Told = Callable[[float], None]
 
 
@@ -54,8 +53,9 @@ class Track:
 
 def unit_of(testbed: Testbed | None, files: Sequence[Path], address: str) -> SensorUnit:
     """Return the camera of a testbed, or one without an alignment, with the keys of files."""
-    cameras = [] if testbed is None or testbed.hardware is None else testbed.hardware.sensors
-    found = [unit for unit in cameras if unit.driver == "camera"]
+    hardware = None if testbed is None else testbed.hardware
+    sensors = () if hardware is None else hardware.sensors
+    found = [unit for unit in sensors if unit.driver == "camera"]
     if testbed is not None and not found:
         wanted = 'a [[hardware.sensor]] with driver = "camera"'
         raise InputError(testbed.source or testbed.name, "no camera", wanted)
@@ -69,8 +69,8 @@ def unit_of(testbed: Testbed | None, files: Sequence[Path], address: str) -> Sen
 
 def tracked(source: Path, unit: SensorUnit, rate: float | None, told: Told) -> Track:
     """Return the attitudes in a video or a folder of pictures."""
-    eye, where = eye_of(unit.settings, "camera"), "camera"
-    sight = Sight(eye.board, eye.lens, where)
+    eye = eye_of(unit.settings, "camera")
+    sight = Sight(eye.board, eye.lens, "camera")
     t: list[float] = []
     poses: list[Pose] = []
     unseen: list[Unseen] = []
@@ -83,11 +83,12 @@ def tracked(source: Path, unit: SensorUnit, rate: float | None, told: Told) -> T
         else:
             unseen.append(pose)
         told(taken.share)
-    quaternions = np.array([from_matrix(eye.to_laboratory @ pose.turn) for pose in poses])
-    attitudes = placed(unit, "attitude", quaternions) if poses else []
+    attitudes = [
+        placed(unit, "attitude", from_matrix(eye.to_laboratory @ pose.turn)) for pose in poses
+    ]
     sds = [math.sqrt(float(np.trace(pose.covariance)) / 3) for pose in poses]
     ambiguous = unseen.count(Unseen.AMBIGUOUS)
-    return Track(t, list(attitudes), sds, len(unseen) - ambiguous, ambiguous)
+    return Track(t, attitudes, sds, len(unseen) - ambiguous, ambiguous)
 
 
 def watched_camera(unit: SensorUnit, duration: float, told: Told) -> Track:
@@ -123,18 +124,13 @@ def recording_of_track(track: Track, source: str) -> Recording:
 
 
 def up_from(track: Track, unit: SensorUnit) -> tuple[Vector3, float]:
-    """Return up in the camera's axes, of a board that lay level, and its spread from picture to
-    picture (rad, one sd).
-    """
-    from equipoise.hardware.placed import as_sensed
-    from equipoise.maths.attitude import to_matrix
-
+    """Return up in the camera's axes, of a board that lay level, and its spread (rad, one sd)."""
     eye = eye_of(unit.settings, "camera")
     boards = to_matrix(as_sensed(unit, "attitude", np.array(track.attitudes)))
     turns = eye.to_laboratory.T @ boards
     up = level_up(turns)
-    off = np.linalg.norm(turns[:, :, 2] - up, axis=1)
-    return up, float(np.sqrt(np.mean(off**2)))
+    off = [float(np.linalg.norm(turn[:, 2] - up)) for turn in turns]
+    return up, math.hypot(*off) / math.sqrt(len(off))
 
 
 def _check_size(shape: tuple[int, ...], eye: Eye, source: Path) -> None:

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from equipoise.hardware.camera.aruco import Picture, encoded
-from equipoise.hardware.camera.eye import eye_of
-from equipoise.hardware.emulated.rendering import Look, Renderer
+from equipoise.hardware.camera.eye import Eye, eye_of
+from equipoise.hardware.emulated.rendering import Look, Renderer, sheet_of
 from equipoise.hardware.placed import as_sensed
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.hardware import SensorUnit
@@ -41,7 +41,7 @@ class EmulatedCamera:
             return b""
         if not requests[-1].startswith(b"GET "):
             return NOT_ASKED
-        self._renderer = Renderer(self._eye.board, self._eye.lens, self._look)
+        self._renderer = renderer_of(self._eye, self._look)
         return HELLO
 
     def tell(self, rows: Recording) -> Sequence[bytes]:
@@ -53,6 +53,12 @@ class EmulatedCamera:
         position = np.array([0.0, 0.0, DISTANCE])
         pairs = zip(rows.attitude.t, turns, strict=True)
         return [part(self._renderer.picture(turn, position), float(t)) for t, turn in pairs]
+
+
+def renderer_of(eye: Eye, look: Look, seed: int = 0) -> Renderer:
+    """Return what draws the pictures, as fine as they show the board."""
+    scale = look.finer * eye.lens.fx / DISTANCE  # pixels per m
+    return Renderer(sheet_of(eye.board, scale), eye.lens, look, seed)
 
 
 def part(picture: Picture, t: float) -> bytes:

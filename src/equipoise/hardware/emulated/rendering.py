@@ -36,14 +36,21 @@ class Look:
     finer: int = 1  # samples per pixel and axis
 
 
-class Renderer:
-    """Draws one board as one camera sees it."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Sheet:
+    """A print: the texture of a plane, on the board's axes."""
 
-    def __init__(self, board: TagBoard, lens: Lens, look: Look, seed: int = 0) -> None:
-        self._board, self._lens, self._look = board, lens, look
+    grey: NDArray[np.float32]
+    scale: float  # pixels per m
+    corner: Floats  # X, Y of the upper left corner, m
+
+
+class Renderer:
+    """Draws one sheet as one camera sees it."""
+
+    def __init__(self, sheet: Sheet, lens: Lens, look: Look, seed: int = 0) -> None:
+        self._sheet, self._lens, self._look = sheet, lens, look
         self._rng = np.random.default_rng(seed)
-        self._scale = look.finer * lens.fx / 0.7  # pixels of the texture per m
-        self._texture, self._corner = texture_of(board, self._scale)
         self._x, self._y = directions(lens, look.finer)
         self._noise = (look.noise * self._rng.standard_normal(POOL)).astype(np.float32)
 
@@ -65,10 +72,9 @@ class Renderer:
 
     def _box(self, turn: Matrix3, position: Vector3) -> tuple[int, int, int, int] | None:
         """Return left, top, right, bottom of what is drawn, px; None if nothing is in view."""
-        height, width = self._texture.shape
-        there = self._corner + np.array([[0, 0], [width, 0], [width, -height], [0, -height]]) / (
-            self._scale
-        )
+        height, width = self._sheet.grey.shape
+        edges = np.array([[0, 0], [width, 0], [width, -height], [0, -height]]) / self._sheet.scale
+        there = self._sheet.corner + edges
         placed = there @ turn[:, :2].T + position
         if placed[:, 2].min() <= 0:
             return None
@@ -89,11 +95,12 @@ class Renderer:
         x, y = self._x[top:bottom, left:right], self._y[top:bottom, left:right]
         # R[:, :2] (X, Y) + t is along (x, y, 1): the inverse of [r1 r2 t] gives X and Y.
         back = np.linalg.inv(np.column_stack([turn[:, :2], position]))
+        scale, corner = self._sheet.scale, self._sheet.corner
         # Texture: column = (X - left edge) scale - 1/2, row = (top edge - Y) scale - 1/2.
         to_texture = np.array(
             [
-                [self._scale, 0.0, -self._scale * self._corner[0] - 0.5],
-                [0.0, -self._scale, self._scale * self._corner[1] - 0.5],
+                [scale, 0.0, -scale * corner[0] - 0.5],
+                [0.0, -scale, scale * corner[1] - 0.5],
                 [0.0, 0.0, 1.0],
             ]
         )
@@ -103,26 +110,27 @@ class Renderer:
         row = (m[1, 0] * x + m[1, 1] * y + m[1, 2]) * third
         cv2 = opencv("camera")
         return cv2.remap(
-            self._texture, column, row, cv2.INTER_LINEAR,
+            self._sheet.grey, column, row, cv2.INTER_LINEAR,
             borderMode=cv2.BORDER_CONSTANT, borderValue=GROUND,
         )  # fmt: skip
 
     def _cover(self, part: NDArray[np.float32]) -> None:
         """Put a disc before some of the board."""
         if self._look.covered > 0:
-            height, width = part.shape
-            middle = (int(self._rng.integers(width)), int(self._rng.integers(height)))
+            width, height = float(part.shape[1]), float(part.shape[0])
+            middle = (int(self._rng.uniform(0, width)), int(self._rng.uniform(0, height)))
             radius = int(0.5 * self._look.covered * width)
             opencv("camera").circle(part, middle, radius, BEFORE, -1)
 
     def _blurred(self, part: NDArray[np.float32]) -> NDArray[np.float32]:
         cv2, look = opencv("camera"), self._look
-        size = (part.shape[1] // look.finer, part.shape[0] // look.finer)
+        height, width = part.shape
         if look.blur > 0:
             part = cv2.GaussianBlur(part, (0, 0), look.finer * look.blur)
         if look.smear > 0:
             part = cv2.filter2D(part, -1, self._way(look.finer * look.smear))
         if look.finer > 1:
+            size = (width // look.finer, height // look.finer)
             part = cv2.resize(part, size, interpolation=cv2.INTER_AREA)
         return part
 
@@ -171,8 +179,8 @@ def directions(lens: Lens, finer: int) -> tuple[NDArray[np.float32], NDArray[np.
     return x.astype(np.float32), y.astype(np.float32)
 
 
-def texture_of(board: TagBoard, scale: float) -> tuple[NDArray[np.float32], Floats]:
-    """Return the print in grey levels, ``scale`` pixels per m, and its upper left corner (X, Y).
+def sheet_of(board: TagBoard, scale: float) -> Sheet:
+    """Return the print of a board in grey levels, ``scale`` pixels per m.
 
     Each pixel is the exact average of the print over it. A gap of paper is left all around.
     """
@@ -188,7 +196,7 @@ def texture_of(board: TagBoard, scale: float) -> tuple[NDArray[np.float32], Floa
         by_column = shares(board.gap + column * pitch, board.marker / cells, cells, across, scale)
         by_row = shares(board.gap + row * pitch, board.marker / cells, cells, down, scale)
         paper -= (WHITE - BLACK) * (by_row.T @ bits @ by_column).astype(np.float32)
-    return paper, np.array([-width / 2, height / 2])
+    return Sheet(paper, scale, np.array([-width / 2, height / 2]))
 
 
 def shares(start: float, cell: float, cells: int, pixels: int, scale: float) -> Floats:
