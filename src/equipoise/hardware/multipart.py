@@ -46,9 +46,9 @@ class Parts:
 
     def _greeted(self, data: bytes) -> bytes:
         """Take the answer's head, and return what comes after it."""
-        self._raw = (self._raw + data)[-MOST_HEAD:]
-        head, blank, rest = self._raw.partition(BLANK)
+        head, blank, rest = (self._raw + data).partition(BLANK)
         if not blank:
+            self._raw = head[-MOST_HEAD:]
             return b""
         line, _, names = head.partition(b"\r\n")
         self.answered = line.decode("latin-1")

@@ -73,7 +73,7 @@ def _check_coverage(corners: Floats, size: tuple[int, int]) -> None:
     if np.count_nonzero(seen) >= COVERED:
         return
     sides = {"left": seen[:, 0], "right": seen[:, -1], "top": seen[0], "bottom": seen[-1]}
-    empty = [side for side, part in sides.items() if np.count_nonzero(part) <= len(part) / 2]
+    empty = [side for side, part in sides.items() if np.count_nonzero(part) < len(part) / 2]
     found = f"corners in {np.count_nonzero(seen)} of {ACROSS * DOWN} parts of the picture"
     where = " and ".join(empty) or "edges"
     wanted = f"at least {COVERED}: hold the board also where the picture is empty, at its {where}"

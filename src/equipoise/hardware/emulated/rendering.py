@@ -10,6 +10,7 @@ Then blur, noise, and what stands before the board.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,7 @@ from equipoise.hardware.camera.tag_board import TagBoard
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 
 BLACK, WHITE, GROUND, BEFORE = 35.0, 215.0, 120.0, 80.0  # grey levels, chosen: a dim laboratory
-UNDONE = 25  # chosen: steps that undo a distortion; each takes away most of what is left
+UNDONE = 12  # chosen: steps that undo a distortion; each leaves less than a third of what is left
 POOL = 1 << 21  # chosen: numbers of noise drawn once; each picture takes them from another place
 
 
@@ -167,6 +168,7 @@ def bend(x: Floats, y: Floats, lens: Lens) -> tuple[Floats, Floats]:
     )
 
 
+@lru_cache(maxsize=2)
 def directions(lens: Lens, finer: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Return x = X/Z and y = Y/Z of every sample: the distortion undone."""
     u = (np.arange(lens.width * finer) + 0.5) / finer - 0.5
