@@ -19,6 +19,8 @@ from equipoise.model.errors import InputError
 from verification import (
     balanced,
     calibration,
+    camera,
+    camera_bench,
     compared,
     defective_logs,
     design_predictions,
@@ -91,6 +93,8 @@ CHECKS = {
     "emulated_nanosat": Check(emulated_balancing.of("nanosat", "Grbl and VN-100"), 60),
     "faulty_benches": Check(faulty_benches.measure, 306),
     "killed_recordings": Check(killed_recordings.measure, 200),
+    "camera": Check(camera.measure, 25),
+    "camera_bench": Check(camera_bench.measure, 60),
     "real_methods": Check(real_methods.measure, 1),
 }
 

@@ -18,8 +18,8 @@ from equipoise.procedure.balance import BalanceOptions, balance
 from tests import emulated_lab
 from tests.emulated_lab import over_tcp
 from tests.hardware.board_wire import board_of
-from tests.hardware.sensor_units import NEEDS
 from tests.hardware.faulty_wire import garbage, half, noisy, repeated, silent
+from tests.hardware.sensor_units import NEEDS
 
 BED = over_tcp(read_preset("nanosat"))
 # Left to itself it swings far: where balancing is not the matter, it may.

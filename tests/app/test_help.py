@@ -29,8 +29,11 @@ COMMANDS = (
     "convert",
     "repair",
     "replay",
+    "track",
+    "print-board",
+    "calibrate-camera",
 )
-HEAVY = ("numpy", "scipy", "numba", "matplotlib", "pydantic", "pyarrow", "jaxtyping")
+HEAVY = ("numpy", "scipy", "numba", "matplotlib", "pydantic", "pyarrow", "jaxtyping", "cv2")
 PROMPT = 0.5  # s, what the issue asks for
 LOADED = 1.6  # a test machine at work is slower than a person's at rest
 

@@ -15,6 +15,7 @@ from equipoise import __version__
 from equipoise.app.commands.assess import assess
 from equipoise.app.commands.balance import balance
 from equipoise.app.commands.calibrate import calibrate
+from equipoise.app.commands.calibrate_camera import calibrate_camera
 from equipoise.app.commands.check import check
 from equipoise.app.commands.compare import compare
 from equipoise.app.commands.convert import convert
@@ -29,11 +30,13 @@ from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
 from equipoise.app.commands.plan import plan
+from equipoise.app.commands.print_board import print_board
 from equipoise.app.commands.record import record
 from equipoise.app.commands.repair import repair
 from equipoise.app.commands.replay import replay
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
+from equipoise.app.commands.track import track
 from equipoise.app.terminal import complain
 from equipoise.model.errors import EquipoiseError
 
@@ -52,6 +55,7 @@ app = App(
 COMMANDS = (
     demo, new, design, plan, simulate, inspect, observe, identify, calibrate, assess, methods,
     balance, laws, compare, reproduce, devices, check, emulate, record, convert, repair, replay,
+    track, print_board, calibrate_camera,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command)

@@ -150,7 +150,9 @@ def _hasty(seen: Seen, mass: SlidingMass, at: float, state: BoardState) -> Trip 
     if speed <= HASTE * mass.speed:
         return None
     found = f"mass {mass.name} moves with {MM * speed:.1f} mm/s"
-    return Trip("speed", f"{found}; it was told {MM * mass.speed:g} mm/s at most, or its board is misheard")
+    return Trip(
+        "speed", f"{found}; it was told {MM * mass.speed:g} mm/s at most, or its board is misheard"
+    )
 
 
 def _elsewhere(

@@ -240,6 +240,12 @@ def _websocket(port: Address, _rest: str) -> Port:
     return WebSocketPort(port.address)
 
 
+def _camera(port: Address, rest: str) -> Port:
+    from equipoise.hardware.camera.capture import CapturePort, camera_at
+
+    return CapturePort(port.address, *camera_at(rest))
+
+
 OPENERS: dict[str, Callable[[Address, str], Port]] = {
     "serial": _serial,
     "tcp": _tcp,
@@ -248,4 +254,5 @@ OPENERS: dict[str, Callable[[Address, str], Port]] = {
     "ws": _websocket,
     "wss": _websocket,
     "http": _http,
+    "camera": _camera,
 }

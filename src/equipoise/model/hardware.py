@@ -8,7 +8,7 @@ A port's address says how a device is reached:
     udpout:192.168.1.5:1510               datagrams to another computer, and its answers
     ws://localhost:9090                   messages of a WebSocket
     http://192.168.4.2:81/stream          a camera that sends pictures one after the other (MJPEG)
-    camera:0                              a camera of this computer
+    camera:0   camera:0@1280x960          a camera of this computer, asked for a size of picture
 """
 
 from collections.abc import Mapping
@@ -61,7 +61,7 @@ class SensorUnit:
     """
 
     name: str
-    driver: str  # of ``hardware.sensors.registry``, or camera
+    driver: str  # of ``hardware.sensors.registry``
     port: Port
     gives: tuple[Gives, ...]
     alignment: Matrix3  # rotation, sensor axes to body axes

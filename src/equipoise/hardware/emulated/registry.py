@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
+from equipoise.hardware.emulated.camera import EmulatedCamera
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor
 from equipoise.hardware.emulated.grbl import EmulatedGrbl
 from equipoise.hardware.emulated.line_protocol import EmulatedLineProtocol
@@ -18,6 +19,7 @@ BOARDS: dict[str, Callable[[MotorBoard, Sequence[SlidingMass]], EmulatedBoard]] 
     "tmcl": EmulatedTmcl,
 }
 SENSORS: dict[str, Callable[[SensorUnit], EmulatedSensor]] = {
+    "camera": EmulatedCamera,
     "lines": EmulatedLineProtocol,
     "mavlink": EmulatedMavlink,
     "natnet": EmulatedNatNet,

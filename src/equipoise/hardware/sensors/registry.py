@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from equipoise.hardware.driver import SensorDriver
+from equipoise.hardware.sensors.camera import Camera
 from equipoise.hardware.sensors.line_protocol import LineProtocol
 from equipoise.hardware.sensors.mavlink import Mavlink
 from equipoise.hardware.sensors.natnet import NatNet
@@ -15,5 +16,6 @@ DRIVERS: dict[str, Callable[[SensorUnit], SensorDriver]] = {
     "mavlink": Mavlink,
     "natnet": NatNet,
     "rosbridge": RosBridge,
+    "camera": Camera,
     "vectornav": VectorNav,
 }

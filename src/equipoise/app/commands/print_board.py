@@ -1,0 +1,79 @@
+"""`equipoise print-board`: a board of markers, or a chessboard to calibrate with, at true size."""
+
+from pathlib import Path
+
+from equipoise.app.commands.kinds import Whole
+from equipoise.app.terminal import stdout, tell_paths
+
+
+def print_board(
+    *,
+    out: Path,
+    columns: Whole = 6,
+    rows: Whole = 5,
+    marker_mm: float = 40.0,
+    gap_mm: float = 10.0,
+    dictionary: str = "4X4_50",
+    first_id: Whole = 0,
+    square_mm: float | None = None,
+    keys: Path | None = None,
+) -> int:
+    """Draw a board of markers to print at 100 %, for the platform under a camera.
+
+    Measure a marker and a gap on the print, and put into settings what you find.
+
+    Parameters
+    ----------
+    out
+        File to write: .pdf or .png.
+    columns
+        Markers from left to right; with --square-mm squares.
+    rows
+        Markers from top to bottom; with --square-mm squares.
+    marker_mm
+        Side of a marker.
+    gap_mm
+        Between neighbours.
+    dictionary
+        4X4_50 or another dictionary of ArUco or AprilTag.
+    first_id
+        Id of the upper left marker.
+    square_mm
+        Draw instead a chessboard with markers, for `calibrate-camera`, with squares of this side.
+    keys
+        TOML file to write with the board's keys, for `track` and for settings.
+    """
+    from equipoise.app.options import positive
+    from equipoise.app.paper import DPI, check_paper, write_paper
+    from equipoise.hardware.camera.aruco import Charuco, charuco_print
+    from equipoise.hardware.camera.eye import board_of
+    from equipoise.hardware.camera.tag_board import board_print
+    from equipoise.io.camera_file import write_camera_keys
+    from equipoise.io.whole_file import check_writable
+
+    check_paper(out)
+    for path in (out, *(() if keys is None else (keys,))):
+        check_writable(path)
+    marker = positive("--marker-mm", marker_mm)
+    if square_mm is not None:
+        square = positive("--square-mm", square_mm)
+        charuco = Charuco(dictionary, columns, rows, 1e-3 * square, 1e-3 * marker)
+        write_paper(charuco_print(charuco, DPI), out)
+        tell_paths([out])
+        return 0
+    told = {
+        "dictionary": dictionary,
+        "columns": columns,
+        "rows": rows,
+        "first_id": first_id,
+        "marker_mm": marker,
+        "gap_mm": gap_mm,
+    }
+    board = board_of(told, "print-board")
+    write_paper(board_print(board, DPI), out)
+    width, height = board.size
+    stdout().print(f"{1e3 * width:g} x {1e3 * height:g} mm over all markers", markup=False)
+    if keys is not None:
+        write_camera_keys(told, keys)
+    tell_paths([out] if keys is None else [out, keys])
+    return 0

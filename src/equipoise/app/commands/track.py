@@ -1,0 +1,99 @@
+"""`equipoise track`: attitudes from a video, pictures or a camera that shows a board of markers."""
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Flag
+from equipoise.app.terminal import counted, stdout, tell_paths
+
+if TYPE_CHECKING:
+    from equipoise.app.tracking import Track
+
+CAMERAS = ("camera:", "http:")
+
+
+def track(
+    source: str,
+    /,
+    *,
+    out: Path | None = None,
+    board: Path | None = None,
+    lens: Path | None = None,
+    testbed: str | None = None,
+    rate_hz: float | None = None,
+    duration_s: float = 60.0,
+    level: Flag = False,
+) -> int:
+    """Make a recording of attitudes from pictures of a board of markers.
+
+    Parameters
+    ----------
+    source
+        Video file, folder of pictures, or a camera: camera:0, http://HOST:PORT/PATH.
+    out
+        Recording to write: .csv, .parquet, .mcap or .mat.
+    board
+        File with the board's keys, as `print-board` writes it.
+    lens
+        File with the lens's keys, as `calibrate-camera` writes it.
+    testbed
+        Testbed file whose camera's settings and alignment are taken; --board and --lens go before.
+    rate_hz
+        Pictures per second, of a folder, or of a video that tells it wrongly.
+    duration_s
+        How long to watch a camera.
+    level
+        The board lies level, face up: print which way is up for the camera, to put into settings.
+    """
+    from equipoise.app import tracking
+    from equipoise.app.options import positive
+    from equipoise.app.wiring import testbed_of
+    from equipoise.io.recording_file import write_recording
+    from equipoise.io.recording_formats import format_to_write
+    from equipoise.io.whole_file import check_writable
+    from equipoise.model.errors import InputError
+
+    if out is None and not level:
+        raise InputError("--out", "nothing", "a recording to write, or --level")
+    if out is not None:
+        format_to_write(out)
+        check_writable(out)
+    bed = None if testbed is None else testbed_of(testbed)
+    unit = tracking.unit_of(bed, [file for file in (board, lens) if file is not None], source)
+    rate = None if rate_hz is None else positive("--rate-hz", rate_hz)
+    duration = positive("--duration-s", duration_s)
+    with counted("tracking") as so_far:
+        if source.startswith(CAMERAS):
+            found = tracking.watched_camera(unit, duration, so_far)
+        else:
+            found = tracking.tracked(Path(source), unit, rate, so_far)
+    recording = tracking.recording_of_track(found, source)
+    _tell(found)
+    if level:
+        up, spread = tracking.up_from(found, unit)
+        for key, value in zip(("up_x", "up_y", "up_z"), up, strict=True):
+            stdout().print(f"{key} = {value:.6f}", markup=False)
+        stdout().print(f"~ spread {math.degrees(spread):.3f} deg from picture to picture")
+    if out is not None:
+        write_recording(recording, out)
+        tell_paths([out])
+    return 0
+
+
+def _tell(found: "Track") -> None:
+    """Say how many pictures gave an attitude, and how well."""
+    import numpy as np
+
+    console = stdout()
+    console.print(f"the board was seen in {len(found.t)} of {found.pictures} pictures")
+    if found.sds:
+        median = math.degrees(float(np.median(found.sds)))
+        console.print(f"stated error of an attitude: {median:.4f} deg per axis, median")
+    for count, what in (
+        (found.without, "without the board"),
+        (found.ambiguous, "in which two attitudes fit alike"),
+        (found.broken, "broken or dropped"),
+    ):
+        if count:
+            console.print(f"~ {count} pictures {what}")

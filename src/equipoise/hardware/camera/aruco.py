@@ -1,0 +1,155 @@
+"""OpenCV's ArUco, as this package uses it: all that differs between its releases 4.8 to 5 is here.
+
+Markers: S. Garrido-Jurado et al. (2014), "Automatic generation and detection of highly reliable
+fiducial markers under occlusion", Pattern Recognition 47(6), 2280-2292.
+
+Coordinates of pixels: whole numbers are centres, (0, 0) that of the first.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equipoise.hardware.extras import needed
+from equipoise.model.arrays import Floats
+from equipoise.model.errors import InputError, nearest
+
+Picture = NDArray[np.uint8]
+PREFIX = "DICT_"
+THRESHOLD = (
+    23  # px, window of the adaptive threshold, chosen: one size, for markers of 20 to 200 px
+)
+
+
+def opencv(where: str) -> Any:
+    """Return OpenCV; InputError says how to install it."""
+    return needed("cv2", "camera", where)
+
+
+def floats(values: Any) -> Floats:
+    """Return what OpenCV gave as numbers in double precision."""
+    return np.asarray(values, np.float64)
+
+
+def dictionary(name: str, where: str) -> Any:
+    """Return the markers of a dictionary such as 4X4_50 or APRILTAG_36H11."""
+    aruco = opencv(where).aruco
+    known = sorted(key[len(PREFIX) :] for key in dir(aruco) if key.startswith(PREFIX))
+    wanted = name.upper().removeprefix(PREFIX)
+    if wanted not in known:
+        raise InputError(where, f"dictionary '{name}'", nearest(wanted, known))
+    return aruco.getPredefinedDictionary(getattr(aruco, PREFIX + wanted))
+
+
+def detector(markers: Any) -> Any:
+    """Return what finds markers of a dictionary."""
+    aruco = opencv("camera").aruco
+    how = aruco.DetectorParameters()
+    how.adaptiveThreshWinSizeMin = how.adaptiveThreshWinSizeMax = THRESHOLD
+    how.cornerRefinementMethod = aruco.CORNER_REFINE_NONE  # borders tell more, see ``borders``
+    return aruco.ArucoDetector(markers, how)
+
+
+def found(seeker: Any, picture: Picture) -> list[tuple[int, Floats]]:
+    """Return id and corners (4, 2) px of each marker in a picture."""
+    corners, ids, _ = seeker.detectMarkers(picture)
+    if ids is None:
+        return []
+    numbers = np.asarray(ids, np.int64).ravel().tolist()
+    fours = [floats(four).reshape(4, 2) for four in corners]
+    return list(zip(numbers, fours, strict=True))
+
+
+def drawn(markers: Any, number: int, side: int) -> Picture:
+    """Return the picture of one marker, its black border included."""
+    return opencv("camera").aruco.generateImageMarker(markers, number, side)
+
+
+def cells(markers: Any) -> int:
+    """Return of how many cells a marker's side consists, its black border included."""
+    return int(markers.markerSize) + 2
+
+
+def count_of(markers: Any) -> int:
+    """Return how many markers a dictionary has."""
+    return len(markers.bytesList)
+
+
+def decoded(data: bytes) -> Picture | None:
+    """Return an encoded picture in greys; None for what is none."""
+    cv2 = opencv("camera")
+    if not data:
+        return None
+    try:
+        return cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
+    except cv2.error:
+        return None
+
+
+def encoded(picture: Picture, quality: int) -> bytes:
+    """Return a picture as JPEG."""
+    cv2 = opencv("camera")
+    return cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, quality])[1].tobytes()
+
+
+def calibrated(
+    points: Sequence[Floats], seen: Sequence[Floats], size: tuple[int, int]
+) -> tuple[float, Floats, Floats, Floats]:
+    """Return rms (px), camera matrix, five coefficients of distortion and the matrix's sds (px).
+
+    Points are on the plane z = 0 of a board (m) and in the pictures (px), view by view.
+    """
+    cv2 = opencv("camera")
+    told = [np.asarray(p, np.float32).reshape(-1, 1, 3) for p in points]
+    views = [np.asarray(v, np.float32).reshape(-1, 1, 2) for v in seen]
+    rms, matrix, distortion, _, _, sds, *_ = cv2.calibrateCameraExtended(
+        told, views, size, None, None
+    )
+    return float(rms), floats(matrix), floats(distortion).ravel()[:5], floats(sds).ravel()[:4]
+
+
+@dataclass(frozen=True, slots=True)
+class Charuco:
+    """A chessboard with markers in its white squares, for calibrating a lens."""
+
+    dictionary: str
+    columns: int  # squares
+    rows: int  # squares
+    square: float  # m, side
+    marker: float  # m, side
+
+    def board(self, where: str) -> Any:
+        """Return OpenCV's own board."""
+        size, markers = (self.columns, self.rows), dictionary(self.dictionary, where)
+        return opencv(where).aruco.CharucoBoard(size, self.square, self.marker, markers)
+
+
+def charuco_points(
+    charuco: Charuco, pictures: Iterable[Picture]
+) -> Iterator[tuple[Floats, Floats]]:
+    """Return the chessboard's corners seen in each picture: (n, 3) m on the board, (n, 2) px."""
+    board = charuco.board("calibrate-camera")
+    seeker = opencv("camera").aruco.CharucoDetector(board)
+    corners = floats(board.getChessboardCorners()).reshape(-1, 3)
+    for picture in pictures:
+        seen, ids, _, _ = seeker.detectBoard(picture)
+        if ids is None or len(ids) == 0:
+            yield np.empty((0, 3)), np.empty((0, 2))
+        else:
+            yield corners[np.asarray(ids, np.int64).ravel()], floats(seen).reshape(-1, 2)
+
+
+def charuco_print(charuco: Charuco, dpi: int) -> Picture:
+    """Return the chessboard at its true size, half a square of paper around it."""
+    board = charuco.board("print-board")
+    squares, margin = (charuco.columns, charuco.rows), charuco.square / 2
+    width, height = (dots(n * charuco.square + 2 * margin, dpi) for n in squares)
+    return board.generateImage((width, height), marginSize=dots(margin, dpi))
+
+
+def dots(length: float, dpi: int) -> int:
+    """Return a length (m) in dots of a printer."""
+    return round(length / 0.0254 * dpi)

@@ -1,0 +1,80 @@
+"""The lens from pictures of a chessboard with markers (ChArUco), held at many angles.
+
+Z. Zhang (2000), "A flexible new technique for camera calibration", IEEE PAMI 22(11), 1330-1334,
+as OpenCV has it. A lens that the pictures do not tell is refused, with what to do: its numbers
+would look good on the very same pictures, and turn attitudes elsewhere.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.hardware.camera.aruco import calibrated
+from equipoise.hardware.camera.lens import Lens
+from equipoise.model.arrays import Floats
+from equipoise.model.errors import InputError
+
+VIEWS = 8  # chosen: four of them leave a lens with five coefficients open
+CORNERS = 8  # of a view, chosen: what fewer say of a lens is not worth their ambiguity
+ACROSS, DOWN = 4, 3  # parts of a picture, chosen
+COVERED = 10  # of these parts, chosen: two corners of the picture may stay empty
+KNOWN = 0.005  # of the focal length, one sd, chosen: then a tilt of 20 deg is known to 0.1 deg
+MOST_RMS = 1.0  # px, chosen: more is a blurred picture, a bent board or another one
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class View:
+    """Corners of the chessboard seen in one picture."""
+
+    board: Floats  # (n, 3) m
+    picture: Floats  # (n, 2) px
+
+
+@dataclass(frozen=True, slots=True)
+class Calibration:
+    """A lens, and from what it is known."""
+
+    lens: Lens
+    views: int  # that were used
+    focal_sd: float  # px, one sd of fx and fy, the greater
+
+
+def lens_from(views: Sequence[View], size: tuple[int, int]) -> Calibration:
+    """Return the lens of pictures of a size (width, height, px); InputError if they do not tell."""
+    useful = [view for view in views if len(view.picture) >= CORNERS]
+    if len(useful) < VIEWS:
+        found = f"the chessboard in {len(useful)} of {len(views)} pictures"
+        raise InputError("pictures", found, f"at least {VIEWS} with {CORNERS} corners or more")
+    _check_coverage(np.concatenate([view.picture for view in useful]), size)
+    rms, matrix, distortion, sds = calibrated(
+        [view.board for view in useful], [view.picture for view in useful], size
+    )
+    focal = (float(matrix[0, 0]), float(matrix[1, 1]))
+    sd = float(max(sds[:2]))
+    if not rms < MOST_RMS:
+        wanted = f"at most {MOST_RMS:g} px: sharp pictures of a flat board of the size stated"
+        raise InputError("pictures", f"corners {rms:.2f} px off on average", wanted)
+    if not sd < KNOWN * min(focal):
+        found = f"a focal length of {focal[0]:.0f} px with a standard deviation of {sd:.1f} px"
+        wanted = f"at most {KNOWN:.1%}: more pictures, the board tilted by 20 to 40 deg each way"
+        raise InputError("pictures", found, wanted)
+    middle = (float(matrix[0, 2]), float(matrix[1, 2]))
+    lens = Lens(*focal, *middle, *size, tuple(map(float, distortion)), rms)
+    return Calibration(lens, len(useful), sd)
+
+
+def _check_coverage(corners: Floats, size: tuple[int, int]) -> None:
+    """Raise InputError if much of the picture never had a corner in it; name what is empty."""
+    column = np.clip(corners[:, 0] / size[0] * ACROSS, 0, ACROSS - 1).astype(int)
+    row = np.clip(corners[:, 1] / size[1] * DOWN, 0, DOWN - 1).astype(int)
+    seen = np.zeros((DOWN, ACROSS), dtype=bool)
+    seen[row, column] = True
+    if np.count_nonzero(seen) >= COVERED:
+        return
+    sides = {"left": seen[:, 0], "right": seen[:, -1], "top": seen[0], "bottom": seen[-1]}
+    empty = [side for side, part in sides.items() if np.count_nonzero(part) < len(part) / 2]
+    found = f"corners in {np.count_nonzero(seen)} of {ACROSS * DOWN} parts of the picture"
+    where = " and ".join(empty) or "edges"
+    wanted = f"at least {COVERED}: hold the board also where the picture is empty, at its {where}"
+    raise InputError("pictures", found, wanted)

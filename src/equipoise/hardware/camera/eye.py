@@ -1,0 +1,98 @@
+"""What a camera that looks at a board must be told, from its settings.
+
+dictionary, columns, rows, marker_mm, gap_mm, first_id        the board as printed
+fx_px, fy_px, cx_px, cy_px, width_px, height_px, k1, k2, p1, p2, k3    the lens
+up_x, up_y, up_z      which way is up, in the camera's axes: X to the right in the picture,
+Y down, Z along the sight; without them it looks straight down
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.hardware.camera.lens import Lens
+from equipoise.hardware.camera.tag_board import TagBoard, checked_board
+from equipoise.hardware.camera.upright import DOWN, camera_to_laboratory, checked_up
+from equipoise.model.arrays import Matrix3
+from equipoise.model.errors import InputError, nearest
+from equipoise.model.hardware import Setting
+
+MM = 1e-3
+DICTIONARY = "4X4_50"
+BOARD = ("columns", "rows", "marker_mm", "gap_mm")
+LENS = ("fx_px", "fy_px", "cx_px", "cy_px", "width_px", "height_px")
+BENT = ("k1", "k2", "p1", "p2", "k3")
+UP = ("up_x", "up_y", "up_z")
+NEEDED = (*BOARD, *LENS)
+KEYS = ("dictionary", "first_id", "rms_px", *NEEDED, *BENT, *UP)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Eye:
+    """Board, lens, and the camera's turn to the laboratory."""
+
+    board: TagBoard
+    lens: Lens
+    to_laboratory: Matrix3
+
+
+def eye_of(settings: Mapping[str, Setting], where: str) -> Eye:
+    """Return an eye from settings; InputError names what is missing, unknown or impossible."""
+    for key in settings:
+        if key not in KEYS:
+            raise InputError(where, f"unknown key '{key}'", nearest(key, list(KEYS)))
+    up = np.array(
+        [_number(settings, key, where, usual) for key, usual in zip(UP, DOWN, strict=True)]
+    )
+    turn = camera_to_laboratory(checked_up(up, where))
+    return Eye(board_of(settings, where), lens_of(settings, where), turn)
+
+
+def board_of(settings: Mapping[str, Setting], where: str) -> TagBoard:
+    """Return the board of settings."""
+    board = TagBoard(
+        str(settings.get("dictionary", DICTIONARY)),
+        _whole(settings, "columns", where),
+        _whole(settings, "rows", where),
+        MM * _number(settings, "marker_mm", where),
+        MM * _number(settings, "gap_mm", where),
+        _whole(settings, "first_id", where, 0),
+    )
+    return checked_board(board, where)
+
+
+def lens_of(settings: Mapping[str, Setting], where: str) -> Lens:
+    """Return the lens of settings."""
+    fx, fy, cx, cy = (_number(settings, key, where) for key in LENS[:4])
+    width, height = (_whole(settings, key, where) for key in LENS[4:])
+    if min(fx, fy, width, height) <= 0:
+        raise InputError(where, "a lens of no length or width", "numbers above 0")
+    bent = tuple(_number(settings, key, where, 0.0) for key in BENT)
+    return Lens(fx, fy, cx, cy, width, height, bent)
+
+
+def settings_of_lens(lens: Lens) -> dict[str, float]:
+    """Return a lens as settings: the way back from ``lens_of``."""
+    plain = (lens.fx, lens.fy, lens.cx, lens.cy, lens.width, lens.height)
+    told = {} if lens.rms is None else {"rms_px": lens.rms}
+    pairs = zip((*LENS, *BENT), (*plain, *lens.distortion), strict=True)
+    return {key: value for key, value in pairs} | told
+
+
+def _number(
+    settings: Mapping[str, Setting], key: str, where: str, usual: float | None = None
+) -> float:
+    value = settings.get(key, usual)
+    if value is None:
+        raise InputError(where, f"no key '{key}'", f"'{key}': a number")
+    if isinstance(value, (bool, str, tuple)) or not np.isfinite(value):
+        raise InputError(f"{where}.{key}", f"{value!r}", "a finite number")
+    return float(value)
+
+
+def _whole(settings: Mapping[str, Setting], key: str, where: str, usual: int | None = None) -> int:
+    value = _number(settings, key, where, usual)
+    if value != int(value):
+        raise InputError(f"{where}.{key}", f"{value:g}", "a whole number")
+    return int(value)

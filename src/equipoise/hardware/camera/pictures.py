@@ -1,0 +1,76 @@
+"""Pictures from a video file or a folder, one after the other, with their times."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from equipoise.hardware.camera.aruco import Picture, decoded, opencv
+from equipoise.model.errors import InputError
+
+SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Taken:
+    """One picture."""
+
+    t: float  # s, from the first
+    grey: Picture
+    share: float  # of all pictures, up to this one
+
+
+def pictures_of(source: Path, rate: float | None) -> Iterator[Taken]:
+    """Return the pictures of a folder or a video, at a rate (Hz) if one is told.
+
+    InputError for what is neither, and for a folder without a rate.
+    """
+    if not source.exists():
+        raise InputError(str(source), "no such file", "a video, a folder of pictures, or a camera")
+    return _of_folder(source, rate) if source.is_dir() else _of_video(source, rate)
+
+
+def picture_at(path: Path) -> Picture:
+    """Return the picture in a file."""
+    try:
+        picture = decoded(path.read_bytes())
+    except OSError as error:
+        raise InputError(str(path), error.strerror or str(error), "a picture") from error
+    if picture is None:
+        raise InputError(str(path), "no picture", "one of " + ", ".join(SUFFIXES))
+    return picture
+
+
+def _of_folder(folder: Path, rate: float | None) -> Iterator[Taken]:
+    """Return pictures in the order of their names."""
+    paths = sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
+    if not paths:
+        raise InputError(str(folder), "no picture", "files ending in " + ", ".join(SUFFIXES))
+    if rate is None:
+        raise InputError("--rate-hz", "nothing", "how many pictures of the folder are a second")
+    for k, path in enumerate(paths):
+        yield Taken(k / rate, picture_at(path), (k + 1) / len(paths))
+
+
+def _of_video(path: Path, rate: float | None) -> Iterator[Taken]:
+    cv2 = opencv("track")
+    video = cv2.VideoCapture(str(path))
+    try:
+        if not video.isOpened():
+            raise InputError(str(path), "no video that can be read", "a video file")
+        count = max(float(video.get(cv2.CAP_PROP_FRAME_COUNT)), 1.0)
+        told = float(video.get(cv2.CAP_PROP_FPS))
+        if rate is None and not told > 0:
+            raise InputError(str(path), "a video that tells no rate", "--rate-hz")
+        for k, picture in enumerate(_frames(video)):
+            grey = cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
+            yield Taken(k / (rate or told), grey, min((k + 1) / count, 1.0))
+    finally:
+        video.release()
+
+
+def _frames(video: Any) -> Iterator[Any]:
+    good, picture = video.read()
+    while good:
+        yield picture
+        good, picture = video.read()

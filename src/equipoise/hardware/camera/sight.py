@@ -1,0 +1,98 @@
+"""From picture to attitude: markers found, matched with the board, and its pose.
+
+Where the board was in the picture before, it is looked for first: a part of the picture is searched
+in a part of the time. What is not found there is looked for everywhere.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.hardware.camera import aruco
+from equipoise.hardware.camera.aruco import Picture
+from equipoise.hardware.camera.first_pose import Corners
+from equipoise.hardware.camera.lens import Lens
+from equipoise.hardware.camera.pose import Pose, Unseen, chosen, poses_of
+from equipoise.hardware.camera.tag_board import LEAST, Borders, TagBoard
+from equipoise.model.arrays import Floats
+
+AROUND = 0.15  # of the board's extent, chosen: what it may move from picture to picture
+MOST_LOST = 0.2  # of the markers, chosen: when more are gone, all of the picture is searched
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """A part of a picture, px."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+
+
+class Sight:
+    """Looks at one picture after the other."""
+
+    def __init__(self, board: TagBoard, lens: Lens, where: str) -> None:
+        self._board, self._lens = board, lens
+        self._seeker = aruco.detector(aruco.dictionary(board.dictionary, where))
+        self._borders = {number: board.borders(number) for number in board.ids}
+        self._before: Pose | None = None
+        self._region: Region | None = None
+        self._count = 0  # of markers seen in the picture before
+
+    def looked(self, picture: Picture) -> Pose | Unseen:
+        """Return the board's pose in a picture."""
+        markers = self._markers(picture)
+        self._count = len(markers)
+        if len(markers) < LEAST:
+            self._before = self._region = None
+            return Unseen.NO_BOARD
+        self._region = _around(np.concatenate(list(markers.values())), picture)
+        turn = None if self._before is None else self._before.turn
+        corners, borders = self._matched(markers)
+        pose = chosen(poses_of(picture, self._lens, corners, borders), turn)
+        self._before = pose if isinstance(pose, Pose) else None
+        return pose
+
+    def _markers(self, picture: Picture) -> dict[int, Floats]:
+        """Return the corners of the board's markers by id, px."""
+        if self._region is not None:
+            found = self._within(picture, self._region)
+            if len(found) >= (1 - MOST_LOST) * self._count:
+                return found
+        height, width = picture.shape[:2]
+        return self._within(picture, Region(0, 0, width, height))
+
+    def _within(self, picture: Picture, region: Region) -> dict[int, Floats]:
+        part = picture[region.top : region.bottom, region.left : region.right]
+        offset = np.array([region.left, region.top])
+        pairs = aruco.found(self._seeker, np.ascontiguousarray(part))
+        ids = [number for number, _ in pairs]
+        return {
+            number: corners + offset
+            for number, corners in pairs
+            if number in self._board.ids and ids.count(number) == 1
+        }
+
+    def _matched(self, markers: dict[int, Floats]) -> tuple[Corners, Borders]:
+        """Return what is on the board where the markers were seen."""
+        own = np.concatenate([self._board.corners(number) for number in markers])
+        each = [self._borders[number] for number in markers]
+        borders = Borders(
+            np.concatenate([b.points for b in each]),
+            np.concatenate([b.along for b in each]),
+            np.concatenate([b.outward for b in each]),
+            self._board.ink,
+        )
+        return Corners(own, np.concatenate(list(markers.values()))), borders
+
+
+def _around(corners: Floats, picture: Picture) -> Region:
+    """Return the region around corners, and something more on each side."""
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    margin = AROUND * float((high - low).max())
+    height, width = picture.shape[:2]
+    left, top = np.maximum(low - margin, 0).astype(int)
+    right, bottom = np.minimum(high + margin + 1, [width, height]).astype(int)
+    return Region(int(left), int(top), int(right), int(bottom))
