@@ -12,11 +12,8 @@ from equipoise.io.table_keys import Name, Positive, Square, Table
 Address = Annotated[
     str,
     Field(
-<<<<<<< HEAD
-        pattern=r"^(serial:.+|tcp:.+:\d+|udp:(.+:)?\d+|udpout:.+:\d+|ws://.+|wss://.+|https?://.+|camera:\d+)$"
-=======
-        pattern=r"^(serial:.+|tcp:.+:\d+|udp:(.+:)?\d+|ws://.+|wss://.+|https?://.+|camera:\d+(@\d+x\d+)?)$"
->>>>>>> camera
+        pattern=r"^(serial:.+|tcp:.+:\d+|udp:(.+:)?\d+|udpout:.+:\d+|ws://.+|wss://.+|https?://.+"
+        r"|camera:\d+(@\d+x\d+)?)$"
     ),
 ]
 ADDRESSES = (
