@@ -128,6 +128,8 @@ def test_a_body_is_found_by_its_name():
     assert driver.due(2.0) == b"\x0a\x00\x01\x00\x00"
     (row,) = driver.feed(motive.tell(rows)[0])
     assert row.values == pytest.approx((HALF, 0, HALF, 0), abs=1e-7)
+    assert driver.due(3.0) == b"\x0a\x00\x01\x00\x00"
+    assert driver.due(4.0) == hello  # nothing has come for a second: Motive began anew
     assert NatNet(unit("natnet")).due(0.0) == b""
 
 
