@@ -117,9 +117,9 @@ def test_a_body_is_found_by_its_name():
     t = np.array([0.0])
     rows = Recording(Samples(t, np.array([[HALF, 0, HALF, 0]])))
     driver.opened()
-    assert driver.feed(motive.tell(rows)[0]) == []
     hello = driver.due(0.0)
     assert hello == b"\x00\x00\x05\x00Ping\x00"
+    assert driver.feed(motive.tell(rows)[0]) == []
     driver.feed(motive.take(hello, 0.0))
     assert driver.due(0.5) == b""
     ask = driver.due(1.0)

@@ -51,7 +51,7 @@ class NatNet:
             self._id = None
 
     def due(self, t: float) -> bytes:
-        """Return a greeting each second until there is an answer, then a question or a sign of life.
+        """Return a greeting each second, and when it is answered a question or a sign of life.
 
         A Motive that has been silent since the last one may have begun anew, and is greeted again.
         """
