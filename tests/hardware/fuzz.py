@@ -32,8 +32,9 @@ def told(name: str) -> bytes:
     t = np.arange(3) * 0.025
     q = np.stack([np.cos(t), np.sin(t), 0 * t, 0 * t], axis=1)
     rows = Recording(Samples(t, q), Samples(t, np.stack([t, 1 - t, t / 7], axis=1)))
-    far = SENSORS[name](unit(name))
-    far.take(DRIVERS[name](unit(name)).due(0.0), 0.0)
+    far, driver = SENSORS[name](unit(name)), DRIVERS[name](unit(name))
+    driver.opened()
+    far.take(driver.due(0.0), 0.0)
     return b"".join(far.tell(rows))
 
 

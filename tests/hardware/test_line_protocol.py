@@ -73,6 +73,8 @@ def test_what_is_no_row_is_counted():
     for bad in bad_rows:
         assert driver.feed(bad) == []
     assert driver.counts.corrupt == len(bad_rows)
+    assert driver.feed(b"1," * 600) == []
+    assert driver.counts.corrupt == len(bad_rows) + 1
     assert driver.feed(b"BNO055 ready\n# t, q\n") == []
     assert driver.counts.foreign == 2
     assert len(driver.feed(good)) == 2

@@ -117,9 +117,9 @@ def test_a_body_is_found_by_its_name():
     t = np.array([0.0])
     rows = Recording(Samples(t, np.array([[HALF, 0, HALF, 0]])))
     driver.opened()
-    assert driver.feed(motive.tell(rows)[0]) == []
     hello = driver.due(0.0)
     assert hello == b"\x00\x00\x05\x00Ping\x00"
+    assert driver.feed(motive.tell(rows)[0]) == []
     driver.feed(motive.take(hello, 0.0))
     assert driver.due(0.5) == b""
     ask = driver.due(1.0)
@@ -128,6 +128,8 @@ def test_a_body_is_found_by_its_name():
     assert driver.due(2.0) == b"\x0a\x00\x01\x00\x00"
     (row,) = driver.feed(motive.tell(rows)[0])
     assert row.values == pytest.approx((HALF, 0, HALF, 0), abs=1e-7)
+    assert driver.due(3.0) == b"\x0a\x00\x01\x00\x00"
+    assert driver.due(4.0) == hello  # nothing has come for a second: Motive began anew
     assert NatNet(unit("natnet")).due(0.0) == b""
 
 

@@ -76,7 +76,10 @@ class LineProtocol:
         if self._begun:
             _, end, data = data.replace(b"\r", b"\n").partition(b"\n")
             self._begun = not end
+        dropped = self._lines.dropped
         lines = self._lines.cut(data + b"\n" if self._whole else data)
+        if self._lines.dropped > dropped:  # one that was too long to be any
+            self._tally.corrupt()
         return [reading for line in lines for reading in self._line(line)]
 
     def _line(self, line: bytes) -> list[Reading]:

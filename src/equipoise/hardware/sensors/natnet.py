@@ -36,7 +36,7 @@ class NatNet:
         self._asks = unit.port.address.startswith(UNICAST)
         self._name, self._id = _body(unit, settings, self._asks)
         self._tally = Tally()
-        self._next = float("-inf")
+        self._next, self._answered = float("-inf"), False
 
     @property
     def counts(self) -> Counts:
@@ -46,16 +46,20 @@ class NatNet:
     def opened(self) -> None:
         """Begin anew; a body may have another id by now."""
         self._tally.cleared()
-        self._next = float("-inf")
+        self._next, self._answered = float("-inf"), False
         if self._name:
             self._id = None
 
     def due(self, t: float) -> bytes:
-        """Return a sign of life each second, and before the body is known what asks for names."""
+        """Return a greeting each second, and when it is answered a question or a sign of life.
+
+        A Motive that has been silent since the last one may have begun anew, and is greeted again.
+        """
         if not self._asks or t < self._next:
             return b""
         self._next = t + BEAT
-        if self._tally.counts.good == 0:
+        answered, self._answered = self._answered, False
+        if not answered:
             return natnet.packet(natnet.CONNECT, b"Ping\0")
         kind = natnet.ALIVE if self._id is not None else natnet.ASK_NAMES
         return natnet.packet(kind, b"\0")
@@ -76,6 +80,7 @@ class NatNet:
 
     def _readings(self, kind: int, payload: bytes) -> list[Reading] | None:
         """Return the row of a frame; None if a packet is of no use."""
+        self._answered = True
         if kind == natnet.SERVER:
             return []
         if kind == natnet.NAMES and self._name:
