@@ -5,7 +5,7 @@
     v f / (2^pulse 2048 32)              a f^2 / 2^(pulse + ramp + 29)  with a TMC428 or TMC429
 
 The latter (TMCM-1110, 1140, 1160, 1161, 3110, 6110) have axis parameters 153 ramp and 154 pulse
-divisor, f = 16 MHz and values up to 2047; the former (TMCM-1211, 1241, 3214, 6212, 6214) do not
+divisor, f = 16 MHz and values up to 2047; the former (TMCM-1211, 1241, 3216, 6212, 6214) do not
 have them, and count so while 255, where there is one, is 1. Source: TMCM-1140 Hardware Manual
 V1.01, 8.1; TMCM-3212 TMCL Firmware Manual V1.07, 6.5.
 """
