@@ -19,7 +19,7 @@ from tests import emulated_lab
 from tests.emulated_lab import over_tcp
 from tests.hardware.board_wire import board_of
 from tests.hardware.faulty_wire import garbage, half, noisy, repeated, silent
-from tests.hardware.sensor_units import NEEDS
+from tests.hardware.sensor_units import NEEDS, PICTURES
 
 BED = over_tcp(read_preset("nanosat"))
 # Left to itself it swings far: where balancing is not the matter, it may.
@@ -82,7 +82,7 @@ def with_sensor(driver):
     return replace(FREE, hardware=replace(hardware, boards=boards, sensors=(imu,)))
 
 
-@pytest.mark.parametrize("driver", sorted(NEEDS))
+@pytest.mark.parametrize("driver", sorted(NEEDS.keys() - PICTURES))
 def test_each_sensor_gives_the_rows_that_its_far_side_was_told(driver):
     """In number, in time, and in value: attitude and rate come back as they went in."""
     with lab(with_sensor(driver)) as found:
@@ -217,6 +217,34 @@ def test_a_sensor_that_does_not_come_back_ends_the_run_in_words():
         spoil(found.imu, silent)()
         with pytest.raises(BenchStopped, match="no sensor has given a row for 30 s"):
             found.bench.read(1.0)
+
+
+def test_who_homes_holds_the_platform_as_at_first():
+    with lab() as found:
+        found.bench.read(3.0)
+        swung = found.emulated.leaning
+        found.keeper.home()
+        found.wait(1.0)
+        held = found.emulated.leaning
+        assert held < 0.5 * swung
+        while not found.keeper.ready:
+            found.wait(0.5)
+        found.bench.watch()
+        assert found.bench.read(1.0).masses.values[-1] == pytest.approx(np.zeros(3), abs=2e-6)
+
+
+def test_tilt_disturbs_nobody_who_only_records():
+    """No board knows where its masses are: there is nothing to stop."""
+    found = emulated_lab.Lab(replace(BED, tilt_limit=np.radians(0.1)), 1)
+    try:
+        found.bench.watch()
+        seen = found.bench.read(2.0)
+        assert len(seen.attitude) == pytest.approx(80, abs=2)
+        assert seen.masses is None
+        assert found.keeper.trip is None
+    finally:
+        found.keeper.close()
+        found.emulated.close()
 
 
 def test_after_a_stop_masses_move_again_once_they_have_come_home():

@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hardware.sensor_units import unit
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,6 +18,7 @@ from equipoise.hardware.sensors.rosbridge import RosBridge
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port
 from equipoise.model.reading import Reading
+from tests.hardware.sensor_units import unit
 
 POSE = "geometry_msgs/msg/PoseStamped"
 

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.app.emulation import hardware_of
 from equipoise.app.kept_bench import keeper_of
+from equipoise.app.reachable import unreachable
 from equipoise.assessment.record_findings import findings
 from equipoise.hardware.keeper import Keeper
 from equipoise.hardware.real_bench import RealBench
@@ -23,6 +25,7 @@ from equipoise.model.testbed import SlidingMass, Testbed
 A_LITTLE = 1e-3  # m: out and back
 UPSIDE = 90.0  # deg, chosen: no bench lets a platform tilt so far
 SLOW = 0.7  # of the stated rate of rows, chosen: below it a sensor is slower than stated
+LISTED = "; `equipoise devices` lists serial ports"
 ARRIVE = 1.0  # s, chosen: beyond the time that the way takes
 
 
@@ -38,6 +41,10 @@ def checked_bench(
     testbed: Testbed, streamed: float, agreed: Callable[[str], bool]
 ) -> Iterator[Told]:
     """Return what each device says; ``agreed`` asks a person before masses move."""
+    missing = unreachable(hardware_of(testbed))
+    if missing:
+        yield from (Told(False, f"{sentence}{LISTED}") for sentence in missing)
+        return
     keeper = keeper_of(testbed)
     bench = RealBench(keeper, WallClock())
     try:

@@ -5,8 +5,9 @@ sensors say what it shows. Time is told from outside, so that a bench can run as
 or as the clock on the wall.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Generic, TypeVar
 
 from equipoise.app.held_platform import HeldPlatform, later
@@ -14,6 +15,7 @@ from equipoise.hardware.driver import driver_named
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor, Leg
 from equipoise.hardware.emulated.far_side import FarSide, far_side
 from equipoise.hardware.emulated.registry import BOARDS, SENSORS
+from equipoise.maths.attitude import tilt
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Hardware
 from equipoise.model.recording import Recording
@@ -37,22 +39,22 @@ class EmulatedBench:
     """Devices on their wires and the platform behind them.
 
     The platform is held still, as a person holds it, until every mass has come home; then it is
-    let go, and its own time begins.
+    let go, and its own time begins. Who homes again holds it again: the same platform, anew.
     """
 
     def __init__(
         self,
-        platform: SimulatedBench,
+        platform: Callable[[], SimulatedBench],
         boards: Sequence[Station[EmulatedBoard]],
         sensors: Sequence[Station[EmulatedSensor]],
     ) -> None:
-        self.platform, self.boards, self.sensors = platform, boards, sensors
+        self._make, self.boards, self.sensors = platform, boards, sensors
         self.time = 0.0  # s, of the devices
-        self._held = HeldPlatform(platform) if boards else None
         self._let_go = 0.0  # s, when
-        self._last: dict[str, Leg] = {}  # while it is held
-        self._away: set[str] = set()
-        self._ahead: list[Leg] = []  # that have not begun
+        self.leaning = 0.0  # rad, as last seen
+        self.catch()
+        if not boards:
+            self._held = None
 
     def run(self, t: float) -> None:
         """Let time pass up to ``t`` s; what the host has sent is heard first."""
@@ -60,10 +62,22 @@ class EmulatedBench:
         if t <= self.time:
             return
         legs = [leg for station in self.boards for leg in self._ran(station, t)]
+        if self._held is None and any(station.device.homing for station in self.boards):
+            self.catch()
         rows = self._pass(legs, t)
+        if rows.attitude is not None and len(rows.attitude):
+            self.leaning = float(tilt(rows.attitude.values[-1], self.platform.testbed.up))
         for station in self.sensors:
             for message in station.device.tell(rows):
                 station.wire.send(message)
+
+    def catch(self) -> None:
+        """Hold the platform as at first, until every mass has been away and come home."""
+        self.platform = self._make()
+        self._held: HeldPlatform | None = HeldPlatform(self.platform)
+        self._last: dict[str, Leg] = {}  # while it is held
+        self._away: set[str] = set()
+        self._ahead: list[Leg] = []  # that have not begun
 
     def testbed(self) -> Testbed:
         """Return the testbed with the ports at which these devices are reached."""
@@ -144,7 +158,7 @@ def emulate(testbed: Testbed, seed: int) -> EmulatedBench:
         Station(driver_named(SENSORS, unit.driver, "sensor")(unit), far_side(unit.port))
         for unit in hardware.sensors
     ]
-    return EmulatedBench(SimulatedBench(testbed, seed), boards, sensors)
+    return EmulatedBench(partial(SimulatedBench, testbed, seed), boards, sensors)
 
 
 def hardware_of(testbed: Testbed) -> Hardware:

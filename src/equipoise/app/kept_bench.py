@@ -7,6 +7,7 @@ from pathlib import Path
 from time import time_ns
 
 from equipoise.app.emulation import hardware_of
+from equipoise.app.reachable import unreachable
 from equipoise.hardware.board_link import BoardLink
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.connection import Connection, Opener
@@ -20,6 +21,7 @@ from equipoise.hardware.sensor_link import SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.io.live_recording import LiveRecording, Opening
 from equipoise.io.testbed_text import text_of_testbed
+from equipoise.model.errors import BenchStopped
 from equipoise.model.testbed import Testbed
 
 HAND = 1.0  # s, chosen: for a hand to leave the platform
@@ -48,6 +50,9 @@ class KeptBench:
         hardware = hardware_of(wanted.testbed)
         devices = (*hardware.boards, *hardware.sensors)
         self._held.enter_context(commanding([device.port.address for device in devices]))
+        missing = unreachable(hardware)
+        if missing:
+            raise BenchStopped("; ".join(missing))
         keeper = keeper_of(wanted.testbed)
         self._held.callback(keeper.close)
         if wanted.record is not None:

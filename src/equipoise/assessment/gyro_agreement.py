@@ -9,6 +9,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from equipoise.assessment.attitude_noise import attitude_noise
 from equipoise.assessment.attitude_steps import steps
 from equipoise.assessment.finding import Finding
 from equipoise.model.arrays import Floats, Matrix3, Series3
@@ -20,6 +21,7 @@ GAP = 3.0  # median intervals of either sensor
 SURE = 0.8  # correlation from which axes are called the same (chosen)
 UNSURE = 0.5  # correlation below which they are called different (chosen)
 FEWEST = 10  # pairs (chosen)
+ABOVE = 2.0  # of the noise of a turn, chosen: a gyro axis that felt less tells nothing of axes
 OFF = 0.2  # of the scale, before it is told (chosen: no gyro's scale is this wrong)
 ZERO_OFF = math.radians(0.05)  # rad/s: a zero worth telling (chosen)
 
@@ -35,7 +37,8 @@ def agreement_findings(attitude: Samples | None, rate: Samples | None) -> list[F
         text = "the rates are differences of the attitude to the last digit: not a second sensor."
         return [Finding("problem", text)]
     likeness = correlation(felt, seen)
-    wrong = [f for axis in range(3) for f in _axis(axis, likeness, seen, felt)]
+    turned = np.std(felt, axis=0) > ABOVE * _noise(attitude)
+    wrong = [f for axis in np.flatnonzero(turned) for f in _axis(int(axis), likeness, seen, felt)]
     if wrong:
         return wrong
     return _zero(likeness, seen, felt)
@@ -89,6 +92,11 @@ def across_gap(rate: Samples, start: Floats, end: Floats) -> NDArray[np.bool_]:
     first = np.maximum(np.searchsorted(t, start, side="right") - 1, 0)
     last = np.minimum(np.searchsorted(t, end, side="left"), len(t) - 1)
     return before[last] > before[first]
+
+
+def _noise(attitude: Samples) -> float:
+    """Return the noise of the rates that attitudes tell, rad/s; 0 where it cannot be told."""
+    return math.sqrt(2) * (attitude_noise(attitude) or 0.0) / (lag_of(attitude) * attitude.period)
 
 
 def _repeats(seen: Series3, felt: Series3) -> bool:

@@ -8,7 +8,8 @@
     operator        a person, or the loss of who commands
 
 A sensor that falls silent stops masses that move; while they stand nothing needs to be stopped,
-and it may come back.
+and it may come back. Tilt and rate stop nothing where no board knows its masses' places yet, or
+there is no board: who only records is not disturbed.
 """
 
 from collections.abc import Mapping, Sequence
@@ -52,6 +53,11 @@ class Seen:
     )
 
     @property
+    def able(self) -> bool:
+        """Say whether any mass could be moved, so that there is something to stop."""
+        return self.moving or any(state.sure for state in self.boards.values())
+
+    @property
     def moving(self) -> bool:
         """Say whether any mass may be on its way."""
         return any(state.phase in ("moving", "homing") for state in self.boards.values())
@@ -61,8 +67,7 @@ def tripped(seen: Seen, testbed: Testbed, limits: SafetyLimits) -> Trip | None:
     """Return the first reason to stop every motor; None if there is none."""
     return (
         _fault(seen)
-        or _leaning(seen, testbed)
-        or _turning(seen, limits)
+        or (_leaning(seen, testbed) or _turning(seen, limits) if seen.able else None)
         or _silence(seen, limits)
         or _masses(seen, testbed, limits)
     )

@@ -127,12 +127,16 @@ class Keeper:
     @property
     def trouble(self) -> str:
         """What keeps masses from being moved now; empty if nothing does."""
+        for link in self.links.sensors:
+            if link.why:
+                return f"sensor {link.unit.name} cannot be reached: {link.why}"
+        for link in self.links.boards:
+            if link.why:
+                return f"board {link.board.name} cannot be reached: {link.why}"
         quiet = silence(self._seen(self.t), self._limits)
         if quiet is not None:
             return quiet.sentence
         for link in self.links.boards:
-            if link.why:
-                return f"board {link.board.name} cannot be reached: {link.why}"
             state = link.driver.state
             if state.phase == "fault" or not state.sure:
                 why = state.sentence or "it has not found its position"

@@ -43,6 +43,11 @@ class Port(Protocol):
         ...
 
 
+def why(error: BaseException) -> str:
+    """Return what the system says, without its number."""
+    return getattr(error, "strerror", None) or str(error)
+
+
 def open_port(port: Address) -> Port:
     """Return the port at an address, open. Raises PortLost, or InputError for a strange address."""
     scheme, _, rest = port.address.partition(":")
@@ -52,7 +57,7 @@ def open_port(port: Address) -> Port:
     try:
         return opener(port, rest)
     except OSError as error:
-        raise PortLost(port.address, error.strerror or error) from error
+        raise PortLost(port.address, why(error)) from error
 
 
 class SocketPort:
@@ -76,7 +81,7 @@ class SocketPort:
             except BlockingIOError:
                 break
             except OSError as error:
-                raise PortLost(self._address, error.strerror or error) from error
+                raise PortLost(self._address, why(error)) from error
             if self._stream and not data:
                 raise PortLost(self._address, "the far side closed the connection")
             found.append(data)
@@ -91,7 +96,7 @@ class SocketPort:
             elif to is not None:
                 self._socket.sendto(data, to)
         except OSError as error:
-            raise PortLost(self._address, error.strerror or error) from error
+            raise PortLost(self._address, why(error)) from error
 
     def _all(self, data: bytes) -> None:
         while data:
@@ -163,7 +168,7 @@ class SerialPort:
             self._line = serialx.serial_for_url(path, baudrate=baud, timeout=0, exclusive=True)
             self._line.open()
         except self._lost as error:
-            raise PortLost(address, error) from error
+            raise PortLost(address, why(error)) from error
 
     def receive(self) -> list[bytes]:
         """Return what has arrived."""
@@ -172,7 +177,7 @@ class SerialPort:
         except TimeoutError:
             return []
         except self._lost as error:
-            raise PortLost(self._address, error) from error
+            raise PortLost(self._address, why(error)) from error
         return [data] if data else []
 
     def send(self, data: bytes) -> None:
@@ -181,7 +186,7 @@ class SerialPort:
             while data:
                 data = data[self._line.write(data, timeout=PATIENCE) :]
         except self._lost as error:
-            raise PortLost(self._address, error) from error
+            raise PortLost(self._address, why(error)) from error
 
     def close(self) -> None:
         """Close it."""

@@ -9,11 +9,14 @@ from equipoise.app.terminal import busy, stdout
 if TYPE_CHECKING:
     from equipoise.app.emulation import EmulatedBench
 
+CAUGHT = 1.1  # of the tilt limit, chosen: where somebody catches the platform
+
 
 def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | None = None) -> int:
     """Start emulated devices that speak the real protocols, moved by a simulated platform.
 
-    They run until Ctrl-C. Meanwhile other commands reach them through the testbed file that is
+    The platform is held until its masses have come home, and caught when it tilts too far. Devices
+    run until Ctrl-C. Meanwhile other commands reach them through the testbed file that is
     written: equipoise balance OUT --bench.
 
     Parameters
@@ -60,6 +63,8 @@ def _run(bench: "EmulatedBench", longest: float) -> None:
     try:
         while clock.now < longest:
             bench.run(clock.now)
+            if bench.leaning > CAUGHT * bench.platform.testbed.tilt_limit:
+                bench.catch()
             clock.wait()
     except KeyboardInterrupt:
         pass

@@ -42,6 +42,11 @@ class EmulatedSensor(Protocol):
 class EmulatedBoard(Protocol):
     """A motor board's far side."""
 
+    @property
+    def homing(self) -> bool:
+        """Say whether masses are on their way to their switches."""
+        ...
+
     def take(self, data: bytes, t: float) -> bytes:
         """Return what it answers at once to what the host sent."""
         ...

@@ -75,6 +75,11 @@ class EmulatedGrbl:
         legs, self._legs = self._legs, []
         return self._flushed(), legs
 
+    @property
+    def homing(self) -> bool:
+        """Say whether masses are on their way to their switches."""
+        return self._state == "Home"
+
     # --- What people do to it ----------------------------------------------------------------
 
     def press_reset(self) -> None:

@@ -89,6 +89,11 @@ class EmulatedTmcl:
         legs, self._legs = self._legs, []
         return b"", legs
 
+    @property
+    def homing(self) -> bool:
+        """Say whether masses are on their way to their switches."""
+        return any(motor.searching for motor in self._motors)
+
     # --- What people do to it ----------------------------------------------------------------
 
     def press_reset(self) -> None:

@@ -67,7 +67,7 @@ class VectorNav:
     def __init__(self, unit: SensorUnit) -> None:
         self._lines, self._tally = Lines(), Tally()
         self._greeting = _greeting(unit)
-        self._greet = False
+        self._greet = self._first = False
 
     @property
     def counts(self) -> Counts:
@@ -78,7 +78,7 @@ class VectorNav:
         """Begin anew."""
         self._lines.cleared()
         self._tally.cleared()
-        self._greet = True
+        self._greet, self._first = True, True
 
     def due(self, t: float) -> bytes:
         """Return what asks for messages, once."""
@@ -90,9 +90,10 @@ class VectorNav:
         return [reading for line in self._lines.cut(data) for reading in self._line(line)]
 
     def _line(self, line: bytes) -> list[Reading]:
-        body = checked(line)
+        body, first, self._first = checked(line), self._first, False
         if body is None:
-            self._tally.corrupt()
+            if not first:  # the port may have been opened in the middle of a line
+                self._tally.corrupt()
             return []
         name, *fields = body.split(b",")
         message = MESSAGES.get(name)
