@@ -111,7 +111,8 @@ def test_frames_by_hand():
     np.testing.assert_allclose(to_matrix(captured) @ [0, 1, 0], [0, 0, 1], atol=1e-12)
 
 
-@pytest.mark.parametrize("name", sorted(DRIVERS))
+# A camera's pictures are read within an error of their own, and give no rate: test_camera.
+@pytest.mark.parametrize("name", sorted(set(DRIVERS) - {"camera"}))
 @pytest.mark.parametrize("laboratory", ["z_up", "ned", "y_up"])
 def test_what_the_far_side_tells_comes_back(name, laboratory):
     """And turning agrees: the attitude's slope is the rate, for every frame."""
