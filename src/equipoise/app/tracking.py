@@ -27,7 +27,7 @@ from equipoise.io.camera_file import read_camera_keys
 from equipoise.maths.attitude import continuous, from_matrix, to_matrix
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.errors import InputError
-from equipoise.model.hardware import Port, SensorUnit
+from equipoise.model.hardware import Port, SensorUnit, Setting
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
@@ -61,7 +61,7 @@ def unit_of(testbed: Testbed | None, files: Sequence[Path], address: str) -> Sen
         raise InputError(testbed.source or testbed.name, "no camera", wanted)
     plain = SensorUnit("camera", "camera", Port(address), ("attitude",), np.eye(3))
     unit = replace(found[0], port=Port(address)) if found else plain
-    keys = dict(unit.settings)
+    keys: dict[str, Setting] = dict(unit.settings)
     for path in files:
         keys |= read_camera_keys(path)
     return replace(unit, settings=keys)

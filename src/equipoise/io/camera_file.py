@@ -41,7 +41,7 @@ class CameraKeys(Table):
     up_z: float | None = None
 
 
-def read_camera_keys(path: Path) -> dict[str, str | float]:
+def read_camera_keys(path: Path) -> dict[str, str | int | float]:
     """Return the keys of a file."""
     return read_toml(path, CameraKeys, WANTED).model_dump(exclude_none=True)
 

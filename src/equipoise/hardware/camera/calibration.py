@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.hardware.camera.aruco import calibrated
+from equipoise.hardware.camera.aruco import calibrated, opencv
 from equipoise.hardware.camera.lens import Lens
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
@@ -19,7 +19,9 @@ VIEWS = 8  # chosen: four of them leave a lens with five coefficients open
 CORNERS = 8  # of a view, chosen: what fewer say of a lens is not worth their ambiguity
 ACROSS, DOWN = 4, 3  # parts of a picture, chosen
 COVERED = 10  # of these parts, chosen: two corners of the picture may stay empty
+LEANT, LEANING = 6, 0.1  # views, and by how much of its distance a board is deeper, chosen
 KNOWN = 0.005  # of the focal length, one sd, chosen: then a tilt of 20 deg is known to 0.1 deg
+HOW = "the board tilted by 20 to 40 deg each way"
 MOST_RMS = 1.0  # px, chosen: more is a blurred picture, a bent board or another one
 
 
@@ -47,21 +49,55 @@ def lens_from(views: Sequence[View], size: tuple[int, int]) -> Calibration:
         found = f"the chessboard in {len(useful)} of {len(views)} pictures"
         raise InputError("pictures", found, f"at least {VIEWS} with {CORNERS} corners or more")
     _check_coverage(np.concatenate([view.picture for view in useful]), size)
+    _check_leaning(useful)
     rms, matrix, distortion, sds = calibrated(
         [view.board for view in useful], [view.picture for view in useful], size
     )
+    return _checked(Calibration(_lens(rms, matrix, distortion, size), len(useful), max(sds[:2])))
+
+
+def _lens(rms: float, matrix: Floats, distortion: Floats, size: tuple[int, int]) -> Lens:
     focal = (float(matrix[0, 0]), float(matrix[1, 1]))
-    sd = float(max(sds[:2]))
-    if not rms < MOST_RMS:
-        wanted = f"at most {MOST_RMS:g} px: sharp pictures of a flat board of the size stated"
-        raise InputError("pictures", f"corners {rms:.2f} px off on average", wanted)
-    if not sd < KNOWN * min(focal):
-        found = f"a focal length of {focal[0]:.0f} px with a standard deviation of {sd:.1f} px"
-        wanted = f"at most {KNOWN:.1%}: more pictures, the board tilted by 20 to 40 deg each way"
-        raise InputError("pictures", found, wanted)
     middle = (float(matrix[0, 2]), float(matrix[1, 2]))
-    lens = Lens(*focal, *middle, *size, tuple(map(float, distortion)), rms)
-    return Calibration(lens, len(useful), sd)
+    return Lens(*focal, *middle, *size, tuple(map(float, distortion)), rms)
+
+
+def _checked(found: Calibration) -> Calibration:
+    """Return a calibration that fits and is known well enough."""
+    lens = found.lens
+    if not (lens.rms is not None and lens.rms < MOST_RMS):
+        wanted = f"at most {MOST_RMS:g} px: sharp pictures of a flat board of the size stated"
+        raise InputError("pictures", f"corners {lens.rms:.2f} px off on average", wanted)
+    if not found.focal_sd < KNOWN * min(lens.fx, lens.fy):
+        text = f"a focal length of {lens.fx:.0f} px with an sd of {found.focal_sd:.1f} px"
+        raise InputError("pictures", text, f"at most {KNOWN:.1%}: more pictures, {HOW}")
+    return found
+
+
+def _check_leaning(views: Sequence[View]) -> None:
+    """Raise InputError if the board hardly leans.
+
+    Pictures of a board face on fit any focal length, and the wrong one that a fit ends at has a
+    small standard deviation; so this is asked of the pictures before.
+    """
+    leant = sum(depth(view) > LEANING for view in views)
+    if leant < LEANT:
+        found = f"the board clearly tilted in {leant} of {len(views)} pictures"
+        raise InputError("pictures", found, f"at least {LEANT}: {HOW}")
+
+
+def depth(view: View) -> float:
+    """Return by what part of its distance the far side of a board is farther than the near one.
+
+    The third row of the homography, board to picture, is the depth of a point up to scale,
+    whatever the focal length.
+    """
+    flat = view.board[:, :2]
+    homography = opencv("camera").findHomography(flat, view.picture)[0]
+    if homography is None:  # corners on one line
+        return 0.0
+    depths: Floats = flat @ homography[2, :2] + homography[2, 2]
+    return float(np.ptp(depths) / abs(depths.mean()))
 
 
 def _check_coverage(corners: Floats, size: tuple[int, int]) -> None:

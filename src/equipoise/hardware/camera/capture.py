@@ -24,6 +24,8 @@ class CapturePort:
 
     def __init__(self, address: str, source: int | str, size: tuple[int, int] | None) -> None:
         self._address, self._cv2 = address, opencv(address)
+        logging = self._cv2.utils.logging  # that a camera is missing is told by us, once
+        logging.setLogLevel(logging.LOG_LEVEL_ERROR)
         self._newest: RawPicture | None = None
         self._why, self._ended = "", threading.Event()
         arguments = (source, size)
