@@ -20,7 +20,6 @@ from verification import (
     balanced,
     calibration,
     camera,
-    camera_bench,
     compared,
     defective_logs,
     design_predictions,
@@ -95,7 +94,6 @@ CHECKS = {
     "faulty_benches": Check(faulty_benches.measure, 306),
     "killed_recordings": Check(killed_recordings.measure, 200),
     "camera": Check(camera.measure, 25),
-    "camera_bench": Check(camera_bench.measure, 60),
     "real_methods": Check(real_methods.measure, 1),
 }
 
