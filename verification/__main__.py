@@ -31,9 +31,11 @@ from verification import (
     killed_recordings,
     laboratories,
     lagging_masses,
+    latency,
     laws,
     laws_on_mujoco,
     lee,
+    long_emulation,
     long_record,
     manual,
     method_intervals,
@@ -94,6 +96,8 @@ CHECKS = {
     "faulty_benches": Check(faulty_benches.measure, 306),
     "killed_recordings": Check(killed_recordings.measure, 200),
     "camera": Check(camera.measure, 25),
+    "latency": Check(latency.measure, 3),
+    "long_emulation": Check(long_emulation.measure, 8),
     "real_methods": Check(real_methods.measure, 1),
 }
 

@@ -10,7 +10,7 @@ from pymavlink.dialects.v20 import common
 
 from equipoise.hardware.emulated.mavlink import EmulatedMavlink
 from equipoise.hardware.placed import placed
-from equipoise.hardware.sensor_link import SensorLink
+from equipoise.hardware.sensor_link import UNSTATED, SensorLink
 from equipoise.hardware.sensors.mavlink import Mavlink
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.errors import InputError
@@ -153,7 +153,7 @@ def test_two_clocks_of_one_device_do_not_disturb_each_other():
     """Time since boot and Unix time, 10 ms late both: no jump, rows in step with their stamps."""
     device = unit("mavlink")
     wire = Wire()
-    link, far = SensorLink(device, Mavlink(device), wire), EmulatedMavlink(device)
+    link, far = SensorLink(device, Mavlink(device), wire, UNSTATED), EmulatedMavlink(device)
     rows = []
     for k in range(1, 100):
         t = np.array([0.025 * k])

@@ -2,14 +2,17 @@
 
 import functools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from equipoise.hardware.arrivals import FROZEN, Arrivals, arrived
+from equipoise.hardware.connection import Turn
 from equipoise.hardware.device_clock import DeviceClock, drift_of, learnt, to_bench
 from equipoise.hardware.emulated.registry import SENSORS
 from equipoise.hardware.placed import as_sensed, placed
+from equipoise.hardware.sensor_link import SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.sensors.vectornav import VectorNav, crc16
 from equipoise.maths.attitude import from_euler321, from_matrix, multiply, to_matrix
@@ -194,3 +197,52 @@ def test_the_first_row_may_have_waited_in_the_port():
 
 def test_a_clock_remembers_no_more_than_two_minutes():
     assert len(clock_after(0.0, 0.0, 400.0).quickest) == 24
+
+
+class Handed:
+    """A port that hands on what a test puts in, turn by turn."""
+
+    def __init__(self, turns):
+        self.turns = list(turns)
+
+    why = ""
+
+    def turn(self, _t):
+        return Turn(tuple(self.turns.pop(0)), opened=False)
+
+    def send(self, data, _t):
+        return Turn()
+
+
+def times_of(turns, at, periods, **settings):
+    """Return the times of the rates that a sensor's lines gave, turn by turn, and its link."""
+    driver = "lines" if settings else "vectornav"
+    device = replace(unit(driver, **settings), gives=("rate",))
+    link = SensorLink(device, DRIVERS[driver](device), Handed(turns), periods)
+    link.driver.feed(b"\n")
+    return [row.t for t in at for row in link.turn(t)], link
+
+
+def test_rows_that_come_at_once_and_bear_no_time_are_a_period_apart():
+    """A computer that paused reads three messages of 25 ms in one turn: none is lost.
+
+    The last was taken now, the others 25 and 50 ms before; never before the row that was last.
+    """
+    turns = [
+        [line(f"VNGYR,{k},0,{n}") for n in range(count)] for k, count in enumerate([1, 3, 1, 4])
+    ]
+    times, link = times_of(turns, [1.0, 1.1, 1.125, 1.145], {"rate": 0.025})
+    assert times == pytest.approx(
+        [1.0, 1.05, 1.075, 1.1, 1.125, 1.13, 1.135, 1.14, 1.145], abs=1e-9
+    )
+    assert link.arrivals.kept == 9
+
+
+def test_rows_that_come_at_once_and_bear_their_time_keep_it():
+    """All of them teach the clock first: the quickest, here the last, tells when others were."""
+    columns = ("t_ms", "gx_rad_s", "gy_rad_s", "gz_rad_s")
+    turns = [[b"%d,%d,1,2\n" % (ms, ms) for ms in range(first, first + 100, 20)]
+             for first in (5000, 5100, 5200)]  # fmt: skip
+    times, link = times_of(turns, [1.1, 1.2, 1.3], {"rate": 0.02}, columns=columns)
+    assert times == pytest.approx(1.02 + 0.02 * np.arange(15), abs=1e-9)
+    assert link.arrivals.late == 0

@@ -22,6 +22,7 @@ from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.io.live_recording import LiveRecording, Opening
 from equipoise.io.testbed_text import text_of_testbed
 from equipoise.model.errors import BenchStopped
+from equipoise.model.hardware import Gives
 from equipoise.model.testbed import Testbed
 
 HAND = 1.0  # s, chosen: for a hand to leave the platform
@@ -81,11 +82,23 @@ def keeper_of(testbed: Testbed, opener: Opener = open_port) -> Keeper:
     ]
     sensors = [
         SensorLink(
-            unit, driver_named(DRIVERS, unit.driver, "sensor")(unit), Connection(unit.port, opener)
+            unit,
+            driver_named(DRIVERS, unit.driver, "sensor")(unit),
+            Connection(unit.port, opener),
+            periods_of(testbed),
         )
         for unit in hardware.sensors
     ]
     return Keeper(testbed, hardware, Links(boards, sensors))
+
+
+def periods_of(testbed: Testbed) -> dict[Gives, float]:
+    """Return how far apart rows of each channel are, s; 0 where nothing is stated."""
+    stated: dict[Gives, float | None] = {
+        "attitude": None if testbed.attitude is None else testbed.attitude.rate,
+        "rate": None if testbed.gyro is None else testbed.gyro.rate,
+    }
+    return {channel: 1.0 / rate if rate else 0.0 for channel, rate in stated.items()}
 
 
 @contextmanager

@@ -20,7 +20,7 @@ from equipoise.hardware.connection import Connection
 from equipoise.hardware.driver import driver_named
 from equipoise.hardware.placed import as_sensed, placed
 from equipoise.hardware.port import open_port
-from equipoise.hardware.sensor_link import SensorLink
+from equipoise.hardware.sensor_link import UNSTATED, SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.wall_clock import WallClock
 from equipoise.io.camera_file import read_camera_keys
@@ -94,7 +94,7 @@ def tracked(source: Path, unit: SensorUnit, rate: float | None, told: Told) -> T
 def watched_camera(unit: SensorUnit, duration: float, told: Told) -> Track:
     """Return the attitudes that a camera shows for so long (s); Ctrl-C ends it early."""
     driver = driver_named(DRIVERS, unit.driver, "sensor")(unit)
-    link = SensorLink(unit, driver, Connection(unit.port, open_port))
+    link = SensorLink(unit, driver, Connection(unit.port, open_port), UNSTATED)
     clock, t, attitudes = WallClock(), list[float](), list[Floats]()
     try:
         while clock.now < duration:

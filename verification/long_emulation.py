@@ -1,0 +1,95 @@
+"""Hours of an emulated bench in one process: is a row lost, does memory grow, is it quick enough?
+
+The platform is balanced first, and swings on; every ten minutes a mass is sent out and back. All
+rows are written to an MCAP record as they come. Memory is what the system counts as resident.
+"""
+
+import os
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from equipoise.io.live_recording import LiveRecording, Opening
+from equipoise.io.presets import read_preset
+from tests.emulated_lab import Lab, lab, over_tcp
+from verification.result import Result, Row, Spread, at_least, at_most, in_turn
+
+HOURS, BEGUN = 8.0, 0.25  # h of bench time; h after which memory is first looked at
+STRETCH, OFTEN = 10.0, 60  # s to a read; stretches between moves
+AWAY = 2e-3  # m
+PAGE = os.sysconf("SC_PAGE_SIZE")
+
+
+@dataclass(frozen=True, slots=True)
+class Soaked:
+    """What became of one long run."""
+
+    hours: float
+    speed: float  # bench time over the clock on the wall
+    lost: int  # rows of attitude or rate
+    extra: int
+    grown: float  # share of the memory at the beginning
+    megabytes: float
+    stops: int
+
+
+def resident() -> float:
+    """Return the memory that this process holds, MB."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * PAGE / 1e6
+
+
+def soaked(hours: float) -> Soaked:
+    """Let an emulated bench go on for so many hours."""
+    bed = replace(over_tcp(read_preset("nanosat")), tilt_limit=3.0)
+    with (
+        lab(bed) as found,
+        tempfile.TemporaryDirectory() as folder,
+        LiveRecording(Path(folder) / "run.mcap", Opening(time.time_ns())) as record,
+    ):
+        found.keeper.listen(record)
+        return _watched(found, hours)
+
+
+def _watched(found: Lab, hours: float) -> Soaked:
+    bed, bench = found.bench.testbed, found.bench
+    assert bed.attitude is not None
+    assert bed.gyro is not None
+    stretches, seen, memory = round(hours * 3600 / STRETCH), [0, 0], 0.0
+    begun, start = time.perf_counter(), found.emulated.time
+    for k in range(stretches):
+        if k % OFTEN == 0:
+            bench.move({"x": AWAY if k // OFTEN % 2 else 0.0})
+        rows = bench.read(STRETCH)
+        seen[0] += 0 if rows.attitude is None else len(rows.attitude)
+        seen[1] += 0 if rows.rate is None else len(rows.rate)
+        if k == round(min(BEGUN, hours / 2) * 3600 / STRETCH):
+            memory = resident()
+    passed = found.emulated.time - start
+    wanted = [round(passed * bed.attitude.rate), round(passed * bed.gyro.rate)]
+    missing = [w - s for w, s in zip(wanted, seen, strict=True)]
+    return Soaked(
+        passed / 3600, passed / (time.perf_counter() - begun),
+        sum(max(n - 1, 0) for n in missing), sum(max(-n - 1, 0) for n in missing),
+        resident() / memory - 1, resident(),
+        sum(kind == "interlock" for _, kind, _ in found.events),
+    )  # fmt: skip
+
+
+def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
+    """Measure one run; fewer than all seeds are as many eighths of the hours."""
+    (run,) = spread(soaked, [HOURS * len(seeds) / 8])
+    claim = (
+        f"Preset nanosat through emulated Grbl and VN-100 over TCP, recorded to MCAP, for "
+        f"{run.hours:.1f} h of bench time in lockstep, a mass moved every ten minutes."
+    )
+    rows: tuple[Row, ...] = (
+        at_least("bench time over real time", run.speed, 20.0, ".1f"),
+        at_most("rows lost", run.lost, 0, "d"),
+        at_most("rows too many", run.extra, 0, "d"),
+        at_most("growth of memory", run.grown, 0.05, ".1%"),
+        at_most("stops and silences", run.stops, 0, "d"),
+    )
+    return Result("long_emulation", claim, rows, (f"Memory at the end: {run.megabytes:.0f} MB.",))
