@@ -73,7 +73,7 @@ class Limits:
 def run(bench: Bench, goal: Goal, limits: Limits, show: Callable[[Step], None] | None) -> Balancing:
     """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
 
-    What stops a real bench is the last step. The truth is known of a simulated one alone.
+    What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a simulated one alone.
     """
     simulated = bench if isinstance(bench, SimulatedBench) else None
     before, recorded = None if simulated is None else simulated.truth(), RecordedBench(bench)
@@ -90,7 +90,11 @@ def run(bench: Bench, goal: Goal, limits: Limits, show: Callable[[Step], None] |
                 truths.append(simulated.truth())
     except KeyboardInterrupt as by_hand:
         bench.stop()
-        raise KeyboardInterrupt(HALTED) from by_hand
+        if simulated is not None:
+            raise KeyboardInterrupt(HALTED) from by_hand
+        steps.append(stop_step(bench, f"stopped by hand: {HALTED}"))
+        if show is not None:
+            show(steps[-1])
     # A look of a law's may hold what is not known; its estimate is no belief to begin with.
     body, sd = bench.testbed.body, bench.testbed.com_sd
     known = None if limits.law == OWN.name else Believed(body.com, sd)
@@ -104,8 +108,13 @@ def until_stopped(bench: Bench, steps: Iterator[Step]) -> Iterator[Step]:
     try:
         yield from steps
     except BenchStopped as stopped:
-        judged = Verdict(False, f"Stopped: {stopped}.", halted=True)
-        yield Step("stop", bench.time, judged.sentence, verdict=judged)
+        yield stop_step(bench, f"Stopped: {stopped}")
+
+
+def stop_step(bench: Bench, sentence: str) -> Step:
+    """Return the last step of a run that was stopped, for the reason given."""
+    judged = Verdict(False, f"{sentence[0].upper()}{sentence[1:]}.", halted=True)
+    return Step("stop", bench.time, judged.sentence, verdict=judged)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:

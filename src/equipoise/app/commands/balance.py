@@ -79,7 +79,7 @@ def balance(
         whose masses follow the tilt too, by the sag that it found.
     bench
         Balance the real bench. The procedure is practised in simulation, then masses go home, then
-        the platform is let go. Ctrl-C halts the masses, a second one leaves.
+        the platform is let go. Ctrl-C halts the masses and saves, a second one leaves.
     record
         With --bench: MCAP file to write as rows arrive, with every command and interlock.
     yes
