@@ -73,7 +73,8 @@ class Limits:
 def run(bench: Bench, goal: Goal, limits: Limits, show: Callable[[Step], None] | None) -> Balancing:
     """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
 
-    What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a simulated one alone.
+    What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a
+    simulated one alone.
     """
     simulated = bench if isinstance(bench, SimulatedBench) else None
     before, recorded = None if simulated is None else simulated.truth(), RecordedBench(bench)
