@@ -83,3 +83,14 @@ def test_a_board_that_is_set_otherwise_is_a_fault():
     state = wire.run(0.5)
     assert state.phase == "fault"
     assert "$100=80 steps per mm" in state.sentence
+
+
+def test_a_status_that_lost_an_axis_is_broken_and_changes_nothing():
+    """A cable ate ',-17.000' of a whole line: found by noise at random moments of a balancing."""
+    wire = Wire("grbl").at_home()
+    before, corrupt = wire.driver.state, wire.driver.counts.corrupt
+    wire.driver.feed(b"<Idle|MPos:-17.000,-17.000|FS:0,0>\r\n", wire.t + 0.01)
+    assert wire.driver.state == before
+    assert wire.driver.counts.corrupt == corrupt + 1
+    wire.driver.go({"z": 1 * MM}, wire.t)
+    assert wire.run(1.0).position["z"] == pytest.approx(1 * MM, abs=2e-6)

@@ -181,11 +181,11 @@ class Grbl:
         if machine is None:
             self._state = replace(self._state, reported=t)
             return
-        position = {
-            axis.mass: self._displacement(axis.mass, machine[LETTERS.index(axis.letter)])
-            for axis in self._board.axes
-            if LETTERS.index(axis.letter) < len(machine)
-        }
+        columns = {axis.mass: LETTERS.index(axis.letter) for axis in self._board.axes}
+        if max(columns.values()) >= len(machine):  # the line lost a part: Grbl tells every axis
+            self._counts = replace(self._counts, corrupt=self._counts.corrupt + 1)
+            return
+        position = {name: self._displacement(name, machine[k]) for name, k in columns.items()}
         self._state = replace(self._state, position=position, reported=t)
         self._settle(t)
 
