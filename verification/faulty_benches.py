@@ -2,7 +2,7 @@
 
 It ends well in one of two ways. It balances all the same: the verdict passes and the truth is
 within tolerance. Or it is not balanced and says why: the bench was stopped with the sentence that
-belongs to the fault, or the verdict on fresh data fails. In either case no mass moves afterwards.
+belongs to the fault, or the verdict on fresh data fails. Either way masses stand within a second.
 """
 
 from collections import Counter
@@ -23,7 +23,8 @@ from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
 OPTIONS = BalanceOptions()
 LATEST = 25.0  # s after the platform is let go, chosen: as long as a balancing takes
-AFTER = 2.0  # s in which no mass may move when all is over
+SETTLED = 1.0  # s, within which masses stand when all is over
+AFTER = 2.0  # s in which no mass may move after that
 LOST_SENSOR = ("sensor imu", "no sensor", "not every sensor")
 LOST_BOARD = ("board masses", "not every board")
 MISHEARD = (*LOST_BOARD, "or its board is misheard", "mass ")  # Grbl's lines bear no checksum
@@ -135,6 +136,7 @@ def struck(seed: int) -> Run:
         *_, last = until_stopped(found.bench, balance(found.bench, OPTIONS))
         platform = found.emulated.platform
         off = platform.truth().com - OPTIONS.target
+        found.wait(SETTLED)
         at = platform.displacements.copy()
         found.wait(AFTER)
         stands = bool(np.all(platform.displacements == at))
@@ -155,8 +157,8 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     claim = (
         "Preset nanosat through emulated Grbl and VN-100 over TCP; one of "
         f"{len(FAULTS)} faults happens at a random moment of the first {LATEST:g} s. The run ends "
-        "balanced, and truly so, or unbalanced in words that belong to the fault; then no mass "
-        f"moves. {len(runs)} seeds."
+        "balanced, and truly so, or unbalanced in words that belong to the fault; a second "
+        f"later no mass moves. {len(runs)} seeds."
     )
     endings = Counter(run.ending for run in runs)
     told = ", ".join(f"{count} {ending}" for ending, count in sorted(endings.items()))
