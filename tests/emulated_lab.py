@@ -6,7 +6,7 @@ from dataclasses import replace
 from equipoise.app.emulation import Station, emulate
 from equipoise.app.held_platform import later
 from equipoise.app.kept_bench import keeper_of
-from equipoise.app.lockstep import LockstepClock
+from equipoise.app.lockstep import TICK, LockstepClock
 from equipoise.hardware.real_bench import RealBench
 from equipoise.model.hardware import Port
 from tests.hardware.faulty_wire import FaultyWire
@@ -60,8 +60,8 @@ class FaultyMotors:
 class PlannedClock(LockstepClock):
     """A clock at whose moments things happen to the bench."""
 
-    def __init__(self, emulated):
-        super().__init__(emulated)
+    def __init__(self, emulated, tick):
+        super().__init__(emulated, tick)
         self._plan = []
 
     def at(self, t, action):
@@ -92,7 +92,7 @@ class JumpingClock:
 class Lab:
     """Both sides of the wires on one clock, and all that the keeper says."""
 
-    def __init__(self, bed, seed):
+    def __init__(self, bed, seed, tick=TICK):
         self.emulated = emulate(bed, seed)
         self.emulated.boards[:] = [
             Station(FaultyMotors(each.device), FaultyWire(each.wire, seed))
@@ -103,7 +103,7 @@ class Lab:
             for each in self.emulated.sensors
         ]
         self.keeper = keeper_of(self.emulated.testbed())
-        self.clock = PlannedClock(self.emulated)
+        self.clock = PlannedClock(self.emulated, tick)
         self.bench = RealBench(self.keeper, self.clock)
         self.events = []
         self.keeper.listen(self)
@@ -134,9 +134,9 @@ class Lab:
 
 
 @contextlib.contextmanager
-def lab(bed, seed=1):
+def lab(bed, seed=1, tick=TICK):
     """Return a lab whose platform has just been let go."""
-    found = Lab(bed, seed)
+    found = Lab(bed, seed, tick)
     try:
         found.bench.start()
         found.bench.watch()
