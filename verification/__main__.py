@@ -17,6 +17,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from equipoise.io.whole_file import check_writable, write_whole
 from equipoise.model.errors import InputError
 from verification import (
+    any_bytes,
     balanced,
     calibration,
     camera,
@@ -95,6 +96,7 @@ CHECKS = {
     "emulated_sputnix": Check(emulated_balancing.of("sputnix", "Grbl and a drawn camera"), 40),
     "faulty_benches": Check(faulty_benches.measure, 306),
     "killed_recordings": Check(killed_recordings.measure, 200),
+    "any_bytes": Check(any_bytes.measure, 1000),
     "camera": Check(camera.measure, 25),
     "latency": Check(latency.measure, 3),
     "long_emulation": Check(long_emulation.measure, 8),

@@ -25,7 +25,6 @@ from equipoise.io.protobuf_fields import double, fields, whole
 from equipoise.io.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
-from tests.io.fuzz import PARSERS
 
 EXAMPLES = int(os.environ.get("EQUIPOISE_FUZZ", "300"))
 
@@ -128,16 +127,6 @@ def test_a_garbled_place_costs_two_chunks_at_most(place, junk):
         in_the_start = at < content.index(b"zstd")  # where the zero of time stands
         with contextlib.suppress(*[InputError] * in_the_start):
             assert_part_of(read_bytes_as(garbled, Path(folder)), record())
-
-
-@pytest.mark.parametrize(("name", "parse"), PARSERS, ids=[name for name, _ in PARSERS])
-def test_any_bytes_give_rows_or_the_declared_error(name, parse):
-    @settings(max_examples=EXAMPLES, deadline=None)
-    @given(st.binary(max_size=300), st.integers(0, 3000), st.booleans())
-    def fuzz(junk: bytes, at: int, inside: bool) -> None:
-        parse(written()[:at] + junk + written()[at:] if inside else junk)
-
-    fuzz()
 
 
 def test_a_garbled_chunk_is_told_with_the_number_of_messages(tmp_path):

@@ -3,37 +3,36 @@ for those that are read, and for all of them a sentence when they are broken."""
 
 import io
 import struct
-from pathlib import Path
 
 import numpy as np
 import pytest
 from pyulog import ULog
 from rosbags.rosbag1 import Writer as Writer1
-from rosbags.rosbag2 import StoragePlugin
-from rosbags.rosbag2 import Writer as Writer2
-from rosbags.typesys import Stores, get_typestore
 from scipy.io import savemat
 
 from equipoise.io.recording_file import read_recording, write_recording
 from equipoise.io.recording_formats import FORMATS
 from equipoise.io.ulog_messages import ulog_topics
 from equipoise.model.errors import InputError
-from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.recording import CHANNELS
+from tests.io.made_logs import (
+    IMU,
+    ODOMETRY,
+    POSE,
+    ROS1,
+    TURN,
+    TURNED,
+    bag_1,
+    bag_2,
+    bag_2_file,
+    bag_2_mcap,
+    bag_2_mcap_file,
+    record,
+    told,
+    ulog,
+)
 
 WRITTEN = [each for each in FORMATS if each.write is not None]
-TURN = (0.5, 0.1, 0.2, np.sqrt(1 - 0.25 - 0.01 - 0.04))  # w x y z
-START = 1_700_000_000  # s since 1970
-
-
-def record() -> Recording:
-    t = np.arange(8) / 4
-    q = np.stack([np.cos(t), np.sin(t), 0 * t, 0 * t], axis=1)
-    three = np.stack([t, 1 - t, t / 7], axis=1)
-    return Recording(
-        Samples(t, q), Samples(t[::2], three[::2]), ("x1", "y1"), Samples(t[:3], three[:3, :2] / 9),
-        Samples(t, three / 3), Samples(t, three / 5), ("wheel:x", "gimbal:a"),
-        Samples(t, three[:, :2]), Samples(t, three * 1e-5),
-    )  # fmt: skip
 
 
 # --- Written -----------------------------------------------------------------------------------
@@ -63,70 +62,6 @@ def test_a_file_is_known_by_what_is_in_it(tmp_path, kind):
 
 
 # --- Read: made by other programs' own libraries ------------------------------------------------
-
-ROS1, ROS2 = get_typestore(Stores.ROS1_NOETIC), get_typestore(Stores.ROS2_HUMBLE)
-IMU, POSE = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PoseStamped"
-TURNED, ODOMETRY = "geometry_msgs/msg/QuaternionStamped", "nav_msgs/msg/Odometry"
-
-
-def message(store, kind: str, k: int):
-    """The k-th message of a topic: a quarter second after the one before."""
-    types = store.types
-    stamp = types["builtin_interfaces/msg/Time"](START, 250_000_000 * k)
-    header_type = types["std_msgs/msg/Header"]
-    numbered = {"seq": k} if "seq" in header_type.__dataclass_fields__ else {}
-    header = header_type(**numbered, stamp=stamp, frame_id="x")
-    w, x, y, z = TURN
-    turn = types["geometry_msgs/msg/Quaternion"](x, y, z, w)
-    vector = types["geometry_msgs/msg/Vector3"]
-    point, none = types["geometry_msgs/msg/Point"](0.0, 0.0, 0.0), np.zeros(9)
-    pose = types["geometry_msgs/msg/Pose"](point, turn)
-    rate, still = vector(0.1 * k, 0.2, -0.3), vector(0.0, 0.0, 0.0)
-    made = {
-        IMU: (header, turn, none, rate, none, still, none),
-        POSE: (header, pose),
-        TURNED: (header, turn),
-    }
-    if kind == ODOMETRY:
-        with_pose = types["geometry_msgs/msg/PoseWithCovariance"](pose, np.zeros(36))
-        twist = types["geometry_msgs/msg/Twist"](still, rate)
-        with_twist = types["geometry_msgs/msg/TwistWithCovariance"](twist, np.zeros(36))
-        made[ODOMETRY] = (header, "base", with_pose, with_twist)
-    return types[kind](*made[kind])
-
-
-def bag_1(path: Path, topics: dict[str, str]) -> Path:
-    with Writer1(path) as writer:
-        for name, kind in topics.items():
-            connection = writer.add_connection(name, kind, typestore=ROS1)
-            for k in range(4):
-                data = ROS1.serialize_ros1(message(ROS1, kind, k), kind)
-                writer.write(connection, 77, data)
-    return path
-
-
-def bag_2(path: Path, topics: dict[str, str], plugin=StoragePlugin.SQLITE3) -> Path:
-    path = path.with_suffix("")
-    with Writer2(path, version=9, storage_plugin=plugin) as writer:
-        for name, kind in topics.items():
-            connection = writer.add_connection(name, kind, typestore=ROS2)
-            for k in range(4):
-                data = ROS2.serialize_cdr(message(ROS2, kind, k), kind)
-                writer.write(connection, 77, data)
-    return path
-
-
-def bag_2_file(path: Path, topics: dict[str, str]) -> Path:
-    return next(bag_2(path, topics).glob("*.db3"))
-
-
-def bag_2_mcap(path: Path, topics: dict[str, str]) -> Path:
-    return bag_2(path, topics, StoragePlugin.MCAP)
-
-
-def bag_2_mcap_file(path: Path, topics: dict[str, str]) -> Path:
-    return next(bag_2_mcap(path, topics).glob("*.mcap"))
-
 
 BAGS = {
     "ros1": bag_1, "ros2": bag_2, "db3": bag_2_file,
@@ -172,33 +107,6 @@ def test_a_bag_without_what_we_know_is_refused(tmp_path):
 
 
 # --- ULog, written by hand from its public description ------------------------------------------
-
-
-def told(kind: bytes, body: bytes) -> bytes:
-    return struct.pack("<HB", len(body), kind[0]) + body
-
-
-def ulog(rates: str) -> bytes:
-    """Attitude at 10 Hz and rate, microseconds from 5 s after the start of the board."""
-    layout = {
-        "vehicle_attitude": b"uint64_t timestamp;uint64_t timestamp_sample;float[4] q;",
-        "vehicle_angular_velocity": b"uint64_t timestamp;float[3] xyz;",
-        "sensor_combined": b"uint64_t timestamp;float[3] gyro_rad;",
-    }
-    names = ("vehicle_attitude", rates)
-    out = b"ULog\x01\x12\x35\x01" + struct.pack("<Q", 5_000_000)
-    out += told(b"B", bytes(40))
-    out += b"".join(told(b"F", name.encode() + b":" + layout[name]) for name in names)
-    out += b"".join(
-        told(b"A", struct.pack("<BH", 0, number) + name.encode())
-        for number, name in enumerate(names)
-    )
-    for k in range(5):
-        us, half = 5_000_000 + 100_000 * k, 0.05 * k
-        q = (np.cos(half), np.sin(half), 0.0, 0.0)  # rolls to the right, right side down
-        out += told(b"D", struct.pack("<HQQ4f", 0, us + 999, us, *q))
-        out += told(b"D", struct.pack("<HQ3f", 1, us, 1.0, 0.25, -0.5))
-    return out
 
 
 @pytest.mark.parametrize("rates", ["vehicle_angular_velocity", "sensor_combined"])

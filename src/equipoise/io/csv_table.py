@@ -73,6 +73,8 @@ def cut(text: str, source: str, layout: Layout) -> TextTable:
     """Return the table in a text."""
     separator = layout.separator or _separator(text)
     rows, lines = _rows(text, source, separator)
+    if not rows:
+        raise InputError(source, "nothing but blank lines", "a header and rows of numbers")
     head = header_row(rows) if layout.skip_rows is None else _row_after(lines, layout.skip_rows)
     if head >= len(rows):
         raise InputError(source, f"only {len(rows)} rows", "a header and rows of numbers")

@@ -1,0 +1,77 @@
+"""Inputs with something wrong in them, for every parser: does one raise, or take too long?"""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tests.fuzz_target import Target
+from tests.hardware.fuzz_targets import TARGETS as DEVICES
+from tests.io.fuzz_targets import TARGETS as FILES
+from tests.mutated_bytes import mutated
+from verification.result import Result, Row, Spread, at_most, in_turn
+
+TARGETS = (*DEVICES, *FILES)
+BATCH = 1000  # inputs to a seed
+SLOWEST = 5.0  # s, what one input may take; chosen: nobody waits longer for a sentence
+SHOWN, TOLD = 400, 20  # bytes of an input that is told; errors that are
+
+
+@dataclass(frozen=True, slots=True)
+class Tried:
+    """What became of a batch."""
+
+    inputs: dict[str, int]  # by target
+    raised: tuple[str, ...]
+    slowest: dict[str, float]  # s, by target
+
+
+def tried(seed: int) -> Tried:
+    """Try a batch, targets by their shares."""
+    rng = np.random.default_rng(seed)
+    share = np.array([each.share for each in TARGETS])
+    picks = rng.choice(len(TARGETS), BATCH, p=share / share.sum())
+    inputs, raised, slowest = dict.fromkeys(names(), 0), [], dict.fromkeys(names(), 0.0)
+    for target in (TARGETS[k] for k in picks):
+        content = mutated(target.valid(), rng)
+        begun = time.perf_counter()
+        raised += _raised(target, content)
+        slowest[target.name] = max(slowest[target.name], time.perf_counter() - begun)
+        inputs[target.name] += 1
+    return Tried(inputs, tuple(raised), slowest)
+
+
+def names() -> list[str]:
+    """Return the names of all targets."""
+    return [each.name for each in TARGETS]
+
+
+def _raised(target: Target, content: bytes) -> list[str]:
+    try:
+        target.take(content)
+    except Exception as error:  # whatever it is, it is told
+        return [f"{target.name}: {error!r}; input {content[:SHOWN].hex()}"]
+    return []
+
+
+def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
+    """Try a batch for each seed."""
+    for target in TARGETS:
+        target.take(target.valid())
+    batches = spread(tried, seeds)
+    counts = {name: sum(each.inputs[name] for each in batches) for name in names()}
+    slowest = {name: max(each.slowest[name] for each in batches) for name in names()}
+    total = sum(counts.values())
+    raised = [sentence for each in batches for sentence in each.raised]
+    rows: tuple[Row, ...] = (
+        at_most(f"of {total} inputs raised what is not declared", len(raised), 0, "d"),
+        at_most("slowest input, s", max(slowest.values()), SLOWEST),
+    )
+    claim = (
+        f"{len(TARGETS)} parsers of files and drivers are given valid bytes with one to four "
+        "changes, or junk: nothing but the declared error comes out."
+    )
+    tries = ", ".join(f"{name} {counts[name]} ({slowest[name] * 1e3:.0f})" for name in names())
+    note = f"Inputs to each, and the slowest of them in ms: {tries}."
+    return Result("any_bytes", claim, rows, (note, *raised[:TOLD]))
