@@ -18,14 +18,14 @@ from equipoise.io.presets import read_preset
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balance import BalanceOptions, balance
 from tests.emulated_lab import Lab, lab, over_tcp
-from tests.hardware.faulty_wire import garbage, half, noisy, repeated, silent
+from tests.hardware.faulty_wire import covered, garbage, half, noisy, repeated, silent
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
 OPTIONS = BalanceOptions()
 LATEST = 25.0  # s after the platform is let go, chosen: as long as a balancing takes
 SETTLED = 1.0  # s, within which masses stand when all is over
 AFTER = 2.0  # s in which no mass may move after that
-LOST_SENSOR = ("sensor imu", "no sensor", "not every sensor")
+LOST_SENSOR = ("sensor imu", "sensor camera", "no sensor", "not every sensor")
 LOST_BOARD = ("board masses", "not every board")
 MISHEARD = (*LOST_BOARD, "or its board is misheard", "mass ")  # Grbl's lines bear no checksum
 TILT = ("the platform tilts", "the platform turns")  # it may swing too far while rows are awaited
@@ -106,6 +106,7 @@ FAULTS = (
     Fault("noise on the board's line", spoilt("board", noisy), MISHEARD),
     Fault("IMU frozen", spoilt("imu", repeated), LOST_SENSOR),
     Fault("attitude hidden for 10 s", spoilt("imu", silent, 10.0), (*LOST_SENSOR, *TILT)),
+    Fault("camera covered for 10 s", spoilt("imu", covered, 10.0), (*LOST_SENSOR, *TILT)),
     Fault("motor stuck", moved_in_part(0.0), TILT),
     Fault("motor slips", moved_in_part(0.7), TILT),
     Fault("board reset", of_board("press_reset"), LOST_BOARD),
@@ -117,7 +118,9 @@ FAULTS = (
 
 @cache
 def bed_for(fault: str) -> Testbed:
-    """Return the preset; where a clock is the matter, with a sensor that has one."""
+    """Return a preset with the device that is struck; a clock is that of a sensor with stamps."""
+    if "camera" in fault:
+        return over_tcp(read_preset("sputnix"))
     bed = over_tcp(read_preset("nanosat"))
     if "clock" not in fault or bed.hardware is None:
         return bed
@@ -155,7 +158,8 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Let one fault happen in each of as many balancings as there are seeds."""
     runs = spread(struck, seeds)
     claim = (
-        "Preset nanosat through emulated Grbl and VN-100 over TCP; one of "
+        "Preset nanosat through emulated Grbl and VN-100 over TCP, and sputnix with its camera where "
+        "that is the matter; one of "
         f"{len(FAULTS)} faults happens at a random moment of the first {LATEST:g} s. The run ends "
         "balanced, and truly so, or unbalanced in words that belong to the fault; a second "
         f"later no mass moves. {len(runs)} seeds."

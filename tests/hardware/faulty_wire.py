@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from equipoise.hardware.emulated.camera import part
 from equipoise.hardware.emulated.far_side import TcpFarSide
 
 
@@ -63,3 +64,10 @@ def half(data, _wire):
 def repeated(_data, wire):
     """Say the same for ever: a device that hangs."""
     return wire.last
+
+
+def covered(data, _wire):
+    """Send the pictures of a lens behind a hand: all of them come, and none shows the board."""
+    head, _, _ = data.partition(b"\r\n\r\n")
+    stamp = head.partition(b"X-Timestamp: ")[2]
+    return part(np.full((960, 1280), 30, np.uint8), float(stamp)) if stamp else data
