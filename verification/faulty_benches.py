@@ -158,11 +158,10 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Let one fault happen in each of as many balancings as there are seeds."""
     runs = spread(struck, seeds)
     claim = (
-        "Preset nanosat through emulated Grbl and VN-100 over TCP, and sputnix with its camera where "
-        "that is the matter; one of "
-        f"{len(FAULTS)} faults happens at a random moment of the first {LATEST:g} s. The run ends "
-        "balanced, and truly so, or unbalanced in words that belong to the fault; a second "
-        f"later no mass moves. {len(runs)} seeds."
+        "Preset nanosat through emulated Grbl and VN-100 over TCP, and sputnix with its camera "
+        f"where that is the matter; one of {len(FAULTS)} faults happens at a random moment of the "
+        f"first {LATEST:g} s. The run ends balanced, and truly so, or unbalanced in words that "
+        f"belong to the fault; a second later no mass moves. {len(runs)} seeds."
     )
     endings = Counter(run.ending for run in runs)
     told = ", ".join(f"{count} {ending}" for ending, count in sorted(endings.items()))
