@@ -60,6 +60,7 @@ def speak(pipe: Pipe, messages: Sequence[bytes]) -> None:
     for k, message in enumerate(messages):
         while (left := begun + k / RATE - time.monotonic()) > 0:
             time.sleep(left)
+        wire.receive()
         times.append(time.monotonic())
         wire.send(message)
     pipe.recv()

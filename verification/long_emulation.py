@@ -18,7 +18,7 @@ from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
 HOURS, BEGUN = 8.0, 0.25  # h of bench time; h after which memory is first looked at
 STRETCH, OFTEN = 10.0, 60  # s to a read; stretches between moves
-STEP = 0.04  # s by which both sides of the wires go on at a time: one or two rows of 40 Hz
+STEP = 0.05  # s by which both sides of the wires go on at a time: two rows of 40 Hz
 AWAY = 2e-3  # m
 PAGE = os.sysconf("SC_PAGE_SIZE")
 
@@ -46,9 +46,9 @@ def soaked(hours: float) -> Soaked:
     """Let an emulated bench go on for so many hours."""
     bed = replace(over_tcp(read_preset("nanosat")), tilt_limit=3.0)
     with (
-        lab(bed, tick=STEP) as found,
         tempfile.TemporaryDirectory() as folder,
         LiveRecording(Path(folder) / "run.mcap", Opening(time.time_ns())) as record,
+        lab(bed, tick=STEP) as found,
     ):
         found.keeper.listen(record)
         return _watched(found, hours)

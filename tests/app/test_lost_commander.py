@@ -20,11 +20,12 @@ from equipoise.io.testbed_file import write_testbed
 COMMANDER = """
 import sys, time
 from pathlib import Path
-from equipoise.app.kept_bench import real_bench
+from equipoise.app.kept_bench import Wanted, real_bench
 from equipoise.io.testbed_file import read_testbed
 
 def main():
-    with real_bench(read_testbed(sys.argv[1]), Path(sys.argv[2]), lambda: None) as bench:
+    wanted = Wanted(read_testbed(sys.argv[1]), Path(sys.argv[2]))
+    with real_bench(wanted, lambda: None) as bench:
         bench.move({"x": 0.014})
         print(bench._keeper._process.pid, flush=True)
         while True:

@@ -34,8 +34,7 @@ def show_result(done: Balancing) -> None:
 def document_of(done: Balancing, seed: int) -> View:
     """Return the run as JSON."""
     truth = done.truths[-1] if done.truths else None
-    provenance = origin(testbed=done.testbed.source, seed=str(seed))
-    return balance_json(done.steps, done.verdict, truth, provenance)
+    return balance_json(done.steps, done.verdict, truth, _origin(done, seed))
 
 
 def account_of(done: Balancing, seed: int) -> Account:
@@ -45,7 +44,7 @@ def account_of(done: Balancing, seed: int) -> Account:
         asked=asked(done),
         testbed=done.testbed,
         chapters={"Steps": done.steps},
-        origin=origin(testbed=done.testbed.source, seed=str(seed)),
+        origin=_origin(done, seed),
         estimate=done.estimate,
         verdict=done.verdict,
         change=change_of(done),
@@ -53,12 +52,18 @@ def account_of(done: Balancing, seed: int) -> Account:
     )
 
 
+def _origin(done: Balancing, seed: int) -> dict[str, str]:
+    """Return where it comes from; what is drawn by a seed is the simulated platform."""
+    drawn = {"seed": str(seed)} if done.simulated else {}
+    return origin(testbed=done.testbed.source, **drawn)
+
+
 def asked(done: Balancing) -> dict[str, str]:
     """Return target and tolerance as texts."""
     return {
         "target": _um(done.goal.target),
         "tolerance": _um(done.goal.tolerance),
-        "bench": "simulated",
+        "bench": "simulated" if done.simulated else "real",
     }
 
 

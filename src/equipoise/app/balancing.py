@@ -49,6 +49,11 @@ class Balancing:
     before: Believed | None = None  # as known otherwise; None: the first estimate's
 
     @property
+    def simulated(self) -> bool:
+        """Say whether the platform was a simulated one."""
+        return self.truth_before is not None
+
+    @property
     def verdict(self) -> Verdict:
         """Return the last word."""
         return next(step.verdict for step in reversed(self.steps) if step.verdict is not None)

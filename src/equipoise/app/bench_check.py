@@ -26,7 +26,7 @@ A_LITTLE = 1e-3  # m: out and back
 UPSIDE = 90.0  # deg, chosen: no bench lets a platform tilt so far
 SLOW = 0.7  # of the stated rate of rows, chosen: below it a sensor is slower than stated
 LISTED = "; `equipoise devices` lists serial ports"
-ARRIVE = 1.0  # s, chosen: beyond the time that the way takes
+ARRIVE, LOOK = 1.0, 0.05  # s, chosen: beyond the time that the way takes; between looks
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,7 @@ def _started(keeper: Keeper, bench: RealBench, agreed: Callable[[str], bool]) ->
 
 
 def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[Told]:
-    """Tell for each sensor how many rows came, and how many of its messages were broken."""
+    """Tell for each sensor how many rows came, what was wrong with them, how its clock goes."""
     for link in keeper.links.sensors:
         for channel in link.unit.gives:
             rows = recording.attitude if channel == "attitude" else recording.rate
@@ -83,10 +83,9 @@ def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[
             text = f"sensor {link.unit.name}: {count} rows of {channel} in {streamed:g} s"
             slow = count < SLOW * wanted
             yield Told(not slow, f"{text}, {wanted:.0f} are stated" if slow else text)
-        broken, good = link.driver.counts.corrupt, link.driver.counts.good
-        if broken:
-            text = f"sensor {link.unit.name}: {broken} of {broken + good} messages were broken"
-            yield Told(False, f"{text}: look at cable and baud rate")
+        health = link.health
+        hint = "; look at cable and baud rate" if health.counts.corrupt else ""
+        yield Told(not health.wrong, health.sentence + hint)
 
 
 def _frames(recording: Recording, testbed: Testbed) -> Iterator[Told]:
@@ -111,7 +110,9 @@ def _moved(
     way = A_LITTLE if mass.travel[1] >= A_LITTLE else -A_LITTLE
     for goal in (way, 0.0):
         bench.move({mass.name: goal})
-        bench.read(A_LITTLE / mass.speed + ARRIVE)
+        latest = bench.time + A_LITTLE / mass.speed + ARRIVE
+        while not keeper.ready and bench.time < latest:
+            bench.read(LOOK)
         at = keeper.positions[mass.name]
         if abs(at - goal) > A_LITTLE / 2:
             found = f"sent to {MM * goal:g} mm, its board says {MM * at:.2f} mm"

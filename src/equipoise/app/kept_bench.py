@@ -8,6 +8,7 @@ from time import time_ns
 
 from equipoise.app.emulation import hardware_of
 from equipoise.app.reachable import unreachable
+from equipoise.app.terminal import stderr
 from equipoise.hardware.board_link import BoardLink
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.connection import Connection, Opener
@@ -20,6 +21,7 @@ from equipoise.hardware.real_bench import RealBench
 from equipoise.hardware.sensor_link import SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.io.live_recording import LiveRecording, Opening
+from equipoise.io.live_view import ADDRESS, LiveView
 from equipoise.io.testbed_text import text_of_testbed
 from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import Gives
@@ -34,6 +36,7 @@ class Wanted:
 
     testbed: Testbed
     record: Path | None  # MCAP file to write; None: no record
+    live: bool = False  # serve all of it to Foxglove too
 
 
 class KeptBench:
@@ -55,13 +58,14 @@ class KeptBench:
         if missing:
             raise BenchStopped("; ".join(missing))
         keeper = keeper_of(wanted.testbed)
-        self._held.callback(keeper.close)
+        zero_ns = time_ns()
         if wanted.record is not None:
             drivers = {device.name: device.driver for device in devices}
-            opening = Opening(time_ns(), text_of_testbed(wanted.testbed), drivers)
-            live = LiveRecording(wanted.record, opening)
-            self._held.callback(live.close)
-            keeper.listen(live)
+            opening = Opening(zero_ns, text_of_testbed(wanted.testbed), drivers)
+            keeper.listen(self._held.enter_context(LiveRecording(wanted.record, opening)))
+        if wanted.live:
+            keeper.listen(self._held.enter_context(LiveView(zero_ns)))
+        self._held.callback(keeper.close)  # comes first: masses stop, and the record tells it
         return keeper
 
     def close(self) -> None:
@@ -102,16 +106,14 @@ def periods_of(testbed: Testbed) -> dict[Gives, float]:
 
 
 @contextmanager
-def real_bench(
-    testbed: Testbed, record: Path | None, let_go: Callable[[], None] | None = None
-) -> Generator[RealBench]:
+def real_bench(wanted: Wanted, let_go: Callable[[], None] | None = None) -> Generator[RealBench]:
     """Return the bench, ready: every device answers, masses are at home, sensors give rows.
 
     ``let_go`` is called when masses are at home; the platform is taken to be free ``HAND`` later.
     Without it masses stay where they are, and nothing can be moved.
     When the block ends, however it ends, masses are halted and the record is closed.
     """
-    distant = DistantKeeper(testbed, KeptBench, Wanted(testbed, record))
+    distant = DistantKeeper(wanted.testbed, KeptBench, wanted)
     try:
         bench = RealBench(distant, distant)
         if let_go is not None:
@@ -119,6 +121,10 @@ def real_bench(
             let_go()
             bench.read(HAND)
         bench.watch()
+        if wanted.live:
+            stderr().print(f"Foxglove WebSocket: {ADDRESS}", markup=False)
         yield bench
+        for each in bench.health():
+            stderr().print(each.sentence, style="red" if each.wrong else None, markup=False)
     finally:
         distant.close()

@@ -2,6 +2,7 @@
 
 from equipoise.hardware.connection import Connection
 from equipoise.hardware.driver import BoardDriver
+from equipoise.hardware.health import Health
 from equipoise.model.hardware import MotorBoard
 
 
@@ -15,6 +16,11 @@ class BoardLink:
     def why(self) -> str:
         """Why the port is closed; empty while it is open."""
         return self._connection.why
+
+    @property
+    def health(self) -> Health:
+        """How well it speaks."""
+        return Health(f"board {self.board.name}", self.driver.counts)
 
     def turn(self, t: float) -> None:
         """Feed the driver what has arrived."""

@@ -59,6 +59,11 @@ def drift_of(clock: DeviceClock) -> float:
     return _line(clock)[1]
 
 
+def offset_of(clock: DeviceClock) -> float:
+    """Return what the bench's clock reads beyond the device's at its last row, s."""
+    return to_bench(clock, clock.last) - clock.last
+
+
 def _begun(clock: DeviceClock, stamp: float, arrival: float) -> DeviceClock:
     return DeviceClock(stamp, stamp, ((stamp, arrival),), stamp + SPAN, clock.jumps)
 

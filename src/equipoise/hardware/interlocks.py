@@ -12,8 +12,10 @@ and it may come back. Tilt and rate stop nothing where no board knows its masses
 there is no board: who only records is not disturbed.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from statistics import median
 from typing import Literal
 
 import numpy as np
@@ -84,7 +86,7 @@ def silence(seen: Seen, limits: SafetyLimits) -> Trip | None:
 def turning(seen: Seen) -> float:
     """Return how fast the platform turns, rad/s; from attitudes where there is no gyro."""
     if seen.rates:
-        return float(np.median([np.linalg.norm(rate) for _, rate in seen.rates[-LAST:]]))
+        return median(math.hypot(*rate) for _, rate in seen.rates[-LAST:])
     if len(seen.attitudes) < LAST:
         return 0.0
     (t0, q0), (t1, q1) = seen.attitudes[-LAST], seen.attitudes[-1]
@@ -103,7 +105,7 @@ def _leaning(seen: Seen, testbed: Testbed) -> Trip | None:
     if not seen.attitudes:
         return None
     q = np.array([attitude for _, attitude in seen.attitudes[-LAST:]])
-    angle, limit = float(np.median(tilt(q, testbed.up))), testbed.tilt_limit
+    angle, limit = median(tilt(q, testbed.up).tolist()), testbed.tilt_limit
     if angle <= limit:
         return None
     found = f"the platform tilts by {PER_DEG * angle:.1f} deg"

@@ -5,13 +5,14 @@ on what was heard. It does not wait and knows no clock. Whoever commands can be 
 then ``halt`` is called for it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from equipoise.hardware.board_link import BoardLink
+from equipoise.hardware.health import Health
 from equipoise.hardware.heard import Heard
 from equipoise.hardware.interlocks import LAST, Seen, Trip, silence, tripped
 from equipoise.hardware.mass_rows import on_the_way
@@ -143,6 +144,11 @@ class Keeper:
                 return f"board {link.board.name}: {why}"
         return ""
 
+    def health(self) -> list[Health]:
+        """Return how well each device speaks."""
+        boards = [link.health for link in self.links.boards]
+        return [*boards, *(link.health for link in self.links.sensors)]
+
     def home(self) -> None:
         """Let every board find its position; ends a stop whose cause is gone."""
         self._note("command", "home", {})
@@ -159,12 +165,11 @@ class Keeper:
         """
         here = np.array([self.positions.get(name, 0.0) for name in self._testbed.mass_names])
         goals = checked_targets(self._testbed.masses, here, targets)
-        why = self._trip.sentence if self._trip is not None else self.trouble
-        if why:
-            raise BenchStopped(f"nothing was moved: {why}")
+        self._able()
         by_name = {self._testbed.masses[i].name: goal for i, goal in goals.items()}
         told = ", ".join(f"{name} to {MM * goal:.3f} mm" for name, goal in by_name.items())
         self._note("command", f"go: {told}", by_name)
+        self._able()  # to note it may have filled the disk
         for link in self.links.boards:
             own = {
                 axis.mass: by_name[axis.mass] for axis in link.board.axes if axis.mass in by_name
@@ -181,12 +186,20 @@ class Keeper:
         self._halt_boards()
 
     def close(self) -> None:
-        """Stop every mass and close every port."""
+        """Stop every mass, note how well each device spoke, and close every port."""
         self._halt_boards()
         for link in self.links.boards:
             link.send(self.t)
+        for each in self.health():
+            self._note("health", each.sentence, each.data)
         for link in (*self.links.boards, *self.links.sensors):
             link.close()
+
+    def _able(self) -> None:
+        """Raise BenchStopped while masses may not move."""
+        why = self._trip.sentence if self._trip is not None else self.trouble
+        if why:
+            raise BenchStopped(f"nothing was moved: {why}")
 
     def _sensed(self, link: SensorLink, t: float) -> None:
         for row in link.turn(t):
@@ -247,17 +260,20 @@ class Keeper:
             link.driver.halt(self.t)
 
     def _note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
-        for listener in self._listeners:
-            listener.event(self.t, kind, sentence, data)
+        self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
 
     def _tell(self, t: float) -> None:
-        """Hand on what was heard; who cannot take it any more stops the bench, and only once."""
+        """Hand on what was heard."""
         fresh = self._heard.fresh()
+        if fresh is not None:
+            self._hand_on(lambda listener: listener.rows(fresh))
+        self._hand_on(lambda listener: listener.turn(t))
+
+    def _hand_on(self, tell: Callable[[Listener], None]) -> None:
+        """Tell every listener; one that cannot take it any more stops the bench, and only once."""
         for listener in list(self._listeners):
             try:
-                if fresh is not None:
-                    listener.rows(fresh)
-                listener.turn(t)
+                tell(listener)
             except EquipoiseError as error:
                 self._listeners.remove(listener)
                 self._stop(Trip("fault", str(error)))

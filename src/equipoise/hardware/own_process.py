@@ -4,8 +4,8 @@ The two speak through a pipe. When it breaks, because the commander has ended, b
 crashed, the keeper halts every mass, closes the record and ends. Ctrl-C reaches the commander
 alone. The keeper never waits for the commander: what it has to say waits in a queue.
 
-    commander to keeper    ("go", targets)   ("home",)   ("begin",)   ("halt", sentence)
-    keeper to commander    ("news", News)    ("answer", None or an error)
+    commander to keeper    ("go", targets)  ("home",)  ("begin",)  ("halt", sentence)  ("health",)
+    keeper to commander    ("news", News)   ("answer", what came of it, or an error)
 """
 
 import queue
@@ -18,6 +18,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection as Pipe
 from typing import Any, Protocol
 
+from equipoise.hardware.health import Health
 from equipoise.hardware.interlocks import Trip
 from equipoise.hardware.keeper import Keeper
 from equipoise.hardware.wall_clock import WallClock
@@ -99,14 +100,19 @@ def _news(keeper: Keeper, t: float) -> News:
     return News(t, *state, rows if any_rows else None)
 
 
-def _carried_out(keeper: Keeper, command: tuple[Any, ...]) -> EquipoiseError | None:
-    """Carry out a command; return what was wrong with it."""
-    verbs = {"go": keeper.go, "home": keeper.home, "begin": keeper.begin, "halt": keeper.halt}
+def _carried_out(keeper: Keeper, command: tuple[Any, ...]) -> Any:
+    """Carry out a command; return what it gives, or what was wrong with it."""
+    verbs: dict[str, Callable[..., Any]] = {
+        "go": keeper.go,
+        "home": keeper.home,
+        "begin": keeper.begin,
+        "halt": keeper.halt,
+        "health": keeper.health,
+    }
     try:
-        verbs[command[0]](*command[1:])
+        return verbs[command[0]](*command[1:])
     except EquipoiseError as error:
         return error
-    return None
 
 
 def _send_all(pipe: Pipe, box: "queue.SimpleQueue[tuple[str, Any] | None]") -> None:
@@ -190,6 +196,10 @@ class DistantKeeper:
         """Stop every mass."""
         self._ask("halt", sentence)
 
+    def health(self) -> list[Health]:
+        """Return how well each device speaks."""
+        return self._ask("health")
+
     def close(self) -> None:
         """Stop every mass and end the keeper."""
         self._pipe.close()
@@ -197,18 +207,18 @@ class DistantKeeper:
         if self._process.is_alive():
             self._process.kill()
 
-    def _ask(self, *command: object) -> None:
+    def _ask(self, *command: object) -> Any:
         self._pipe.send(command)
-        self._answer()
+        return self._answer()
 
-    def _answer(self, patience: float = ANSWER) -> None:
-        """Wait until the keeper has carried out what it was told; raise what it says."""
+    def _answer(self, patience: float = ANSWER) -> Any:
+        """Wait until the keeper has carried out what it was told; return or raise what it says."""
         while self._pipe.poll(patience):
             kind, what = self._receive()
             if kind == "answer":
-                if what is not None:
+                if isinstance(what, EquipoiseError):
                     raise what
-                return
+                return what
             self._take(kind, what)
         raise BenchStopped(f"the keeper of the bench has not answered for {patience:g} s")
 

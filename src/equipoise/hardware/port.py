@@ -167,6 +167,7 @@ class SerialPort:
         try:
             self._line = serialx.serial_for_url(path, baudrate=baud, timeout=0, exclusive=True)
             self._line.open()
+            self._line.reset_read_buffer()  # what the system kept from before is no news
         except self._lost as error:
             raise PortLost(address, why(error)) from error
 

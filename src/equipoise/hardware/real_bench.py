@@ -11,6 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
+from equipoise.hardware.health import Health
 from equipoise.hardware.interlocks import Trip
 from equipoise.model.errors import BenchStopped, DriveRefused, InputError
 from equipoise.model.recording import Recording, join
@@ -90,6 +91,10 @@ class Kept(Protocol):
         """Stop every mass; with a sentence, masses stay until ``home``."""
         ...
 
+    def health(self) -> list[Health]:
+        """Return how well each device speaks."""
+        ...
+
 
 class RealBench:
     """Devices behind a keeper, and a clock."""
@@ -160,6 +165,13 @@ class RealBench:
         """Halt every mass where it is."""
         self._keeper.halt()
         self._turn()
+
+    def health(self) -> list[Health]:
+        """Return how well each device speaks; nothing where the keeper has ended."""
+        try:
+            return self._keeper.health()
+        except BenchStopped:
+            return []
 
     def _until(self, done: Callable[[], bool], patience: float, otherwise: str) -> None:
         """Wait for something; stop the bench and say what keeps it if it does not come about."""

@@ -9,6 +9,7 @@ from equipoise.hardware.arrivals import Arrivals, arrived
 from equipoise.hardware.connection import Connection
 from equipoise.hardware.device_clock import DeviceClock, learnt, to_bench
 from equipoise.hardware.driver import SensorDriver
+from equipoise.hardware.health import Health
 from equipoise.hardware.heard import Row
 from equipoise.hardware.placed import placed
 from equipoise.model.hardware import Gives, SensorUnit
@@ -43,6 +44,12 @@ class SensorLink:
     def why(self) -> str:
         """Why the port is closed; empty while it is open."""
         return self._connection.why
+
+    @property
+    def health(self) -> Health:
+        """How well it speaks."""
+        name = f"sensor {self.unit.name}"
+        return Health(name, self.driver.counts, self.arrivals, dict(self.clocks))
 
     def silent_for(self, t: float) -> float:
         """Return how long no row has come, s."""

@@ -16,6 +16,7 @@ from equipoise.model.recording import Recording
 
 LOOPBACK = "127.0.0.1"
 PORT = 8765  # the protocol's customary port
+ADDRESS = f"ws://{LOOPBACK}:{PORT}"
 
 
 class LiveView:
@@ -47,6 +48,9 @@ class LiveView:
     def event(self, t: float, kind: str, sentence: str, data: Mapping[str, Any]) -> None:
         """Send what happened at a time (s)."""
         self._topics.event(t, kind, sentence, data)
+
+    def turn(self, t: float) -> None:
+        """Do nothing: rows are sent as they are given."""
 
     def close(self) -> None:
         """End all connections."""

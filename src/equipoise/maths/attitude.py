@@ -36,13 +36,14 @@ def multiply(p: Floats, q: Floats) -> Floats:
 
 def to_matrix(q: Floats) -> Floats:
     """Return R(q), so that v_N = R v_B."""
-    w, x, y, z = np.moveaxis(q, -1, 0)
+    w, x, y, z = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    turn = np.array(rows)
+    return turn.transpose(*range(2, turn.ndim), 0, 1)
 
 
 def from_matrix(turn: Matrix3) -> Quaternion:

@@ -1,6 +1,6 @@
 """`equipoise balance`: look, move, look again, until the verdict passes."""
 
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -44,6 +44,7 @@ def balance(
     reading: Reading = WHOLE,
     bench: Flag = False,
     record: Path | None = None,
+    foxglove: Flag = False,
     yes: Flag = False,
     json: Flag = False,
     out: Path | None = None,
@@ -82,6 +83,8 @@ def balance(
         the platform is let go. Ctrl-C halts the masses and saves, a second one leaves.
     record
         With --bench: MCAP file to write as rows arrive, with every command and interlock.
+    foxglove
+        With --bench: also serve it live to Foxglove, Lichtblick or PlotJuggler, on this computer.
     yes
         With --bench: do not ask whether somebody holds the platform.
     json
@@ -91,13 +94,12 @@ def balance(
     """
     from equipoise.app.options import one_of, seed_of
     from equipoise.app.wiring import testbed_of
+    from equipoise.io.whole_file import check_writable
     from equipoise.io.whole_folder import check_folder
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
-    for option, given in (("--record", record is not None), ("--yes", yes)):
-        if given and not bench:
-            raise InputError(option, "no --bench", "a real bench")
+    _check_of_a_bench(bench, {"--record": record is not None, "--foxglove": foxglove, "--yes": yes})
     if is_by_hand(by_hand, reading):
         others = _of_moving_masses(law, plan, until) + ["--bench"] * bench
         check_by_hand(by_hand, reading, others)
@@ -109,6 +111,8 @@ def balance(
     planned = None if plan is None else _planned(plan, bed)
     if out is not None:
         check_folder(out)
+    if record is not None:
+        check_writable(record)
     with busy("preparing the bench", announce=False):
         from equipoise.app.balance_views import show_step
         from equipoise.app.balancing import Goal, Limits, run
@@ -118,7 +122,7 @@ def balance(
         goal = Goal(*where)
     if bench:
         _prepare(bed, goal, limits, yes)
-    with _real(bed, record) if bench else _simulated(bed, planned, seed) as platform:
+    with _real(bed, record, foxglove) if bench else _simulated(bed, planned, seed) as platform:
         done = run(platform, goal, limits, None if json else show_step)
     _tell(done, seed, json, out)
     return 0 if done.verdict.passed else 1
@@ -131,6 +135,12 @@ def _where(target_um: Triple, tolerance_um: Triple) -> "tuple[Vector3, Vector3]"
 
     target = vector("--target-um", target_um, 1 / UM)
     return target, tolerance("--tolerance-um", tolerance_um, 1 / UM)
+
+
+def _check_of_a_bench(bench: bool, given: Mapping[str, bool]) -> None:
+    """Refuse what only a real bench takes."""
+    for option in (option for option, is_given in given.items() if is_given and not bench):
+        raise InputError(option, "no --bench", "a real bench")
 
 
 def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> Until:
@@ -184,16 +194,16 @@ def _prepare(bed: "Testbed", goal: "Goal", limits: "Limits", yes: bool) -> None:
 
 
 @contextmanager
-def _real(bed: "Testbed", record: Path | None) -> "Generator[Bench]":
+def _real(bed: "Testbed", record: Path | None, foxglove: bool) -> "Generator[Bench]":
     """Return the real platform, masses at home, let go, and every sensor giving rows."""
-    from equipoise.app.kept_bench import real_bench
+    from equipoise.app.kept_bench import Wanted, real_bench
 
     def let_go() -> None:
         stderr().print("Masses are at home: let the platform go.", style="bold")
 
     with ExitStack() as held:
         with busy("the masses go home", announce=True):
-            bench = held.enter_context(real_bench(bed, record, let_go))
+            bench = held.enter_context(real_bench(Wanted(bed, record, foxglove), let_go))
         yield bench
 
 

@@ -56,36 +56,41 @@ class Outbox:
 
 
 class PtyFarSide:
-    """A pseudo terminal."""
+    """A pseudo terminal; whether anybody holds its other end is known from reading."""
 
     def __init__(self) -> None:
         import tty
 
-        self._master, self._slave = os.openpty()
-        tty.setraw(self._slave)
+        self._master, slave = os.openpty()
+        tty.setraw(slave)
         os.set_blocking(self._master, False)
-        self.address = f"serial:{os.ttyname(self._slave)}"
-        self._outbox = Outbox()
+        self.address = f"serial:{os.ttyname(slave)}"
+        os.close(slave)
+        self._held, self._outbox = False, Outbox()
 
     def receive(self) -> bytes:
         """Return what has been sent to the device."""
         self._flush()
         try:
-            return os.read(self._master, CHUNK)
+            data = os.read(self._master, CHUNK)
+            self._held = bool(data)  # BSD: an end of file where nobody holds it
         except OSError as error:
-            if error.errno in (errno.EAGAIN, errno.EIO):  # nothing, or nobody holds the other end
-                return b""
-            raise
+            if error.errno not in (errno.EAGAIN, errno.EIO):
+                raise
+            self._held, data = error.errno == errno.EAGAIN, b""  # Linux: EIO where nobody does
+        if not self._held:
+            self._outbox = Outbox()
+        return data
 
     def send(self, data: bytes) -> None:
         """Send to whoever listens."""
-        self._outbox.add(data)
-        self._flush()
+        if self._held:
+            self._outbox.add(data)
+            self._flush()
 
     def close(self) -> None:
         """Pull it out."""
         os.close(self._master)
-        os.close(self._slave)
 
     def _flush(self) -> None:
         with suppress(BlockingIOError):
@@ -121,8 +126,7 @@ class TcpFarSide:
         return data
 
     def send(self, data: bytes) -> None:
-        """Send to whoever listens."""
-        self._accept()
+        """Send to whoever listens; a new one is taken when something is received."""
         if self._line is not None:
             self._outbox.add(data)
             self._flush()

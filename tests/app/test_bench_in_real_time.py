@@ -1,0 +1,137 @@
+"""The commands of a real bench as a person runs them: programs, pseudo terminals, the wall's clock.
+
+The bench is `equipoise emulate` in a program of its own. A computer that is busy may pause a device
+for so long that an interlock stops the masses, as it should; then the command is tried again.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from websockets.sync.client import connect
+
+from equipoise.io.live_view import ADDRESS
+from equipoise.io.mcap_recording import events_of
+from equipoise.io.recording_file import read_recording
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="no pseudo terminals, no SIGINT")
+
+TRIES, PATIENCE = 3, 120.0  # s
+PROGRAM = [sys.executable, "-m", "equipoise.app.cli"]
+LET_GO = "let the platform go"
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory):
+    """Return the folder with the testbed file of a bench that is there."""
+    folder = tmp_path_factory.mktemp("bench")
+    words = [*PROGRAM, "emulate", "nanosat", "--out", "there.toml", "--max-time-s", "600"]
+    with subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, text=True) as there:
+        assert next(line for line in there.stdout if "wrote" in line)
+        yield folder
+        there.send_signal(signal.SIGINT)
+        assert "the true centre of mass" in there.stdout.read()
+
+
+def begun(folder, *words):
+    """Return a command that has been started."""
+    return subprocess.Popen(
+        [*PROGRAM, *map(str, words)],
+        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+
+
+def ended(command):
+    """Return exit code and what it has said."""
+    out, err = command.communicate(timeout=PATIENCE)
+    return command.returncode, out, err
+
+
+def test_check_finds_a_sound_bench_sound(bench):
+    for _ in range(TRIES):
+        code, out, _err = ended(begun(bench, "check", "there.toml", "--yes"))
+        if code == 0:
+            break
+    assert "PROBLEM" not in out
+    assert "board masses: answers, agrees, x, y, z at home" in out
+    assert [f"mass {name}: went 1 mm out and back" in out for name in "xyz"] == [True] * 3
+    assert "messages" in out
+
+
+def offered(address):
+    """Return the topics that a live view offers within some seconds."""
+    end, topics = time.monotonic() + PATIENCE, set()
+    while time.monotonic() < end:
+        try:
+            with connect(address, subprotocols=["foxglove.sdk.v1"]) as client:
+                while {"/attitude", "/rate"} - topics:
+                    told = json.loads(client.recv(5.0))
+                    topics |= {each["topic"] for each in told.get("channels", [])}
+                return topics
+        except (OSError, TimeoutError):
+            time.sleep(0.05)
+    return topics
+
+
+def test_record_writes_what_it_sees_and_others_look_on(bench):
+    """Ctrl-C ends it early, and what was seen is there, with how well each device spoke."""
+    command = begun(bench, "record", "there.toml", "--out", "seen.mcap", "--foxglove",
+                    "--duration-s", 600)  # fmt: skip
+    assert {"/attitude", "/rate"} <= offered(ADDRESS)
+    time.sleep(2.0)
+    command.send_signal(signal.SIGINT)
+    code, out, err = ended(command)
+    assert (code, "wrote seen.mcap" in out) == (0, True)
+    rows = read_recording(bench / "seen.mcap").attitude
+    assert len(rows) > 40  # 40 Hz, stated
+    assert "sensor imu: " in err
+    assert {"health", "start"} <= {event.kind for event in events_of(bench / "seen.mcap")}
+
+
+def balancing(bench, record):
+    """Return a balancing of which the platform has been let go for some seconds."""
+    words = ("balance", "there.toml", "--bench", "--yes", "--record", record, "--out", record.stem)
+    command = begun(bench, *words)
+    for line in command.stderr:
+        if LET_GO in line:
+            break
+    time.sleep(3.0)
+    return command
+
+
+def test_the_first_ctrl_c_stops_and_saves(bench):
+    for k in range(TRIES):
+        record = bench / f"first{k}.mcap"
+        command = balancing(bench, record)
+        command.send_signal(signal.SIGINT)
+        code, out, err = ended(command)
+        if "stopped by hand" in (out + err).lower():
+            break
+    assert code == 1
+    told = json.loads((bench / record.stem / "balance.json").read_text())
+    assert told["verdict"]["halted"]
+    assert "Stopped by hand: every mass was halted" in told["verdict"]["sentence"]
+    assert "seed" not in told["provenance"]
+    assert "command" in [event.kind for event in events_of(record)]
+    assert read_recording(record).attitude.t[-1] > 2.0
+
+
+def test_the_second_ctrl_c_leaves_at_once(bench):
+    """While it draws what it saves; the record is there all the same."""
+    record = bench / "second.mcap"
+    command = balancing(bench, record)
+    command.send_signal(signal.SIGINT)
+    for line in command.stderr:
+        if "drawing" in line:
+            break
+    left = time.monotonic()
+    command.send_signal(signal.SIGINT)
+    code, _out, _err = ended(command)
+    assert time.monotonic() - left < 5.0
+    assert code == 130
+    assert not (bench / "second").exists()
+    assert read_recording(record).attitude.t[-1] > 2.0
