@@ -1,6 +1,7 @@
 """Inputs with something wrong in them, for every parser: does one raise, or take too long?"""
 
 import time
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -49,7 +50,9 @@ def names() -> list[str]:
 
 def _raised(target: Target, content: bytes) -> list[str]:
     try:
-        target.take(content)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            target.take(content)
     except Exception as error:  # whatever it is, it is told
         return [f"{target.name}: {error!r}; input {content[:SHOWN].hex()}"]
     return []

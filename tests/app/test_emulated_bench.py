@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.io.live_recording import RecordingStopped
 from equipoise.io.presets import read_preset
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError, MoveRefused
@@ -217,6 +218,41 @@ def test_a_sensor_that_does_not_come_back_ends_the_run_in_words():
         spoil(found.imu, silent)()
         with pytest.raises(BenchStopped, match="no sensor has given a row for 30 s"):
             found.bench.read(1.0)
+
+
+class FullDisk:
+    """A record that can take no event any more, as on a disk that is full."""
+
+    def rows(self, recording):
+        pass
+
+    def event(self, t, kind, sentence, data):
+        raise RecordingStopped("run.mcap", "No space left on device")
+
+    def turn(self, t):
+        pass
+
+
+def test_a_disk_that_is_full_when_a_command_is_noted_stops_the_bench():
+    """Nothing is sent that the record does not have; the keeper lives on and says why."""
+    with lab() as found:
+        found.keeper.listen(FullDisk())
+        with pytest.raises(BenchStopped, match="No space left"):
+            found.bench.move({"x": 5 * MM})
+        with contextlib.suppress(BenchStopped):
+            found.bench.read(1.0)
+        assert np.all(found.emulated.platform.displacements == 0.0)
+        assert "recording stopped" in found.keeper.trip.sentence
+
+
+def test_when_a_bench_is_closed_the_record_tells_how_well_each_device_spoke():
+    with lab() as found:
+        found.imu.wire.spoil = noisy
+        found.bench.read(2.0)
+        (link,) = found.keeper.links.sensors
+    told = [sentence for _, kind, sentence in found.events if kind == "health"]
+    assert told[0].startswith("board masses: ")
+    assert f"{link.driver.counts.corrupt} broken" in told[1]
 
 
 def test_who_homes_holds_the_platform_as_at_first():

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from equipoise.model.bench_requests import in_steps
 from equipoise.model.errors import InputError, MoveRefused
-from equipoise.model.mass_targets import in_steps
 from equipoise.model.testbed import Fault
 from equipoise.simulation.actuator import (
     CARRIAGE,

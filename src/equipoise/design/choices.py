@@ -17,9 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.bench_requests import in_steps
 from equipoise.model.devices import ControlMomentGyro, ReactionWheel
 from equipoise.model.manoeuvre import Manoeuvre, SquareWave
-from equipoise.model.mass_targets import in_steps
 from equipoise.model.testbed import SlidingMass, Testbed
 
 DEG = np.pi / 180

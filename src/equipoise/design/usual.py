@@ -9,8 +9,8 @@ import numpy as np
 
 from equipoise.design.choices import LEVEL, level_axes
 from equipoise.model.arrays import Vector3
+from equipoise.model.bench_requests import in_steps
 from equipoise.model.manoeuvre import Manoeuvre
-from equipoise.model.mass_targets import in_steps
 from equipoise.model.testbed import SlidingMass, Testbed
 
 TILT = np.radians(4.0)  # as in ``verification.paper_runs``: 3 to 5 deg

@@ -18,10 +18,10 @@ from equipoise.hardware.interlocks import LAST, Seen, Trip, silence, tripped
 from equipoise.hardware.mass_rows import on_the_way
 from equipoise.hardware.sensor_link import SensorLink
 from equipoise.model.arrays import Floats
+from equipoise.model.bench_requests import checked_targets
 from equipoise.model.bench_units import MM
 from equipoise.model.errors import BenchStopped, EquipoiseError
 from equipoise.model.hardware import Hardware
-from equipoise.model.mass_targets import checked_targets
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 

@@ -9,11 +9,10 @@ work, and masses stay until ``home``.
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
-import numpy as np
-
 from equipoise.hardware.health import Health
 from equipoise.hardware.interlocks import Trip
-from equipoise.model.errors import BenchStopped, DriveRefused, InputError
+from equipoise.model.bench_requests import check_duration, checked_inputs
+from equipoise.model.errors import BenchStopped, DriveRefused
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
 
@@ -131,8 +130,7 @@ class RealBench:
 
     def read(self, duration: float) -> Recording:
         """Wait ``duration`` seconds and return what was recorded since the last read."""
-        if not 0 <= duration < np.inf:
-            raise InputError("read", f"a duration of {duration} s", "zero or more seconds")
+        check_duration(duration)
         end = self.time + duration
         self._turn()
         while self.time < end:
@@ -157,6 +155,7 @@ class RealBench:
 
     def drive(self, inputs: Mapping[str, float]) -> None:
         """Refuse: no driver of wheels, gyros, coils or jets is there yet."""
+        checked_inputs(self.testbed.devices, inputs)
         for name, value in inputs.items():
             if value != 0.0:
                 raise DriveRefused(name, value, 0.0, "(no driver of this kind of device)")

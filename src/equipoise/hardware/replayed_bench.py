@@ -10,11 +10,11 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from equipoise.model.errors import EquipoiseError, InputError, MoveRefused, nearest
+from equipoise.model.bench_requests import check_duration, checked_inputs, checked_targets
+from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording, rows_between
 from equipoise.model.testbed import Testbed
 
-HAIR = 1e-9  # m, chosen: a target on the end of the rail may be rounded beyond it by so much
 Wait = Callable[[float], None]  # s
 
 
@@ -53,8 +53,7 @@ class ReplayedBench:
 
     def read(self, duration: float) -> Recording:
         """Return the rows of the next ``duration`` seconds; RecordingEnded when none are left."""
-        if not 0 <= duration < math.inf:
-            raise InputError("read", f"a duration of {duration} s", "zero or more seconds")
+        check_duration(duration)
         if self._seen >= self._end:
             raise RecordingEnded(self._recording.source, self._end)
         if self._wait is not None:
@@ -65,26 +64,14 @@ class ReplayedBench:
 
     def move(self, targets: Mapping[str, float]) -> None:
         """Check displacements (m) against the travel; masses do as was recorded."""
-        names = list(self._testbed.mass_names)
-        for name, asked in targets.items():
-            if name not in names:
-                wanted = nearest(name, names) if names else "no masses: this testbed has none"
-                raise InputError("move", f"a mass '{name}'", wanted)
-            if not math.isfinite(asked):
-                raise InputError(f"move: mass {name}", f"{asked}", "a displacement in m")
-            low, high = self._testbed.mass_named(name).travel
-            if not low - HAIR <= asked <= high + HAIR:
-                raise MoveRefused(name, self._displacement(name), float(asked), low, high)
+        here = np.array([self._displacement(name) for name in self._testbed.mass_names])
+        checked_targets(self._testbed.masses, here, targets)
         told = ", ".join(f"{name} to {asked * 1e3:.3g} mm" for name, asked in targets.items())
         self._note(f"asked to move {told}; masses do as was recorded")
 
     def drive(self, inputs: Mapping[str, float]) -> None:
         """Note what devices were asked for; they do as was recorded."""
-        names = [device.name for device in self._testbed.devices]
-        for name in inputs:
-            if name not in names:
-                wanted = nearest(name, names) if names else "no devices: this testbed has none"
-                raise InputError("drive", f"a device '{name}'", wanted)
+        checked_inputs(self._testbed.devices, inputs)
         self._note(f"asked to drive {', '.join(inputs)}; devices do as was recorded")
 
     def stop(self) -> None:

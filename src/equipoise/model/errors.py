@@ -3,6 +3,7 @@
 Poor data is not an error but an outcome (see ``outcome``); these are for wrong use and bad input.
 """
 
+from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -62,7 +63,7 @@ class BenchStopped(EquipoiseError):
     """Every motor of a real bench was stopped, or may not be moved; the text says why."""
 
 
-def nearest(name: str, known: list[str]) -> str:
+def nearest(name: str, known: Sequence[str]) -> str:
     """Say which known name is meant, or list them: the tail of a 'wanted' text."""
     close = get_close_matches(name, known, n=1)
     return f"did you mean '{close[0]}'?" if close else "one of " + ", ".join(known)

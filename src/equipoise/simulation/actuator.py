@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.model.arrays import Floats, Series1
-from equipoise.model.mass_targets import checked_targets
+from equipoise.model.bench_requests import checked_targets
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import Fault, SlidingMass
 from equipoise.simulation.clock import tick, tick_one
@@ -79,7 +79,7 @@ def share_of(t: float, start: Series1, end: Series1) -> Series1:
 def checked(
     travel: Travel, now: float, targets: Mapping[str, float], masses: Sequence[SlidingMass]
 ) -> dict[int, float]:
-    """Return targets by index, in whole steps (m); see ``model.mass_targets``."""
+    """Return targets by index, in whole steps (m); see ``model.bench_requests``."""
     return checked_targets(masses, displacement(travel, now)[REPORTED], targets)
 
 

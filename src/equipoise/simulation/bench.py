@@ -25,7 +25,7 @@ from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
-from equipoise.model.errors import InputError
+from equipoise.model.bench_requests import check_duration
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
@@ -112,8 +112,7 @@ class SimulatedBench:
 
     def read(self, duration: float) -> Recording:
         """Let ``duration`` seconds pass and return what was recorded since the last read."""
-        if not 0 <= duration < np.inf:
-            raise InputError("read", f"a duration of {duration} s", "zero or more seconds")
+        check_duration(duration)
         since, self._time = self._time, tick_one(self._time + duration)
         after, self._read_until = self._read_until, self._time
         t = self._nodes()

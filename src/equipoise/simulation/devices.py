@@ -21,8 +21,9 @@ from equipoise.actuators.magnetorquers import dipole_of
 from equipoise.actuators.reaction_wheels import wheel_momentum
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Series1, Series3, Series4, Vector3
+from equipoise.model.bench_requests import checked_inputs
 from equipoise.model.devices import ControlMomentGyro, Device, JetPair, Magnetorquer, ReactionWheel
-from equipoise.model.errors import DriveRefused, InputError, nearest
+from equipoise.model.errors import DriveRefused
 from equipoise.model.testbed import Testbed
 from equipoise.simulation.clock import tick_one
 from equipoise.simulation.followers import Followers, at_rest, followed
@@ -67,18 +68,12 @@ def kept_until(testbed: Testbed, t: float) -> float:
 
 def inputs_of(testbed: Testbed, inputs: Mapping[str, float]) -> Inputs:
     """Return inputs by index; InputError for a wrong name or number, DriveRefused beyond limits."""
-    names, found = [device.name for device in testbed.devices], Inputs({}, {})
-    for name, asked in inputs.items():
-        if name not in names:
-            wanted = nearest(name, names) if names else "no devices: this testbed has none"
-            raise InputError("drive", f"a device '{name}'", wanted)
-        if not np.isfinite(asked):
-            raise InputError(f"drive: {name}", f"{asked}", "a finite number")
-        i = names.index(name)
-        found.goals[i] = goal_of(testbed.devices[i], float(asked))
+    found = Inputs({}, {})
+    for i, asked in checked_inputs(testbed.devices, inputs).items():
         device = testbed.devices[i]
+        found.goals[i] = goal_of(device, asked)
         if isinstance(device, JetPair) and asked:
-            found.lasting[i] = abs(float(asked)) / device.torque
+            found.lasting[i] = abs(asked) / device.torque
     return found
 
 

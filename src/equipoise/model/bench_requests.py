@@ -1,4 +1,4 @@
-"""Where masses may be sent: the same on simulated, replayed and real benches.
+"""What a bench may be asked: the same on simulated, replayed and real benches.
 
 A target is refused, never clipped; nothing moves unless all of them can be.
 """
@@ -8,10 +8,29 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from equipoise.model.arrays import Series1
+from equipoise.model.devices import Device
 from equipoise.model.errors import InputError, MoveRefused, nearest
 from equipoise.model.testbed import SlidingMass
 
 HAIR = 1e-9  # m, chosen: a target on the end of the rail may be rounded beyond it by so much
+
+
+def check_duration(duration: float) -> None:
+    """Raise InputError for a time (s) that nobody can wait."""
+    if not 0 <= duration < np.inf:
+        raise InputError("read", f"a duration of {duration} s", "zero or more seconds")
+
+
+def checked_inputs(devices: Sequence[Device], inputs: Mapping[str, float]) -> dict[int, float]:
+    """Return what devices are given, by index; InputError for the first bad name or number."""
+    names = [device.name for device in devices]
+    for name, asked in inputs.items():
+        if name not in names:
+            wanted = nearest(name, names) if names else "no devices: this testbed has none"
+            raise InputError("drive", f"a device '{name}'", wanted)
+        if not np.isfinite(asked):
+            raise InputError(f"drive: {name}", f"{asked}", "a finite number")
+    return {names.index(name): float(asked) for name, asked in inputs.items()}
 
 
 def checked_targets(
