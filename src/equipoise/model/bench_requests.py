@@ -24,13 +24,7 @@ def check_duration(duration: float) -> None:
 def checked_inputs(devices: Sequence[Device], inputs: Mapping[str, float]) -> dict[int, float]:
     """Return what devices are given, by index; InputError for the first bad name or number."""
     names = [device.name for device in devices]
-    for name, asked in inputs.items():
-        if name not in names:
-            wanted = nearest(name, names) if names else "no devices: this testbed has none"
-            raise InputError("drive", f"a device '{name}'", wanted)
-        if not np.isfinite(asked):
-            raise InputError(f"drive: {name}", f"{asked}", "a finite number")
-    return {names.index(name): float(asked) for name, asked in inputs.items()}
+    return _by_index("drive", "device", names, inputs, "a finite number")
 
 
 def checked_targets(
@@ -41,19 +35,26 @@ def checked_targets(
     ``here`` says where the masses are (m), for the text of a refusal.
     """
     names = [mass.name for mass in masses]
-    goals: dict[int, float] = {}
-    for name, asked in targets.items():
-        if name not in names:
-            wanted = nearest(name, names) if names else "no masses: this testbed has none"
-            raise InputError("move", f"a mass '{name}'", wanted)
-        if not np.isfinite(asked):
-            raise InputError(f"move: mass {name}", f"{asked}", "a displacement in m")
-        i = names.index(name)
-        goals[i] = in_steps(masses[i], float(asked))
+    goals = _by_index("move", "mass", names, targets, "a displacement in m")
+    for i, asked in goals.items():
+        goals[i] = in_steps(masses[i], asked)
         low, high = masses[i].travel
         if min(asked, goals[i]) < low - HAIR or max(asked, goals[i]) > high + HAIR:
-            raise MoveRefused(name, float(here[i]), float(asked), low, high)
+            raise MoveRefused(names[i], float(here[i]), asked, low, high)
     return goals
+
+
+def _by_index(
+    verb: str, kind: str, names: Sequence[str], asked: Mapping[str, float], number: str
+) -> dict[int, float]:
+    """Return what is asked of each by its index; InputError for a strange name or no number."""
+    for name, value in asked.items():
+        if name not in names:
+            known = nearest(name, names) if names else f"no {kind}: this testbed has none"
+            raise InputError(verb, f"a {kind} '{name}'", known)
+        if not np.isfinite(value):
+            raise InputError(f"{verb}: {kind} {name}", f"{value}", number)
+    return {names.index(name): float(value) for name, value in asked.items()}
 
 
 def in_steps(mass: SlidingMass, asked: float) -> float:
