@@ -3,19 +3,26 @@
 In real time and through real ports: this process is the far side of every wire.
 """
 
+import contextlib
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from equipoise.app.emulation import emulate
+from equipoise.app.kept_bench import KeptBench, Wanted
+from equipoise.hardware.own_process import DistantKeeper
+from equipoise.hardware.real_bench import RealBench
 from equipoise.hardware.wall_clock import WallClock
 from equipoise.io.presets import read_preset
 from equipoise.io.testbed_file import write_testbed
+from equipoise.model.errors import BenchStopped
 
 COMMANDER = """
 import sys, time
@@ -94,6 +101,70 @@ def stands_after_a_kill(tmp_path, victim):
     assert bench.platform.displacements[0] == at < 9e-3  # 1.75 s of way, killed after 0.25
     bench.close()
     return True
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no pseudo terminals, no SIGKILL")
+def test_whoever_asks_a_keeper_that_is_gone_is_told_so():
+    """Whatever is asked, it is a stop in words; and no more is said of the devices."""
+    there = emulate(without_switches(), 1)
+    keeper = DistantKeeper(there.testbed(), KeptBench, Wanted(there.testbed(), None))
+    bench = RealBench(keeper, keeper)
+    assert [each.device for each in bench.health()] == ["board masses", "sensor imu"]
+    os.kill(keeper._process.pid, signal.SIGKILL)
+    keeper._process.join()
+    for ask in (
+        lambda: bench.read(1.0), lambda: bench.read(0.0), bench.stop, bench.watch,
+        lambda: bench.move({"x": 0.0}),
+    ):  # fmt: skip
+        with pytest.raises(BenchStopped, match="the keeper of the bench has ended"):
+            ask()
+    assert bench.health() == []
+    keeper.close()
+    there.close()
+
+
+@contextlib.contextmanager
+def running():
+    """Return a bench of emulated devices that go with the clock on the wall, and its keeper."""
+    there, clock, over = emulate(without_switches(), 1), WallClock(), threading.Event()
+    there.platform.read(0.01)
+
+    def run():
+        while not over.is_set():
+            there.run(clock.now)
+            clock.wait()
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    keeper = DistantKeeper(there.testbed(), KeptBench, Wanted(there.testbed(), None))
+    try:
+        yield RealBench(keeper, keeper)
+    finally:
+        keeper.close()
+        over.set()
+        thread.join()
+        there.close()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no interval timers")
+def test_ctrl_c_at_any_moment_leaves_the_bench_at_command():
+    """Of 300 moments: without whole messages one of 200 broke the pipe; without numbers every
+    second answer was taken for another command's."""
+    rng = np.random.default_rng(0)
+    before = signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
+    try:
+        with running() as bench:
+            bench.start()
+            bench.watch()
+            for k in range(300):
+                with pytest.raises(KeyboardInterrupt):  # noqa: PT012
+                    signal.setitimer(signal.ITIMER_REAL, rng.uniform(1e-4, 0.02))
+                    while True:
+                        bench.health() if k % 2 else bench.read(2e-3)
+                bench.stop()
+                assert [each.device for each in bench.health()] == ["board masses", "sensor imu"]
+    finally:
+        signal.signal(signal.SIGALRM, before)
 
 
 def test_ports_are_free_again_after_a_kill(tmp_path):

@@ -4,8 +4,9 @@ The two speak through a pipe. When it breaks, because the commander has ended, b
 crashed, the keeper halts every mass, closes the record and ends. Ctrl-C reaches the commander
 alone. The keeper never waits for the commander: what it has to say waits in a queue.
 
-    commander to keeper    ("go", targets)  ("home",)  ("begin",)  ("halt", sentence)  ("health",)
-    keeper to commander    ("news", News)   ("answer", what came of it, or an error)
+    commander to keeper    (n, "go", targets)  (n, "home")  (n, "begin")  (n, "halt", sentence)
+                           (n, "health")       n: counts the commands
+    keeper to commander    ("news", News)      ("answer", (n, what came of it, or an error))
 """
 
 import queue
@@ -22,6 +23,7 @@ from equipoise.hardware.health import Health
 from equipoise.hardware.interlocks import Trip
 from equipoise.hardware.keeper import Keeper
 from equipoise.hardware.wall_clock import WallClock
+from equipoise.hardware.whole_message import whole_message
 from equipoise.model.errors import BenchStopped, EquipoiseError
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
@@ -29,6 +31,7 @@ from equipoise.model.testbed import Testbed
 BEAT = 0.05  # s, chosen: between news when nothing is new
 BEGIN = 60.0  # s, chosen: for the keeper's process to begin, on a slow computer
 ANSWER = 5.0  # s, chosen: for the keeper to carry out a command
+ENDED = "the keeper of the bench has ended"
 LEAVING = 2.0  # s, chosen: for the keeper to end
 
 
@@ -62,11 +65,11 @@ def run_keeper(pipe: Pipe, make: Callable[[Any], Kept], what: Any) -> None:
     try:
         kept = make(what)
     except EquipoiseError as error:
-        pipe.send(("answer", error))
+        pipe.send(("answer", (0, error)))
         return
     sender = threading.Thread(target=_send_all, args=(pipe, box), daemon=True)
     sender.start()
-    box.put(("answer", None))
+    box.put(("answer", (0, None)))
     try:
         _serve(pipe, kept.keeper, box)
     finally:
@@ -80,7 +83,8 @@ def _serve(pipe: Pipe, keeper: Keeper, box: "queue.SimpleQueue[tuple[str, Any] |
         answers: list[tuple[str, Any]] = []
         try:
             while pipe.poll():
-                answers.append(("answer", _carried_out(keeper, pipe.recv())))
+                number, *command = pipe.recv()
+                answers.append(("answer", (number, _carried_out(keeper, *command))))
         except (EOFError, OSError):
             return
         news = _news(keeper, clock.now)
@@ -100,7 +104,7 @@ def _news(keeper: Keeper, t: float) -> News:
     return News(t, *state, rows if any_rows else None)
 
 
-def _carried_out(keeper: Keeper, command: tuple[Any, ...]) -> Any:
+def _carried_out(keeper: Keeper, verb: str, *what: Any) -> Any:
     """Carry out a command; return what it gives, or what was wrong with it."""
     verbs: dict[str, Callable[..., Any]] = {
         "go": keeper.go,
@@ -110,7 +114,7 @@ def _carried_out(keeper: Keeper, command: tuple[Any, ...]) -> Any:
         "health": keeper.health,
     }
     try:
-        return verbs[command[0]](*command[1:])
+        return verbs[verb](*what)
     except EquipoiseError as error:
         return error
 
@@ -133,6 +137,7 @@ class DistantKeeper:
         self.testbed = testbed
         self._news = News(0.0, None, "", False, False, False, None)
         self._parts: list[Recording] = []
+        self._asked = 0  # commands so far
         self._answer(BEGIN)
 
     @property
@@ -147,7 +152,7 @@ class DistantKeeper:
     def turn(self, t: float) -> None:
         """Take in the news; the keeper has its own clock, so ``t`` is not asked."""
         while self._pipe.poll():
-            self._take(*self._receive())
+            self._taken_in()
 
     @property
     def trip(self) -> Trip | None:
@@ -208,28 +213,38 @@ class DistantKeeper:
             self._process.kill()
 
     def _ask(self, *command: object) -> Any:
-        self._pipe.send(command)
+        self._asked += 1
+        try:
+            with whole_message():
+                self._pipe.send((self._asked, *command))
+        except OSError as error:
+            raise BenchStopped(ENDED) from error
         return self._answer()
 
     def _answer(self, patience: float = ANSWER) -> Any:
-        """Wait until the keeper has carried out what it was told; return or raise what it says."""
+        """Wait until the keeper has carried out what it was told; return or raise what it says.
+
+        What somebody asked who was interrupted before the answer came is nobody's any more.
+        """
         while self._pipe.poll(patience):
-            kind, what = self._receive()
-            if kind == "answer":
-                if isinstance(what, EquipoiseError):
-                    raise what
-                return what
-            self._take(kind, what)
+            answer = self._taken_in()
+            if answer is None or answer[0] != self._asked:
+                continue
+            if isinstance(answer[1], EquipoiseError):
+                raise answer[1]
+            return answer[1]
         raise BenchStopped(f"the keeper of the bench has not answered for {patience:g} s")
 
-    def _receive(self) -> tuple[str, Any]:
+    def _taken_in(self) -> tuple[int, Any] | None:
+        """Read a message; keep it if it is news, return it if it is an answer."""
         try:
-            return self._pipe.recv()
+            with whole_message():
+                kind, what = self._pipe.recv()
+                if kind == "answer":
+                    return what
+                self._news = what
+                if what.rows is not None:
+                    self._parts.append(what.rows)
         except (EOFError, OSError) as error:
-            raise BenchStopped("the keeper of the bench has ended") from error
-
-    def _take(self, kind: str, what: Any) -> None:
-        if kind == "news":
-            self._news = what
-            if what.rows is not None:
-                self._parts.append(what.rows)
+            raise BenchStopped(ENDED) from error
+        return None

@@ -1,0 +1,25 @@
+"""Ctrl-C, held back while a message is read from a pipe or written to it.
+
+A message that is cut in two can never be told from the next one again.
+"""
+
+import signal
+import threading
+from collections.abc import Generator
+from contextlib import contextmanager
+
+
+@contextmanager
+def whole_message() -> Generator[None]:
+    """Let the block end before Ctrl-C does what it does; outside the main thread it never does."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    asked: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _frame: asked.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
+    if asked:
+        signal.raise_signal(signal.SIGINT)
