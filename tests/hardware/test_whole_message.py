@@ -8,11 +8,17 @@ import pytest
 from equipoise.hardware.whole_message import whole_message
 
 
-def test_the_block_ends_first():
-    done = []
-    with pytest.raises(KeyboardInterrupt), whole_message():
+def interrupted(done):
+    with whole_message():
         signal.raise_signal(signal.SIGINT)
         done.append("all of it")
+    done.append("more")
+
+
+def test_the_block_ends_first():
+    done = []
+    with pytest.raises(KeyboardInterrupt):
+        interrupted(done)
     assert done == ["all of it"]
 
 
