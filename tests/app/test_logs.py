@@ -4,10 +4,12 @@ import time
 
 import numpy as np
 import pytest
+from mcap.reader import make_reader
 
 from equipoise.app.commands.reading import WHOLE, Reading
 from equipoise.app.wiring import fitting_recording_of
 from equipoise.io.live_recording import LiveRecording, Opening
+from equipoise.io.mcap_recording import stored_testbed
 from equipoise.io.presets import read_preset
 from equipoise.io.recording_file import read_recording
 from equipoise.model.recording import Recording, Samples, rows_between
@@ -45,6 +47,32 @@ def test_a_cut_recording_is_repaired_and_says_up_to_when(equipoise, record_file,
     again = equipoise("repair", "saved.mcap", "--out", "twice.mcap")
     assert "saved.mcap is whole" in again.out
     assert not (tmp_path / "twice.mcap").exists()
+
+
+def test_a_live_record_is_given_an_index_and_keeps_every_message(equipoise, tmp_path):
+    """As mcap's own reader finds: the same messages in both, chunks in the index of one."""
+    t, none = np.arange(80) / 40, np.zeros((80, 3))
+    with LiveRecording(tmp_path / "live.mcap", Opening(10**18, "name = 'x'")) as live:
+        live.event(0.5, "command", "go", {"x": 1e-3})
+        live.rows(Recording(rate=Samples(t, none)))
+        live.turn(2.0)
+        live.rows(Recording(rate=Samples(t + 2.0, none)))
+    told = equipoise("repair", "live.mcap", "--out", "indexed.mcap")
+    assert (told.code, "It has no index; the new file has one" in told.out) == (0, True)
+    assert chunks_and_messages("live.mcap") == (0, chunks_and_messages("indexed.mcap")[1])
+    assert chunks_and_messages("indexed.mcap")[0] > 0
+    assert stored_testbed("indexed.mcap") == "name = 'x'"
+    again = equipoise("repair", "indexed.mcap", "--out", "twice.mcap")
+    assert "indexed.mcap is whole" in again.out
+    assert not (tmp_path / "twice.mcap").exists()
+
+
+def chunks_and_messages(path):
+    """Return how many chunks the index knows, and every message, read by others."""
+    with open(path, "rb") as file:  # noqa: PTH123
+        reader = make_reader(file)
+        known = len(reader.get_summary().chunk_indexes)
+        return known, [(c.topic, m.log_time, m.data) for _, c, m in reader.iter_messages()]
 
 
 def test_a_garbled_recording_says_how_many_messages_are_lost(equipoise, record_file, tmp_path):

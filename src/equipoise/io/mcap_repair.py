@@ -1,4 +1,4 @@
-"""A cut or garbled MCAP file, made whole: every record that makes sense, with a new index."""
+"""A cut or garbled MCAP file, or one without index, made whole: every record that makes sense."""
 
 from dataclasses import dataclass
 from io import BytesIO
@@ -20,7 +20,8 @@ WANTED = "a recording to repair (MCAP)"
 class Repaired:
     """What became of a file."""
 
-    whole: bool  # nothing was missing, and nothing was written
+    whole: bool  # nothing was missing
+    indexed: bool  # there was an index; if it was whole, too, nothing was written
     messages: int  # that are whole
     last: float  # s, time of the last of them
     ended: bool  # the old file has its end; else what followed its last bytes is not known
@@ -30,16 +31,20 @@ class Repaired:
 
 
 def repair(path: str | Path, out: str | Path) -> Repaired:
-    """Write what is whole of a file to another; InputError if nothing is."""
+    """Write what is whole of a file to another, with an index; InputError if nothing is.
+
+    A file that is whole and has an index is left as it is.
+    """
     found = salvaged(read_bytes(path, WANTED), str(path))
     if not found.messages:
         raise InputError(str(path), "no whole message", WANTED)
-    if not found.whole:
+    if not (found.whole and found.findable):
         write_whole(out, _written(found, str(path)))
     zero = time_zero(found)
     first = min(m.log_time for m in found.messages) if zero is None else zero
     return Repaired(
         whole=found.whole,
+        indexed=found.findable,
         messages=len(found.messages),
         last=(max(m.log_time for m in found.messages) - first) / PER_S,
         ended=found.ended,

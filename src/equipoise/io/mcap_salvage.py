@@ -42,6 +42,7 @@ class Salvage:
     attachments: list[Any] = field(default_factory=list[Any])
     header: Any = None
     ended: bool = False  # the footer is there
+    findable: bool = False  # an index says where its chunks are
     stated: int | None = None  # messages that the file itself says it holds
     indexed: int = 0  # messages that the indexes behind its chunks count
     lost_bytes: int = 0
@@ -93,6 +94,8 @@ def _file_away(record: Any, found: Salvage) -> None:
 def _count(record: Any, found: Salvage) -> None:
     """Take in what a record says of the file itself."""
     match type(record).__name__:
+        case "ChunkIndex":
+            found.findable = True
         case "MessageIndex":
             found.indexed += len(record.records)
         case "Statistics":

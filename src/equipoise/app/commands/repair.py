@@ -1,4 +1,4 @@
-"""`equipoise repair`: what is whole of a recording that was cut off or garbled."""
+"""`equipoise repair`: what is whole of a recording that was cut off or garbled, with an index."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 def repair(file: str, /, *, out: Path) -> int:
     """Save every whole record of a cut or garbled recording, and say what is lost.
 
-    A recording that is whole is said to be whole, and nothing is written.
+    What is written has an index, by which Foxglove finds its way in hours of it; a recording that
+    was just made has none. Of one that is whole and has an index nothing is written.
 
     Parameters
     ----------
@@ -28,13 +29,15 @@ def repair(file: str, /, *, out: Path) -> int:
     done = repaired(file, out)
     for sentence in _sentences(file, done):
         stdout().print(sentence, markup=False)
-    if not done.whole:
+    if not (done.whole and done.indexed):
         tell_paths([out])
     return 0
 
 
 def _sentences(file: str, done: "Repaired") -> list[str]:
     kept = f"{done.messages} messages, up to {done.last:.3f} s"
+    if done.whole and not done.indexed:
+        return [f"{file} is whole: {kept}. It has no index; the new file has one."]
     if done.whole:
         return [f"{file} is whole: {kept}. Nothing was written."]
     told = [f"Saved: {kept}."]
