@@ -13,7 +13,8 @@ from equipoise.hardware.board_link import BoardLink
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.connection import Connection, Opener
 from equipoise.hardware.driver import driver_named
-from equipoise.hardware.keeper import Keeper, Links
+from equipoise.hardware.keeper import Keeper
+from equipoise.hardware.links import Links
 from equipoise.hardware.one_commander import commanding
 from equipoise.hardware.own_process import DistantKeeper
 from equipoise.hardware.port import open_port

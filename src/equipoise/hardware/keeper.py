@@ -5,17 +5,15 @@ on what was heard. It does not wait and knows no clock. Whoever commands can be 
 then ``halt`` is called for it.
 """
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 from typing import Protocol
 
 import numpy as np
 
-from equipoise.hardware.board_link import BoardLink
 from equipoise.hardware.health import Health
 from equipoise.hardware.heard import Heard
 from equipoise.hardware.interlocks import LAST, Seen, Trip, silence, tripped
-from equipoise.hardware.mass_rows import on_the_way
+from equipoise.hardware.links import Links
 from equipoise.hardware.sensor_link import SensorLink
 from equipoise.model.arrays import Floats
 from equipoise.model.bench_requests import checked_targets
@@ -42,14 +40,6 @@ class Listener(Protocol):
     def turn(self, t: float) -> None:
         """Note that time has passed."""
         ...
-
-
-@dataclass(frozen=True, slots=True)
-class Links:
-    """The devices of a bench, each with its port."""
-
-    boards: Sequence[BoardLink]
-    sensors: Sequence[SensorLink]
 
 
 class Keeper:
@@ -88,10 +78,9 @@ class Keeper:
             self._sensed(link, t)
         for link in self.links.boards:
             link.turn(t)
-        self._heard.masses(self.positions, self._wants, self._reported)
+        self._heard.masses(self.links.positions, self.links.wants, self.links.reported)
         self._guard(t)
-        for link in self.links.boards:
-            link.send(t)
+        self.links.send(t)
         self._tell(t)
 
     def taken(self) -> Recording:
@@ -106,19 +95,17 @@ class Keeper:
     @property
     def positions(self) -> dict[str, float]:
         """Where the boards say that masses are, m."""
-        return {k: v for link in self.links.boards for k, v in link.driver.state.position.items()}
+        return self.links.positions
 
     @property
     def ready(self) -> bool:
         """Say whether every board stands and knows where."""
-        states = [link.driver.state for link in self.links.boards]
-        return all(state.phase == "ready" and state.sure for state in states)
+        return self.links.ready
 
     @property
     def answered(self) -> bool:
         """Say whether every board has said how it is."""
-        states = [link.driver.state for link in self.links.boards]
-        return all(state.phase != "connecting" for state in states)
+        return self.links.answered
 
     @property
     def fresh(self) -> bool:
@@ -128,34 +115,20 @@ class Keeper:
     @property
     def trouble(self) -> str:
         """What keeps masses from being moved now; empty if nothing does."""
-        for link in self.links.sensors:
-            if link.why:
-                return f"sensor {link.unit.name} cannot be reached: {link.why}"
-        for link in self.links.boards:
-            if link.why:
-                return f"board {link.board.name} cannot be reached: {link.why}"
         quiet = silence(self._seen(self.t), self._limits)
-        if quiet is not None:
-            return quiet.sentence
-        for link in self.links.boards:
-            state = link.driver.state
-            if state.phase == "fault" or not state.sure:
-                why = state.sentence or "it has not found its position"
-                return f"board {link.board.name}: {why}"
-        return ""
+        silent = "" if quiet is None else quiet.sentence
+        return self.links.unreachable or silent or self.links.unsure
 
     def health(self) -> list[Health]:
         """Return how well each device speaks."""
-        boards = [link.health for link in self.links.boards]
-        return [*boards, *(link.health for link in self.links.sensors)]
+        return self.links.health
 
     def home(self) -> None:
         """Let every board find its position; ends a stop whose cause is gone."""
+        self._trip, self._before = None, {}
         self._note("command", "home", {})
-        self._trip = None
-        self._before = {}
-        for link in self.links.boards:
-            link.driver.home(self.t)
+        if self._trip is None:  # to note it may have filled the disk
+            self.links.home(self.t)
 
     def go(self, targets: Mapping[str, float]) -> None:
         """Send masses to displacements (m): all or none.
@@ -170,12 +143,7 @@ class Keeper:
         told = ", ".join(f"{name} to {MM * goal:.3f} mm" for name, goal in by_name.items())
         self._note("command", f"go: {told}", by_name)
         self._able()  # to note it may have filled the disk
-        for link in self.links.boards:
-            own = {
-                axis.mass: by_name[axis.mass] for axis in link.board.axes if axis.mass in by_name
-            }
-            if own:
-                link.driver.go(own, self.t)
+        self.links.go(by_name, self.t)
 
     def halt(self, sentence: str = "") -> None:
         """Stop every mass; with a sentence, masses stay until ``home``."""
@@ -183,17 +151,15 @@ class Keeper:
             self._stop(Trip("operator", sentence))
             return
         self._note("command", "halt", {})
-        self._halt_boards()
+        self.links.halt(self.t)
 
     def close(self) -> None:
         """Stop every mass, note how well each device spoke, and close every port."""
-        self._halt_boards()
-        for link in self.links.boards:
-            link.send(self.t)
-        for each in self.health():
+        self.links.halt(self.t)
+        self.links.send(self.t)
+        for each in self.links.health:
             self._note("health", each.sentence, each.data)
-        for link in (*self.links.boards, *self.links.sensors):
-            link.close()
+        self.links.close()
 
     def _able(self) -> None:
         """Raise BenchStopped while masses may not move."""
@@ -223,41 +189,22 @@ class Keeper:
         self._remember(t)
 
     def _seen(self, t: float) -> Seen:
-        silent = {link.unit.name: link.silent_for(t) for link in self.links.sensors}
-        boards = {link.board.name: link.driver.state for link in self.links.boards}
-        return Seen(t, self._attitudes, self._rates, silent, boards, self._before)
+        silent, states = self.links.silent(t), self.links.states
+        return Seen(t, self._attitudes, self._rates, silent, states, self._before)
 
     def _remember(self, t: float) -> None:
         """Keep an earlier answer of each board, from which speeds are told."""
-        for link in self.links.boards:
-            state = link.driver.state
+        for state in self.links.states.values():
             if state.reported is None or not state.sure:
                 continue
             for name, at in state.position.items():
                 if state.reported - self._before.get(name, (float("-inf"), 0.0))[0] > REMEMBERED:
                     self._before[name] = (state.reported, at)
 
-    @property
-    def _reported(self) -> float | None:
-        """When the last of the boards told a position, s; None while one is not sure of its own."""
-        states = [link.driver.state for link in self.links.boards]
-        known = [s.reported for s in states if s.reported is not None and s.sure]
-        return max(known) if known and len(known) == len(states) else None
-
-    @property
-    def _wants(self) -> dict[str, bool]:
-        """Which masses are not yet where they were sent."""
-        parts = [on_the_way(link.driver.state, link.board.axes) for link in self.links.boards]
-        return {name: short for part in parts for name, short in part.items()}
-
     def _stop(self, trip: Trip) -> None:
-        self._halt_boards()
+        self.links.halt(self.t)
         self._trip = trip
         self._note("interlock", trip.sentence, {"kind": trip.kind})
-
-    def _halt_boards(self) -> None:
-        for link in self.links.boards:
-            link.driver.halt(self.t)
 
     def _note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
         self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
