@@ -1,7 +1,7 @@
 """`equipoise balance`: look, move, look again, until the verdict passes."""
 
-from collections.abc import Generator, Mapping
-from contextlib import ExitStack, contextmanager
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,12 +14,18 @@ from equipoise.app.commands.by_hand import (
     is_by_hand,
 )
 from equipoise.app.commands.kinds import Flag, Triple, Whole
+from equipoise.app.commands.on_bench import (
+    SIMULATED,
+    OnBench,
+    check_on_bench,
+    let_go,
+    prepare,
+)
 from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.terminal import busy, stderr
-from equipoise.model.errors import InputError
+from equipoise.app.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.app.balancing import Balancing, Goal, Limits
+    from equipoise.app.balancing import Balancing
     from equipoise.model.arrays import Vector3
     from equipoise.model.bench import Bench
     from equipoise.model.manoeuvre import Manoeuvre
@@ -42,10 +48,7 @@ def balance(
     hold_min: float = 0.0,
     by_hand: Manual = MOVED,
     reading: Reading = WHOLE,
-    bench: Flag = False,
-    record: Path | None = None,
-    foxglove: Flag = False,
-    yes: Flag = False,
+    on_bench: OnBench = SIMULATED,
     json: Flag = False,
     out: Path | None = None,
 ) -> int:
@@ -78,15 +81,6 @@ def balance(
         Then follow the drift and hold the balance for so many minutes. After look_and_move, which
         balances to a third of the tolerance before, since its errors stay; after momentum_buildup,
         whose masses follow the tilt too, by the sag that it found.
-    bench
-        Balance the real bench. The procedure is practised in simulation, then masses go home, then
-        the platform is let go. Ctrl-C halts the masses and saves, a second one leaves.
-    record
-        With --bench: MCAP file to write as rows arrive, with every command and interlock.
-    foxglove
-        With --bench: also serve it live to Foxglove, Lichtblick or PlotJuggler, on this computer.
-    yes
-        With --bench: do not ask whether somebody holds the platform.
     json
         Print one JSON document instead.
     out
@@ -94,14 +88,13 @@ def balance(
     """
     from equipoise.app.options import one_of, seed_of
     from equipoise.app.wiring import testbed_of
-    from equipoise.io.whole_file import check_writable
     from equipoise.io.whole_folder import check_folder
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
-    _check_of_a_bench(bench, {"--record": record is not None, "--foxglove": foxglove, "--yes": yes})
+    check_on_bench(on_bench)
     if is_by_hand(by_hand, reading):
-        others = _of_moving_masses(law, plan, until) + ["--bench"] * bench
+        others = _of_moving_masses(law, plan, until) + ["--bench"] * on_bench.bench
         check_by_hand(by_hand, reading, others)
         from equipoise.app.balancing import Goal
 
@@ -111,8 +104,6 @@ def balance(
     planned = None if plan is None else _planned(plan, bed)
     if out is not None:
         check_folder(out)
-    if record is not None:
-        check_writable(record)
     with busy("preparing the bench", announce=False):
         from equipoise.app.balance_views import show_step
         from equipoise.app.balancing import Goal, Limits, run
@@ -120,10 +111,10 @@ def balance(
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
         goal = Goal(*where)
-    if bench:
-        _prepare(bed, goal, limits, yes)
-    with _real(bed, record, foxglove) if bench else _simulated(bed, planned, seed) as platform:
-        done = run(platform, goal, limits, None if json else show_step)
+    if on_bench.bench:
+        prepare(bed, goal, limits, on_bench)
+    with let_go(bed, on_bench) if on_bench.bench else _simulated(bed, planned, seed) as bench:
+        done = run(bench, goal, limits, None if json else show_step)
     _tell(done, seed, json, out)
     return 0 if done.verdict.passed else 1
 
@@ -135,12 +126,6 @@ def _where(target_um: Triple, tolerance_um: Triple) -> "tuple[Vector3, Vector3]"
 
     target = vector("--target-um", target_um, 1 / UM)
     return target, tolerance("--tolerance-um", tolerance_um, 1 / UM)
-
-
-def _check_of_a_bench(bench: bool, given: Mapping[str, bool]) -> None:
-    """Refuse what only a real bench takes."""
-    for option in (option for option, is_given in given.items() if is_given and not bench):
-        raise InputError(option, "no --bench", "a real bench")
 
 
 def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> Until:
@@ -177,34 +162,6 @@ def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Gener
 
         bench = SimulatedBench(bed, seed) if planned is None else bench_for(bed, planned, seed)
     yield bench
-
-
-def _prepare(bed: "Testbed", goal: "Goal", limits: "Limits", yes: bool) -> None:
-    """Practise in simulation, say what comes of it, and ask whether the platform is held."""
-    from equipoise.app.asking import agreed
-    from equipoise.app.practice import practised
-
-    with busy("practising on a simulated platform", announce=True):
-        verdict = practised(bed, goal, limits)
-    if verdict is not None and not verdict.passed:
-        stderr().print(f"In practice, simulated: {verdict.sentence}", markup=False)
-    question = "The masses will go home. Is the platform held level, and their way free?"
-    if not yes and not agreed(question):
-        raise InputError("the platform", "not ready", "somebody who holds it; then yes, or --yes")
-
-
-@contextmanager
-def _real(bed: "Testbed", record: Path | None, foxglove: bool) -> "Generator[Bench]":
-    """Return the real platform, masses at home, let go, and every sensor giving rows."""
-    from equipoise.app.kept_bench import Wanted, real_bench
-
-    def let_go() -> None:
-        stderr().print("Masses are at home: let the platform go.", style="bold")
-
-    with ExitStack() as held:
-        with busy("the masses go home", announce=True):
-            bench = held.enter_context(real_bench(Wanted(bed, record, foxglove), let_go))
-        yield bench
 
 
 def _tell(done: "Balancing", seed: int, json: bool, out: Path | None) -> None:

@@ -1,0 +1,85 @@
+"""Options of a balancing on the real bench, and how it is begun."""
+
+from collections.abc import Generator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cyclopts import Parameter
+
+from equipoise.app.commands.kinds import Flag
+from equipoise.app.terminal import busy, stderr
+from equipoise.model.errors import InputError
+
+if TYPE_CHECKING:
+    from equipoise.app.balancing import Goal, Limits
+    from equipoise.model.bench import Bench
+    from equipoise.model.testbed import Testbed
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True)
+class OnBench:
+    """Balancing on the real bench.
+
+    Attributes
+    ----------
+    bench
+        Balance the real bench. The procedure is practised in simulation, then masses go home, then
+        the platform is let go. Ctrl-C halts the masses and saves, a second one leaves.
+    record
+        With --bench: MCAP file to write as rows arrive, with every command and interlock.
+    foxglove
+        With --bench: also serve it live to Foxglove, Lichtblick or PlotJuggler, on this computer.
+    yes
+        With --bench: do not ask whether somebody holds the platform.
+    """
+
+    bench: Flag = False
+    record: Path | None = None
+    foxglove: Flag = False
+    yes: Flag = False
+
+
+SIMULATED = OnBench()
+
+
+def check_on_bench(asked: OnBench) -> None:
+    """Raise InputError for what only a real bench takes, and for a record that cannot be."""
+    from equipoise.io.whole_file import check_writable
+
+    given = {"--record": asked.record, "--foxglove": asked.foxglove, "--yes": asked.yes}
+    for option in (option for option, value in given.items() if value and not asked.bench):
+        raise InputError(option, "no --bench", "a real bench")
+    if asked.record is not None:
+        check_writable(asked.record)
+
+
+def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", asked: OnBench) -> None:
+    """Practise in simulation, say what comes of it, and ask whether the platform is held."""
+    from equipoise.app.asking import agreed
+    from equipoise.app.practice import practised
+
+    with busy("practising on a simulated platform", announce=True):
+        verdict = practised(bed, goal, limits)
+    if verdict is not None and not verdict.passed:
+        stderr().print(f"In practice, simulated: {verdict.sentence}", markup=False)
+    question = "The masses will go home. Is the platform held level, and their way free?"
+    if not asked.yes and not agreed(question):
+        raise InputError("the platform", "not ready", "somebody who holds it; then yes, or --yes")
+
+
+@contextmanager
+def let_go(bed: "Testbed", asked: OnBench) -> "Generator[Bench]":
+    """Return the real platform, masses at home, let go, and every sensor giving rows."""
+    from equipoise.app.kept_bench import Wanted, real_bench
+
+    def say() -> None:
+        stderr().print("Masses are at home: let the platform go.", style="bold")
+
+    with ExitStack() as held:
+        with busy("the masses go home", announce=True):
+            wanted = Wanted(bed, asked.record, asked.foxglove)
+            bench = held.enter_context(real_bench(wanted, say))
+        yield bench
