@@ -135,3 +135,17 @@ def test_the_second_ctrl_c_leaves_at_once(bench):
     assert code == 130
     assert not (bench / "second").exists()
     assert read_recording(record).attitude.t[-1] > 2.0
+
+
+def test_a_bench_that_is_not_there_is_told_before_anything_is_practised(equipoise, tmp_path):
+    told = equipoise("balance", "nanosat", "--bench", "--yes")
+    assert told.code == 2
+    assert "board masses cannot be reached: serial:/dev/ttyUSB0" in told.err
+    assert "practising" not in told.err
+    (tmp_path / "kept.mcap").write_text("a record")
+    told = equipoise("balance", "nanosat", "--bench", "--record", "kept.mcap")
+    assert (told.code, "a file that exists" in told.err) == (2, True)
+    told = equipoise("balance", "kau", "--bench")
+    assert (told.code, "found no hardware" in told.err) == (2, True)
+    told = equipoise("balance", "nanosat", "--foxglove")
+    assert (told.code, "--foxglove: found no --bench" in told.err) == (2, True)

@@ -7,7 +7,7 @@ from pathlib import Path
 from time import time_ns
 
 from equipoise.app.emulation import hardware_of
-from equipoise.app.reachable import unreachable
+from equipoise.app.reachable import check_reachable
 from equipoise.app.terminal import stderr
 from equipoise.hardware.board_link import BoardLink
 from equipoise.hardware.boards.registry import BOARDS
@@ -24,7 +24,6 @@ from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.io.live_recording import LiveRecording, Opening
 from equipoise.io.live_view import ADDRESS, LiveView
 from equipoise.io.testbed_text import text_of_testbed
-from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import Gives
 from equipoise.model.testbed import Testbed
 
@@ -55,9 +54,7 @@ class KeptBench:
         hardware = hardware_of(wanted.testbed)
         devices = (*hardware.boards, *hardware.sensors)
         self._held.enter_context(commanding([device.port.address for device in devices]))
-        missing = unreachable(hardware)
-        if missing:
-            raise BenchStopped("; ".join(missing))
+        check_reachable(hardware)
         keeper = keeper_of(wanted.testbed)
         zero_ns = time_ns()
         if wanted.record is not None:

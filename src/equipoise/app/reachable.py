@@ -1,7 +1,15 @@
 """Whether the ports of a bench can be opened at all, before anything is waited for."""
 
 from equipoise.hardware.port import PortLost, open_port
+from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import Hardware
+
+
+def check_reachable(hardware: Hardware) -> None:
+    """Raise BenchStopped with a sentence for each device whose port cannot be opened."""
+    missing = unreachable(hardware)
+    if missing:
+        raise BenchStopped("; ".join(missing))
 
 
 def unreachable(hardware: Hardware) -> list[str]:

@@ -11,10 +11,19 @@ import os
 import threading
 from pathlib import Path
 
+from equipoise.io.whole_file import WRITABLE, check_writable
 from equipoise.model.errors import InputError
 
 # A pipe or a device cannot be forced to a disk, and need not be.
 NO_DISK = (errno.EINVAL, errno.ENOTSUP, errno.EROFS)
+
+
+def check_new(path: str | Path) -> None:
+    """Raise InputError now if a file cannot be begun there, before a bench is started for it."""
+    target = Path(path)
+    if target.is_file() and target.stat().st_size:
+        raise InputError(str(path), "a file that exists", "a new one: records are kept")
+    check_writable(path)
 
 
 class DurableFile:
@@ -23,13 +32,11 @@ class DurableFile:
     def __init__(self, path: str | Path) -> None:
         """Begin a file; InputError if there is one that holds something."""
         target = Path(path)
-        if target.is_file() and target.stat().st_size:
-            raise InputError(str(path), "a file that exists", "a new one: records are kept")
+        check_new(path)
         try:
             self._file = target.open("wb", buffering=0)
         except OSError as error:
-            wanted = "a path that can be written"
-            raise InputError(str(path), error.strerror or str(error), wanted) from error
+            raise InputError(str(path), error.strerror or str(error), WRITABLE) from error
         self.failure: OSError | None = None
         self._wanted, self._closing = threading.Event(), False
         self._thread = threading.Thread(target=self._settle, name="to disk", daemon=True)

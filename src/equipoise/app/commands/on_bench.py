@@ -47,20 +47,26 @@ SIMULATED = OnBench()
 
 def check_on_bench(asked: OnBench) -> None:
     """Raise InputError for what only a real bench takes, and for a record that cannot be."""
-    from equipoise.io.whole_file import check_writable
+    from equipoise.io.durable_file import check_new
 
     given = {"--record": asked.record, "--foxglove": asked.foxglove, "--yes": asked.yes}
     for option in (option for option, value in given.items() if value and not asked.bench):
         raise InputError(option, "no --bench", "a real bench")
     if asked.record is not None:
-        check_writable(asked.record)
+        check_new(asked.record)
 
 
 def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", asked: OnBench) -> None:
-    """Practise in simulation, say what comes of it, and ask whether the platform is held."""
-    from equipoise.app.asking import agreed
-    from equipoise.app.practice import practised
+    """Practise in simulation, say what comes of it, and ask whether the platform is held.
 
+    Raises BenchStopped first where a device cannot be reached.
+    """
+    from equipoise.app.asking import agreed
+    from equipoise.app.emulation import hardware_of
+    from equipoise.app.practice import practised
+    from equipoise.app.reachable import check_reachable
+
+    check_reachable(hardware_of(bed))
     with busy("practising on a simulated platform", announce=True):
         verdict = practised(bed, goal, limits)
     if verdict is not None and not verdict.passed:

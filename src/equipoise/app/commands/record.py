@@ -28,11 +28,11 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
     from equipoise.app.kept_bench import Wanted, real_bench
     from equipoise.app.options import positive
     from equipoise.app.wiring import testbed_of
-    from equipoise.io.whole_file import check_writable
+    from equipoise.io.durable_file import check_new
 
     duration = positive("--duration-s", duration_s)
     bed = testbed_of(testbed)
-    check_writable(out)
+    check_new(out)
     with (
         real_bench(Wanted(bed, out, foxglove)) as bench,
         counted("recording") as so_far,
