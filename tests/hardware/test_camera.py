@@ -328,7 +328,9 @@ def test_a_part_that_never_ends_is_given_up():
     [
         ({"colums": 6.0}, "columns"),
         ({"columns": 2.5}, "a whole number"),
-        ({"columns": "six"}, "a finite number"),
+        ({"columns": "six"}, "a number, at most 1e[+]09"),
+        ({"rows": 10**400}, "a number, at most"),
+        ({"cx_px": float("nan")}, "a number, at most"),
         ({"columns": 11.0}, "markers 0 to 49"),
         ({"columns": 1.0, "rows": 1.0}, "at least 2 markers"),
         ({"marker_mm": 0.0}, "lengths greater than zero"),

@@ -163,6 +163,21 @@ def test_a_heading_east_turns_the_other_way_about_up(tmp_path):
 # --- MAT ---------------------------------------------------------------------------------------
 
 
+def test_numbers_that_are_none_are_told_in_words_alone(tmp_path):
+    """A NaN that processors take note of, and a length beyond what a number holds: no warning."""
+    noted = np.frombuffer(bytes.fromhex("000000000000f47f"))[0]
+    t, q = np.arange(6) * 0.25, np.tile([1.0, 0, 0, 0], (6, 1))
+    t[3] = noted
+    turn = {f"q_{k}": q[:, i] for i, k in enumerate("wxyz")}
+    savemat(tmp_path / "run.mat", {"time_s": t, **turn})
+    with pytest.raises(InputError, match="row 4, column 'time_s'"):
+        read_recording(tmp_path / "run.mat")
+    turn["q_x"] = np.full(6, 1e200)
+    savemat(tmp_path / "long.mat", {"time_s": np.arange(6.0), **turn})
+    with pytest.raises(InputError, match="a quaternion of length inf"):
+        read_recording(tmp_path / "long.mat")
+
+
 def test_a_mat_file_of_version_7_3_is_told_how_to_be_saved(tmp_path):
     (tmp_path / "run.mat").write_bytes(b"MATLAB 7.3 MAT-file, Platform: GLNXA64" + bytes(600))
     with pytest.raises(InputError, match=r"version 7\.3.*-v7"):

@@ -31,16 +31,10 @@ def lengths(channel: Channel) -> Channel | None:
 
     A component rounded to d decimals is off by 10^-d / 2 at most, a length by 10^-d.
     """
-    norm = _length(channel.values)
+    norm = np.linalg.norm(channel.values, axis=1)
     if np.abs(norm - 1).max() <= max(10.0 ** -_decimals(channel.values), SINGLE):
         return None
     return Channel(channel.name, channel.t, norm[:, None], channel.rows)
-
-
-def _length(q: Floats) -> Series1:
-    """Return the lengths; of numbers that are no quaternion one may be infinite."""
-    with np.errstate(over="ignore"):
-        return np.linalg.norm(q, axis=1)
 
 
 def _decimals(values: Floats) -> int:
@@ -98,7 +92,7 @@ def _continuous(q: Series4) -> tuple[Series4, Notes]:
 
 def _unit(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Series4, Notes]:
     """Return quaternions of unit length; InputError names the first that is far from it."""
-    norm = _length(channel.values)
+    norm = np.linalg.norm(channel.values, axis=1)
     least = SHORTEST_MEAN if columns.mean_of_frames else 1 - FAR
     bad = np.flatnonzero((norm < least) | (norm > 1 + FAR))
     if len(bad):

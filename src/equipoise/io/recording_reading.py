@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from equipoise.io.attitude_reading import euler_angles, lengths, quaternions
 from equipoise.io.channels import Channel, in_body_axes, read_channel, read_time
 from equipoise.io.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
@@ -43,6 +45,7 @@ class Rows:
         return in_body_axes(channel, columns, self.columns.body), notes
 
 
+@np.errstate(invalid="ignore", over="ignore")  # such a number is told with its row, in words
 def recording_of(table: Table, columns: ColumnMap) -> Recording:
     """Return what a table holds; InputError if it is too little or makes no sense."""
     source, order = _rows(table, columns)

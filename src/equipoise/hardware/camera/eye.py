@@ -25,6 +25,7 @@ LENS = ("fx_px", "fy_px", "cx_px", "cy_px", "width_px", "height_px")
 BENT = ("k1", "k2", "p1", "p2", "k3")
 UP = ("up_x", "up_y", "up_z")
 NEEDED = (*BOARD, *LENS)
+MOST = 1e9  # chosen: of no lens or board is any number so large
 KEYS = ("dictionary", "first_id", "rms_px", *NEEDED, *BENT, *UP)
 
 
@@ -86,8 +87,8 @@ def _number(
     value = settings.get(key, usual)
     if value is None:
         raise InputError(where, f"no key '{key}'", f"'{key}': a number")
-    if isinstance(value, (bool, str, tuple)) or not np.isfinite(value):
-        raise InputError(f"{where}.{key}", f"{value!r}", "a finite number")
+    if isinstance(value, (bool, str, tuple)) or not abs(value) <= MOST:
+        raise InputError(f"{where}.{key}", f"{value!r}", f"a number, at most {MOST:g}")
     return float(value)
 
 
