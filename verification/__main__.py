@@ -93,7 +93,7 @@ CHECKS = {
     "planned": Check(planned.measure, 100),
     "design_predictions": Check(design_predictions.measure, 400),
     "emulated_nanosat": Check(emulated_balancing.of("nanosat", "Grbl and VN-100"), 60),
-    "emulated_sputnix": Check(emulated_balancing.of("sputnix", "Grbl and a drawn camera"), 120),
+    "emulated_sputnix": Check(emulated_balancing.of("sputnix", "Grbl and a drawn camera"), 80),
     "faulty_benches": Check(faulty_benches.measure, 306),
     "killed_recordings": Check(killed_recordings.measure, 200),
     "any_bytes": Check(any_bytes.measure, 1000),
