@@ -20,6 +20,7 @@ from equipoise.app.kept_bench import KeptBench, Wanted
 from equipoise.hardware.own_process import DistantKeeper
 from equipoise.hardware.real_bench import RealBench
 from equipoise.hardware.wall_clock import WallClock
+from equipoise.io.live_recording import RecordingStopped
 from equipoise.io.presets import read_preset
 from equipoise.io.testbed_file import write_testbed
 from equipoise.model.errors import BenchStopped
@@ -121,6 +122,20 @@ def test_whoever_asks_a_keeper_that_is_gone_is_told_so():
     assert bench.health() == []
     keeper.close()
     there.close()
+
+
+def test_a_record_that_cannot_be_ended_is_told_in_words(tmp_path, capsys):
+    """As on a disk that is full at the very end: nobody is there any more who could be told."""
+    there = emulate(without_switches(), 1)
+    kept = KeptBench(Wanted(there.testbed(), tmp_path / "run.mcap"))
+    kept._held.push(lambda *_: fail())
+    kept.close()
+    assert "run.mcap: recording stopped (No space left)" in capsys.readouterr().err
+    there.close()
+
+
+def fail():
+    raise RecordingStopped("run.mcap", "No space left")
 
 
 @contextlib.contextmanager

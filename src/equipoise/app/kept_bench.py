@@ -8,7 +8,7 @@ from time import time_ns
 
 from equipoise.app.emulation import hardware_of
 from equipoise.app.reachable import check_reachable
-from equipoise.app.terminal import stderr
+from equipoise.app.terminal import complain, stderr
 from equipoise.hardware.board_link import BoardLink
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.connection import Connection, Opener
@@ -24,6 +24,7 @@ from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.io.live_recording import LiveRecording, Opening
 from equipoise.io.live_view import ADDRESS, LiveView
 from equipoise.io.testbed_text import text_of_testbed
+from equipoise.model.errors import EquipoiseError
 from equipoise.model.hardware import Gives
 from equipoise.model.testbed import Testbed
 
@@ -67,8 +68,11 @@ class KeptBench:
         return keeper
 
     def close(self) -> None:
-        """Stop every mass, close ports, end the record."""
-        self._held.close()
+        """Stop every mass, close ports, end the record; what fails then is told in a sentence."""
+        try:
+            self._held.close()
+        except EquipoiseError as error:
+            complain(str(error))
 
 
 def keeper_of(testbed: Testbed, opener: Opener = open_port) -> Keeper:
