@@ -11,6 +11,7 @@ import pytest
 
 from equipoise.io.live_recording import RecordingStopped
 from equipoise.io.presets import read_preset
+from equipoise.maths.attitude import difference
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError, MoveRefused
 from equipoise.model.hardware import Port
@@ -267,6 +268,24 @@ def test_who_homes_holds_the_platform_as_at_first():
             found.wait(0.5)
         found.bench.watch()
         assert found.bench.read(1.0).masses.values[-1] == pytest.approx(np.zeros(3), abs=2e-6)
+
+
+def test_a_hand_leads_the_platform_back_at_its_own_rate():
+    """0.5 rad/s about one axis, as the gyro says too; a jump would look like a rate that stops."""
+    with lab() as found:
+        found.bench.read(4.0)
+        q0 = found.emulated._seen[1]
+        found.emulated.catch()
+        rows = found.bench.read(2.0)
+        way = difference(found.emulated.platform.platform.attitude, q0)
+        angle = np.linalg.norm(way)
+        assert angle > np.radians(5)
+        t = rows.attitude.t - (rows.attitude.t[-1] - 2.0)
+        gone = np.linalg.norm(difference(rows.attitude.values, q0), axis=1)
+        assert np.abs(gone - np.minimum(0.5 * t, angle)).max() < np.radians(2)
+        on_the_way = rows.rate.values[(t > 0.05) & (t < 0.8 * angle / 0.5)]
+        mean = on_the_way.mean(axis=0) - found.emulated.platform.platform.gyro_bias
+        assert mean == pytest.approx(0.5 * way / angle, abs=0.01)
 
 
 def test_tilt_disturbs_nobody_who_only_records():

@@ -16,6 +16,7 @@ from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor, Le
 from equipoise.hardware.emulated.far_side import FarSide, far_side
 from equipoise.hardware.emulated.registry import BOARDS, SENSORS
 from equipoise.maths.attitude import tilt
+from equipoise.model.arrays import Quaternion
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Hardware
 from equipoise.model.recording import Recording
@@ -52,6 +53,7 @@ class EmulatedBench:
         self.time = 0.0  # s, of the devices
         self._let_go = 0.0  # s, when
         self.leaning = 0.0  # rad, as last seen
+        self._seen: tuple[float, Quaternion] | None = None  # s, the attitude last seen
         self.catch()
         if not boards:
             self._held = None
@@ -67,14 +69,15 @@ class EmulatedBench:
         rows = self._pass(legs, t)
         if rows.attitude is not None and len(rows.attitude):
             self.leaning = float(tilt(rows.attitude.values[-1], self.platform.testbed.up))
+            self._seen = (self.time, rows.attitude.values[-1])
         for station in self.sensors:
             for message in station.device.tell(rows):
                 station.wire.send(message)
 
     def catch(self) -> None:
-        """Hold the platform as at first, until every mass has been away and come home."""
+        """Lead the platform back and hold it, until every mass has been away and come home."""
         self.platform = self._make()
-        self._held: HeldPlatform | None = HeldPlatform(self.platform)
+        self._held: HeldPlatform | None = HeldPlatform(self.platform, self._seen)
         self._last: dict[str, Leg] = {}  # while it is held
         self._away: set[str] = set()
         self._ahead: list[Leg] = []  # that have not begun
@@ -116,7 +119,7 @@ class EmulatedBench:
             self._last |= {leg.mass: leg for leg in legs}
             self._away |= {leg.mass for leg in legs if abs(leg.displacement) > AT_HOME}
             rows = self._held.read(before, t)
-            if self._all_home(t):
+            if t >= self._held.still and self._all_home(t):
                 self._held, self._let_go = None, t
             return rows
         self._ahead = ahead_of(self._ahead, legs)
