@@ -246,6 +246,16 @@ def test_a_disk_that_is_full_when_a_command_is_noted_stops_the_bench():
         assert "recording stopped" in found.keeper.trip.sentence
 
 
+def test_two_who_cannot_take_it_any_more_stop_the_bench_as_one_does():
+    with lab() as found:
+        found.keeper.listen(FullDisk())
+        found.keeper.listen(FullDisk())
+        with pytest.raises(BenchStopped, match="No space left"):
+            found.bench.move({"x": 5 * MM})
+        found.wait(0.5)
+        assert np.all(found.emulated.platform.displacements == 0.0)
+
+
 def test_when_a_bench_is_closed_the_record_tells_how_well_each_device_spoke():
     with lab() as found:
         found.imu.wire.spoil = noisy

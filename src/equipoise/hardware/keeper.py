@@ -219,6 +219,8 @@ class Keeper:
     def _hand_on(self, tell: Callable[[Listener], None]) -> None:
         """Tell every listener; one that cannot take it any more stops the bench, and only once."""
         for listener in list(self._listeners):
+            if listener not in self._listeners:  # it failed when the stop for another was noted
+                continue
             try:
                 tell(listener)
             except EquipoiseError as error:

@@ -11,7 +11,11 @@ from contextlib import contextmanager
 
 @contextmanager
 def whole_message() -> Generator[None]:
-    """Let the block end before Ctrl-C does what it does; outside the main thread it never does."""
+    """Let the block end before Ctrl-C does what it does; outside the main thread it never does.
+
+    A block that raises has ended, too: its error, a pipe that is broken, stops the run as well, and
+    with an account of it.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return

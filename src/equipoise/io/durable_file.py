@@ -20,10 +20,14 @@ NO_DISK = (errno.EINVAL, errno.ENOTSUP, errno.EROFS)
 
 def check_new(path: str | Path) -> None:
     """Raise InputError now if a file cannot be begun there, before a bench is started for it."""
+    _check_empty(path)
+    check_writable(path)
+
+
+def _check_empty(path: str | Path) -> None:
     target = Path(path)
     if target.is_file() and target.stat().st_size:
         raise InputError(str(path), "a file that exists", "a new one: records are kept")
-    check_writable(path)
 
 
 class DurableFile:
@@ -32,7 +36,7 @@ class DurableFile:
     def __init__(self, path: str | Path) -> None:
         """Begin a file; InputError if there is one that holds something."""
         target = Path(path)
-        check_new(path)
+        _check_empty(path)
         try:
             self._file = target.open("wb", buffering=0)
         except OSError as error:

@@ -21,13 +21,18 @@ class Repaired:
     """What became of a file."""
 
     whole: bool  # nothing was missing
-    indexed: bool  # there was an index; if it was whole, too, nothing was written
+    indexed: bool  # there was an index
     messages: int  # that are whole
     last: float  # s, time of the last of them
     ended: bool  # the old file has its end; else what followed its last bytes is not known
     lost_messages: int  # known to be lost
     lost_bytes: int  # that made no sense
     lost_places: int
+
+    @property
+    def written(self) -> bool:
+        """Say whether there was anything to mend, so that the other file is there."""
+        return not (self.whole and self.indexed)
 
 
 def repair(path: str | Path, out: str | Path) -> Repaired:

@@ -29,7 +29,7 @@ def repair(file: str, /, *, out: Path) -> int:
     done = repaired(file, out)
     for sentence in _sentences(file, done):
         stdout().print(sentence, markup=False)
-    if not (done.whole and done.indexed):
+    if done.written:
         tell_paths([out])
     return 0
 
