@@ -8,7 +8,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 from dataclasses import replace
 
@@ -138,27 +137,26 @@ def fail():
     raise RecordingStopped("run.mcap", "No space left")
 
 
+class KeptWithItsDevices(KeptBench):
+    """A kept bench and its emulated devices in one process, so that no pause parts the two."""
+
+    def __init__(self, seed):
+        there = emulate(without_switches(), seed)
+        there.platform.read(0.01)  # compiles
+        super().__init__(Wanted(there.testbed(), None))
+        self._held.callback(there.close)
+        turn = self.keeper.turn
+        self.keeper.turn = lambda t: (there.run(t), turn(t))
+
+
 @contextlib.contextmanager
 def running():
     """Return a bench of emulated devices that go with the clock on the wall, and its keeper."""
-    there, clock, over = emulate(without_switches(), 1), WallClock(), threading.Event()
-    there.platform.read(0.01)
-
-    def run():
-        while not over.is_set():
-            there.run(clock.now)
-            clock.wait()
-
-    thread = threading.Thread(target=run)
-    thread.start()
-    keeper = DistantKeeper(there.testbed(), KeptBench, Wanted(there.testbed(), None))
+    keeper = DistantKeeper(without_switches(), KeptWithItsDevices, 1)
     try:
         yield RealBench(keeper, keeper)
     finally:
         keeper.close()
-        over.set()
-        thread.join()
-        there.close()
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no interval timers")
