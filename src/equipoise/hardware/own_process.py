@@ -30,7 +30,7 @@ from equipoise.model.testbed import Testbed
 
 BEAT = 0.05  # s, chosen: between news when nothing is new
 BEGIN = 60.0  # s, chosen: for the keeper's process to begin, on a slow computer
-ANSWER = 5.0  # s, chosen: for the keeper to carry out a command
+ANSWER = 5.0  # s, chosen: for the keeper to carry out a command, or to say anything
 ENDED = "the keeper of the bench has ended"
 LEAVING = 2.0  # s, chosen: for the keeper to end
 
@@ -146,8 +146,9 @@ class DistantKeeper:
         return self._news.t
 
     def wait(self) -> None:
-        """Wait for news."""
-        self._pipe.poll(BEAT)
+        """Wait for news; a keeper that is well has some each ``BEAT``."""
+        if not self._pipe.poll(ANSWER):
+            raise BenchStopped(f"the keeper of the bench has not spoken for {ANSWER:g} s")
 
     def turn(self, t: float) -> None:
         """Take in the news; the keeper has its own clock, so ``t`` is not asked."""
