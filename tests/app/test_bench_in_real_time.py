@@ -14,6 +14,7 @@ import time
 import pytest
 from websockets.sync.client import connect
 
+from equipoise.app.cli import BY_HAND
 from equipoise.io.live_view import ADDRESS
 from equipoise.io.mcap_recording import events_of
 from equipoise.io.recording_file import read_recording
@@ -122,18 +123,21 @@ def test_the_first_ctrl_c_stops_and_saves(bench):
 
 def test_the_second_ctrl_c_leaves_at_once(bench):
     """While it draws what it saves; the record is there all the same."""
-    record = bench / "second.mcap"
-    command = balancing(bench, record)
-    command.send_signal(signal.SIGINT)
-    for line in command.stderr:
-        if "drawing" in line:
+    for k in range(TRIES):
+        record = bench / f"second{k}.mcap"
+        command = balancing(bench, record)
+        command.send_signal(signal.SIGINT)
+        for line in command.stderr:
+            if "drawing" in line:
+                break
+        left = time.monotonic()
+        command.send_signal(signal.SIGINT)
+        code, _out, err = ended(command)
+        if code == BY_HAND:
             break
-    left = time.monotonic()
-    command.send_signal(signal.SIGINT)
-    code, _out, _err = ended(command)
+    assert code == BY_HAND, err
     assert time.monotonic() - left < 5.0
-    assert code == 130
-    assert not (bench / "second").exists()
+    assert not record.with_suffix("").exists()
     assert read_recording(record).attitude.t[-1] > 2.0
 
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.app.balancing import Goal, Limits, run
 from equipoise.io.live_recording import RecordingStopped
 from equipoise.io.presets import read_preset
 from equipoise.maths.attitude import difference
@@ -232,6 +233,22 @@ class FullDisk:
 
     def turn(self, t):
         pass
+
+
+def test_ctrl_c_at_the_moment_of_an_interlock_ends_with_the_account(monkeypatch):
+    """Whichever is told last, the run ends with what was seen and with what stopped it."""
+    with lab(BED) as found:
+
+        def interrupted(_duration):
+            found.bench._keeper.halt("the platform is touched")
+            raise KeyboardInterrupt
+
+        monkeypatch.setattr(found.bench, "read", interrupted)
+        goal = Goal(np.array([0.0, 0.0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]))
+        done = run(found.bench, goal, Limits(), None)
+    assert done.verdict.halted
+    assert done.verdict.sentence.startswith("Stopped by hand: every mass was stopped")
+    assert "the platform is touched" in done.verdict.sentence
 
 
 def test_a_disk_that_is_full_when_a_command_is_noted_stops_the_bench():

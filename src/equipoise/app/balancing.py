@@ -95,10 +95,10 @@ def run(bench: Bench, goal: Goal, limits: Limits, show: Callable[[Step], None] |
             if simulated is not None:
                 truths.append(simulated.truth())
     except KeyboardInterrupt as by_hand:
-        bench.stop()
+        told = halted(bench)
         if simulated is not None:
             raise KeyboardInterrupt(HALTED) from by_hand
-        steps.append(stop_step(bench, f"stopped by hand: {HALTED}"))
+        steps.append(stop_step(bench, f"stopped by hand: {told}"))
         if show is not None:
             show(steps[-1])
     # A look of a law's may hold what is not known; its estimate is no belief to begin with.
@@ -107,6 +107,15 @@ def run(bench: Bench, goal: Goal, limits: Limits, show: Callable[[Step], None] |
     planned = limits.plan is not None and bool(truths)
     began = truths[0] if planned else before  # after the manoeuvre
     return Balancing(bench.testbed, goal, steps, recorded.recording(), began, truths, known)
+
+
+def halted(bench: Bench) -> str:
+    """Halt every mass; return what came of it, also where an interlock was faster."""
+    try:
+        bench.stop()
+    except BenchStopped as stopped:
+        return str(stopped)
+    return HALTED
 
 
 def until_stopped(bench: Bench, steps: Iterator[Step]) -> Iterator[Step]:
