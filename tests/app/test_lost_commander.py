@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.app.balancing import halted
 from equipoise.app.emulation import emulate
 from equipoise.app.kept_bench import KeptBench, Wanted
 from equipoise.hardware.own_process import DistantKeeper
@@ -119,6 +120,7 @@ def test_whoever_asks_a_keeper_that_is_gone_is_told_so():
     ):  # fmt: skip
         with pytest.raises(BenchStopped, match="the keeper of the bench has ended"):
             ask()
+    assert halted(bench) == "the keeper of the bench has ended"  # as Ctrl-C's account has it
     assert bench.health() == []
     keeper.close()
     there.close()

@@ -97,7 +97,7 @@ def run(bench: Bench, goal: Goal, limits: Limits, show: Callable[[Step], None] |
     except KeyboardInterrupt as by_hand:
         told = halted(bench)
         if simulated is not None:
-            raise KeyboardInterrupt(HALTED) from by_hand
+            raise KeyboardInterrupt(told) from by_hand
         steps.append(stop_step(bench, f"stopped by hand: {told}"))
         if show is not None:
             show(steps[-1])

@@ -43,8 +43,13 @@ def repair(path: str | Path, out: str | Path) -> Repaired:
     found = salvaged(read_bytes(path, WANTED), str(path))
     if not found.messages:
         raise InputError(str(path), "no whole message", WANTED)
-    if not (found.whole and found.findable):
+    done = _repaired(found)
+    if done.written:
         write_whole(out, _written(found, str(path)))
+    return done
+
+
+def _repaired(found: Salvage) -> Repaired:
     zero = time_zero(found)
     first = min(m.log_time for m in found.messages) if zero is None else zero
     return Repaired(

@@ -36,10 +36,10 @@ def repair(file: str, /, *, out: Path) -> int:
 
 def _sentences(file: str, done: "Repaired") -> list[str]:
     kept = f"{done.messages} messages, up to {done.last:.3f} s"
-    if done.whole and not done.indexed:
-        return [f"{file} is whole: {kept}. It has no index; the new file has one."]
-    if done.whole:
+    if not done.written:
         return [f"{file} is whole: {kept}. Nothing was written."]
+    if done.whole:
+        return [f"{file} is whole: {kept}. It has no index; the new file has one."]
     told = [f"Saved: {kept}."]
     if done.lost_places:
         places = f"{done.lost_bytes} bytes in {_counted(done.lost_places, 'place')}"
