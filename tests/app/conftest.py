@@ -22,6 +22,7 @@ class Outcome:
 def equipoise(capsys, monkeypatch, tmp_path):
     """Return a function that runs a command line in an empty folder."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("EQUIPOISE_RUNS", "")  # to keep every run takes long; some tests want it
 
     def call(*words: object) -> Outcome:
         capsys.readouterr()

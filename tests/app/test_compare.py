@@ -59,13 +59,13 @@ def test_methods_are_compared_and_written_down(equipoise, strict_json, tmp_path)
     assert told["trajectory"]["rmse"][2] == pytest.approx(
         1e-6 * (sum(squares) / 2) ** 0.5, rel=1e-4
     )
-    page = (folder / "compare.html").read_text("utf-8")
+    page = (folder / "report.html").read_text("utf-8")
     assert "http" not in re.sub(r"data:image/png;base64,[^\"]*", "", page)
     parser = Balanced()
     parser.feed(page)
     assert parser.open == []
     assert page.count('src="data:image/png;base64,') == len(list(folder.glob("*.png"))) == 2
-    assert "compare.html" in done.err
+    assert "report.html" in done.err
 
 
 # --- made-up runs ------------------------------------------------------------------------------
@@ -127,8 +127,8 @@ def test_methods_and_laws_go_into_one_document(equipoise, strict_json, tmp_path)
     assert document["laws"]["recommended"]["name"] == "pid"
     assert document["methods"]["recommended"]["com"]["name"] == "tracker"
     written = {path.name for path in (tmp_path / "here").iterdir()}
-    assert written >= {"compare.html", "compare.json", "methods.csv", "laws.csv", "laws_torque.png"}
-    page = (tmp_path / "here" / "compare.html").read_text("utf-8")
+    assert written >= {"report.html", "compare.json", "methods.csv", "laws.csv", "laws_torque.png"}
+    page = (tmp_path / "here" / "report.html").read_text("utf-8")
     assert page.index("take tracker") < page.index("<h2>")
     for words in ("As the review&#x27;s Table 3", "below 50 uN m or 1 um [9]", "Take pid"):
         assert words in page

@@ -10,6 +10,8 @@ from equipoise import __version__
 
 README = Path(__file__).parents[2] / "README.md"
 VOID = {"meta", "img", "br"}
+OF_A_REPORT = {"report.html", "report.pdf", "report.json"}
+PAPER = ["06", "07", "08", "11", "12", "13", "14", "15"]
 
 
 class Balanced(HTMLParser):
@@ -37,16 +39,30 @@ def folder(tmp_path_factory):
 
 
 def test_the_demo_writes_every_figure_of_the_paper(folder):
-    figures = sorted(path.name for path in folder.glob("*.png"))
-    assert [name[6:8] for name in figures] == ["06", "07", "08", "11", "12", "13", "14", "15"]
-    others = {path.name for path in folder.iterdir()} - set(figures)
-    assert others == {"report.html", "balance.json"}
+    for kind in ("png", "svg"):
+        figures = sorted(path.name for path in folder.glob(f"figures/figure*.{kind}"))
+        assert [name[6:8] for name in figures] == PAPER
+    others = {path.name for path in folder.iterdir()}
+    assert others == OF_A_REPORT | {
+        "figures",
+        "balance.json",
+        "testbed.toml",
+        "recording.csv",
+        "run.json",
+    }
+
+
+def test_every_step_that_looked_or_estimated_has_its_figure(folder):
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    drawn = sorted(path.stem for path in folder.glob("figures/*.png"))
+    looks = page.count("<b>look<") + page.count("<b>verify<")
+    assert len(drawn) >= len(PAPER) + looks > len(PAPER)
 
 
 def test_the_report_needs_no_other_file(folder):
     page = (folder / "report.html").read_text(encoding="utf-8")
     assert "http" not in re.sub(r"data:image/png;base64,[^\"]*", "", page)
-    assert page.count('src="data:image/png;base64,') == 8
+    assert page.count('src="data:image/png;base64,') == len(list(folder.glob("figures/*.png")))
     parser = Balanced()
     parser.feed(page)
     assert parser.open == []
@@ -71,7 +87,8 @@ def test_identify_reports_too(equipoise, record_file, tmp_path):
     done = equipoise("identify", record_file, "--testbed", "sputnix", "--out", "out")
     assert done.code == 0
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert {"report.html", "estimate.json", "figure06_attitude.png"} <= names
+    assert OF_A_REPORT | {"estimate.json"} <= names
+    assert (tmp_path / "out" / "figures" / "figure06_attitude.png").exists()
     assert "predicted for" in done.out
 
 
@@ -79,7 +96,8 @@ def test_balance_reports_too(equipoise, tmp_path):
     done = equipoise("balance", "sputnix", "--seed", "3", "--out", "out")
     assert done.code in (0, 1)
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert {"report.html", "balance.json", "figure14_balancing.png"} <= names
+    assert OF_A_REPORT | {"balance.json"} <= names
+    assert (tmp_path / "out" / "figures" / "figure14_balancing.png").exists()
     assert "Before and after" in done.out
     assert "truth after" in done.out
 

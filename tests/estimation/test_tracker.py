@@ -73,9 +73,19 @@ def test_with_the_inertia_to_be_learnt_it_ends_where_the_fit_ends(gyro):
 @pytest.mark.parametrize("cut", [47.03, 62.0])
 def test_in_parts_it_is_the_same(gyro, cut):
     """Called again from where it ended, in the middle of a travel too: to 1e-9 of a metre."""
+    assert_same_in_parts(gyro, cut, cut)
+
+
+@both_sensors
+def test_in_parts_a_stop_at_the_cut_is_not_lost(gyro):
+    """The third mass stops at 65 s: only a part that begins earlier shows that it travelled."""
+    assert_same_in_parts(gyro, 65.0, 64.0)
+
+
+def assert_same_in_parts(gyro: float, cut: float, since: float):
     whole = tracked(gyro, Params())
     first = tracked(gyro, Params(), window(seen(gyro), 0.0, cut))
-    rest = track(window(seen(gyro), cut, 120.0), bed(gyro), Params(), first.end)
+    rest = track(window(seen(gyro), since, 120.0), bed(gyro), Params(), first.end)
     np.testing.assert_array_equal(np.append(first.t, rest.t), whole.t)
     np.testing.assert_allclose(np.vstack([first.com, rest.com]), whole.com, rtol=0, atol=1e-9)
     np.testing.assert_allclose(np.vstack([first.sd, rest.sd]), whole.sd, rtol=1e-6)

@@ -36,6 +36,7 @@ class Account:
     change: Change | None = None
     pictures: Sequence[Picture] = field(default=())
     sheets: Sequence[Sheet] = ()
+    step_pictures: Mapping[Step, Picture] = field(default_factory=dict[Step, Picture])
 
 
 def origin(**more: str) -> dict[str, str]:

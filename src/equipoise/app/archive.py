@@ -1,17 +1,73 @@
 """A run put down in a folder: figures, report, JSON; all of them or none."""
 
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
+from equipoise.app import logged
 from equipoise.app.account import Account
 from equipoise.app.outputs import rendered
+from equipoise.app.page import Page, page_of_text, text_of_page
+from equipoise.app.page_html import html
+from equipoise.app.page_pdf import can_set, pdf
 from equipoise.app.report import report
 from equipoise.app.views_json import View, dump
 from equipoise.io.whole_folder import write_folder
+from equipoise.model.errors import InputError
+
+Files = dict[str, str | bytes]
+Images = Mapping[str, Mapping[str, bytes]]  # by kind of file and by name
+KINDS = ("png", "svg")
+PAGE = "report.json"
 
 
 def write_account(account: Account, document: View, name: str, folder: Path) -> list[Path]:
-    """Write figures (PNG), report.html and ``name``.json, and return their paths."""
-    images = {picture.name: rendered(picture.figure) for picture in account.pictures}
-    files: dict[str, str | bytes] = {f"{key}.png": image for key, image in images.items()}
-    files |= {"report.html": report(account, images), f"{name}.json": dump(document) + "\n"}
-    return write_folder(folder, files)
+    """Write figures, the report (HTML, PDF, its blocks) and ``name``.json; return their paths."""
+    return write_folder(folder, files_of(account) | {f"{name}.json": dump(document) + "\n"})
+
+
+def write_run(
+    account: Account, document: View, name: str, kept: logged.Kept, folder: Path
+) -> list[Path]:
+    """Write the same, with what a logbook needs: testbed, recording, and the entry at last."""
+    beside = logged.files_of(kept, account, folder.name)
+    traced = replace(account, origin={**account.origin, **logged.hashes(beside)})
+    files = files_of(traced) | {f"{name}.json": dump(document) + "\n"}
+    return write_folder(folder, files | beside)
+
+
+def files_of(account: Account) -> Files:
+    """Return figures and report as files of a folder; without typst there is no PDF."""
+    pictures = [*account.step_pictures.values(), *account.pictures]
+    images = {kind: {p.name: rendered(p.figure, kind) for p in pictures} for kind in KINDS}
+    page = report(account)
+    figures = {place(name, kind): images[kind][name] for kind in KINDS for name in images[kind]}
+    return {**figures, PAGE: text_of_page(page), **set_page(page, images)}
+
+
+def set_page(page: Page, images: Images) -> Files:
+    """Return report.html and, with typst, report.pdf."""
+    files: Files = {"report.html": html(page, images["png"])}
+    return files | {"report.pdf": pdf(page, images["svg"])} if can_set() else files
+
+
+def set_again(folder: Path) -> list[Path]:
+    """Write the report of a run anew from its blocks and figures, and return the paths.
+
+    Raises InputError if they are not there.
+    """
+    page = page_of_text(_read(folder / PAGE), str(folder / PAGE))
+    images = {k: {n: _read(folder / place(n, k)) for n in page.figures} for k in KINDS}
+    return write_folder(folder, set_page(page, images))
+
+
+def place(name: str, kind: str) -> str:
+    """Return where a figure stands in the folder of a run."""
+    return f"figures/{name}.{kind}"
+
+
+def _read(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise InputError(str(path), error.strerror or str(error), "the folder of a run") from error

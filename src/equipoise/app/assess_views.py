@@ -10,8 +10,10 @@ from equipoise.app.figures import com_over_hours, swing_spectrum, torque_felt, t
 from equipoise.app.identify_views import show_findings
 from equipoise.app.numbers import significant, with_sd
 from equipoise.app.pictures import Picture
+from equipoise.app.plain_tables import show_sheet
 from equipoise.app.sheet import Sheet
-from equipoise.app.tables import residual_line, show_sheet, step_line
+from equipoise.app.step_pictures import pictures_of_steps
+from equipoise.app.tables import residual_line, step_line
 from equipoise.app.terminal import stdout
 from equipoise.app.units import MICRO, UM
 from equipoise.assessment.allan import FEWEST
@@ -247,6 +249,7 @@ def account_of(told: Told) -> Account:
         asked=asked,
         testbed=done.testbed,
         chapters={"Steps": told.steps},
+        step_pictures=pictures_of_steps(told.steps, done.testbed),
         origin=origin(sha256=done.recording.sha256),
         findings=told.findings,
         estimate=done.estimate,

@@ -3,10 +3,13 @@
 import numpy as np
 
 from equipoise.app.account import Account, origin
-from equipoise.app.balancing import Balancing, change_of, looks
+from equipoise.app.balancing import Balancing, Goal, change_of, looks
 from equipoise.app.figures.balanced_com import Story
+from equipoise.app.figures.step_com import Wanted
+from equipoise.app.logged import Kept
 from equipoise.app.numbers import fixed
 from equipoise.app.pictures import Picture, TrueCourse, of_balancing, of_tracking
+from equipoise.app.step_pictures import pictures_of_steps
 from equipoise.app.tables import change_table, step_line
 from equipoise.app.terminal import stdout
 from equipoise.app.units import UM
@@ -37,6 +40,11 @@ def document_of(done: Balancing, seed: int) -> View:
     return balance_json(done.steps, done.verdict, truth, _origin(done, seed))
 
 
+def kept_of(done: Balancing, law: str) -> Kept:
+    """Return what a logbook is told beside the report."""
+    return Kept("balance", law, "simulated" if done.simulated else "real", done.recording)
+
+
 def account_of(done: Balancing, seed: int) -> Account:
     """Return the run as a report."""
     return Account(
@@ -49,7 +57,13 @@ def account_of(done: Balancing, seed: int) -> Account:
         verdict=done.verdict,
         change=change_of(done),
         pictures=[*pictures_of_tracking(done), *pictures_of(done)],
+        step_pictures=pictures_of_steps(done.steps, done.testbed, wanted(done.goal)),
     )
+
+
+def wanted(goal: Goal) -> Wanted:
+    """Return where the centre of mass is to be, for a figure."""
+    return Wanted(goal.target, goal.tolerance)
 
 
 def _origin(done: Balancing, seed: int) -> dict[str, str]:

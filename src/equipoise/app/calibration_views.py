@@ -6,7 +6,8 @@ from rich.console import Group
 from rich.table import Table
 
 from equipoise.app.numbers import with_sd
-from equipoise.app.tables import parameter_table, quiet_table, residual_line, titled
+from equipoise.app.plain_tables import quiet_table, titled
+from equipoise.app.tables import parameter_table, residual_line
 from equipoise.app.terminal import stdout
 from equipoise.app.units import PER_DEG
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter

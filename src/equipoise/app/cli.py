@@ -26,6 +26,7 @@ from equipoise.app.commands.emulate import emulate
 from equipoise.app.commands.identify import identify
 from equipoise.app.commands.inspect import inspect
 from equipoise.app.commands.laws import laws
+from equipoise.app.commands.logbook import logbook
 from equipoise.app.commands.methods import methods
 from equipoise.app.commands.new import new
 from equipoise.app.commands.observe import observe
@@ -34,6 +35,7 @@ from equipoise.app.commands.print_board import print_board
 from equipoise.app.commands.record import record
 from equipoise.app.commands.repair import repair
 from equipoise.app.commands.replay import replay
+from equipoise.app.commands.report import report
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.commands.track import track
@@ -55,7 +57,7 @@ app = App(
 COMMANDS = (
     demo, new, design, plan, simulate, inspect, observe, identify, calibrate, assess, methods,
     balance, laws, compare, reproduce, devices, check, emulate, record, convert, repair, replay,
-    track, print_board, calibrate_camera,
+    track, print_board, calibrate_camera, report, logbook,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command)

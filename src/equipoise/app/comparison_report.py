@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from rich.text import Text
 
 from equipoise.app.account import Account, origin
+from equipoise.app.archive import Files
+from equipoise.app.archive import files_of as report_files
 from equipoise.app.figures import compared_accuracy, compared_coverage, compared_torque
 from equipoise.app.law_views import comparison_json, laws_csv, laws_sheet
 from equipoise.app.method_comparison import methods_csv, methods_json, sheets, shown_order
-from equipoise.app.outputs import rendered
 from equipoise.app.pictures import Picture
-from equipoise.app.report import report
+from equipoise.app.plain_tables import show_sheet
 from equipoise.app.review_views import laws_sheet as table_3
 from equipoise.app.review_views import methods_sheet as table_2
 from equipoise.app.sheet import Sheet
-from equipoise.app.tables import show_sheet
 from equipoise.app.terminal import stdout
 from equipoise.app.units import MICRO
 from equipoise.app.views_json import View, dump
@@ -105,10 +105,9 @@ def method_pictures(found: MethodComparison) -> Iterator[Picture]:
         yield Picture("methods_coverage", compared_coverage.CAPTION, drawn)
 
 
-def files_of(done: Compared) -> dict[str, str | bytes]:
-    """Return compare.json, methods.csv, laws.csv, the figures and compare.html."""
+def files_of(done: Compared) -> Files:
+    """Return compare.json, methods.csv, laws.csv, the figures and the report."""
     drawn = list(pictures(done))
-    images = {picture.name: rendered(picture.figure) for picture in drawn}
     told = advice(done)
     parts = {"records": done.methods, "laws": done.laws}
     left_out = {key for key, found in parts.items() if found is None}
@@ -122,10 +121,9 @@ def files_of(done: Compared) -> dict[str, str | bytes]:
         pictures=drawn,
         sheets=tuple(all_sheets(done)),
     )
-    files: dict[str, str | bytes] = {f"{name}.png": image for name, image in images.items()}
+    files = report_files(account) | {"compare.json": dump(document(done)) + "\n"}
     if done.methods is not None:
         files["methods.csv"] = methods_csv(done.methods.runs)
     if done.laws is not None:
         files["laws.csv"] = laws_csv(done.laws)
-    page = {"compare.html": report(account, images), "compare.json": dump(document(done)) + "\n"}
-    return files | page
+    return files

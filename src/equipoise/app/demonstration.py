@@ -7,9 +7,10 @@ import numpy as np
 
 from equipoise.app.account import Account
 from equipoise.app.balance_views import account_of as account_of_balancing
-from equipoise.app.balance_views import pictures_of, show_step
+from equipoise.app.balance_views import pictures_of, show_step, wanted
 from equipoise.app.balancing import Balancing, Goal, Limits, at_home, run
 from equipoise.app.pictures import Picture, TrueCourse, of_fit, of_move, of_tracking
+from equipoise.app.step_pictures import pictures_of_steps
 from equipoise.app.tables import estimate_tables
 from equipoise.app.terminal import busy, stdout, watched
 from equipoise.app.units import MM, UM
@@ -85,6 +86,9 @@ def account_of(shown: Demonstration, seed: int) -> Account:
         chapters={"Identify": shown.identified, "Balance": shown.balancing.steps},
         estimate=shown.estimate,
         pictures=pictures(shown),
+        step_pictures=pictures_of_steps(
+            (*shown.identified, *shown.balancing.steps), shown.balancing.testbed, wanted(GOAL)
+        ),
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from rich.console import Group
 
-from equipoise.app.tables import quiet_table, titled
+from equipoise.app.plain_tables import quiet_table, titled
 from equipoise.app.terminal import stdout
 from equipoise.app.units import GRAM, MICRO, MM, PER_DEG, UM
 from equipoise.app.views_json import View, numbers

@@ -3,7 +3,8 @@
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from equipoise.app.terminal import busy, tell_paths
+from equipoise.app.run_folder import own_folder
+from equipoise.app.terminal import busy, stderr, tell_paths
 from equipoise.app.views_json import View, dump
 
 
@@ -23,3 +24,12 @@ def hand_over(
         with busy("drawing"):
             paths = write(out)
         tell_paths(paths, json)
+
+
+def keep(write: Callable[[Path], Sequence[Path]], kind: str, platform: str) -> None:
+    """Write a result into a folder of its own among the runs, if runs are kept."""
+    own = own_folder(kind, platform)
+    if own is not None:
+        with busy("writing the report", announce=False):
+            write(own)
+        stderr().print(f"kept in {own}", markup=False)

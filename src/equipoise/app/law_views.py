@@ -7,8 +7,8 @@ from io import StringIO
 
 from rich.table import Table
 
+from equipoise.app.plain_tables import named_rows, quiet_table
 from equipoise.app.sheet import Sheet
-from equipoise.app.tables import named_rows, quiet_table
 from equipoise.app.units import MICRO, MM, PER_DEG, UM
 from equipoise.app.views_json import View
 from equipoise.control.law import NEEDS, LawCard

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from equipoise.app.account import Account, origin
 from equipoise.app.lee_pictures import pictures_of
 from equipoise.app.numbers import with_sd
+from equipoise.app.plain_tables import show_sheet
 from equipoise.app.sheet import Sheet
-from equipoise.app.tables import show_sheet
 from equipoise.app.views_json import View, estimate_json
 from equipoise.estimation.fisher import Observability
 from equipoise.estimation.methods.registry import METHODS

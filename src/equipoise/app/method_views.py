@@ -5,7 +5,7 @@ from dataclasses import asdict
 
 from rich.table import Table
 
-from equipoise.app.tables import named_rows, quiet_table
+from equipoise.app.plain_tables import named_rows, quiet_table
 from equipoise.app.views_json import View
 from equipoise.estimation.method import REGIMES, Card
 

@@ -7,7 +7,7 @@ from rich.console import Group
 from rich.text import Text
 
 from equipoise.app.numbers import with_sd
-from equipoise.app.tables import quiet_table, titled
+from equipoise.app.plain_tables import quiet_table, titled
 from equipoise.app.terminal import stdout
 from equipoise.app.units import PER_DEG, unit_for
 from equipoise.app.views_json import View, numbers, parameter_json

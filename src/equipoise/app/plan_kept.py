@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from rich.console import Group
 
 from equipoise.app.numbers import with_sd
-from equipoise.app.tables import quiet_table, titled
+from equipoise.app.plain_tables import quiet_table, titled
 from equipoise.app.units import unit_for
 from equipoise.app.views_json import View
 from equipoise.model.estimate import COM, INERTIA, Estimate

@@ -7,8 +7,8 @@ import numpy as np
 from rich.console import Group
 
 from equipoise.app.numbers import with_sd
+from equipoise.app.plain_tables import named_rows, quiet_table, titled
 from equipoise.app.planning import Planning, Request
-from equipoise.app.tables import named_rows, quiet_table, titled
 from equipoise.app.terminal import stdout
 from equipoise.app.units import MM, PER_DEG, Unit, unit_for
 from equipoise.app.views_json import View, schedule_json

@@ -1,65 +1,62 @@
-"""The report of a run: one HTML page that needs no other file. It adds no number of its own."""
+"""The report of a run, as a page of blocks. It adds no number of its own."""
 
-import base64
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from html import escape
-from importlib.resources import files
-from string import Template
 
 from equipoise.app.account import Account
 from equipoise.app.change import HEADS, rows
 from equipoise.app.numbers import fixed
+from equipoise.app.page import (
+    Block,
+    Claim,
+    Drawn,
+    Grid,
+    Heading,
+    Items,
+    Moment,
+    Page,
+    Pairs,
+    Paragraph,
+    Section,
+)
 from equipoise.app.pictures import Picture
 from equipoise.app.tables import cells, groups, residual_line
 from equipoise.app.units import GRAM, MM, PER_DEG
 from equipoise.model.estimate import Estimate
+from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 
-PAGE = Template((files("equipoise.app") / "report.html").read_text(encoding="utf-8"))
-TYPESET = {
-    "um": "µm",
-    "uN m": "µN m",
-    "uN m s": "µN m s",
-    "uN m s2": "µN m s²",
-    "um/min": "µm/min",
-    "kg m2": "kg m²",
-    "um/(kg m2)": "µm/(kg m²)",
-}
+ALL_SEEN = "Every quantity above was seen in the data or given beforehand."
 
 
-def report(account: Account, images: Mapping[str, bytes]) -> str:
-    """Return the page; ``images`` are the account's pictures as PNG, by name."""
-    parts = [part for section in SECTIONS for part in section(account)]
-    parts += [*_figures(account.pictures, images), *_origin(account)]
-    title = escape(account.title)
-    return PAGE.substitute(
-        title=title, platform=escape(account.testbed.name), body="\n".join(parts)
-    )
+def report(account: Account) -> Page:
+    """Return the page."""
+    sections = (section for part in SECTIONS for section in part(account))
+    return Page(account.title, account.testbed.name, tuple(sections))
 
 
-def _verdict(account: Account) -> Iterator[str]:
+def _verdict(account: Account) -> Iterator[Section]:
     if account.verdict is not None:
         good, sentence = account.verdict.passed, account.verdict.sentence
     elif account.estimate is not None:
         good, sentence = account.estimate.outcome.usable, account.estimate.outcome.sentence
     else:
         return
-    yield f'<p class="verdict {"good" if good else "bad"}">{escape(sentence)}</p>'
+    yield Section("", (Claim(sentence, good),))
 
 
-def _change(account: Account) -> Iterator[str]:
+def _change(account: Account) -> Iterator[Section]:
     if account.change is None:
         return
     lines = [list(row) for row in rows(account.change)]
     last = len(HEADS) if any(line[-1] for line in lines) else len(HEADS) - 2
-    yield _section("Before and after", _table(HEADS[:last], (line[:last] for line in lines)))
+    yield Section("Before and after", (_grid(HEADS[:last], (line[:last] for line in lines)),))
 
 
-def _asked(account: Account) -> Iterator[str]:
-    yield _section("What was asked", _pairs(account.asked))
+def _asked(account: Account) -> Iterator[Section]:
+    yield Section("What was asked", (_pairs(account.asked),))
 
 
-def _platform(account: Account) -> Iterator[str]:
+def _platform(account: Account) -> Iterator[Section]:
     bed = account.testbed
     masses = [
         [
@@ -72,10 +69,12 @@ def _platform(account: Account) -> Iterator[str]:
         for mass in bed.masses
     ]
     heads = ("sliding mass", "g", "travel, mm", "step, mm", "accuracy (1 sd), mm")
-    body = _pairs(_platform_pairs(bed)) + (_table(heads, masses) if masses else "")
+    blocks: list[Block] = [_pairs(_platform_pairs(bed))]
+    if masses:
+        blocks.append(_grid(heads, masses))
     if bed.assumed:
-        body += "<h3>Assumed, not measured</h3>" + _pairs(bed.assumed)
-    yield _section("Platform", body)
+        blocks += [Heading("Assumed, not measured"), _pairs(bed.assumed)]
+    yield Section("Platform", tuple(blocks))
 
 
 def _platform_pairs(bed: Testbed) -> dict[str, str]:
@@ -88,61 +87,61 @@ def _platform_pairs(bed: Testbed) -> dict[str, str]:
     return pairs
 
 
-def _findings(account: Account) -> Iterator[str]:
+def _findings(account: Account) -> Iterator[Section]:
     if account.findings:
         lines = ((f.kind, f.sentence) for f in account.findings)
-        yield _section("What the recording holds", _table(("", ""), lines))
+        yield Section("What the recording holds", (_grid(("", ""), lines, (1,)),))
 
 
-def _steps(account: Account) -> Iterator[str]:
+def _steps(account: Account) -> Iterator[Section]:
     for title, steps in account.chapters.items():
-        lines = ((fixed(s.time, 1), s.kind, s.sentence) for s in steps)
-        yield _section(title, _table(("time, s", "", ""), lines))
+        yield Section(title, tuple(_told(steps, account.step_pictures)))
 
 
-def _sheets(account: Account) -> Iterator[str]:
+def _told(steps: Sequence[Step], pictures: Mapping[Step, Picture]) -> Iterator[Block]:
+    """Yield each step, and its figure if it has one."""
+    for step in steps:
+        yield Moment(f"{fixed(step.time, 1)} s", step.kind, step.sentence)
+        if step in pictures:
+            yield _drawn(pictures[step])
+
+
+def _sheets(account: Account) -> Iterator[Section]:
     for sheet in account.sheets:
-        remarks = "".join(f"<p>{escape(remark)}</p>" for remark in sheet.remarks)
-        yield _section(sheet.title, _table(sheet.heads, sheet.lines, sheet.words[1:]) + remarks)
+        table = _grid(sheet.heads, sheet.lines, sheet.words[1:])
+        yield Section(sheet.title, (table, *map(Paragraph, sheet.remarks)))
 
 
-def _mass_properties(account: Account) -> Iterator[str]:
-    if account.estimate is None:
+def _mass_properties(account: Account) -> Iterator[Section]:
+    estimate = account.estimate
+    if estimate is None:
         return
     heads = ("", "value", "sd", "95 % interval", "unit")
-    body = [f"<p>{escape(account.estimate.outcome.sentence)}</p>"]
-    for title, group in groups(account.estimate):
+    blocks: list[Block] = [Paragraph(estimate.outcome.sentence)]
+    for title, group in groups(estimate):
         if group:
-            body += [f"<h3>{escape(title)}</h3>", _table(heads, map(cells, group))]
-    if account.estimate.residual is not None:
-        body.append(f"<p>{escape(residual_line(account.estimate.residual))}</p>")
-    yield _section("Mass properties", "".join(body))
+            blocks += [Heading(title), _grid(heads, map(cells, group))]
+    if estimate.residual is not None:
+        blocks.append(Paragraph(residual_line(estimate.residual)))
+    yield Section("Mass properties", tuple(blocks))
 
 
-def _unseen(account: Account) -> Iterator[str]:
+def _unseen(account: Account) -> Iterator[Section]:
     if account.estimate is not None:
-        yield _section("What the data cannot see", _unseen_list(account.estimate))
+        yield Section("What the data cannot see", (_unseen_block(account.estimate),))
 
 
-def _unseen_list(estimate: Estimate) -> str:
-    if not estimate.unobservable:
-        return "<p>Every quantity above was seen in the data or given beforehand.</p>"
-    return "<ul>" + "".join(f"<li>{escape(s)}</li>" for s in estimate.unobservable) + "</ul>"
+def _unseen_block(estimate: Estimate) -> Block:
+    return Items(tuple(estimate.unobservable)) if estimate.unobservable else Paragraph(ALL_SEEN)
 
 
-def _figures(pictures: Sequence[Picture], images: Mapping[str, bytes]) -> Iterator[str]:
-    if pictures:
-        yield _section("Figures", "".join(_figure(p, images[p.name]) for p in pictures))
+def _figures(account: Account) -> Iterator[Section]:
+    if account.pictures:
+        yield Section("Figures", tuple(map(_drawn, account.pictures)))
 
 
-def _figure(picture: Picture, image: bytes) -> str:
-    data = base64.b64encode(image).decode()
-    source = f'<img alt="{escape(picture.name)}" src="data:image/png;base64,{data}">'
-    return f"<figure>{source}<figcaption>{escape(picture.caption)}</figcaption></figure>"
-
-
-def _origin(account: Account) -> Iterator[str]:
-    yield _section("Where this comes from", _pairs(account.origin))
+def _origin(account: Account) -> Iterator[Section]:
+    yield Section("Where this comes from", (_pairs(account.origin),))
 
 
 SECTIONS = (
@@ -155,29 +154,18 @@ SECTIONS = (
     _sheets,
     _mass_properties,
     _unseen,
+    _figures,
+    _origin,
 )
 
 
-def _section(title: str, body: str) -> str:
-    return f"<section><h2>{escape(title)}</h2>{body}</section>"
+def _drawn(picture: Picture) -> Drawn:
+    return Drawn(picture.name, picture.caption)
 
 
-def _pairs(pairs: Mapping[str, str]) -> str:
-    cells_ = (f"<dt>{escape(k)}</dt><dd>{escape(v)}</dd>" for k, v in pairs.items())
-    return f"<dl>{''.join(cells_)}</dl>"
+def _pairs(pairs: Mapping[str, str]) -> Pairs:
+    return Pairs(tuple(pairs.items()))
 
 
-def _table(heads: Sequence[str], lines: Iterable[Sequence[str]], words: Sequence[int] = ()) -> str:
-    """Return a table; columns of ``words`` may be folded."""
-    head = "".join(f"<th>{escape(h)}</th>" for h in heads) if any(heads) else ""
-    body = "".join(
-        "<tr>" + "".join(_cell(c, k in words) for k, c in enumerate(line)) + "</tr>"
-        for line in lines
-    )
-    top = f"<thead><tr>{head}</tr></thead>" if head else ""
-    return f'<div class="wide"><table>{top}<tbody>{body}</tbody></table></div>'
-
-
-def _cell(text: str, words: bool) -> str:
-    kind = ' class="words"' if words else ""
-    return f"<td{kind}>{escape(TYPESET.get(text, text))}</td>"
+def _grid(heads: Sequence[str], lines: Iterable[Sequence[str]], words: Sequence[int] = ()) -> Grid:
+    return Grid(tuple(heads), tuple(map(tuple, lines)), tuple(words))

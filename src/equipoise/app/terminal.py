@@ -107,7 +107,14 @@ def watched(steps: "Iterator[Step]", what: str) -> "Iterator[Step]":
 
 
 def tell_paths(paths: "Sequence[Path]", aside: bool = False) -> None:
-    """Say what was written; aside from the results when those are a JSON document."""
-    console = stderr() if aside else stdout()
+    """Say what was written; aside from the results when those are a JSON document.
+
+    Of a folder within the folder of the others only the number of its files.
+    """
+    console, top = stderr() if aside else stdout(), min(len(path.parts) for path in paths)
+    for folder in dict.fromkeys(path.parent for path in paths if len(path.parts) > top):
+        number = sum(path.parent == folder for path in paths)
+        console.print(f"wrote {number} files in {folder}", markup=False, soft_wrap=True)
     for path in paths:
-        console.print(f"wrote {path}", markup=False, soft_wrap=True)
+        if len(path.parts) == top:
+            console.print(f"wrote {path}", markup=False, soft_wrap=True)

@@ -26,6 +26,20 @@ SHOWN = {
 }
 TRAVEL = Unit("mm", MM)
 LATE = Unit("ms", 1e3)
+TYPESET = {
+    "um": "µm",
+    "uN m": "µN m",
+    "uN m s": "µN m s",
+    "uN m s2": "µN m s²",
+    "um/min": "µm/min",
+    "kg m2": "kg m²",
+    "um/(kg m2)": "µm/(kg m²)",
+}
+
+
+def typeset(text: str) -> str:
+    """Return a unit as a printed page has it, and every other text as it is."""
+    return TYPESET.get(text, text)
 
 
 def unit_for(name: str, si: str) -> Unit:

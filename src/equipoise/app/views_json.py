@@ -15,7 +15,7 @@ from equipoise.model.move import Move
 from equipoise.model.placing import Placing
 from equipoise.model.recording import CHANNELS, Recording
 from equipoise.model.step import Step
-from equipoise.model.verdict import Verdict
+from equipoise.model.verdict import Verdict, outcome_of
 
 ESTIMATE, BALANCE, RECORDING = (
     f"equipoise/{kind}/1" for kind in ("estimate", "balance", "recording")
@@ -172,6 +172,7 @@ def verdict_json(verdict: Verdict) -> View:
         "passed": verdict.passed,
         "sure": verdict.sure,
         "halted": verdict.halted,
+        "outcome": outcome_of(verdict),
         "sentence": verdict.sentence,
         "com_um": numbers(verdict.com, UM),
         "sd_um": numbers(verdict.sd, UM),

@@ -33,9 +33,10 @@ class Rows(NamedTuple):
 def stop_covariances(
     recording: Recording, testbed: Testbed, line: Timeline, after: float
 ) -> tuple[Ints, Floats]:
-    """Return the nodes at which masses stopped, and what that adds to the covariance of r.
+    """Return the first nodes after stops of masses, and what that adds to the covariance of r.
 
-    A mass that travels up to the end has not stopped yet: the record that goes on counts it.
+    A mass that travels up to the end has not stopped yet: the record that goes on from there
+    counts it.
     """
     nodes: list[int] = []
     added: list[Floats] = []
@@ -44,8 +45,8 @@ def stop_covariances(
         assert track is not None
         for _, last in travels(track.t, track.values[:, i], mass.speed):
             when = float(track.t[last])
-            if after < when < line.t[-1] and mass.accuracy > 0:
-                nodes.append(min(int(np.searchsorted(line.t, when)), len(line.t) - 1))
+            if after <= when < line.t[-1] and mass.accuracy > 0:
+                nodes.append(int(np.searchsorted(line.t, when, side="right")))
                 shift: Vector3 = mass.mass * mass.accuracy / total * mass.axis
                 added.append(shift[:, None] * shift)
     order = np.argsort(nodes, kind="stable")

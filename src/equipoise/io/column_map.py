@@ -68,6 +68,7 @@ class ColumnMap:
     torque: Columns | None = None
     devices: tuple[DeviceColumn, ...] = ()
     field: Columns | None = None
+    temperature: Columns | None = None  # degC
     lab_up: str = "z"  # the laboratory axis of the table that points up
     body: tuple[str, str, str] = ("x", "y", "z")  # our body axes in terms of the table's
     inverse: bool = False  # the attitude turns laboratory into body components

@@ -95,6 +95,13 @@ class DeviceTable(Table):
     unit: str
 
 
+class TemperatureTable(Table):
+    """The air at the bench, or the platform."""
+
+    column: str
+    unit: Literal["degC"]
+
+
 class MapFile(Table):
     """A column map file as a whole."""
 
@@ -112,6 +119,7 @@ class MapFile(Table):
     torque: TriadTable | None = None
     device: list[DeviceTable] = Field([])
     field: TriadTable | None = None
+    temperature: TemperatureTable | None = None
 
 
 def read_column_map(path: str | Path) -> ColumnMap:
@@ -133,6 +141,7 @@ def read_column_map(path: str | Path) -> ColumnMap:
         torque=_triad(table.torque, "torque", f"{source}: torque"),
         devices=tuple(_device(d, f"{source}: device[{i + 1}]") for i, d in enumerate(table.device)),
         field=_triad(table.field, "magnetic", f"{source}: field"),
+        temperature=None if table.temperature is None else Columns((table.temperature.column,)),
         lab_up=table.lab_up,
         body=body,
         inverse=table.attitude is not None and table.attitude.turns == "laboratory to body",

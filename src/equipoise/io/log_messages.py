@@ -5,7 +5,7 @@ Topics, all times in ns on the clock of the log (UTC of a real bench):
     /attitude   foxglove.FrameTransform, laboratory to body: Foxglove and Lichtblick show it in 3D
     /log        foxglove.Log: the sentence of each event, for people
     /events     JSON {"kind", "sentence", "data"}: the same events, for programs
-    /rate /masses /momentum /torque /devices /field
+    /rate /masses /momentum /torque /devices /field /temperature
                 JSON, one number for each name, the unit at its end: {"x_rad_s": 0.01, ...}
 
 JSON prints a double with the digits that give the same double again, so values come back exactly.
@@ -20,6 +20,7 @@ from typing import Any
 from equipoise.io.device_columns import si_column
 from equipoise.io.log_libraries import log_library
 from equipoise.io.log_time import PER_S, nanoseconds
+from equipoise.io.recording_columns import TEMPERATURE
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 
@@ -42,6 +43,8 @@ def value_names(channel: str, names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(f"{name}_m" for name in names)
     if channel == "devices":
         return tuple(map(si_column, names))
+    if channel == "temperature":
+        return TEMPERATURE
     return tuple(f"{axis}_{XYZ_UNITS[channel]}" for axis in "xyz")
 
 

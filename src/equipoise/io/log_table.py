@@ -4,6 +4,7 @@ Columns have the names of our own files, all in SI:
 
     time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_m  h_x_N_m_s ...  torque_x_N_m ...
     wheel_<name>_rad_s  gimbal_<name>_rad  dipole_<name>_A_m2  jet_<name>_N_m  field_x_T ...
+    temperature_degC
 
 so that a column map can name them, and what tables need set right is set right once, for all.
 """
@@ -16,13 +17,14 @@ import numpy as np
 from equipoise.io.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
 from equipoise.io.device_columns import si_column
 from equipoise.io.log_time import seconds
-from equipoise.io.recording_columns import ATTITUDE, MOMENTUM, RATE, TIME, TORQUE
+from equipoise.io.recording_columns import ATTITUDE, MOMENTUM, RATE, TEMPERATURE, TIME, TORQUE
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.errors import InputError
 
 FIELD = ("field_x_T", "field_y_T", "field_z_T")
 LARGEST = 1e150  # chosen: its square is still a double; no sensor's number
-TRIADS = {"rate": RATE, "momentum": MOMENTUM, "torque": TORQUE, "field": FIELD}
+GROUPS = {"rate": RATE, "momentum": MOMENTUM, "torque": TORQUE, "field": FIELD,
+         "temperature": TEMPERATURE}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +45,7 @@ class LogChannel:
             return tuple(f"mass_{name}_m" for name in self.names)
         if self.name == "devices":
             return tuple(map(si_column, self.names))
-        return TRIADS[self.name]
+        return GROUPS[self.name]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,6 +120,7 @@ def log_map(
             DeviceColumn(n, c, 1.0) for n, c in zip(devices.names, devices.columns, strict=True)
         ),
         field=known.get("field"),
+        temperature=known.get("temperature"),
         lab_up=lab_up,
         body=body,
         native=ours,

@@ -4,7 +4,7 @@ pyarrow is an extra and heavy, so it is imported when a Parquet file is met and 
 """
 
 import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
@@ -62,8 +62,19 @@ def read_parquet(content: bytes, source: str) -> ParquetTable:
 
 def parquet_bytes(columns: Mapping[str, Series1], source: str) -> bytes:
     """Return columns as a Parquet file's bytes; NaN becomes null."""
-    parquet, pyarrow = _pyarrow("pyarrow.parquet", source), _pyarrow("pyarrow", source)
+    pyarrow = _pyarrow("pyarrow", source)
     arrays = {name: pyarrow.array(v, mask=np.isnan(v)) for name, v in columns.items()}
+    return _written(arrays, source)
+
+
+def parquet_of_cells(columns: Mapping[str, Sequence[Any]], source: str) -> bytes:
+    """Return columns of texts or numbers as a Parquet file's bytes; None becomes null."""
+    pyarrow = _pyarrow("pyarrow", source)
+    return _written({name: pyarrow.array(cells) for name, cells in columns.items()}, source)
+
+
+def _written(arrays: Mapping[str, Any], source: str) -> bytes:
+    pyarrow, parquet = _pyarrow("pyarrow", source), _pyarrow("pyarrow.parquet", source)
     stream = io.BytesIO()
     parquet.write_table(pyarrow.table(arrays), stream)
     return stream.getvalue()

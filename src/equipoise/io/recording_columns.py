@@ -2,6 +2,7 @@
 
     time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_mm  h_x_N_m_s ...  torque_x_N_m ...
     wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  jet_<name>_N_m  field_x_uT ...
+    temperature_degC
 
 One table for all channels; a cell is blank where its channel has no row at that time.
 """
@@ -23,7 +24,8 @@ RATE = ("omega_x_rad_s", "omega_y_rad_s", "omega_z_rad_s")
 MOMENTUM = ("h_x_N_m_s", "h_y_N_m_s", "h_z_N_m_s")
 TORQUE = ("torque_x_N_m", "torque_y_N_m", "torque_z_N_m")
 FIELD = ("field_x_uT", "field_y_uT", "field_z_uT")
-GROUPS = (ATTITUDE, RATE, MOMENTUM, TORQUE, FIELD)
+TEMPERATURE = ("temperature_degC",)
+GROUPS = (ATTITUDE, RATE, MOMENTUM, TORQUE, FIELD, TEMPERATURE)
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
 OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field)_.*")
@@ -54,6 +56,7 @@ def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
         torque=_group(names, TORQUE, source),
         devices=tuple(devices),
         field=_group(names, FIELD, source, UT),
+        temperature=_group(names, TEMPERATURE, source),
         native=True,
         notes=_left_aside(names, known),
     )
@@ -82,6 +85,7 @@ def native_columns(recording: Recording) -> dict[str, Series1]:
         (recording.torque, TORQUE, 1.0),
         (recording.devices, tuple(d.column for d in devices), per_unit),
         (recording.field, FIELD, PER_UT),
+        (recording.temperature, TEMPERATURE, 1.0),
     )
     present = [(c, names, unit) for c, names, unit in channels if c is not None and len(c)]
     if not present:

@@ -34,8 +34,8 @@ class Rows:
         if channel is None or columns is None:
             return None, ()
         channel, twice = without_duplicates(channel, self.table)
-        if name in ("masses", "devices"):
-            return channel, twice  # what never moves is a fact, not a dead column
+        if name in ("masses", "devices", "temperature"):
+            return channel, twice  # what never changes is a fact, not a dead column
         kept, dead = without_dead(channel, columns, self.columns.native)
         return kept, (*twice, *dead)
 
@@ -57,6 +57,7 @@ def recording_of(table: Table, columns: ColumnMap) -> Recording:
     torque, of_torque = source.vector("torque", columns.torque)
     devices, of_devices = source.channel("devices", _together(columns.devices))
     field, of_field = source.vector("field", columns.field)
+    temperature, of_warmth = source.channel("temperature", columns.temperature)
     gaps = [note for c in (attitude, rate) if c is not None for note in gap_notes(c)]
     notes = (*table.notes, *columns.notes, *order, *of_attitude, *of_rate, *of_masses)
     return Recording(
@@ -69,10 +70,11 @@ def recording_of(table: Table, columns: ColumnMap) -> Recording:
         device_names=tuple(each.device for each in columns.devices) if devices else (),
         devices=_samples(devices),
         field=_samples(field),
+        temperature=_samples(temperature),
         attitude_norm=_samples(norm),
         source=table.source,
         free_from=columns.free_from,
-        notes=(*notes, *of_momentum, *of_torque, *of_devices, *of_field, *gaps),
+        notes=(*notes, *of_momentum, *of_torque, *of_devices, *of_field, *of_warmth, *gaps),
     )
 
 

@@ -26,7 +26,10 @@ def check_folder(path: str | Path) -> None:
 
 
 def write_folder(path: str | Path, files: Mapping[str, str | bytes]) -> list[Path]:
-    """Write named files into a folder, which is made if need be, and return their paths."""
+    """Write named files into a folder, which is made if need be, and return their paths.
+
+    A name may have folders of its own: ``figures/a.png``.
+    """
     check_folder(path)
     folder = Path(path)
     staging = folder / f".{uuid4().hex[:8]}"
@@ -34,7 +37,10 @@ def write_folder(path: str | Path, files: Mapping[str, str | bytes]) -> list[Pat
     try:
         staging.mkdir(parents=True)
         for name, content in files.items():
+            (staging / name).parent.mkdir(parents=True, exist_ok=True)
             write_whole(staging / name, content)
+        for name in files:
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
         return [(staging / name).replace(folder / name) for name in files]
     except OSError as error:
         raise InputError(str(path), error.strerror or str(error), WRITABLE) from error

@@ -50,6 +50,7 @@ class Recording:
     device_names: tuple[str, ...] = ()  # 'wheel:x', 'gimbal:a', 'dipole:x', 'jet:x'
     devices: Samples | None = None  # (n, k) what each reported: rad/s, rad, A m^2, N m
     field: Samples | None = None  # (n, 3) T, magnetic, body axes, as the magnetometer gave it
+    temperature: Samples | None = None  # (n, 1) degC, of the air at the bench or of the platform
     # (n, 1) lengths of the attitude's quaternions as they were found, at the attitude's times; None
     # when they told no more than rounding. A mean of frames is shorter than one. Not written.
     attitude_norm: Samples | None = None
@@ -65,7 +66,7 @@ class Recording:
         return float(min(e[0] for e in edges)), float(max(e[1] for e in edges))
 
 
-CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field")
+CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field", "temperature")
 
 
 def window(recording: Recording, start: float, end: float) -> Recording:
@@ -94,6 +95,7 @@ def window(recording: Recording, start: float, end: float) -> Recording:
         torque=known(recording.torque),
         devices=known(recording.devices),
         field=sensor(recording.field),
+        temperature=sensor(recording.temperature),
     )
 
 

@@ -84,7 +84,7 @@ def balance(
     json
         Print one JSON document instead.
     out
-        Folder for figures, report.html and balance.json.
+        Folder for report, figures and balance.json; else one of its own in equipoise-runs.
     """
     from equipoise.app.options import one_of, seed_of
     from equipoise.app.wiring import testbed_of
@@ -115,7 +115,7 @@ def balance(
         prepare(bed, goal, limits, on_bench)
     with let_go(bed, on_bench) if on_bench.bench else _simulated(bed, planned, seed) as bench:
         done = run(bench, goal, limits, None if json else show_step)
-    _tell(done, seed, json, out)
+    _tell(done, limits.law, seed, json, out)
     return 0 if done.verdict.passed else 1
 
 
@@ -164,15 +164,17 @@ def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Gener
     yield bench
 
 
-def _tell(done: "Balancing", seed: int, json: bool, out: Path | None) -> None:
+def _tell(done: "Balancing", law: str, seed: int, json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
-    from equipoise.app.archive import write_account
-    from equipoise.app.balance_views import account_of, document_of, show_result
-    from equipoise.app.handing_over import hand_over
+    from equipoise.app.archive import write_run
+    from equipoise.app.balance_views import account_of, document_of, kept_of, show_result
+    from equipoise.app.handing_over import hand_over, keep
 
     document = document_of(done, seed)
 
     def written(folder: Path) -> list[Path]:
-        return write_account(account_of(done, seed), document, "balance", folder)
+        return write_run(account_of(done, seed), document, "balance", kept_of(done, law), folder)
 
     hand_over(document, lambda: show_result(done), written, json, out)
+    if out is None:
+        keep(written, "balance", done.testbed.name)

@@ -122,14 +122,18 @@ def _a_persons(asked: Asked, path: Path, bed: "Testbed", rounds: int) -> int:
 
 def _tell(done: "ByHand", of: dict[str, str], asked: Asked) -> int:
     """Print the result, write it down if that is asked for, and return the exit code."""
-    from equipoise.app.archive import write_account
-    from equipoise.app.handing_over import hand_over
+    from equipoise.app.archive import write_run
+    from equipoise.app.balance_views import kept_of
+    from equipoise.app.handing_over import hand_over, keep
     from equipoise.app.manual_views import account_of, document_of, show_result
 
     document = document_of(done, of)
 
     def written(folder: Path) -> list[Path]:
-        return write_account(account_of(done, of), document, "balance", folder)
+        kept = kept_of(done.balancing, "by hand")
+        return write_run(account_of(done, of), document, "balance", kept, folder)
 
     hand_over(document, lambda: show_result(done), written, asked.json, asked.out)
+    if asked.out is None and done.ended:
+        keep(written, "balance", done.balancing.testbed.name)
     return 0 if done.verdict is None or done.verdict.passed else 1

@@ -64,7 +64,7 @@ def compare(
     json
         Print one JSON document instead.
     out
-        Folder for compare.html, compare.json, figures, and methods.csv or laws.csv, a line a run.
+        Folder for the report, figures, compare.json, and methods.csv or laws.csv, a line a run.
     """
     from equipoise.app.options import positive
     from equipoise.app.wiring import move_of, spelt_out, testbed_of

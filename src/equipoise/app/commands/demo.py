@@ -12,7 +12,7 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
     Parameters
     ----------
     out
-        Folder for figures, report.html and balance.json.
+        Folder for report, figures and balance.json.
     seed
         Seed of all that is drawn: the same seed gives the same run.
     """
@@ -23,15 +23,17 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
     bed, seed = read_preset("sputnix"), seed_of(seed)
     check_folder(out)
     with busy("preparing the bench", announce=False):
-        from equipoise.app.archive import write_account
-        from equipoise.app.balance_views import document_of, show_result
+        from equipoise.app.archive import write_run
+        from equipoise.app.balance_views import document_of, kept_of, show_result
         from equipoise.app.demonstration import account_of, run_demo
+        from equipoise.procedure.laws import OWN
 
     shown = run_demo(bed, seed)
     show_result(shown.balancing)
     with busy("drawing"):
         document = document_of(shown.balancing, seed)
-        paths = write_account(account_of(shown, seed), document, "balance", out)
+        kept = kept_of(shown.balancing, OWN.name)
+        paths = write_run(account_of(shown, seed), document, "balance", kept, out)
     stdout().print()
     tell_paths(paths)
     return 0 if shown.balancing.verdict.passed else 1

@@ -48,7 +48,7 @@ def identify(
     json
         Print one JSON document instead.
     out
-        Folder for figures, report.html and estimate.json.
+        Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
     """
     from equipoise.app.options import one_of
     from equipoise.app.wiring import fitting_recording_of, spelt_out, testbed_of
@@ -94,13 +94,15 @@ def _carried_out(
 
 def _tell(done: "Identification", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
-    from equipoise.app.archive import write_account
-    from equipoise.app.handing_over import hand_over
-    from equipoise.app.identify_views import account_of, document_of, show_result
+    from equipoise.app.archive import write_run
+    from equipoise.app.handing_over import hand_over, keep
+    from equipoise.app.identify_views import account_of, document_of, kept_of, show_result
 
     document = document_of(done)
 
     def written(folder: Path) -> list[Path]:
-        return write_account(account_of(done), document, "estimate", folder)
+        return write_run(account_of(done), document, "estimate", kept_of(done), folder)
 
     hand_over(document, lambda: show_result(done), written, json, out)
+    if out is None:
+        keep(written, "identify", done.testbed.name)

@@ -26,6 +26,19 @@ DECADES = 8.0  # ratio of the longest spacing to the shortest, from which its sc
 
 def panels_of(recording: Recording, up: Vector3 | None) -> list[Panel]:
     """Return a drawing for each panel that the recording has something for."""
+    found = panels_of_motion(recording, up)
+    attitude, rate = _enough(recording.attitude), _enough(recording.rate)
+    if attitude is not None:
+        rough = outlying_attitudes(attitude).rough
+        found.append(_rough(attitude.t, rough, "attitude\nroughness, deg"))
+    if rate is not None:
+        rough = outlying_rates(rate).rough
+        found.append(_rough(rate.t, rough, "gyro\nroughness, deg/s"))
+    return [*found, _spacing(attitude, rate)]
+
+
+def panels_of_motion(recording: Recording, up: Vector3 | None) -> list[Panel]:
+    """Return the panels that tell how platform and masses moved."""
     found: list[Panel] = []
     attitude, rate = _enough(recording.attitude), _enough(recording.rate)
     if attitude is not None:
@@ -34,13 +47,7 @@ def panels_of(recording: Recording, up: Vector3 | None) -> list[Panel]:
         found.append(_rate(rate))
     if recording.masses is not None and len(recording.masses):
         found.append(_masses(recording.masses, recording.mass_names))
-    if attitude is not None:
-        rough = outlying_attitudes(attitude).rough
-        found.append(_rough(attitude.t, rough, "attitude\nroughness, deg"))
-    if rate is not None:
-        rough = outlying_rates(rate).rough
-        found.append(_rough(rate.t, rough, "gyro\nroughness, deg/s"))
-    return [*found, _spacing(attitude, rate)]
+    return found
 
 
 def _enough(channel: Samples | None) -> Samples | None:

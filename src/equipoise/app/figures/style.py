@@ -24,6 +24,7 @@ SIX = (BLUE, SKY, ORANGE, AMBER, GREEN, PURPLE)  # masses, mostly two along each
 AXES = ("x", "y", "z")
 BAND = 2.0  # sd on either side of a line
 MOST = 4000  # points of a line; chosen: more than a page has pixels across
+FEW = 250  # measurements that are drawn as larger dots; chosen: they do not touch
 RINGS = 90  # measurements of a curve drawn as rings; chosen: they do not touch
 WIDE = 6.6  # inches
 STYLE: Any = {
@@ -98,9 +99,11 @@ def course(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> 
 def dots(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
     """Draw measurements."""
     keep = thinned(len(t))
+    few = len(t) <= FEW
     axes.plot(
-        t[keep], y[keep], ".", color=colour, alpha=0.45, markeredgewidth=0, label=label or None
-    )
+        t[keep], y[keep], ".", color=colour, alpha=0.8 if few else 0.45, markeredgewidth=0,
+        markersize=5.5 if few else None, label=label or None,
+    )  # fmt: skip
 
 
 def rings(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:

@@ -1,0 +1,108 @@
+"""`equipoise logbook`: the runs of a folder, listed, compared, drawn, exported."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Flag, Listed
+from equipoise.app.commands.wanted_runs import LATEST, WantedRuns, condition
+from equipoise.app.terminal import busy, complain, stderr, stdout, tell_paths
+
+if TYPE_CHECKING:
+    from equipoise.io.logbook import Logbook
+    from equipoise.model.logged_run import LoggedRun
+
+
+def logbook(
+    folder: Path | None = None,
+    /,
+    *,
+    wanted: WantedRuns = LATEST,
+    compare: Listed = (),
+    trend: Path | None = None,
+    export: Path | None = None,
+    json: Flag = False,
+) -> int:
+    """List the runs that balance and identify have kept.
+
+    The index beside the runs, logbook.sqlite, can be deleted: it is made anew from their folders.
+
+    Parameters
+    ----------
+    folder
+        Folder of runs. Left out: what EQUIPOISE_RUNS names, else equipoise-runs.
+    compare
+        Runs to set side by side, by their number in the list or by name, the first one as what
+        the others are compared with.
+    trend
+        Figure to write (.png, .svg, .pdf): centre of mass and inertia over time, changes of the
+        testbed file marked; against temperature too where that was recorded.
+    export
+        Table to write (.csv or .parquet): a line a run, SI units.
+    json
+        Print one JSON document instead.
+    """
+    from equipoise.app.run_folder import USUAL, runs_folder
+    from equipoise.io.logbook import open_logbook
+
+    for path in (trend, export):
+        _check(path, ".png .svg .pdf" if path is trend else ".csv .parquet")
+    with open_logbook(folder or runs_folder() or Path(USUAL)) as book:
+        for sentence in book.unread:
+            complain(f"left out: {sentence}")
+        shown = book.runs(*condition(wanted), wanted.last or None)
+        earlier = book.count(*condition(wanted)) - len(shown)
+        _tell(book, shown, earlier, compare, json)
+        _write(book, shown, trend, export, json)
+    return 0
+
+
+def _check(path: Path | None, suffixes: str) -> None:
+    from equipoise.io.whole_file import check_writable
+    from equipoise.model.errors import InputError
+
+    if path is not None:
+        if path.suffix.lower() not in suffixes.split():
+            raise InputError(str(path), f"suffix '{path.suffix}'", f"one of {suffixes}")
+        check_writable(path)
+
+
+def _tell(
+    book: "Logbook", shown: "list[LoggedRun]", earlier: int, compare: Listed, json: bool
+) -> None:
+    from equipoise.app import logbook_views as views
+    from equipoise.app.plain_tables import show_sheet
+    from equipoise.app.views_json import dump
+
+    if compare:
+        chosen = [views.chosen(shown, name) for name in compare]
+        if json:
+            print(dump(views.compared_json(book, chosen)))
+        else:
+            show_sheet(views.compared(book, chosen))
+        return
+    if json:
+        print(dump(views.runs_json(book, shown)))
+        return
+    if not shown:
+        stdout().print("No such run.")
+        return
+    if earlier:
+        stderr().print(f"{earlier} earlier runs are not shown (--last 0: all).", markup=False)
+    views.show_runs(book, shown)
+
+
+def _write(
+    book: "Logbook", shown: "list[LoggedRun]", trend: Path | None, export: Path | None, aside: bool
+) -> None:
+    paths = [path for path in (trend, export) if path is not None]
+    if trend is not None:
+        with busy("drawing"):
+            from equipoise.app.logbook_trend import write_trend
+
+            write_trend(book, shown, trend)
+    if export is not None:
+        from equipoise.app.logbook_export import write_export
+
+        write_export(book, shown, export)
+    if paths:
+        tell_paths(paths, aside)

@@ -1,0 +1,23 @@
+"""`equipoise report`: the report of a run, set anew."""
+
+from pathlib import Path
+
+from equipoise.app.terminal import busy, tell_paths
+
+
+def report(run: Path, /) -> int:
+    """Write report.html and report.pdf of a run anew, from the parts that its folder holds.
+
+    A run that was made without typst has no PDF: install it, then use this.
+
+    Parameters
+    ----------
+    run
+        Folder of a run.
+    """
+    with busy("setting the report", announce=False):
+        from equipoise.app.archive import set_again
+
+        paths = set_again(run)
+    tell_paths(paths)
+    return 0

@@ -1,0 +1,29 @@
+"""What a logbook knows of one run."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from equipoise.model.estimate import Parameter
+
+Kind = Literal["balance", "identify"]
+Outcome = Literal["passed", "failed", "cannot tell", "halted", "usable", "not usable"]
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedRun:
+    """One run: of which platform, how it was built then, by what, and what came of it."""
+
+    name: str  # of its folder
+    kind: Kind
+    made_at: str  # ISO 8601 with its offset from UTC
+    platform: str
+    configuration: str  # SHA-256 of the testbed's text
+    method: str  # of estimation, or law of balancing
+    bench: str  # simulated, real, recording
+    outcome: Outcome
+    sentence: str
+    parameters: tuple[Parameter, ...] = ()  # of the last estimate, SI, masses at home
+    standing: tuple[Parameter, ...] = ()  # centre of mass as judged, masses as they stand, SI
+    temperature: float | None = None  # degC, mean of the recording's
+    provenance: Mapping[str, str] = field(default_factory=dict[str, str])
