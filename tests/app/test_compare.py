@@ -64,7 +64,7 @@ def test_methods_are_compared_and_written_down(equipoise, strict_json, tmp_path)
     parser = Balanced()
     parser.feed(page)
     assert parser.open == []
-    assert page.count('src="data:image/png;base64,') == len(list(folder.glob("*.png"))) == 2
+    assert page.count('src="data:image/png;base64,') == len(list(folder.glob("figures/*.png"))) == 2
     assert "report.html" in done.err
 
 
@@ -127,7 +127,8 @@ def test_methods_and_laws_go_into_one_document(equipoise, strict_json, tmp_path)
     assert document["laws"]["recommended"]["name"] == "pid"
     assert document["methods"]["recommended"]["com"]["name"] == "tracker"
     written = {path.name for path in (tmp_path / "here").iterdir()}
-    assert written >= {"report.html", "compare.json", "methods.csv", "laws.csv", "laws_torque.png"}
+    assert written >= {"report.html", "report.pdf", "compare.json", "methods.csv", "laws.csv"}
+    assert (tmp_path / "here" / "figures" / "laws_torque.png").exists()
     page = (tmp_path / "here" / "report.html").read_text("utf-8")
     assert page.index("take tracker") < page.index("<h2>")
     for words in ("As the review&#x27;s Table 3", "below 50 uN m or 1 um [9]", "Take pid"):

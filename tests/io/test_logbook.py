@@ -8,14 +8,14 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import killed_writer
 import pytest
-from killed_writer import put, run
 
 from equipoise.io.logbook import INDEX, RUN, open_logbook
 from equipoise.io.logbook_schema import MIGRATIONS
 from equipoise.io.run_file import read_run, text_of_run
 from equipoise.model.errors import InputError
+from tests.io import killed_writer
+from tests.io.killed_writer import put, run
 
 MANY = 10_000
 LISTING = """
