@@ -15,9 +15,10 @@ KINDS = (".png", ".svg", ".pdf")
 @styled
 def rendered(figure: Figure, kind: str = "png") -> bytes:
     """Return a figure as the bytes of a file; the same figure gives the same bytes."""
-    if figure.get_layout_engine() is not None:
-        figure.draw_without_rendering()
-        figure.set_layout_engine("none")  # drawing anew would lay it out a hair differently
+    layout = figure.get_layout_engine()
+    if layout is not None:
+        layout.execute(figure)
+        figure.set_layout_engine(None)  # laid out anew it would be a hair different, and slow
     undated = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[kind]
     stream = io.BytesIO()
     figure.savefig(stream, format=kind, metadata=undated)

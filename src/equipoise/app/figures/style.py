@@ -50,6 +50,8 @@ STYLE: Any = {
     "legend.frameon": False,
     "legend.fontsize": 8.5,
     "figure.dpi": 100,
+    "figure.autolayout": False,  # nor "tight" nor "constrained" but where a figure asks for it
+    "figure.constrained_layout.use": False,
     "savefig.dpi": 160,
     "svg.hashsalt": "equipoise",  # the same figure, the same bytes
 }
