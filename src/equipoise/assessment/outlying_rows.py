@@ -14,6 +14,7 @@ is nothing unusual. Runs of more than three odd rows are not seen as such.
 
 import math
 from dataclasses import dataclass
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -168,6 +169,7 @@ def _reach(fit: LocalFit, span: Span) -> float:
     return sum(float(np.linalg.norm(_spread(fit, at))) / share**0.5 for at, share in told.items())
 
 
+@cache
 def _free_of_bends(span: Span) -> float:
     """Return the share of a middle row's square that polynomial and bends leave, rows even."""
     t = np.linspace(-1.0, 1.0, span.rows)
