@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.dates import AutoDateLocator, ConciseDateFormatter, date2num
+from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.style import BAND, GREY, WIDE, XYZ, styled
@@ -71,7 +71,12 @@ def _mark_builds(axes: Axes, trend: Trend, named: bool) -> None:
         if k and build == trend.builds[k - 1]:
             continue
         if k:
-            axes.axvline(float(date2num(trend.times[k])), color=GREY, linestyle="--", linewidth=0.8)
+            axes.axvline(
+                trend.times[k],  # pyright: ignore[reportArgumentType]: takes dates too
+                color=GREY,
+                linestyle="--",
+                linewidth=0.8,
+            )
         if named:
             axes.annotate(
                 f" build {build}", (trend.times[k], 1.0), xycoords=("data", "axes fraction"),
