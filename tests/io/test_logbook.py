@@ -183,8 +183,8 @@ def test_two_that_write_at_once_lose_nothing(tmp_path):
             listed(tmp_path)
 
     listed(tmp_path)
-    script = f"from test_logbook import *\nwrite_from_outside(Path({str(tmp_path)!r}))"
-    other = subprocess.Popen([sys.executable, "-c", script], cwd=Path(__file__).parent)
+    script = f"from tests.io.test_logbook import *\nwrite_from_outside(Path({str(tmp_path)!r}))"
+    other = subprocess.Popen([sys.executable, "-c", script], cwd=Path(__file__).parents[2])
     with ThreadPoolExecutor(1) as pool:
         pool.submit(write, "here").result()
     assert other.wait(60) == 0
