@@ -4,6 +4,7 @@ import csv
 import hashlib
 import json
 import shutil
+from dataclasses import replace
 from datetime import datetime, timedelta
 
 import numpy as np
@@ -159,8 +160,6 @@ def months(runs, tmp_path):
     """Return a folder of nine runs, three weeks apart, rebuilt after the fifth, warmed since."""
     folder = tmp_path / "months"
     entry, rng = read_run(folders(runs, "identify")[0]), np.random.default_rng(1)
-    from dataclasses import replace
-
     for k in range(9):
         made = datetime(2026, 1, 5, 9, 0).astimezone() + timedelta(weeks=3 * k)
         moved = tuple(

@@ -7,13 +7,14 @@ from pathlib import Path
 from equipoise.app import logged
 from equipoise.app.account import Account
 from equipoise.app.outputs import rendered
-from equipoise.app.page import Page, page_of_text, text_of_page
+from equipoise.app.page import Page, page_of_text, text_of_page, typeset_page
 from equipoise.app.page_html import html
 from equipoise.app.page_pdf import can_set, pdf
 from equipoise.app.report import report
 from equipoise.app.views_json import View, dump
+from equipoise.io.run_file import A_RUN
+from equipoise.io.source_file import read_bytes
 from equipoise.io.whole_folder import write_folder
-from equipoise.model.errors import InputError
 
 Files = dict[str, str | bytes]
 Images = Mapping[str, Mapping[str, bytes]]  # by kind of file and by name
@@ -47,8 +48,9 @@ def files_of(account: Account) -> Files:
 
 def set_page(page: Page, images: Images) -> Files:
     """Return report.html and, with typst, report.pdf."""
-    files: Files = {"report.html": html(page, images["png"])}
-    return files | {"report.pdf": pdf(page, images["svg"])} if can_set() else files
+    printed = typeset_page(page)
+    files: Files = {"report.html": html(printed, images["png"])}
+    return files | {"report.pdf": pdf(printed, images["svg"])} if can_set() else files
 
 
 def set_again(folder: Path) -> list[Path]:
@@ -56,18 +58,11 @@ def set_again(folder: Path) -> list[Path]:
 
     Raises InputError if they are not there.
     """
-    page = page_of_text(_read(folder / PAGE), str(folder / PAGE))
-    images = {k: {n: _read(folder / place(n, k)) for n in page.figures} for k in KINDS}
+    page = page_of_text(read_bytes(folder / PAGE, A_RUN), str(folder / PAGE))
+    images = {k: {n: read_bytes(folder / place(n, k), A_RUN) for n in page.figures} for k in KINDS}
     return write_folder(folder, set_page(page, images))
 
 
 def place(name: str, kind: str) -> str:
     """Return where a figure stands in the folder of a run."""
     return f"figures/{name}.{kind}"
-
-
-def _read(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise InputError(str(path), error.strerror or str(error), "the folder of a run") from error

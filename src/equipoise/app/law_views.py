@@ -1,18 +1,18 @@
 """Cards of laws, and laws compared, for terminal, JSON and CSV."""
 
-import csv
 from collections.abc import Sequence
 from dataclasses import asdict
-from io import StringIO
 
 from rich.table import Table
 
+from equipoise.app.csv_lines import csv_lines
 from equipoise.app.plain_tables import named_rows, quiet_table
 from equipoise.app.sheet import Sheet
 from equipoise.app.units import MICRO, MM, PER_DEG, UM
 from equipoise.app.views_json import View
 from equipoise.control.law import NEEDS, LawCard
 from equipoise.study.compare_laws import Comparison, LawSummary, Middle
+from equipoise.study.law_run import LawRun
 from equipoise.study.recommend import advised_law
 
 SCHEMA = "equipoise/laws/1"
@@ -118,15 +118,15 @@ def _summary_json(law: LawSummary) -> View:
 
 def laws_csv(found: Comparison) -> str:
     """Return one line a run."""
-    text = StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["law", "seed", "offset_x_um", "offset_y_um", "offset_z_um", "torque_uN_m",
-                     "followed_uN_m", "time_s", "travel_mm", "passed", "halted",
-                     "late", "verdict"])  # fmt: skip
-    for run in found.runs:
-        offset = [f"{UM * x:.6g}" for x in run.offset]
-        followed = "" if run.followed is None else f"{MICRO * run.followed:.6g}"
-        writer.writerow([run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", followed,
-                         f"{run.time:.6g}", f"{MM * run.travel:.6g}", run.verdict.passed,
-                         run.verdict.halted, run.late, run.verdict.sentence])  # fmt: skip
-    return text.getvalue()
+    heads = ("law", "seed", "offset_x_um", "offset_y_um", "offset_z_um", "torque_uN_m",
+             "followed_uN_m", "time_s", "travel_mm", "passed", "halted", "late",
+             "verdict")  # fmt: skip
+    return csv_lines(heads, map(_csv_line, found.runs))
+
+
+def _csv_line(run: LawRun) -> list[object]:
+    offset = [f"{UM * x:.6g}" for x in run.offset]
+    followed = "" if run.followed is None else f"{MICRO * run.followed:.6g}"
+    return [run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", followed,
+            f"{run.time:.6g}", f"{MM * run.travel:.6g}", run.verdict.passed,
+            run.verdict.halted, run.late, run.verdict.sentence]  # fmt: skip

@@ -1,11 +1,10 @@
 """Runs of a logbook as a table: a line a run, SI units in the names of columns."""
 
-import csv
-import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from equipoise.app.csv_lines import csv_lines
 from equipoise.io.logbook import Logbook
 from equipoise.io.parquet_table import parquet_of_cells
 from equipoise.io.whole_file import write_whole
@@ -24,7 +23,7 @@ def write_export(book: Logbook, runs: Sequence[LoggedRun], path: Path) -> None:
     if path.suffix.lower() == ".parquet":
         write_whole(path, parquet_of_cells(columns, str(path)))
     else:
-        write_whole(path, csv_of(columns))
+        write_whole(path, csv_lines(list(columns), zip(*columns.values(), strict=True)))
 
 
 def table(book: Logbook, runs: Sequence[LoggedRun]) -> dict[str, list[Any]]:
@@ -41,12 +40,3 @@ def table(book: Logbook, runs: Sequence[LoggedRun]) -> dict[str, list[Any]]:
             columns[f"{column}_{UNITS[name]}"] = [None if p is None else p.value for p in numbers]
             columns[f"{column}_sd_{UNITS[name]}"] = [None if p is None else p.sd for p in numbers]
     return columns
-
-
-def csv_of(columns: dict[str, list[Any]]) -> str:
-    """Return columns as CSV; blank for None."""
-    stream = io.StringIO(newline="")
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(zip(*columns.values(), strict=True))
-    return stream.getvalue()

@@ -1,12 +1,11 @@
 """Methods compared, as tables, JSON and CSV."""
 
-import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
-from io import StringIO
 
 import numpy as np
 
+from equipoise.app.csv_lines import csv_lines
 from equipoise.app.law_views import short
 from equipoise.app.sheet import Sheet
 from equipoise.app.units import UM
@@ -219,23 +218,23 @@ def summary_json(method: MethodSummary) -> View:
 
 def methods_csv(runs: Sequence[MethodRun]) -> str:
     """Return one line a run: errors, stated sd and bounds, com in um and inertia in kg m2."""
-    text = StringIO()
-    writer = csv.writer(text, lineterminator="\n")
     columns = [
         f"{name}_{what}_{'um' if name in COM else 'kg_m2'}"
         for what in ("error", "sd", "bound")
         for name in JUDGED
     ]
-    writer.writerow(["method", "seed", "ending", "warned", *columns, "nees", "settled_s",
-                     "time_s", "memory_bytes", "outcome"])  # fmt: skip
+    heads = ("method", "seed", "ending", "warned", *columns, "nees", "settled_s", "time_s",
+             "memory_bytes", "outcome")  # fmt: skip
+    return csv_lines(heads, map(_csv_line, runs))
+
+
+def _csv_line(run: MethodRun) -> list[object]:
     factor = np.where(np.isin(JUDGED, COM), UM, 1.0)
-    for run in runs:
-        values = np.concatenate([run.error * factor, run.sd * factor, run.bound * factor])
-        cost = ("" if run.settled is None else plain(run.settled), plain(run.cost.time),
-                "" if run.cost.memory is None else run.cost.memory)  # fmt: skip
-        writer.writerow([run.method, run.seed, run.ending, run.warned, *map(plain, values),
-                         plain(run.nees), *cost, run.sentence])  # fmt: skip
-    return text.getvalue()
+    values = np.concatenate([run.error * factor, run.sd * factor, run.bound * factor])
+    cost = ("" if run.settled is None else plain(run.settled), plain(run.cost.time),
+            "" if run.cost.memory is None else run.cost.memory)  # fmt: skip
+    return [run.method, run.seed, run.ending, run.warned, *map(plain, values),
+            plain(run.nees), *cost, run.sentence]  # fmt: skip
 
 
 def plain(value: float) -> str:

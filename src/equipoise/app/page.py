@@ -1,10 +1,11 @@
 """A report as blocks that any medium can set: texts and names of figures, no layout."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 from pydantic import Field, TypeAdapter, ValidationError
 
+from equipoise.app.units import typeset
 from equipoise.model.errors import InputError
 
 SCHEMA = "equipoise/report/1"
@@ -105,6 +106,21 @@ class Page:
         """Names of all figures, in their order."""
         blocks = (block for section in self.sections for block in section.blocks)
         return tuple(block.name for block in blocks if isinstance(block, Drawn))
+
+
+def typeset_page(page: Page) -> Page:
+    """Return a page whose tables have units as a printed page has them."""
+    return replace(page, sections=tuple(map(_typeset, page.sections)))
+
+
+def _typeset(section: Section) -> Section:
+    blocks = (
+        replace(b, lines=tuple(tuple(map(typeset, line)) for line in b.lines))
+        if isinstance(b, Grid)
+        else b
+        for b in section.blocks
+    )
+    return replace(section, blocks=tuple(blocks))
 
 
 _PAGE = TypeAdapter(Page)

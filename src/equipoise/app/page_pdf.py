@@ -2,13 +2,12 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from importlib.resources import files
 from importlib.util import find_spec
 from typing import Any
 
-from equipoise.app.page import Grid, Page, Section
-from equipoise.app.units import typeset
+from equipoise.app.page import Page
 from equipoise.model.errors import InputError
 
 TEMPLATE = "page.typ"
@@ -29,19 +28,8 @@ def pdf(page: Page, images: Mapping[str, bytes]) -> bytes:
         raise InputError("report.pdf", "no typst to set it with", WANTED)
     import typst
 
-    sections = tuple(map(_typeset, page.sections))
     source = (files("equipoise.app") / TEMPLATE).read_bytes()
     parts = {f"{name}.svg": image for name, image in images.items()}
-    inputs = {"page": json.dumps(asdict(replace(page, sections=sections)))}
+    inputs = {"page": json.dumps(asdict(page))}
     inside: Any = {"main.typ": source, **parts}  # its annotations know of one file only
     return typst.compile(inside, sys_inputs=inputs)
-
-
-def _typeset(section: Section) -> Section:
-    blocks = (
-        replace(b, lines=tuple(tuple(map(typeset, line)) for line in b.lines))
-        if isinstance(b, Grid)
-        else b
-        for b in section.blocks
-    )
-    return replace(section, blocks=tuple(blocks))

@@ -10,10 +10,12 @@ from typing import Literal
 from pydantic import ConfigDict, TypeAdapter, ValidationError, with_config
 
 from equipoise.io.logbook import RUN
+from equipoise.io.source_file import read_bytes
 from equipoise.model.errors import InputError
 from equipoise.model.logged_run import LoggedRun
 
 TESTBED = "testbed.toml"
+A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
 
 
 @with_config(ConfigDict(ser_json_inf_nan="strings"))  # JSON has no infinite number
@@ -38,9 +40,7 @@ def read_run(folder: Path) -> LoggedRun:
     """
     path = folder / RUN
     try:
-        document = _DOCUMENT.validate_json(path.read_bytes())
-    except OSError as error:
-        raise InputError(str(path), error.strerror or str(error), "the folder of a run") from error
+        document = _DOCUMENT.validate_json(read_bytes(path, A_RUN))
     except ValidationError as error:
         first = error.errors()[0]
         where = ": ".join((str(path), *map(str, first["loc"])))

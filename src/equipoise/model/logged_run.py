@@ -5,9 +5,10 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from equipoise.model.estimate import Parameter
+from equipoise.model.verdict import Word
 
 Kind = Literal["balance", "identify"]
-Outcome = Literal["passed", "failed", "cannot tell", "halted", "usable", "not usable"]
+Outcome = Literal[Word, "usable", "not usable"]
 
 
 @dataclass(frozen=True, slots=True)

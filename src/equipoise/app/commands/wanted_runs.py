@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_args
 
 from cyclopts import Parameter
 
@@ -52,14 +52,14 @@ def condition(wanted: WantedRuns) -> tuple[str, list[Any]]:
 
 def _parts(wanted: WantedRuns) -> Iterator[tuple[str, Any]]:
     from equipoise.app.options import one_of
+    from equipoise.model.logged_run import Kind, Outcome
 
     if wanted.platform is not None:
         yield "instr(lower(platform), lower(?)) > 0", wanted.platform
     if wanted.kind is not None:
-        yield "kind = ?", one_of("--kind", wanted.kind, ["balance", "identify"])
+        yield "kind = ?", one_of("--kind", wanted.kind, list(get_args(Kind)))
     if wanted.outcome is not None:
-        known = ["passed", "failed", "cannot tell", "halted", "usable", "not usable"]
-        yield "outcome = ?", one_of("--outcome", wanted.outcome, known)
+        yield "outcome = ?", one_of("--outcome", wanted.outcome, list(get_args(Outcome)))
     if wanted.method is not None:
         yield "method = ?", wanted.method
     for option, text, sign in (("--since", wanted.since, ">="), ("--until", wanted.until, "<")):
