@@ -37,17 +37,25 @@ def put(folder: Path, name: str, entry: LoggedRun, testbed: str = "name = 'Mock-
     write_folder(folder / name, {TESTBED: testbed, "a.txt": "x", RUN: text_of_run(entry)})
 
 
-def write_for_ever(folder: Path, child: int) -> None:
+def write_for_ever(folder: Path, child: int, said: int) -> None:
     for k in range(10**9):
         put(folder, f"run{child:03d}-{k:05d}", run())
         with open_logbook(folder):
             pass
+        if k == 0:
+            os.write(said, b"!")
 
 
 def trial(folder: Path, child: int, delay: float) -> str:
+    """Kill one that writes, at a moment after its first run: a slow disk writes that one too."""
+    heard, said = os.pipe()
     pid = os.fork()
     if pid == 0:
-        write_for_ever(folder, child)
+        os.close(heard)
+        write_for_ever(folder, child, said)
+    os.close(said)
+    assert os.read(heard, 1) == b"!"
+    os.close(heard)
     time.sleep(delay)
     os.kill(pid, signal.SIGKILL)
     os.waitpid(pid, 0)

@@ -207,7 +207,7 @@ def test_killed_while_writing_it_is_sound_and_complete(tmp_path):
     )
     lines = [line.split() for line in done.stdout.splitlines()]
     assert [line[1:] for line in lines] == [["True", "True"]] * KILLED
-    assert int(lines[-1][0]) > KILLED  # they did write
+    assert int(lines[-1][0]) >= KILLED  # each wrote one, and was then killed at the next ones
 
 
 def test_ten_thousand_runs_are_listed_at_once(tmp_path):
