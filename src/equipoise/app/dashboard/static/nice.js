@@ -1,0 +1,36 @@
+/** Numbers that people like on axes and as factors: 1, 2 or 5 times a power of ten. */
+
+/** @returns {number} the greatest 1-2-5 number that is not above `x` (> 0) */
+export function niceBelow(x) {
+  const power = 10 ** Math.floor(Math.log10(x) + 1e-12);
+  const digit = x / power + 1e-9;
+  return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
+}
+
+/**
+ * A range of an axis that holds least and greatest with some room, and moves in steps only, so
+ * that an axis stands still while its line wanders.
+ * @returns {[number, number]}
+ */
+export function niceRange(least, greatest) {
+  const width = greatest - least || Math.abs(greatest) * 0.1 || 1e-9;
+  const step = niceBelow(width / 4);
+  const room = width * 0.06;
+  return [Math.floor((least - room) / step) * step, Math.ceil((greatest + room) / step) * step];
+}
+
+const WANTED = 0.45; // of the radius in which the thing is shown; chosen
+const KEPT = [0.15, 0.8]; // the factor stays while the thing is shown between these; chosen
+
+/**
+ * The factor by which to exaggerate a small length: steady, in steps of 1-2-5, never below 1.
+ * @param {number} length  m, what is to be seen
+ * @param {number} radius  m, in which it is to be seen
+ * @param {number} before  the factor until now; 0: none yet
+ */
+export function exaggeration(length, radius, before) {
+  const share = (length * before) / radius;
+  if (before && share > KEPT[0] && share < KEPT[1]) return before;
+  if (!(length > 0) || !Number.isFinite(length)) return before || 1;
+  return Math.max(1, niceBelow((WANTED * radius) / length));
+}

@@ -1,0 +1,40 @@
+/** What stands still: floor, pedestal with the bearing's cup, the centre of rotation, up. */
+
+import * as THREE from "./vendor/three.module.js";
+import { arrow, label, lines, solid } from "./scene_makings.js";
+
+const FLOOR = -1.5; // of the platform's radius, below the centre of rotation
+const CELLS = 8; // of the floor's grid, from its middle to each side
+
+/** @param {number} radius  m, of the platform @returns {THREE.Group} laboratory axes, z up */
+export function room(radius, colours) {
+  const group = new THREE.Group();
+  group.add(floor(radius, colours), pedestal(radius, colours));
+  const up = arrow(0.5 * radius, colours.quiet);
+  const word = label("up", colours.quiet, 0.17 * radius);
+  up.position.set(-1.35 * radius, 1.35 * radius, FLOOR * radius);
+  word.position.copy(up.position).add(new THREE.Vector3(0, 0, 0.62 * radius));
+  return group.add(up, word);
+}
+
+function floor(radius, colours) {
+  const cell = (2.2 * radius) / CELLS;
+  const far = cell * CELLS;
+  const points = [];
+  for (let i = -CELLS; i <= CELLS; i++) {
+    points.push([i * cell, -far, 0], [i * cell, far, 0], [-far, i * cell, 0], [far, i * cell, 0]);
+  }
+  const grid = lines(points, colours.quiet, 0.28);
+  grid.position.z = FLOOR * radius;
+  return grid;
+}
+
+function pedestal(radius, colours) {
+  const ball = 0.2 * radius; // the platform's half ball sits in the cup
+  const top = -0.12 * radius;
+  const height = top - FLOOR * radius;
+  const column = solid(new THREE.CylinderGeometry(ball, 0.34 * radius, height, 28), colours.metal);
+  column.rotation.x = Math.PI / 2;
+  column.position.z = FLOOR * radius + height / 2;
+  return new THREE.Group().add(column);
+}

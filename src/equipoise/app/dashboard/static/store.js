@@ -1,0 +1,91 @@
+/** Everything that the server has told since its last `about`, and who wants to hear of it. */
+
+import { decodeFrame } from "./frames.js";
+import { Series } from "./series.js";
+
+// Rows kept of each series: 20 min at 100 Hz, which is the longest span. Chosen.
+const CAPACITY = 120_000;
+const POSES_KEPT = 16; // only the newest is shown
+
+/**
+ * What a view may have; each is called after the store has changed.
+ * @typedef {{about?: () => void, rows?: () => void, step?: (step: object) => void,
+ *   state?: () => void}} View
+ */
+
+export class Store {
+  constructor() {
+    /** @type {View[]} */
+    this.views = [];
+    this.frames = 0;
+    this.forget(null);
+  }
+
+  /** Add a view, which hears at once what is known already. @param {View} view */
+  show(view) {
+    this.views.push(view);
+    if (!this.about) return;
+    view.about?.();
+    for (const step of this.steps.values()) view.step?.(step);
+    if (this.state) view.state?.();
+    view.rows?.();
+  }
+
+  /** @param {string|ArrayBuffer} message  as it came through the socket */
+  receive(message) {
+    if (typeof message !== "string") return this.takeRows(decodeFrame(message));
+    const told = JSON.parse(message);
+    if (told.kind === "about") this.takeAbout(told);
+    else if (told.kind === "step") this.takeStep(told);
+    else if (told.kind === "state") this.takeState(told);
+  }
+
+  forget(about) {
+    this.about = about;
+    /** @type {Map<string, Series>} */
+    this.series = new Map();
+    /** @type {Map<number, object>} */
+    this.steps = new Map();
+    this.state = null;
+    this.t = null;
+  }
+
+  /** Each connection begins with `about`, and all that is kept comes again after it. */
+  takeAbout(about) {
+    this.forget(about);
+    this.tell("about");
+  }
+
+  takeStep(step) {
+    this.steps.set(step.index, step);
+    this.tell("step", step);
+  }
+
+  takeState(state) {
+    this.state = state;
+    this.tell("state");
+  }
+
+  takeRows(frame) {
+    this.frames++;
+    this.t = frame.t;
+    for (const part of frame.parts) this.seriesFor(part).push(part.data);
+    this.tell("rows");
+  }
+
+  seriesFor({ name, columns }) {
+    if (!this.series.has(name)) {
+      this.series.set(name, new Series(columns, name === "pose" ? POSES_KEPT : CAPACITY));
+    }
+    return this.series.get(name);
+  }
+
+  /** @returns {number[]|null} the newest row of a series, time first */
+  last(name) {
+    return this.series.get(name)?.last() ?? null;
+  }
+
+  tell(what, ...rest) {
+    for (const view of this.views) view[what]?.(...rest);
+  }
+}

@@ -1,0 +1,56 @@
+/** What the procedure did and found, step by step, the newest at the end. */
+
+import { seconds } from "./units.js";
+
+const NEAR_END_PX = 40; // a person who is this near to the end wants to see the newest; chosen
+
+/** Classes of the badge; what is not here is quiet. */
+const MOODS = { passed: "good", failed: "bad", halted: "bad", "cannot tell": "unsure" };
+
+/** @param {HTMLElement} place  the box that scrolls */
+export function showStory(place) {
+  const list = document.createElement("ol");
+  list.setAttribute("aria-label", "Steps");
+  place.tabIndex = 0; // scrolls with the keyboard
+  place.setAttribute("role", "log");
+  place.append(list);
+  const items = new Map();
+  return {
+    about() {
+      items.clear();
+      list.replaceChildren();
+    },
+    step(step) {
+      const follows = place.scrollHeight - place.scrollTop - place.clientHeight < NEAR_END_PX;
+      const item = itemOf(step);
+      if (items.has(step.index)) items.get(step.index).replaceWith(item);
+      else list.append(item);
+      items.set(step.index, item);
+      if (follows) place.scrollTop = place.scrollHeight;
+    },
+  };
+}
+
+function itemOf(step) {
+  const item = document.createElement("li");
+  item.dataset.of = step.of;
+  item.append(
+    textIn("time", seconds(step.t)),
+    textIn("b", step.of),
+    textIn("span", step.sentence),
+  );
+  if (step.word) item.append(badge(step.word));
+  return item;
+}
+
+function badge(word) {
+  const element = textIn("em", word);
+  element.dataset.mood = MOODS[word] ?? "quiet";
+  return element;
+}
+
+function textIn(tag, text) {
+  const element = document.createElement(tag);
+  element.textContent = text;
+  return element;
+}

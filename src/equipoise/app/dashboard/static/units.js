@@ -1,0 +1,72 @@
+/**
+ * Units to show numbers in: those of the bench (um, mm, deg ...) or SI. All numbers inside are SI.
+ * @typedef {"bench"|"si"} Kind
+ * @typedef {{name: string, factor: number}} Unit  one SI unit is `factor` of it
+ */
+
+const PER_DEG = 180 / Math.PI;
+
+/** For what the server's `about` states no unit, by SI unit: the units of the printed reports. */
+const SHOWN = {
+  s: { bench: ["s", 1], si: ["s", 1] },
+  m: { bench: ["um", 1e6], si: ["m", 1] },
+  rad: { bench: ["deg", PER_DEG], si: ["rad", 1] },
+  "rad/s": { bench: ["deg/s", PER_DEG], si: ["rad/s", 1] },
+  "N m": { bench: ["uN m", 1e6], si: ["N m", 1] },
+  J: { bench: ["uJ", 1e6], si: ["J", 1] },
+};
+
+/**
+ * @param {{bench: [string, number], si: [string, number]}} pair  as `about` has it
+ * @param {Kind} kind
+ * @returns {Unit}
+ */
+export function unitOf(pair, kind) {
+  const [name, factor] = pair[kind];
+  return { name: typeset(name), factor };
+}
+
+/** @returns {Unit} the unit of a quantity that has this SI unit */
+export const unitForSi = (si, kind) => unitOf(SHOWN[si], kind);
+
+/** @returns {string} a unit as people write it: um is µm, m2 is m² */
+export function typeset(name) {
+  return name.replace(/\bu(?=[a-zA-Z])/g, "µ").replace(/([a-z])2\b/g, "$1²");
+}
+
+/**
+ * A number with as many figures as can be read at a glance: four, fewer below 0.001, no tail.
+ * @param {number|null} value  in the unit to be shown; NaN or null: not known
+ */
+export function figures(value) {
+  if (value === null || !Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (size === 0) return "0";
+  if (size < 1e-3 || size >= 1e6) return minus(value.toExponential(2));
+  return minus(value.toFixed(Math.max(0, Math.min(4, 3 - Math.floor(Math.log10(size))))));
+}
+
+/**
+ * A number and its standard deviation, rounded alike: the sd has two figures, or as many as its
+ * number has where it is below what is shown of that.
+ * @param {number} value
+ * @param {number} sd
+ * @param {string} unit
+ */
+export function withSd(value, sd, unit) {
+  if (!Number.isFinite(sd) || sd <= 0) return withUnit(value, unit);
+  const decimals = Math.max(0, Math.min(6, 1 - Math.floor(Math.log10(sd))));
+  if (sd < 1e-5 || sd >= 1e6) return `${figures(value)} ± ${figures(sd)} ${unit}`;
+  return `${minus(value.toFixed(decimals))} ± ${sd.toFixed(decimals)} ${unit}`;
+}
+
+/** @returns {string} a number with its unit; the unit alone says nothing where nothing is known */
+export function withUnit(value, unit) {
+  const text = figures(value);
+  return text === "–" ? text : `${text} ${unit}`;
+}
+
+/** Bench time (s), with tenths, that does not change its width in a column of them. */
+export const seconds = (t) => `${minus(t.toFixed(1))} s`;
+
+const minus = (text) => text.replaceAll("-", "−");
