@@ -75,18 +75,41 @@ class Limits:
     plan: Manoeuvre | None = None  # to begin with
 
 
-def run(bench: Bench, goal: Goal, limits: Limits, show: Callable[[Step], None] | None) -> Balancing:
+def as_it_is(bench: Bench) -> Bench:
+    """Return the bench."""
+    return bench
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Through:
+    """How somebody looks on: what the procedure sees of the bench, how its steps are awaited."""
+
+    look_on: Callable[[Bench], Bench] = as_it_is
+    awaited: Callable[[Iterator[Step], str], Iterator[Step]] = watched
+
+
+ALONE = Through()
+
+
+def run(
+    bench: Bench,
+    goal: Goal,
+    limits: Limits,
+    show: Callable[[Step], None] | None,
+    through: Through = ALONE,
+) -> Balancing:
     """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
 
     What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a
     simulated one alone.
     """
     simulated = bench if isinstance(bench, SimulatedBench) else None
-    before, recorded = None if simulated is None else simulated.truth(), RecordedBench(bench)
+    before = None if simulated is None else simulated.truth()
+    recorded = RecordedBench(through.look_on(bench))
     steps: list[Step] = []
     truths: list[MassProperties] = []
     try:
-        for step in watched(
+        for step in through.awaited(
             until_stopped(recorded, procedure(recorded, goal, limits)), "balancing"
         ):
             if show is not None:

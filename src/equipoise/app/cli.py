@@ -19,6 +19,7 @@ from equipoise.app.commands.calibrate_camera import calibrate_camera
 from equipoise.app.commands.check import check
 from equipoise.app.commands.compare import compare
 from equipoise.app.commands.convert import convert
+from equipoise.app.commands.dashboard import dashboard
 from equipoise.app.commands.demo import demo
 from equipoise.app.commands.design import design
 from equipoise.app.commands.devices import devices
@@ -57,7 +58,8 @@ app = App(
 COMMANDS = (
     demo, new, design, plan, simulate, inspect, observe, identify, calibrate, assess, methods,
     balance, laws, compare, reproduce, devices, check, emulate, record, convert, repair, replay,
-    track, print_board, calibrate_camera, report, logbook,
+    track, print_board, calibrate_camera, dashboard, report,
+    logbook,
 )  # fmt: skip
 for command in COMMANDS:
     app.command(command)

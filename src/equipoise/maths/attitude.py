@@ -127,3 +127,16 @@ def leaning(up: Vector3, low_side: Vector3, angle: float) -> Quaternion:
 def tilt(q: Floats, up: Floats) -> Floats:
     """Return the angle (rad) between the body axis ``up`` and the laboratory's vertical."""
     return np.arccos(np.clip((to_matrix(q) @ up)[..., 2], -1.0, 1.0))
+
+
+def euler321_sd(pitch: Floats, sd: float) -> tuple[Floats, Floats, Floats]:
+    """Return the sd of roll, pitch and yaw (rad) of an attitude with one ``sd`` about each axis.
+
+    With d the error about the body axes, of first order (``from_euler321`` differentiated):
+
+        d roll  = dx + (dy sin roll + dz cos roll) tan pitch      sd / cos pitch
+        d pitch = dy cos roll - dz sin roll                       sd
+        d yaw   = (dy sin roll + dz cos roll) / cos pitch         sd / cos pitch
+    """
+    slanted = sd / np.cos(pitch)
+    return slanted, np.full_like(slanted, sd), slanted

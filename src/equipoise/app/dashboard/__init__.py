@@ -1,1 +1,1 @@
-"""The dashboard: a live view of a bench in a browser."""
+"""The live dashboard: a page, its server, and the runner that has the bench, each in a process."""

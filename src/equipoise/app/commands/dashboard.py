@@ -1,0 +1,96 @@
+"""`equipoise dashboard`: a live page of a simulated bench, a recording or the real bench."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from equipoise.app.commands.kinds import Flag, Whole
+from equipoise.app.terminal import busy, stdout
+from equipoise.model.errors import InputError
+
+if TYPE_CHECKING:
+    from equipoise.app.dashboard.runner_process import Opening
+
+LOOPBACK = "127.0.0.1"
+EVERYWHERE = ("0.0.0.0", "::", "*", "")
+
+
+def dashboard(
+    shown: str = "nanosat",
+    /,
+    *,
+    testbed: str | None = None,
+    seed: Whole = 1,
+    bench: Flag = False,
+    port: Whole = 8080,
+    expose: str | None = None,
+) -> int:
+    """Show a bench live in a browser, balance it from there, replay recordings.
+
+    Whoever opens the page looks on; to command takes the token that is printed here, and one page
+    at a time has it. Closing the page changes nothing on the bench. Ctrl-C ends the dashboard and
+    halts every mass.
+
+    Parameters
+    ----------
+    shown
+        Testbed file or a preset's name: its simulated platform, or with --bench the real one. Or a
+        recording, or the folder of a run, to replay.
+    testbed
+        Of a recording: testbed file, or a preset's name.
+    seed
+        Seed of the simulated platform.
+    bench
+        Show the real bench that the testbed's [hardware] declares.
+    port
+        Port of this computer; 0: any that is free.
+    expose
+        Address of this computer at which others may open the page, such as 192.168.1.5. The token
+        is then needed to look on, too. Left out: this computer alone.
+    """
+    from equipoise.app.options import seed_of
+
+    if not 0 <= port < 65536:
+        raise InputError("--port", str(port), "0 to 65535")
+    if expose is not None and expose in EVERYWHERE:
+        raise InputError("--expose", f"'{expose}'", "one address of this computer")
+    opening = _opening(shown, testbed, seed_of(seed), bench)
+    with busy("starting the dashboard", announce=False):
+        from equipoise.app.dashboard.session import open_session
+
+        session = open_session(opening, expose or LOOPBACK, port, expose is not None)
+    with session:
+        for line in session.lines():
+            stdout().print(line, markup=False, soft_wrap=True)
+        session.serve()
+    return 0
+
+
+def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Opening":
+    """Return what to begin with: a run's folder, a recording, or a testbed."""
+    from equipoise.app.commands.reading import WHOLE
+    from equipoise.app.dashboard.data_folder import data_folder
+    from equipoise.app.dashboard.runner_process import Opening
+    from equipoise.app.emulation import hardware_of
+    from equipoise.app.logged import RECORDING
+    from equipoise.app.wiring import fitting_recording_of, testbed_of
+    from equipoise.io.run_file import TESTBED
+
+    path = Path(shown)
+    if path.is_dir():
+        shown, testbed = str(path / RECORDING), testbed or str(path / TESTBED)
+    if testbed is None and _is_recording(path):
+        raise InputError("--testbed", "none", f"the testbed of which {shown} is a recording")
+    if testbed is None:
+        bed = testbed_of(shown)
+        if bench:
+            hardware_of(bed)
+        return Opening(bed, data_folder(), seed, bench)
+    if bench:
+        raise InputError("--bench", "a recording", "a testbed")
+    bed = testbed_of(testbed)
+    return Opening(bed, data_folder(), seed, False, fitting_recording_of(shown, WHOLE, bed), shown)
+
+
+def _is_recording(path: Path) -> bool:
+    """Say whether a file is there that is no testbed."""
+    return path.is_file() and path.suffix.lower() != ".toml"

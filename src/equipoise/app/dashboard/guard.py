@@ -1,0 +1,44 @@
+"""Who commands: whoever has the token, and one page at a time. All others look on."""
+
+import hmac
+import secrets
+
+
+def new_token() -> str:
+    """Return a token that nobody guesses (128 bits)."""
+    return secrets.token_urlsafe(16)
+
+
+class Guard:
+    """The token, and the page that commands."""
+
+    def __init__(self, token: str) -> None:
+        self._token = token
+        self._commander: str | None = None
+
+    def is_right(self, token: str) -> bool:
+        """Say whether a token is the right one, in a time that tells nothing of it."""
+        return hmac.compare_digest(token.encode(), self._token.encode())
+
+    def take(self, page: str, token: str) -> str:
+        """Let a page command; return why not, or nothing."""
+        if not self.is_right(token.strip()):
+            return "That is not the token which was printed when the dashboard started."
+        if self._commander not in (None, page):
+            return "Another page commands; release it there, or close that page."
+        self._commander = page
+        return ""
+
+    def leave(self, page: str) -> None:
+        """Let a page command no more, if it did."""
+        if self._commander == page:
+            self._commander = None
+
+    def commands(self, page: str) -> bool:
+        """Say whether a page commands."""
+        return self._commander == page
+
+    @property
+    def taken(self) -> bool:
+        """Say whether any page commands."""
+        return self._commander is not None

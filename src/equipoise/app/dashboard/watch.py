@@ -1,0 +1,82 @@
+"""What the runner has told, kept for pages that come later, and handed on to those that are here.
+
+Rows are kept up to a number of bytes, the oldest go first; steps, what is shown and how things
+stand are kept whole. A page that does not keep up is let go: it connects again and gets all that
+is kept.
+"""
+
+import asyncio
+import json
+from collections import deque
+from typing import Any
+
+MOST = 12_000_000  # bytes of rows, chosen: about five minutes at 100 Hz
+BEHIND = 300  # messages, chosen: twenty seconds of them
+Message = bytes | str
+GONE = ""  # told to a page that is let go
+
+
+class Watch:
+    """See above; all of it in the server's own thread."""
+
+    def __init__(self) -> None:
+        self.about: dict[str, Any] = {}
+        self.state: dict[str, Any] = {}
+        self.steps: dict[int, dict[str, Any]] = {}
+        self.ended = ""  # why the runner is no more
+        self._rows: deque[bytes] = deque()
+        self._bytes = 0
+        self._pages: set[asyncio.Queue[Message]] = set()
+
+    def take(self, kind: str, what: Any) -> None:
+        """Take something that the runner tells."""
+        match kind:
+            case "rows":
+                self._keep(what)
+                self._hand_on(what)
+                return
+            case "about":
+                self.about, self.steps = what, {}
+                self._rows, self._bytes = deque(), 0
+            case "step":
+                self.steps[what["index"]] = what
+            case _:
+                self.state = what
+        self._hand_on(json.dumps(what))
+
+    def end(self, why: str) -> None:
+        """Note that the runner is no more; the pages are told."""
+        self.ended = why
+        self.take("state", {**self.state, "kind": "state", "phase": "stopped", "note": why})
+
+    @property
+    def kept_bytes(self) -> int:
+        """Return how many bytes of rows are kept."""
+        return self._bytes
+
+    def join(self) -> "asyncio.Queue[Message]":
+        """Return what a page gets: all that is kept, then what comes."""
+        page: asyncio.Queue[Message] = asyncio.Queue()
+        first = [self.about, *self.steps.values(), self.state]
+        for message in [*(json.dumps(each) for each in first if each), *self._rows]:
+            page.put_nowait(message)
+        self._pages.add(page)
+        return page
+
+    def leave(self, page: "asyncio.Queue[Message]") -> None:
+        """Forget a page."""
+        self._pages.discard(page)
+
+    def _keep(self, rows: bytes) -> None:
+        self._rows.append(rows)
+        self._bytes += len(rows)
+        while self._bytes > MOST:
+            self._bytes -= len(self._rows.popleft())
+
+    def _hand_on(self, message: Message) -> None:
+        for page in list(self._pages):
+            if page.qsize() > BEHIND + len(self._rows):
+                self.leave(page)
+                page.put_nowait(GONE)
+            else:
+                page.put_nowait(message)
