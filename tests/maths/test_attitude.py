@@ -14,6 +14,7 @@ from equipoise.maths.attitude import (
     conjugate,
     continuous,
     difference,
+    euler321_sd,
     exponential,
     from_euler321,
     logarithm,
@@ -180,3 +181,12 @@ def test_each_of_roll_pitch_and_yaw_is_its_own():
     assert_near(np.array(to_euler321(from_euler321(0.3, -0.4, 2.5))), [0.3, -0.4, 2.5])
     series = from_euler321(np.array([0.1, 0.2]), np.array([0.0, -1.0]), np.array([3.0, -3.0]))
     assert_near(np.array(to_euler321(series)), [[0.1, 0.2], [0.0, -1.0], [3.0, -3.0]])
+
+
+def test_spread_of_roll_pitch_and_yaw_is_that_of_drawn_attitudes():
+    """200 000 errors of 1e-3 rad about each axis, at a pitch of 50 deg: the spread to 1 %."""
+    rng, sd = np.random.default_rng(4), 1e-3
+    q = from_euler321(*np.radians([20.0, 50.0, -70.0]))
+    seen = multiply(np.tile(q, (200_000, 1)), exponential(sd * rng.standard_normal((200_000, 3))))
+    found = [float(np.std(angle)) for angle in to_euler321(seen)]
+    assert found == pytest.approx([float(s) for s in euler321_sd(np.radians(50.0), sd)], rel=0.01)

@@ -9,7 +9,7 @@ keeps the sum. Cannot see what spins inside: the energy of wheels is not counted
 import numpy as np
 
 from equipoise.assessment.gravity_torque import down
-from equipoise.model.arrays import Floats, Matrix3, Series3, Series4, Square
+from equipoise.model.arrays import Floats, Matrix3, Series3, Series4
 from equipoise.model.testbed import Testbed
 
 ROOT = np.array([0.5, 0.5, 0.5, 1.0, 1.0, 1.0])  # of 1/2 w.Jw by xx yy zz xy xz yz
@@ -19,7 +19,7 @@ def motion_energy(
     testbed: Testbed,
     motion: tuple[Series4, Series3, Series3],
     inertia_P: Matrix3,
-    covariance: Square,
+    covariance: Floats,
     rate_sd: Series3,
 ) -> tuple[Series3, Series3]:
     """Return kinetic, potential and total energy and their sd (J), (n, 3) each.
@@ -46,5 +46,5 @@ def products(w: Series3) -> Floats:
     return np.stack([x * x, y * y, z * z, x * y, x * z, y * z], axis=1)
 
 
-def _variance(slope: Floats, covariance: Square) -> Floats:
+def _variance(slope: Floats, covariance: Floats) -> Floats:
     return np.maximum(np.einsum("ni,ij,nj->n", slope, covariance, slope), 0.0)

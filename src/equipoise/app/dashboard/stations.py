@@ -11,11 +11,12 @@ from equipoise.app.kept_bench import HAND, Wanted, real_bench
 from equipoise.hardware.real_bench import RealBench
 from equipoise.hardware.replayed_bench import ReplayedBench
 from equipoise.model.bench import Bench
-from equipoise.model.recording import Recording, rows_between, window
+from equipoise.model.recording import Recording, rows_between
 from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench
 
 Kind = Literal["simulated", "replayed", "real"]
+LEAST = 0.5  # s, chosen: of a recording that is left to be shown
 BEFORE = 60.0  # s, chosen: of a recording, shown at once in front of the time that was gone to
 
 
@@ -51,9 +52,12 @@ def simulated(testbed: Testbed, seed: int) -> Station:
 def replayed(testbed: Testbed, recording: Recording, title: str, t: float | None = None) -> Station:
     """Return a recording from its beginning, or from a time (s) with the minute before it."""
     first, last = recording.span
-    begin = first if t is None else float(np.clip(t, first, last))
-    before = rows_between(recording, begin - BEFORE, begin) if begin > first else None
-    rest = recording if begin == first else window(recording, begin, last)
+    begin = first if t is None else float(np.clip(t, first, last - LEAST))
+    if begin == first:
+        before, rest = None, recording
+    else:
+        before = rows_between(recording, begin - BEFORE, begin)
+        rest = rows_between(recording, begin, last)
     bench = ReplayedBench(testbed, rest)
     return Station("replayed", bench, title, before, (first, last), recording)
 

@@ -1,0 +1,91 @@
+"""A runner in this process, and all that it tells."""
+
+from dataclasses import dataclass, field
+from multiprocessing import Pipe
+from typing import Any
+
+import numpy as np
+import pytest
+
+from equipoise.app.dashboard import requests as ask
+from equipoise.app.dashboard.desk import Desk
+from equipoise.app.dashboard.frames import decoded
+from equipoise.app.dashboard.post import Post
+from equipoise.app.dashboard.runner import Runner
+from equipoise.app.dashboard.stations import simulated
+from equipoise.io.presets import read_preset
+
+BALANCE = ask.Balance((0.0, 0.0, -100e-6), (2e-6, 2e-6, 3e-6), "look_and_move")
+
+
+@dataclass
+class Told:
+    """What the runner has told, by kind, and what is to be asked when something is told."""
+
+    about: list[dict] = field(default_factory=list)
+    steps: list[dict] = field(default_factory=list)
+    states: list[dict] = field(default_factory=list)
+    parts: dict[str, list] = field(default_factory=dict)
+    when: Any = lambda kind, what: None
+
+    def __call__(self, kind, what):
+        if kind == "rows":
+            for name, values in decoded(what)[1].items():
+                self.parts.setdefault(name, []).append(values)
+        elif kind == "about":
+            self.about.append(what)
+            self.parts, self.steps = {}, []
+        else:
+            {"step": self.steps, "state": self.states}[kind].append(what)
+        self.when(kind, what)
+
+    def rows(self, name):
+        return np.vstack(self.parts[name])
+
+    @property
+    def state(self):
+        return self.states[-1]
+
+
+class Room:
+    """A runner, its desk, and a page's end of the pipe."""
+
+    def __init__(self, station, folder, seed=1):
+        self.page, far = Pipe()
+        self.told, self.folder = Told(), folder
+        self.runner = Runner(station, Post(self.told), folder, "session")
+        self.runner.pace.at(0.0)
+        self.desk = Desk(self.runner, far, folder, seed)
+
+    def ask(self, *requests):
+        for request in requests:
+            self.page.send(request)
+
+    def turn(self, times=1):
+        for _ in range(times):
+            self.runner.turn()
+            self.desk.turn()
+        self.runner.post.flush()
+
+    def until(self, there, most=3000):
+        for _ in range(most):
+            if there():
+                return
+            self.turn()
+        raise AssertionError(f"not within {most} turns: {self.told.state}")
+
+
+@pytest.fixture(scope="session")
+def nanosat():
+    return read_preset("nanosat")
+
+
+@pytest.fixture
+def room(nanosat, tmp_path, monkeypatch):
+    """A simulated platform that is let go."""
+    monkeypatch.setenv("EQUIPOISE_RUNS", "")
+    made = Room(simulated(nanosat, 1), tmp_path)
+    made.ask(ask.Pause(False))
+    made.turn()
+    yield made
+    made.runner.close()

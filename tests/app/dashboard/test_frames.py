@@ -1,0 +1,123 @@
+"""What goes to the page byte for byte, and what waits for it."""
+
+import json
+import struct
+
+import numpy as np
+
+from equipoise.app.dashboard.frames import decoded, encoded
+from equipoise.app.dashboard.post import Post
+from equipoise.app.dashboard.watch import BEHIND, GONE, MOST, Watch
+
+
+def test_a_frame_byte_for_byte():
+    """The head is a multiple of 8 bytes, so that the page reads the numbers where they are."""
+    message = encoded(1.5, [("com", np.array([[1.0, 2.0], [3.0, 4.0]])), ("b", np.zeros((0, 3)))])
+    (size,) = struct.unpack_from("<I", message)
+    head, numbers = message[4 : 4 + size], message[4 + size :]
+    assert (4 + size) % 8 == 0
+    assert json.loads(head) == {"t": 1.5, "parts": [["com", 2, 2], ["b", 0, 3]]}
+    assert struct.unpack("<4d", numbers) == (1.0, 2.0, 3.0, 4.0)
+
+
+def test_a_frame_comes_back_as_it_was():
+    rows = np.array([[0.1, np.nan, -1e-300], [np.inf, 0.2, 7.0]])
+    t, parts = decoded(encoded(12.25, [("a", rows), ("b", rows[:1])]))
+    assert t == 12.25
+    assert parts["a"].tobytes() == rows.tobytes()
+    assert parts["b"].tobytes() == rows[:1].tobytes()
+
+
+def test_rows_are_told_together_and_before_the_step_that_follows_them():
+    told = []
+    post = Post(lambda kind, what: told.append((kind, what)))
+    post.rows(1.0, [("com", np.ones((2, 2)))])
+    post.rows(2.0, [("com", 2 * np.ones((1, 2)))])
+    post.step({"index": 0})
+    assert [kind for kind, _ in told] == ["rows", "step"]
+    t, parts = decoded(told[0][1])
+    assert t == 2.0
+    assert parts["com"].tolist() == [[1, 1], [1, 1], [2, 2]]
+
+
+def test_rows_of_what_was_shown_before_are_not_told_any_more():
+    told = []
+    post = Post(lambda kind, what: told.append(kind))
+    post.rows(1.0, [("com", np.ones((2, 2)))])
+    post.about({"clock": 2})
+    post.flush()
+    assert told == ["about"]
+
+
+def test_how_things_stand_is_told_when_it_is_new():
+    told = []
+    post = Post(lambda kind, what: told.append(what))
+    for phase in ("idle", "idle", "balancing"):
+        post.state({"phase": phase})
+    assert [what["phase"] for what in told] == ["idle", "balancing"]
+
+
+# --- What is kept for pages that come later ------------------------------------------------------
+
+
+def drained(page):
+    found = []
+    while not page.empty():
+        found.append(page.get_nowait())
+    return found
+
+
+def test_who_comes_later_gets_what_is_kept_in_order():
+    watch = Watch()
+    watch.take("about", {"kind": "about", "clock": 1})
+    watch.take("step", {"kind": "step", "index": 0})
+    watch.take("rows", b"first")
+    watch.take("state", {"kind": "state", "phase": "idle"})
+    page = watch.join()
+    watch.take("rows", b"second")
+    kinds = [json.loads(m)["kind"] if isinstance(m, str) else m for m in drained(page)]
+    assert kinds == ["about", "step", "state", b"first", b"second"]
+
+
+def test_rows_are_kept_up_to_a_size_and_the_oldest_go():
+    watch, one = Watch(), bytes(1_000_000)
+    for k in range(50):
+        watch.take("rows", one + bytes([k]))
+    assert MOST - 1_100_000 < watch.kept_bytes <= MOST
+    kept = drained(watch.join())
+    assert kept[-1][-1] == 49
+    assert [message[-1] for message in kept] == list(range(50 - len(kept), 50))
+
+
+def test_another_platform_begins_anew():
+    watch = Watch()
+    watch.take("rows", b"old")
+    watch.take("step", {"kind": "step", "index": 0})
+    watch.take("about", {"kind": "about", "clock": 2})
+    assert watch.kept_bytes == 0
+    assert [json.loads(m)["kind"] for m in drained(watch.join())] == ["about"]
+
+
+def test_a_step_told_again_replaces():
+    watch = Watch()
+    for sentence in ("a", "b"):
+        watch.take("step", {"kind": "step", "index": 0, "sentence": sentence})
+    assert [json.loads(m)["sentence"] for m in drained(watch.join())] == ["b"]
+
+
+def test_a_page_that_does_not_keep_up_is_let_go():
+    watch = Watch()
+    slow = watch.join()
+    for _ in range(5 * BEHIND):
+        watch.take("state", {"kind": "state"})
+    found = drained(slow)
+    assert found[-1] == GONE
+    assert len(found) < 2 * BEHIND
+
+
+def test_the_runners_end_is_told():
+    watch = Watch()
+    page = watch.join()
+    watch.end("over")
+    assert json.loads(drained(page)[-1])["note"] == "over"
+    assert watch.ended == "over"
