@@ -4,7 +4,7 @@ import { Chart } from "./chart.js";
 import { palette } from "./colours.js";
 import { paced } from "./pace.js";
 
-const PERIOD_MS = 1000 / 15;
+const PERIOD_MS = 100; // smooth to the eye for lines that creep; chosen
 
 /**
  * @param {HTMLElement} place
@@ -42,7 +42,7 @@ export function showCharts(place, store, shown) {
   const about = () => {
     clear();
     for (const told of store.about.series.filter((series) => series.chart)) {
-      const chart = new Chart(place, told, store);
+      const chart = new Chart(place, told, store, ask);
       charts.set(chart.element, chart);
       seen.observe(chart.element);
       sizes.observe(chart.plotPlace);

@@ -4,7 +4,7 @@
 export function niceBelow(x) {
   const power = 10 ** Math.floor(Math.log10(x) + 1e-12);
   const digit = x / power + 1e-9;
-  return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
+  return Number(((digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power).toPrecision(1));
 }
 
 /**
@@ -17,6 +17,20 @@ export function niceRange(least, greatest) {
   const step = niceBelow(width / 4);
   const room = width * 0.06;
   return [Math.floor((least - room) / step) * step, Math.ceil((greatest + room) / step) * step];
+}
+
+/**
+ * @param {(number|null|undefined)[]} values
+ * @returns {[number, number]} the least and the greatest that are known; infinite: none is
+ */
+export function extent(values) {
+  let [least, greatest] = [Infinity, -Infinity];
+  for (const value of values) {
+    if (!Number.isFinite(value)) continue;
+    if (value < least) least = value;
+    if (value > greatest) greatest = value;
+  }
+  return [least, greatest];
 }
 
 const WANTED = 0.45; // of the radius in which the thing is shown; chosen

@@ -8,7 +8,6 @@ import { dispose } from "./scene_makings.js";
 import { Platform } from "./scene_platform.js";
 import { Balance } from "./scene_balance.js";
 import { room } from "./scene_room.js";
-import { figures } from "./units.js";
 
 const PERIOD_MS = 1000 / 30;
 const PERIOD_IN_SOFTWARE_MS = 1000 / 10; // without a graphics card the processor draws each pixel
@@ -92,7 +91,7 @@ class View {
     this.platform.turnWheels(store.last("wheels"));
     this.factor = this.balance.show(believed(store), this.factor, this.platform.group);
     this.caption.textContent = this.factor
-      ? `centre of mass × ${figures(this.factor)}, ellipsoid 1 sd`
+      ? `centre of mass × ${this.factor}, ellipsoid 1 sd`
       : "centre of mass not known yet";
     this.renderer.render(this.scene, this.camera);
   }

@@ -66,6 +66,12 @@ export function withUnit(value, unit) {
   return text === "–" ? text : `${text} ${unit}`;
 }
 
+/** A number at an axis. Ticks are round; what the machine adds in the 16th figure is not shown. */
+export function tick(value) {
+  const round = Number(value.toPrecision(9));
+  return minus(round !== 0 && Math.abs(round) < 1e-3 ? round.toExponential() : String(round));
+}
+
 /** Bench time (s), with tenths, that does not change its width in a column of them. */
 export const seconds = (t) => `${minus(t.toFixed(1))} s`;
 
