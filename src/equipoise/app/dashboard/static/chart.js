@@ -95,7 +95,7 @@ export class Chart {
   }
 
   /**
-   * @param {{from: number, to: number}} span  s
+   * @param {{from: number, to: number, length: number}} span  s
    * @param {import("./units.js").Kind} kind
    * @param {ReturnType<import("./colours.js").palette>} colours
    */

@@ -20,7 +20,7 @@ export function showCharts(place, store, shown) {
 
   const draw = () => {
     if (shown.follow) end_s = store.t ?? 0;
-    const span = { from: end_s - shown.span_s, to: end_s };
+    const span = { from: end_s - shown.span_s, to: end_s, length: shown.span_s };
     for (const element of inSight) charts.get(element)?.draw(span, shown.kind, colours);
   };
   const ask = paced(draw, PERIOD_MS);
