@@ -114,7 +114,7 @@ export class Chart {
 
   decimate(span) {
     const series = this.store.series.get(this.told.name);
-    if (!series) return;
+    if (!series) return this.out.forEach((column) => (column.length = 0));
     const pixels = Math.round(this.plot.bbox.width / devicePixelRatio);
     const { columns, sd } = this.told;
     const buckets = Math.max(FEWEST_BUCKETS, pixels);

@@ -23,7 +23,8 @@ export class Heading {
    * @param {(number|null)[]} values  in that unit
    */
   write(unit, at, values) {
-    this.unitPlace.textContent = at === null ? `[${unit}]` : `[${unit}] at ${seconds(at)}`;
+    const words = [unit && `[${unit}]`, at !== null && `at ${seconds(at)}`];
+    this.unitPlace.textContent = words.filter(Boolean).join(" ");
     this.values.forEach((place, c) => (place.textContent = figures(values[c] ?? null)));
   }
 }

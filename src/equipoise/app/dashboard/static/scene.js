@@ -3,6 +3,7 @@
 import { WebGLRenderer, Scene, PerspectiveCamera, HemisphereLight, DirectionalLight } from "./vendor/three.module.js";
 import { palette } from "./colours.js";
 import { Orbit } from "./orbit.js";
+import { sayInstead } from "./instead.js";
 import { paced } from "./pace.js";
 import { dispose } from "./scene_makings.js";
 import { Platform } from "./scene_platform.js";
@@ -21,7 +22,7 @@ export function showScene(place, store) {
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("webgl2", { antialias: !devicePixelRatio || devicePixelRatio < 2 });
   if (!context) {
-    place.textContent = NO_WEBGL;
+    sayInstead(place, NO_WEBGL);
     return {};
   }
   return new View(place, store, canvas, context);
@@ -56,11 +57,11 @@ class View {
 
   about() {
     this.factor = 0;
-    this.redraw();
+    this.recolour();
   }
 
   /** Build everything anew: the testbed or the theme is another. */
-  redraw() {
+  recolour() {
     if (!this.store.about) return;
     if (this.contents) for (const content of this.contents) dispose(content);
     const colours = palette();

@@ -15,13 +15,13 @@ export class Balance {
   /** @param {number} radius  m, of the platform */
   constructor(radius, colours) {
     this.radius = radius;
-    this.com = solid(new THREE.SphereGeometry(0.06 * radius, 20, 14), colours.com);
-    this.ellipsoid = solid(new THREE.SphereGeometry(1, 24, 16), colours.com, 0.3);
+    this.com = solid(new THREE.SphereGeometry(0.03 * radius, 20, 14), colours.com);
+    this.ellipsoid = solid(new THREE.SphereGeometry(1, 24, 16), colours.com, 0.4);
     this.lever = lines([[0, 0, 0], [0, 0, 1]], colours.com);
     this.word = label("com", colours.com, 0.15 * radius);
     this.word.center.set(-0.3, 0.5); // to the right of its point, whatever the view
-    const centre = solid(new THREE.SphereGeometry(0.04 * radius, 16, 10), colours.text);
-    for (const part of [this.com, this.lever, centre]) drawOverBody(part);
+    const centre = solid(new THREE.SphereGeometry(0.03 * radius, 16, 10), colours.text);
+    for (const part of [this.com, this.ellipsoid, this.lever, centre]) drawOverBody(part);
     this.inBody = new THREE.Group().add(centre, this.com, this.ellipsoid, this.lever, this.word);
     this.inRoom = along(arrow(0.5 * radius, colours.text), DOWN);
     const g = label("g", colours.text, 0.17 * radius);
