@@ -7,22 +7,22 @@ test("nice numbers are 1, 2 or 5 times a power of ten, just below", () => {
   for (const [x, nice] of pairs) assert.equal(niceBelow(x), nice);
 });
 
-test("a length is exaggerated until it fills about half of its room", () => {
+test("a length is exaggerated until it fills a third to nine tenths of its room", () => {
   for (let length = 1e-7; length < 0.05; length *= 1.7) {
     const factor = exaggeration(length, 0.2, 0);
     const share = (factor * length) / 0.2;
-    assert.ok(share > 0.18 && share <= 0.45 || factor === 1, `${length} m is shown at ${share}`);
+    assert.ok((share > 0.35 && share <= 0.9) || factor === 1, `${length} m is shown at ${share}`);
     assert.ok([1, 2, 5].includes(Number(factor.toExponential()[0])), `${factor}`);
   }
 });
 
-test("the factor stays while the length changes by half, and follows a greater change", () => {
+test("the factor stays while the length changes by a third, and follows a greater change", () => {
   const factor = exaggeration(100e-6, 0.2, 0);
-  assert.equal(factor, 500);
-  assert.equal(exaggeration(150e-6, 0.2, factor), 500);
-  assert.equal(exaggeration(70e-6, 0.2, factor), 500);
-  assert.equal(exaggeration(5e-6, 0.2, factor), 10_000);
-  assert.equal(exaggeration(5e-3, 0.2, factor), 10);
+  assert.equal(factor, 1000);
+  assert.equal(exaggeration(135e-6, 0.2, factor), 1000);
+  assert.equal(exaggeration(70e-6, 0.2, factor), 1000);
+  assert.equal(exaggeration(5e-6, 0.2, factor), 20_000);
+  assert.equal(exaggeration(5e-3, 0.2, factor), 20);
 });
 
 test("what is nowhere or not known changes no factor", () => {

@@ -33,8 +33,8 @@ export function extent(values) {
   return [least, greatest];
 }
 
-const WANTED = 0.45; // of the radius in which the thing is shown; chosen
-const KEPT = [0.15, 0.8]; // the factor stays while the thing is shown between these; chosen
+const WANTED = 0.9; // of the radius in which the thing is shown, at most; chosen
+const KEPT = [0.3, 1.2]; // the factor stays while the thing is shown between these; chosen
 
 /**
  * The factor by which to exaggerate a small length: steady, in steps of 1-2-5, never below 1.
