@@ -20,7 +20,7 @@ const NO_WEBGL = "The 3-D view needs WebGL, which this browser does not offer he
  */
 export function showScene(place, store) {
   const canvas = document.createElement("canvas");
-  const context = canvas.getContext("webgl2", { antialias: !devicePixelRatio || devicePixelRatio < 2 });
+  const context = canvas.getContext("webgl2", { antialias: devicePixelRatio < 2 });
   if (!context) {
     sayInstead(place, NO_WEBGL);
     return {};
