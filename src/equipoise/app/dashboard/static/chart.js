@@ -1,15 +1,17 @@
-/** One strip chart: a heading with current values, and lines with bands of one sd against time. */
+/** One strip chart: lines with bands of one sd against bench time, and marks behind them. */
 
 import uPlot from "./vendor/uPlot.esm.js";
+import { Heading, make } from "./chart_heading.js";
 import { looks } from "./colours.js";
 import { drawn } from "./decimate.js";
 import { drawRule, drawTargets } from "./marks.js";
-import { niceRange } from "./nice.js";
-import { figures, seconds, unitOf } from "./units.js";
+import { extent, niceRange } from "./nice.js";
+import { tick, unitOf } from "./units.js";
 
 const FONT = '11px system-ui, "DejaVu Sans", sans-serif';
 const BAND_ALPHA = "30"; // of 255 in hexadecimal, chosen: three bands on one another can be seen
 const TARGETED = "com"; // the series that the goal's target and tolerance are of
+const FEWEST_BUCKETS = 50; // of a chart that has no size yet
 
 export class Chart {
   /**
@@ -17,36 +19,19 @@ export class Chart {
    * @param {{name: string, title: string, columns: string[], sd: boolean, unit: object,
    *   line: number|null}} told  as `about` has it
    * @param {import("./store.js").Store} store
+   * @param {() => void} ask  for a drawing
    */
-  constructor(place, told, store) {
-    this.told = told;
-    this.store = store;
-    this.looks = looks(told.columns);
-    this.buildElements(place);
+  constructor(place, told, store, ask) {
+    Object.assign(this, { told, store, ask, looks: looks(told.columns), hidden: new Set() });
     const arrays = 1 + told.columns.length * (told.sd ? 3 : 1);
     this.out = Array.from({ length: arrays }, () => []);
-    this.plot = new uPlot(this.options(), this.inDrawingOrder(), this.plotPlace);
-    this.fit();
-  }
-
-  buildElements(place) {
     this.element = make("figure", "eq-chart", place);
-    const heading = make("figcaption", "", this.element);
-    make("b", "", heading).textContent = this.told.title;
-    this.unitPlace = make("span", "eq-unit", heading);
-    const keys = make("span", "eq-keys", heading);
-    this.values = this.told.columns.map((name, i) => this.addKey(keys, name, this.looks[i]));
+    this.heading = new Heading(this.element, told, this.looks, (c, on) => this.toggle(c, on));
     this.plotPlace = make("div", "eq-plot", this.element);
     this.plotPlace.setAttribute("role", "img");
-    this.plotPlace.setAttribute("aria-label", `${this.told.title} against bench time`);
-  }
-
-  addKey(keys, name, look) {
-    const key = make("span", "eq-key", keys);
-    key.style.setProperty("--line", `var(--eq-line-${look.colour})`);
-    key.dataset.dashed = look.dash.length > 0;
-    make("span", "", key).textContent = name;
-    return make("span", "eq-value", key);
+    this.plotPlace.setAttribute("aria-label", `${told.title} against bench time`);
+    this.plot = new uPlot(this.options(), this.inDrawingOrder(), this.plotPlace);
+    this.fit();
   }
 
   /** Bands come first, so that lines lie on them. */
@@ -56,18 +41,18 @@ export class Chart {
   }
 
   options() {
-    const n = this.told.sd ? this.told.columns.length : 0;
-    const edges = Array.from({ length: 2 * n }, () => ({ width: 0, points: { show: false } }));
+    const banded = this.told.sd ? this.looks : [];
+    const edges = Array.from({ length: 2 * banded.length }, () => ({ points: { show: false } }));
     return {
-      width: 300,
+      width: 300, // until it is fitted
       height: 120,
-      padding: [6, 10, 0, 0],
+      padding: [6, 16, 0, 0],
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, sync: { key: "equipoise" } },
       scales: { x: { time: false, auto: false }, y: { auto: false, range: (_, a, b) => [a, b] } },
-      axes: [this.axis(22, 64, seconds0), this.axis(52, 24, (y) => figuresOf(y))],
+      axes: [this.axis(22, 64, (t) => `${tick(t)} s`), this.axis(52, 24, tick)],
       series: [{}, ...edges, ...this.looks.map((look) => this.line(look))],
-      bands: this.looks.slice(0, n).map((look, c) => this.band(look, c)),
+      bands: banded.map((look, c) => this.band(look, c)),
       hooks: { drawAxes: [() => this.drawMarks()], setCursor: [() => this.writeValues()] },
     };
   }
@@ -95,24 +80,29 @@ export class Chart {
     return { series: [2 + 2 * c, 1 + 2 * c], fill };
   }
 
+  toggle(column, on) {
+    if (on) this.hidden.delete(column);
+    else this.hidden.add(column);
+    const banded = this.told.sd ? this.told.columns.length : 0;
+    const edges = banded ? [1 + 2 * column, 2 + 2 * column] : [];
+    for (const i of [...edges, 1 + 2 * banded + column]) this.plot.setSeries(i, { show: on });
+    this.ask();
+  }
+
   fit() {
     const { clientWidth: width, clientHeight: height } = this.plotPlace;
     if (width && height) this.plot.setSize({ width, height });
   }
 
   /**
-   * @param {{from: number, to: number}} span  s
+   * @param {{from: number, to: number, length: number}} span  s
    * @param {import("./units.js").Kind} kind
+   * @param {ReturnType<import("./colours.js").palette>} colours
    */
   draw(span, kind, colours) {
     this.colours = colours;
     this.unit = unitOf(this.told.unit, kind);
-    this.unitPlace.textContent = `[${this.unit.name}]`;
-    const { columns, sd } = this.told;
-    const buckets = Math.max(50, Math.round(this.plot.bbox.width / devicePixelRatio));
-    const how = { values: columns.length, sd, factor: this.unit.factor, buckets };
-    const series = this.store.series.get(this.told.name);
-    if (series) drawn(series, span, how, this.out);
+    this.decimate(span);
     const [min, max] = this.range();
     this.plot.batch(() => {
       this.plot.setData(this.inDrawingOrder(), false);
@@ -122,80 +112,71 @@ export class Chart {
     this.writeValues();
   }
 
+  decimate(span) {
+    const series = this.store.series.get(this.told.name);
+    if (!series) return this.out.forEach((column) => (column.length = 0));
+    const pixels = Math.round(this.plot.bbox.width / devicePixelRatio);
+    const { columns, sd } = this.told;
+    const buckets = Math.max(FEWEST_BUCKETS, pixels);
+    drawn(series, span, { values: columns.length, sd, factor: this.unit.factor, buckets }, this.out);
+  }
+
   /** @returns {[number, number]} lines, marks and the newest bands; older, wider bands may leave */
   range() {
     const n = this.told.columns.length;
     const wanted = this.marked();
-    for (const column of this.out.slice(1, 1 + n)) wanted.push(...extremes(column));
-    for (const column of this.out.slice(1 + n)) wanted.push(column.at(-1) ?? NaN);
-    const known = wanted.filter(Number.isFinite);
-    return known.length ? niceRange(Math.min(...known), Math.max(...known)) : [0, 1];
+    for (let c = 0; c < n; c++) {
+      if (this.hidden.has(c)) continue;
+      wanted.push(...extent(this.out[1 + c]));
+      if (this.told.sd) for (const edge of [1, 2]) wanted.push(this.out[n + 2 * c + edge].at(-1));
+    }
+    const [least, greatest] = extent(wanted);
+    return least <= greatest ? niceRange(least, greatest) : [0, 1];
   }
 
   /** @returns {number[]} what is marked on the y axis, in the unit shown */
   marked() {
-    const marks = this.told.line === null ? [] : [0, this.told.line * this.unit.factor];
-    for (const { value, tolerance } of this.targets()) marks.push(value - tolerance, value + tolerance);
-    return marks;
+    const rule = this.told.line === null ? [] : [0, this.told.line * this.unit.factor];
+    const targets = this.targets().flatMap((t) => [t.value - t.tolerance, t.value + t.tolerance]);
+    return [...rule, ...targets];
   }
 
   targets() {
     const goal = this.told.name === TARGETED ? this.store.state?.goal : null;
     if (!goal) return [];
     const { factor } = this.unit;
-    return goal.target.map((target, i) => ({
+    const all = goal.target.map((target, c) => ({
       value: target * factor,
-      tolerance: goal.tolerance[i] * factor,
-      colour: this.colours.lines[this.looks[i].colour],
+      tolerance: goal.tolerance[c] * factor,
+      colour: this.colours.lines[this.looks[c].colour],
     }));
+    return all.filter((_, c) => !this.hidden.has(c));
   }
 
   drawMarks() {
     if (!this.unit) return;
-    if (this.told.line !== null) {
-      drawRule(this.plot, this.told.line * this.unit.factor, this.colours.warn);
-    }
+    const { line } = this.told;
+    if (line !== null) drawRule(this.plot, line * this.unit.factor, this.colours.text);
     drawTargets(this.plot, this.targets());
   }
 
   /** The values under the cursor, which all charts share, else the newest. */
   writeValues() {
     if (!this.unit) return;
-    const { idx } = this.plot.cursor;
-    const under = idx !== null && idx !== undefined && this.plot.cursor.left >= 0;
-    const last = this.store.last(this.told.name);
-    const at = under ? ` at ${seconds(this.out[0][idx])}` : "";
-    this.unitPlace.textContent = `[${this.unit.name}]${at}`;
-    this.values.forEach((place, c) => {
-      const value = under ? this.out[1 + c][idx] : last && last[1 + c] * this.unit.factor;
-      place.textContent = figures(value ?? null);
-    });
+    const { idx, left } = this.plot.cursor;
+    const columns = this.told.columns.map((_, c) => 1 + c);
+    if (left >= 0 && idx !== null && idx < this.out[0].length) {
+      const under = columns.map((column) => this.out[column][idx]);
+      this.heading.write(this.unit.name, this.out[0][idx], under);
+    } else {
+      const last = this.store.last(this.told.name);
+      const newest = columns.map((column) => last && last[column] * this.unit.factor);
+      this.heading.write(this.unit.name, null, newest);
+    }
   }
 
   destroy() {
     this.plot.destroy();
     this.element.remove();
   }
-}
-
-function extremes(column) {
-  let [least, greatest] = [Infinity, -Infinity];
-  for (const value of column) {
-    if (value === null) continue;
-    if (value < least) least = value;
-    if (value > greatest) greatest = value;
-  }
-  return [least, greatest];
-}
-
-/** Ticks are round numbers; what the machine adds to them in the 16th figure is not shown. */
-const figuresOf = (y) => tickText(Number(y.toPrecision(6)));
-const tickText = (y) => (y !== 0 && Math.abs(y) < 1e-3 ? y.toExponential() : String(y)).replace("-", "−");
-const seconds0 = (t) => `${Number(t.toPrecision(9))} s`.replace("-", "−");
-
-function make(tag, className, parent) {
-  const element = document.createElement(tag);
-  if (className) element.className = className;
-  parent.append(element);
-  return element;
 }

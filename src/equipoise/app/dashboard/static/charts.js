@@ -4,7 +4,7 @@ import { Chart } from "./chart.js";
 import { palette } from "./colours.js";
 import { paced } from "./pace.js";
 
-const PERIOD_MS = 1000 / 15;
+const PERIOD_MS = 100; // smooth to the eye for lines that creep; chosen
 
 /**
  * @param {HTMLElement} place
@@ -17,10 +17,12 @@ export function showCharts(place, store, shown) {
   const inSight = new Set();
   let colours = palette();
   let end_s = 0; // stays where it is while the charts do not follow
+  let built = null; // the series for which there are charts, as JSON
 
   const draw = () => {
-    if (shown.follow) end_s = store.t ?? 0;
-    const span = { from: end_s - shown.span_s, to: end_s };
+    // A young record grows from the left edge; then the window moves along with it.
+    if (shown.follow) end_s = Math.max(store.t ?? 0, (store.began ?? 0) + shown.span_s);
+    const span = { from: end_s - shown.span_s, to: end_s, length: shown.span_s };
     for (const element of inSight) charts.get(element)?.draw(span, shown.kind, colours);
   };
   const ask = paced(draw, PERIOD_MS);
@@ -40,19 +42,22 @@ export function showCharts(place, store, shown) {
     inSight.clear();
   };
   const about = () => {
+    const wanted = JSON.stringify(store.about.series);
+    if (wanted === built) return ask(); // lines that a person has hidden stay so
+    built = wanted;
     clear();
     for (const told of store.about.series.filter((series) => series.chart)) {
-      const chart = new Chart(place, told, store);
+      const chart = new Chart(place, told, store, ask);
       charts.set(chart.element, chart);
       seen.observe(chart.element);
       sizes.observe(chart.plotPlace);
     }
   };
-  const redraw = () => {
+  const recolour = () => {
     colours = palette();
     ask();
   };
-  return { about, rows: ask, state: ask, redraw };
+  return { about, rows: ask, state: ask, redraw: ask, recolour };
 }
 
 /** Keeps `inSight` to the elements that can be seen, and asks for a drawing when one comes. */

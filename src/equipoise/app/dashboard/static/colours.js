@@ -40,6 +40,5 @@ export function palette() {
     body: read("body"),
     metal: read("metal"),
     com: read("com"),
-    warn: read("bad"),
   };
 }

@@ -9,7 +9,8 @@
 
 /**
  * @param {import("./series.js").Series} series
- * @param {{from: number, to: number}} span  s
+ * @param {{from: number, to: number, length: number}} span  s; the length by itself, since the
+ *   difference of the others is another one in its last figure, and so would buckets be
  * @param {{values: number, sd: boolean, factor: number, buckets: number}} how
  * @param {(number|null)[][]} out  as many arrays as 1 + values (1 + 2 sd); used again each time
  */
@@ -19,7 +20,7 @@ export function drawn(series, span, how, out) {
   const first = Math.max(0, series.firstFrom(span.from) - 1);
   const end = Math.min(series.rows, series.firstFrom(span.to) + 1);
   if (end - first <= 2 * how.buckets) rowsAsTheyAre(series, first, end, how, out);
-  else leastAndGreatest(series, first, end, (span.to - span.from) / how.buckets, how, out);
+  else leastAndGreatest(series, first, end, span.length / how.buckets, how, out);
 }
 
 function rowsAsTheyAre(series, first, end, how, out) {

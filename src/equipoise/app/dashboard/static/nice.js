@@ -4,7 +4,7 @@
 export function niceBelow(x) {
   const power = 10 ** Math.floor(Math.log10(x) + 1e-12);
   const digit = x / power + 1e-9;
-  return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
+  return Number(((digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power).toPrecision(1));
 }
 
 /**
@@ -19,8 +19,22 @@ export function niceRange(least, greatest) {
   return [Math.floor((least - room) / step) * step, Math.ceil((greatest + room) / step) * step];
 }
 
-const WANTED = 0.45; // of the radius in which the thing is shown; chosen
-const KEPT = [0.15, 0.8]; // the factor stays while the thing is shown between these; chosen
+/**
+ * @param {(number|null|undefined)[]} values
+ * @returns {[number, number]} the least and the greatest that are known; infinite: none is
+ */
+export function extent(values) {
+  let [least, greatest] = [Infinity, -Infinity];
+  for (const value of values) {
+    if (!Number.isFinite(value)) continue;
+    if (value < least) least = value;
+    if (value > greatest) greatest = value;
+  }
+  return [least, greatest];
+}
+
+const WANTED = 0.9; // of the radius in which the thing is shown, at most; chosen
+const KEPT = [0.3, 1.2]; // the factor stays while the thing is shown between these; chosen
 
 /**
  * The factor by which to exaggerate a small length: steady, in steps of 1-2-5, never below 1.

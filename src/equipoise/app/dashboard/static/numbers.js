@@ -13,11 +13,11 @@ const ROWS = [
   ["time", "bench time", "s", (store) => [store.t ?? NaN]],
   ["tilt", "tilt", "rad", (store) => [tilt(store.last("pose"), store.about?.up)]],
   ["rate", "rate", "rad/s", (store) => [length(store.last("rate"))]],
+  ["energy", "energy", "J", (store) => valueAndSd(store.last("energy"), 2)],
   ["com_x", "com x", "m", (store) => valueAndSd(store.last("com"), 0)],
   ["com_y", "com y", "m", (store) => valueAndSd(store.last("com"), 1)],
   ["com_z", "com z", "m", (store) => valueAndSd(store.last("com"), 2)],
-  ["torque", "residual torque", "N m", (store) => [length(store.last("torque"))]],
-  ["energy", "energy", "J", (store) => valueAndSd(store.last("energy"), 2)],
+  ["torque", "torque", "N m", (store) => [length(store.last("torque"))]],
 ];
 
 /** @returns {number} the angle (rad) between the body axis `up` and the laboratory's vertical */

@@ -44,8 +44,8 @@ export class Orbit {
 
   /** Stand so far away that a platform of this radius (m), and what it stands on, fit. */
   reach(radius) {
-    this.distance = 5 * radius;
-    this.lower = 0.35 * radius;
+    this.distance = 5.6 * radius;
+    this.lower = 0.1 * radius;
     this.turn(0, 0, 1);
   }
 

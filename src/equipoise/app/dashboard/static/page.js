@@ -3,6 +3,7 @@
  * the shell makes, and `window.equipoise` for the shell's buttons and the tests.
  */
 
+import { sayInstead } from "./instead.js";
 import { keepLinked, linkWords } from "./link.js";
 import { showNumbers } from "./numbers.js";
 import { Store } from "./store.js";
@@ -14,8 +15,6 @@ const NO_LIBRARIES =
 
 const store = new Store();
 const shown = { kind: "bench", span_s: 60, follow: true };
-/** Views that have something to redraw when theme, units or span change. */
-const views = [];
 let link = "closed";
 let sayLink = () => {};
 
@@ -31,18 +30,9 @@ function present(id) {
   });
 }
 
-function add(view) {
-  views.push(view);
-  store.show(view);
-}
-
-function redraw() {
-  for (const view of views) view.redraw?.();
-}
-
 function change(what) {
   Object.assign(shown, what);
-  redraw();
+  store.tell("redraw");
 }
 
 /** Where a module's libraries are not installed, a sentence stands instead. */
@@ -52,10 +42,9 @@ async function showWithLibraries(id, module, start) {
     await import(module);
   } catch (error) {
     if (!(error instanceof TypeError)) throw error; // what browsers say of a missing file
-    place.textContent = NO_LIBRARIES;
-    return;
+    return sayInstead(place, NO_LIBRARIES);
   }
-  add(start(await import(module), place));
+  store.show(start(await import(module), place));
 }
 
 function state() {
@@ -76,7 +65,9 @@ window.equipoise = {
 };
 
 // Whoever changes the theme, canvases have to be drawn anew.
-new MutationObserver(redraw).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+new MutationObserver(() => store.tell("recolour")).observe(document.documentElement, {
+  attributeFilter: ["data-theme"],
+});
 
 keepLinked(
   (message) => store.receive(message),
@@ -90,8 +81,8 @@ present("eq-link").then((place) => {
   sayLink = linkWords(place);
   sayLink(link);
 });
-present("eq-story").then((place) => add(showStory(place)));
-present("eq-numbers").then((place) => add(showNumbers(place, store, () => shown.kind)));
+present("eq-story").then((place) => store.show(showStory(place)));
+present("eq-numbers").then((place) => store.show(showNumbers(place, store, () => shown.kind)));
 showWithLibraries("eq-charts", "./charts.js", ({ showCharts }, place) =>
   showCharts(place, store, shown),
 );

@@ -3,12 +3,12 @@
 import { WebGLRenderer, Scene, PerspectiveCamera, HemisphereLight, DirectionalLight } from "./vendor/three.module.js";
 import { palette } from "./colours.js";
 import { Orbit } from "./orbit.js";
+import { sayInstead } from "./instead.js";
 import { paced } from "./pace.js";
 import { dispose } from "./scene_makings.js";
 import { Platform } from "./scene_platform.js";
 import { Balance } from "./scene_balance.js";
 import { room } from "./scene_room.js";
-import { figures } from "./units.js";
 
 const PERIOD_MS = 1000 / 30;
 const PERIOD_IN_SOFTWARE_MS = 1000 / 10; // without a graphics card the processor draws each pixel
@@ -20,9 +20,9 @@ const NO_WEBGL = "The 3-D view needs WebGL, which this browser does not offer he
  */
 export function showScene(place, store) {
   const canvas = document.createElement("canvas");
-  const context = canvas.getContext("webgl2", { antialias: !devicePixelRatio || devicePixelRatio < 2 });
+  const context = canvas.getContext("webgl2", { antialias: devicePixelRatio < 2 });
   if (!context) {
-    place.textContent = NO_WEBGL;
+    sayInstead(place, NO_WEBGL);
     return {};
   }
   return new View(place, store, canvas, context);
@@ -57,11 +57,11 @@ class View {
 
   about() {
     this.factor = 0;
-    this.redraw();
+    this.recolour();
   }
 
   /** Build everything anew: the testbed or the theme is another. */
-  redraw() {
+  recolour() {
     if (!this.store.about) return;
     if (this.contents) for (const content of this.contents) dispose(content);
     const colours = palette();
@@ -92,7 +92,7 @@ class View {
     this.platform.turnWheels(store.last("wheels"));
     this.factor = this.balance.show(believed(store), this.factor, this.platform.group);
     this.caption.textContent = this.factor
-      ? `centre of mass × ${figures(this.factor)}, ellipsoid 1 sd`
+      ? `centre of mass × ${this.factor}, ellipsoid 1 sd`
       : "centre of mass not known yet";
     this.renderer.render(this.scene, this.camera);
   }

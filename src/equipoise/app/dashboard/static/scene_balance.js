@@ -15,17 +15,19 @@ export class Balance {
   /** @param {number} radius  m, of the platform */
   constructor(radius, colours) {
     this.radius = radius;
-    this.com = solid(new THREE.SphereGeometry(0.06 * radius, 20, 14), colours.com);
-    this.ellipsoid = solid(new THREE.SphereGeometry(1, 24, 16), colours.com, 0.3);
+    this.com = solid(new THREE.SphereGeometry(0.03 * radius, 20, 14), colours.com);
+    this.ellipsoid = solid(new THREE.SphereGeometry(1, 24, 16), colours.com, 0.4);
     this.lever = lines([[0, 0, 0], [0, 0, 1]], colours.com);
     this.word = label("com", colours.com, 0.15 * radius);
-    const centre = solid(new THREE.SphereGeometry(0.04 * radius, 16, 10), colours.text);
-    for (const part of [this.com, this.lever, centre]) drawOverBody(part);
+    this.word.center.set(-0.3, 0.5); // to the right of its point, whatever the view
+    const centre = solid(new THREE.SphereGeometry(0.03 * radius, 16, 10), colours.text);
+    for (const part of [this.com, this.ellipsoid, this.lever, centre]) drawOverBody(part);
     this.inBody = new THREE.Group().add(centre, this.com, this.ellipsoid, this.lever, this.word);
     this.inRoom = along(arrow(0.5 * radius, colours.text), DOWN);
     const g = label("g", colours.text, 0.17 * radius);
     g.position.z = 0.58 * radius;
     this.inRoom.add(g);
+    this.inRoom.traverse((part) => part.isMesh && drawOverBody(part)); // the pedestal would hide it
   }
 
   /**
@@ -54,7 +56,7 @@ export class Balance {
   placeCom(at) {
     this.com.position.set(...at);
     this.ellipsoid.position.copy(this.com.position);
-    this.word.position.copy(this.com.position).multiplyScalar(1 + (0.16 * this.radius) / Math.max(1e-9, Math.hypot(...at)));
+    this.word.position.copy(this.com.position);
     const ends = this.lever.geometry.attributes.position;
     ends.setXYZ(1, ...at);
     ends.needsUpdate = true;

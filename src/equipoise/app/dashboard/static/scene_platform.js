@@ -16,7 +16,7 @@ export class Platform {
     this.group = new THREE.Group();
     this.group.add(this.body(colours), ...this.axes(colours));
     this.masses = about.masses.map((mass) => this.mass(mass, colours));
-    this.wheels = about.wheels.map((wheel) => this.wheel(wheel, colours));
+    this.wheels = about.wheels.map((wheel, i) => this.wheel(wheel, i, colours));
     this.lastTurn_s = null;
   }
 
@@ -38,8 +38,8 @@ export class Platform {
     return AXES.flatMap(([name, direction], i) => {
       const colour = colours.lines[i];
       const word = label(name, colour, 0.2 * this.radius);
-      word.position.set(...direction.map((d) => d * 1.5 * this.radius));
-      return [along(arrow(1.35 * this.radius, colour), direction), word];
+      word.position.set(...direction.map((d) => d * 1.37 * this.radius));
+      return [along(arrow(1.25 * this.radius, colour), direction), word];
     });
   }
 
@@ -53,8 +53,8 @@ export class Platform {
     return { box, home: new THREE.Vector3(...mass.home), axis: new THREE.Vector3(...mass.axis) };
   }
 
-  /** Where wheels are is not told: they lie round the centre, each across its axis. */
-  wheel(wheel, colours) {
+  /** Each lies across its axis. */
+  wheel(wheel, i, colours) {
     const r = 0.2 * this.radius;
     const rotor = solid(new THREE.CylinderGeometry(r, r, 0.3 * r, 24), colours.metal);
     rotor.rotation.x = Math.PI / 2;
@@ -62,9 +62,16 @@ export class Platform {
     const spokes = lines([[-r, 0, height], [r, 0, height], [0, -r, height], [0, r, height]], colours.panel);
     const spun = new THREE.Group().add(rotor, spokes);
     const held = along(new THREE.Group().add(spun), wheel.axis);
-    held.position.set(...wheel.axis.map((a) => -0.45 * this.radius * a));
+    held.position.copy(this.wheelPlace(i));
     this.group.add(held);
     return spun;
+  }
+
+  /** Where wheels are is not told: they stand round the centre, on top. */
+  wheelPlace(i) {
+    const turn = 0.5 + (2 * Math.PI * i) / this.about.wheels.length;
+    const place = new THREE.Vector3(Math.cos(turn), Math.sin(turn), 0.45).multiplyScalar(0.5 * this.radius);
+    return place.applyQuaternion(along(new THREE.Object3D(), this.about.up).quaternion);
   }
 
   /** @param {number[]|null} pose  t, then body to laboratory, scalar first; three.js has it last */

@@ -3,7 +3,7 @@
 import * as THREE from "./vendor/three.module.js";
 import { arrow, label, lines, solid } from "./scene_makings.js";
 
-const FLOOR = -1.5; // of the platform's radius, below the centre of rotation
+const FLOOR = -1.25; // of the platform's radius, below the centre of rotation
 const CELLS = 8; // of the floor's grid, from its middle to each side
 
 /** @param {number} radius  m, of the platform @returns {THREE.Group} laboratory axes, z up */
@@ -12,7 +12,7 @@ export function room(radius, colours) {
   group.add(floor(radius, colours), pedestal(radius, colours));
   const up = arrow(0.5 * radius, colours.quiet);
   const word = label("up", colours.quiet, 0.17 * radius);
-  up.position.set(-1.35 * radius, 1.35 * radius, FLOOR * radius);
+  up.position.set(-1.3 * radius, -0.95 * radius, FLOOR * radius); // to the left, as one looks first
   word.position.copy(up.position).add(new THREE.Vector3(0, 0, 0.62 * radius));
   return group.add(up, word);
 }

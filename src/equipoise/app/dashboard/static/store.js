@@ -8,9 +8,10 @@ const CAPACITY = 120_000;
 const POSES_KEPT = 16; // only the newest is shown
 
 /**
- * What a view may have; each is called after the store has changed.
+ * What a view may have. The first four are called after the store has changed, `redraw` when units
+ * or span have, `recolour` when the theme has.
  * @typedef {{about?: () => void, rows?: () => void, step?: (step: object) => void,
- *   state?: () => void}} View
+ *   state?: () => void, redraw?: () => void, recolour?: () => void}} View
  */
 
 export class Store {
@@ -48,6 +49,7 @@ export class Store {
     this.steps = new Map();
     this.state = null;
     this.t = null;
+    this.began = null; // s, the first row
   }
 
   /** Each connection begins with `about`, and all that is kept comes again after it. */
@@ -69,7 +71,10 @@ export class Store {
   takeRows(frame) {
     this.frames++;
     this.t = frame.t;
-    for (const part of frame.parts) this.seriesFor(part).push(part.data);
+    for (const part of frame.parts) {
+      this.seriesFor(part).push(part.data);
+      if (part.rows) this.began = Math.min(this.began ?? Infinity, part.data[0]);
+    }
     this.tell("rows");
   }
 

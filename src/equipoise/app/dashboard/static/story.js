@@ -15,18 +15,30 @@ export function showStory(place) {
   place.setAttribute("role", "log");
   place.append(list);
   const items = new Map();
+  let follows = true;
+  let top_px = 0;
+  const toEnd = () => {
+    if (follows) place.scrollTop = place.scrollHeight;
+  };
+  // Only a person scrolls up. A box that becomes lower is not at its end either, for a moment.
+  place.addEventListener("scroll", () => {
+    const nearEnd = place.scrollHeight - place.scrollTop - place.clientHeight < NEAR_END_PX;
+    follows = nearEnd || (follows && place.scrollTop >= top_px);
+    top_px = place.scrollTop;
+  });
+  new ResizeObserver(toEnd).observe(place);
   return {
     about() {
       items.clear();
+      follows = true;
       list.replaceChildren();
     },
     step(step) {
-      const follows = place.scrollHeight - place.scrollTop - place.clientHeight < NEAR_END_PX;
       const item = itemOf(step);
       if (items.has(step.index)) items.get(step.index).replaceWith(item);
       else list.append(item);
       items.set(step.index, item);
-      if (follows) place.scrollTop = place.scrollHeight;
+      toEnd();
     },
   };
 }

@@ -47,23 +47,31 @@ export function figures(value) {
 }
 
 /**
- * A number and its standard deviation, rounded alike: the sd has two figures, or as many as its
- * number has where it is below what is shown of that.
+ * A number and its standard deviation, both to the second figure of the sd; small ones, as those
+ * of SI are, both with the same power of a thousand.
  * @param {number} value
  * @param {number} sd
  * @param {string} unit
  */
 export function withSd(value, sd, unit) {
-  if (!Number.isFinite(sd) || sd <= 0) return withUnit(value, unit);
-  const decimals = Math.max(0, Math.min(6, 1 - Math.floor(Math.log10(sd))));
-  if (sd < 1e-5 || sd >= 1e6) return `${figures(value)} ± ${figures(sd)} ${unit}`;
-  return `${minus(value.toFixed(decimals))} ± ${sd.toFixed(decimals)} ${unit}`;
+  if (!Number.isFinite(value) || !Number.isFinite(sd) || sd <= 0) return withUnit(value, unit);
+  const thousands = Math.floor(Math.log10(Math.max(Math.abs(value), sd)) / 3);
+  const power = thousands < -1 ? 3 * thousands : 0;
+  const decimals = Math.max(0, Math.min(6, 1 - Math.floor(Math.log10(sd) - power)));
+  const write = (x) => (x / 10 ** power).toFixed(decimals) + (power ? `e${power}` : "");
+  return `${minus(write(value))} ± ${minus(write(sd))} ${unit}`;
 }
 
 /** @returns {string} a number with its unit; the unit alone says nothing where nothing is known */
 export function withUnit(value, unit) {
   const text = figures(value);
   return text === "–" ? text : `${text} ${unit}`;
+}
+
+/** A number at an axis. Ticks are round; what the machine adds in the 16th figure is not shown. */
+export function tick(value) {
+  const round = Number(value.toPrecision(9));
+  return minus(round !== 0 && Math.abs(round) < 1e-3 ? round.toExponential() : String(round));
 }
 
 /** Bench time (s), with tenths, that does not change its width in a column of them. */
