@@ -24,14 +24,14 @@ def test_level_with_the_mass_to_the_side():
 
 
 def test_leaning_by_a_right_angle():
-    """Rolled by 90 deg gravity is along -y of the body: tau = m g r x (0, -1, 0) = m g (z, 0, -x)."""
+    """Rolled by 90 deg, gravity is along -y of the body: tau = m g r x (0, -1, 0)."""
     q = exponential(np.array([[np.pi / 2, 0.0, 0.0]]))
     torque, _ = gravity_torque(platform(), q, np.array([[1e-3, 2e-3, -3e-3]]), np.zeros((3, 3)))
     assert torque[0] == pytest.approx(14.24 * 9.81 * np.array([-3e-3, 0.0, -1e-3]))
 
 
 def test_torque_is_that_of_mujoco():
-    """Its own gravity, on a body that hangs on a ball joint: qfrc_bias at rest is minus the torque."""
+    """On a body that hangs on a ball joint; its qfrc_bias at rest is minus the torque."""
     rng = np.random.default_rng(3)
     q, com = normalise(rng.standard_normal(4)), np.array([2e-3, -1e-3, -4e-3])
     at = " ".join(f"{x:.9g}" for x in com)

@@ -55,8 +55,11 @@ def test_another_name_for_us_is_refused():
         assert "not at" in answer.json()["refused"]
 
 
-@pytest.mark.parametrize("origin", ["http://evil.example", "https://127.0.0.1:8080", "null",
-                                    "http://127.0.0.1:8081", "http://127.0.0.1:8080.evil.example"])  # fmt: skip
+FOREIGN = ("http://evil.example", "https://127.0.0.1:8080", "null", "http://127.0.0.1:8081",
+           "http://127.0.0.1:8080.evil.example")  # fmt: skip
+
+
+@pytest.mark.parametrize("origin", FOREIGN)
 def test_a_foreign_origin_is_refused(origin):
     assert client().get("/", headers={"origin": origin}).status_code == 403
     with pytest.raises(WebSocketDisconnect) as refused:
@@ -161,8 +164,11 @@ def test_files_within_the_data_folder(folder):
     assert set(recordings(folder)) == {"recordings/a.mcap", "run/recording.csv"}
 
 
-@pytest.mark.parametrize("name", ["../secret.csv", "run/../../secret.csv", "/etc/passwd", "link.csv",
-                                  "missing.csv", "", "run", "%2e%2e/secret.csv"])  # fmt: skip
+OUTSIDE = ("../secret.csv", "run/../../secret.csv", "/etc/passwd", "link.csv", "missing.csv", "",
+           "run", "%2e%2e/secret.csv")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", OUTSIDE)
 def test_a_path_outside_the_data_folder_is_refused(folder, name):
     with pytest.raises(InputError, match="a file within"):
         within(folder, name)

@@ -22,6 +22,7 @@ class Controls:
     def __init__(self, counter: Counter, page: str) -> None:
         self._counter, self._page = counter, page
         self._needing: list[ui.button] = []  # a commander
+        self._listed: object = self  # what was recorded and kept when the list was made
         self._token_row()
         with ui.row().classes("eq-buttons"):
             self.start = self._button("Start balancing", self._start, "unelevated color=primary")
@@ -49,6 +50,10 @@ class Controls:
         self.hold.set_visibility(counter.watch.about.get("bench") != "real")
         self.record.set_text("End recording" if state.get("recording") else "Record")
         kept = state.get("kept")
+        files = (state.get("recording"), kept)
+        if files != self._listed:
+            self.chosen.set_options(recordings(counter.folder))
+            self._listed = files
         self.reports.set_visibility(bool(kept))
         if kept:
             self.html.props(f'href="/runs/{kept}/report.html"')
@@ -103,9 +108,7 @@ class Controls:
         with ui.row().classes("eq-jog"):
             self.text = ui.input("What happened").props("dense outlined")
             self._button("Mark", lambda: self._ask(ask.Mark(self.text.value or "mark")))
-        names = recordings(self._counter.folder)
-        self.chosen = ui.select(names, label="Recording").props("dense outlined options-dense")
-        self.chosen.on("popup-show", self._listed)
+        self.chosen = ui.select([], label="Recording").props("dense outlined options-dense")
         with ui.row().classes("eq-buttons"):
             self._button("Replay", self._replay)
             self._button("Back to the simulation", lambda: self._ask(ask.Replay("")))
@@ -161,9 +164,6 @@ class Controls:
 
     def _record(self) -> None:
         self._ask(ask.Record(not self._counter.watch.state.get("recording")))
-
-    def _listed(self) -> None:
-        self.chosen.set_options(recordings(self._counter.folder))
 
     def _replay(self) -> None:
         if self.chosen.value:

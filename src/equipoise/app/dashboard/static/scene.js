@@ -81,7 +81,7 @@ class View {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    this.ask();
+    this.draw(); // at once: another size has emptied the canvas
   }
 
   draw() {

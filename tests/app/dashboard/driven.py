@@ -1,0 +1,107 @@
+"""The dashboard as a program, and Debian's Chromium in front of it."""
+
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+ARGUMENTS = (
+    "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic",
+    "--no-first-run", "--disable-background-networking", "--disable-component-update",
+    "--disable-sync",
+)  # fmt: skip
+START = 240.0  # s: to compile what has to be compiled once
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@dataclass
+class Dashboard:
+    """A running program."""
+
+    process: subprocess.Popen
+    url: str
+    token: str
+    port: int
+
+    def kill(self):
+        """End the server as a crash would."""
+        self.process.kill()
+        self.process.wait()
+
+    def end(self):
+        """End it as Ctrl-C does; return its exit code."""
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        try:
+            return self.process.wait(30)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            raise
+
+
+def started(folder: Path, *words, port=None) -> Dashboard:
+    """Start the program and wait for what it prints."""
+    port, log = port or free_port(), folder / "printed.txt"
+    command = [sys.executable, "-m", "equipoise.app.cli", "dashboard", *map(str, words),
+               "--port", str(port)]  # fmt: skip
+    own = os.environ | {"EQUIPOISE_RUNS": str(folder / "runs"), "PYTHONUNBUFFERED": "1"}
+    with log.open("w") as file:
+        process = subprocess.Popen(command, stdout=file, stderr=file, env=own, cwd=folder)
+    until = time.monotonic() + START
+    while time.monotonic() < until and process.poll() is None:
+        said = log.read_text()
+        if "Ctrl-C" in said:
+            url = re.search(r"dashboard is at (\S+)", said)[1]
+            return Dashboard(process, url, re.search(r"command: (\S+)", said)[1], port)
+        time.sleep(0.1)
+    process.kill()
+    raise AssertionError(log.read_text())
+
+
+@contextmanager
+def dashboard(folder: Path, *words):
+    """Lend a running dashboard."""
+    running = started(folder, *words)
+    try:
+        yield running
+    finally:
+        running.end()
+
+
+@contextmanager
+def browser():
+    """Lend a browser that asks nobody but us."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as play:
+        opened = play.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        yield opened
+        opened.close()
+
+
+class Heard:
+    """What a page says on its console, and whom it asks."""
+
+    def __init__(self, page):
+        self.said, self.asked = [], set()
+        page.on("console", lambda message: self.said.append((message.type, message.text)))
+        page.on("pageerror", lambda error: self.said.append(("error", str(error))))
+        page.on("request", lambda request: self.asked.add(request.url.split("/")[2]))
+        page.on("websocket", lambda socket: self.asked.add(socket.url.split("/")[2]))
+
+    @property
+    def wrong(self):
+        return [text for kind, text in self.said if kind in ("error", "warning")]
