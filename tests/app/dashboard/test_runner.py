@@ -211,9 +211,7 @@ def recording(nanosat, tmp_path):
 
 
 def test_a_replay_shows_the_recording_and_ends_with_it(room, recording):
-    room.ask(ask.Replay("kept.csv"), ask.Pause(False))
-    room.turn(3)
-    room.ask(ask.Pause(False))
+    room.ask(ask.Replay("kept.csv"))
     room.until(lambda: room.told.state["note"] == "The recording has ended.")
     rows = room.told.rows("pose")
     assert rows[:, 0] == pytest.approx(recording.attitude.t, abs=1e-6)

@@ -167,7 +167,7 @@ class Controls:
 
     def _replay(self) -> None:
         if self.chosen.value:
-            self._ask(ask.Replay(str(self.chosen.value)), ask.Pause(False))
+            self._ask(ask.Replay(str(self.chosen.value)))
 
     def _anew(self) -> None:
         if self.seed.value is not None and self.seed.value >= 0:

@@ -144,6 +144,8 @@ class Desk:
         elif isinstance(request, ask.Replay):
             path = within(self._folder, request.name)
             runner.show(replayed(bed, fitting_recording_of(str(path), WHOLE, bed), request.name))
+            self._pause(False)
+            runner.tell_state()
         elif runner.station.source is not None:
             was, held = runner.station, runner.phase
             assert was.source is not None
