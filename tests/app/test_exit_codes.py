@@ -170,6 +170,6 @@ def test_unwritable_outputs_are_told_before_any_work(equipoise, tmp_path, record
 
 def test_holding_follows_balancing(equipoise):
     """The verdict of the hold is the last word."""
-    done = equipoise("balance", "sputnix", "--seed", "3", "--hold-min", "0.5")
+    done = equipoise("balance", "sputnix", "--seed", "3", "--hold-min", "0.5", "--max-time-s", "60")
     assert done.code in (0, 1)
     assert "0.5 min" in done.out

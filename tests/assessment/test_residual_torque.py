@@ -23,6 +23,12 @@ def test_torque_follows_the_axis_that_points_up():
     assert across.value == pytest.approx(50e-6)
 
 
+def test_a_height_that_was_not_seen_leaves_the_torque_as_sure_as_it_is():
+    unseen = np.array([1e-6, 2e-6, np.inf])
+    torque = level_torque(WEIGHT, np.array([3e-6, 4e-6, -100e-6]), unseen, UP)
+    assert torque.sd == pytest.approx(WEIGHT * np.hypot(0.6 * 1e-6, 0.8 * 2e-6))
+
+
 def test_period_is_that_of_the_slower_axis():
     """J = 0.9, m g h = 10 * 90 um = 9e-4: T = 2 pi sqrt(1000) = 198.69 s."""
     period = swing_period(WEIGHT, np.array([0, 0, -90e-6]), SD, INERTIA, UP)

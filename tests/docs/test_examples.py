@@ -2,6 +2,8 @@
 
 Every ```python block is executed, and every line `$ equipoise ...` of a ```console block, in the
 order of the page, in one empty folder, with one namespace: a page may build on what it did before.
+The first command of a page starts the program; those after it enter it by its door, in this
+process, since a start takes seconds.
 Code that is only to be read goes into a block of another kind (```text, ```toml, or none).
 """
 
@@ -14,6 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+from equipoise.app.cli import run
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -59,12 +63,18 @@ def run_python(block: Block, name: str, namespace: dict[str, object]) -> None:
     exec(compile(padding + block.text, name, "exec"), namespace)
 
 
-def run_console(block: Block, name: str) -> None:
-    for line, words in commands(block):
-        program = shutil.which(words[0], path=Path(sys.executable).parent)
-        assert program, f"{words[0]} is not installed beside Python"
-        done = subprocess.run([program, *words[1:]], capture_output=True, text=True, check=False)
-        assert done.returncode == 0, f"{name}:{line}: exit {done.returncode}\n{done.stderr}"
+def as_a_program(words: list[str]) -> int:
+    program = shutil.which(words[0], path=Path(sys.executable).parent)
+    assert program, f"{words[0]} is not installed beside Python"
+    return subprocess.run([program, *words[1:]], check=False).returncode
+
+
+def run_console(given: list[tuple[int, list[str]]], name: str, started: bool) -> None:
+    """Carry out commands; unless the page has started the program before, the first does."""
+    for line, words in given:
+        code = run(words[1:]) if started else as_a_program(words)
+        started = True
+        assert code == 0, f"{name}:{line}: exit {code}"
 
 
 def has_examples(page: Path) -> bool:
@@ -82,11 +92,14 @@ def test_examples_run(page, tmp_path, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "Agg")
     name = page.relative_to(ROOT).as_posix()
     namespace: dict[str, object] = {"__name__": "__main__"}
+    started = False
     for block in blocks(page.read_text(encoding="utf-8")):
         if block.kind == "python":
             run_python(block, name, namespace)
         elif block.kind == "console":
-            run_console(block, name)
+            given = commands(block)
+            run_console(given, name, started)
+            started = started or bool(given)
 
 
 def test_blocks_are_found_with_their_lines():
@@ -105,6 +118,12 @@ def test_a_block_left_open_is_an_error():
 def test_only_lines_given_to_equipoise_are_commands():
     block = Block("console", 5, "$ cd there\n$ equipoise new 'my file.toml'  # a preset\nwrote it")
     assert commands(block) == [(6, ["equipoise", "new", "my file.toml"])]
+
+
+@pytest.mark.parametrize("started", [False, True])
+def test_a_command_that_fails_names_its_line(started):
+    with pytest.raises(AssertionError, match=r"README\.md:7: exit 2"):
+        run_console([(7, ["equipoise", "new", "sputnik"])], "README.md", started)
 
 
 def test_a_failing_example_names_its_line():

@@ -28,7 +28,10 @@ def level_torque(weight: float, com: Vector3, sd: Vector3, up: Vector3) -> Uncer
     size = float(np.linalg.norm(across))
     if size == 0:
         return Uncertain(0.0, weight * float(np.linalg.norm(sd)))
-    return Uncertain(weight * size, weight * float(np.linalg.norm(across / size * sd)))
+    counts = across != 0  # along up an sd may be infinite, and adds nothing
+    return Uncertain(
+        weight * size, weight * float(np.linalg.norm(across[counts] / size * sd[counts]))
+    )
 
 
 def swing_period(
