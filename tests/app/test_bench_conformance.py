@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from equipoise.app.watched_bench import WatchedBench
 from equipoise.hardware.replayed_bench import ReplayedBench
 from equipoise.io.presets import read_preset
 from equipoise.model.bench import Bench
@@ -43,13 +44,13 @@ def replayed():
     yield Shown(ReplayedBench(BED, SimulatedBench(BED, 1).read(20.0)), obeys=False)
 
 
-def real(kind):
+def real(kind, as_used=lambda bench: bench):
     @contextlib.contextmanager
     def made():
         board = replace(board_of(kind), port=BED.hardware.boards[0].port)
         hardware = replace(BED.hardware, boards=(board,))
         with lab(replace(BED, hardware=hardware)) as found:
-            yield Shown(found.bench)
+            yield Shown(as_used(found.bench))
 
     return made
 
@@ -59,6 +60,7 @@ BENCHES = {
     "replayed": replayed,
     "real, grbl": real("grbl"),
     "real, tmcl": real("tmcl"),
+    "real, watched": real("grbl", lambda bench: WatchedBench(bench, lambda _rows: None, 0.125)),
 }
 
 
