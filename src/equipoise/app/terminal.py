@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from equipoise.model.step import Step
 
 COMPILING = "compiling kernels, once"
+_DRAWN_ON: list["Console"] = []  # consoles with a sign of life
 REFRESHES = 8.0  # Hz, chosen: as often as a person can follow, at little cost
 
 
@@ -29,7 +30,14 @@ def stdout() -> "Console":
 
 
 def stderr() -> "Console":
-    """Return the console for everything else."""
+    """Return the console for everything else; while a sign of life is drawn, the one it is on.
+
+    What that one prints stands above; another would print into the middle of what is drawn.
+    """
+    return _DRAWN_ON[-1] if _DRAWN_ON else _new_stderr()
+
+
+def _new_stderr() -> "Console":
     from rich.console import Console
 
     return Console(stderr=True, highlight=False, soft_wrap=True)
@@ -72,9 +80,9 @@ def busy(
                 interruption.carry_out()
 
     with held_back() as interruption:
-        with interruption.put_off():
-            sign.begin()
         try:
+            with interruption.put_off():
+                sign.begin()
             with event.install_listener("numba:compile", Listener()):
                 yield
         finally:
@@ -90,7 +98,7 @@ class _SignOfLife:
         from rich.live import Live
         from rich.spinner import Spinner
 
-        self._console, self._announce, self._said = stderr(), announce, list[str]()
+        self._console, self._announce, self._said = _new_stderr(), announce, list[str]()
         plain = self._console.options.ascii_only
         self._line = Spinner("line" if plain else "dots", style="status.spinner")
         shown = self._line if above is None else Group(above, self._line)
@@ -100,9 +108,11 @@ class _SignOfLife:
         self.say(text)
 
     def begin(self) -> None:
+        _DRAWN_ON.append(self._console)
         self._live.start(refresh=True)
 
     def end(self) -> None:
+        _DRAWN_ON.remove(self._console)
         self._live.stop()
 
     def say(self, text: str) -> None:

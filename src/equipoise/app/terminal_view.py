@@ -13,7 +13,7 @@ from rich.text import Text
 
 from equipoise.app.believed import believed_after
 from equipoise.app.newest import SPAN, Newest, after, tilt_of
-from equipoise.app.numbers import with_sd
+from equipoise.app.numbers import fixed
 from equipoise.app.sparkline import BLOCKS, PLAIN, in_columns, sparkline
 from equipoise.app.terminal import stderr
 from equipoise.app.units import MM, PER_DEG, UM
@@ -67,7 +67,7 @@ class TerminalView:
 
     def _motion(self) -> list[str]:
         newest = self.newest
-        told = ["bench", f"{newest.time:8.1f} s"]
+        told = ["bench time", f"{newest.time:8.1f} s"]
         if newest.tilt is not None:
             told.append(f"{tilt_of(newest)} (limit {self.testbed.tilt_limit * PER_DEG:g})")
         if newest.rate is not None:
@@ -123,5 +123,5 @@ def watched_by(view: TerminalView, bench: Bench) -> Bench:
 
 
 def _um(value: float, sd: float) -> str:
-    shown, error = with_sd(value, sd)
-    return f"{shown} +/- {error}" if math.isfinite(sd) and sd > 0 else f"{shown} ({error})"
+    """Return a coordinate in the digits of the steps' sentences."""
+    return f"{fixed(value, 1)} +/- {fixed(sd, 1)}" if math.isfinite(sd) else "not seen"
