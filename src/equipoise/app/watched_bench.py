@@ -9,6 +9,7 @@ from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 
 Onlooker = Callable[[Recording], None]
+ROUNDING = 1e-6  # s, chosen: a clock of whole nanoseconds may end a reading so much early
 
 
 class WatchedBench:
@@ -49,7 +50,7 @@ class WatchedBench:
         check_duration(duration)
         end = self.time + duration
         self._read_slice(min(self._slice, duration))
-        while (rest := end - self.time) > 0:
+        while (rest := end - self.time) > ROUNDING:
             self._read_slice(min(self._slice, rest))
         whole = joined(self._unclaimed)
         self._unclaimed = []

@@ -47,12 +47,11 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
 def _record(bench: "Bench", out: Path, duration: float) -> None:
     """Read for so long (s), or until Ctrl-C; the bench itself writes the rows."""
     from equipoise.app.recording_view import RecordingView
-    from equipoise.app.terminal_view import SLICE
-    from equipoise.app.watched_bench import WatchedBench
+    from equipoise.app.terminal_view import SLICE, watched_by
 
     begin = bench.time
     view = RecordingView(bench.testbed, out, begin, duration)
-    seen = WatchedBench(bench, view.rows, SLICE)
+    seen = watched_by(view, bench)
     with suppress(KeyboardInterrupt), busy("recording", above=view):
         while (passed := bench.time - begin) < duration:
             seen.read(min(SLICE, duration - passed))
