@@ -45,10 +45,11 @@ def _new_stderr() -> "Console":
 
 def complain(sentence: str) -> None:
     """Print what is wrong, in one line."""
-    line = " ".join(sentence.split())
+    from rich.text import Text
+
     if sys.stderr is not None:
-        stderr().print("[bold red]equipoise:[/]", end=" ")
-        stderr().print(line, markup=False)
+        line = " ".join(sentence.split())
+        stderr().print(Text.assemble(("equipoise:", "bold red"), f" {line}"))
 
 
 @contextmanager
