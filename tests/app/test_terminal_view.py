@@ -150,7 +150,7 @@ def test_a_dumb_terminal_is_told_in_plain_lines(monkeypatch):
     assert watched_by(view(), None) is None
 
 
-BALANCE = ("balance", "nanosat", "--seed", 1, "--max-moves", 1)
+BALANCE = ("balance", "nanosat", "--seed", 1)
 
 
 def without_its_making(document):
