@@ -5,7 +5,6 @@ for so long that an interlock stops the masses, as it should; then the command i
 """
 
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -19,7 +18,8 @@ from equipoise.io.live_view import ADDRESS
 from equipoise.io.mcap_recording import events_of
 from equipoise.io.recording_file import read_recording
 
-pytestmark = pytest.mark.skipif(os.name == "nt", reason="no pseudo terminals, no SIGINT")
+pytest.importorskip("pty", reason="no pseudo terminals, no SIGINT")
+from tests.at_terminal import AtTerminal, screen, stripped
 
 TRIES, PATIENCE = 3, 120.0  # s
 PROGRAM = [sys.executable, "-m", "equipoise.app.cli"]
@@ -91,6 +91,21 @@ def test_record_writes_what_it_sees_and_others_look_on(bench):
     assert len(rows) > 40  # 40 Hz, stated
     assert "sensor imu: " in err
     assert {"health", "start"} <= {event.kind for event in events_of(bench / "seen.mcap")}
+
+
+def test_record_shows_at_a_terminal_what_it_sees(bench):
+    """Ctrl-C ends it early and leaves nothing of the live block on the screen."""
+    words = ("record", "there.toml", "--out", "shown.mcap", "--duration-s", 600)
+    seen = AtTerminal(bench, words)
+    seen.wait_for(" deg, 4 s")
+    seen.ctrl_c()
+    assert seen.ended() == 0
+    told = stripped(seen.written)
+    for text in ("% of 600 s  shown.mcap", "rows        attitude ", "deg/s", "recording ..."):
+        assert text in told
+    left = screen(seen.written)
+    assert left[-1] == "wrote shown.mcap"
+    assert all(line.startswith(("board masses: ", "sensor imu: ")) for line in left[:-1])
 
 
 def balancing(bench, record):

@@ -168,3 +168,12 @@ def test_a_simulated_bench_in_one_slice_hands_on_the_very_rows():
     seen = []
     rows = WatchedBench(SimulatedBench(BED, 1), seen.append, math.inf).read(2.0)
     assert seen == [rows]
+
+
+@pytest.mark.timeout(60)
+def test_a_clock_of_whole_nanoseconds_ends_a_reading_that_it_rounds_down():
+    """A rest of 0.3 ns never passes on it."""
+    bench = SimulatedBench(BED, 1)
+    watched = WatchedBench(bench, lambda _rows: None, 0.1)
+    watched.read(0.35 + 3e-10)
+    assert bench.time == 0.35

@@ -2,17 +2,20 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from equipoise.app.change import Believed, Change
+from equipoise.app.believed import Believed, believed_after
+from equipoise.app.change import Change
 from equipoise.app.figures.balanced_com import Look
 from equipoise.app.recorded_bench import RecordedBench
 from equipoise.app.terminal import watched
+from equipoise.app.terminal_view import TerminalView, watched_by
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError
-from equipoise.model.estimate import COM, END, INERTIA, Estimate
+from equipoise.model.estimate import INERTIA, Estimate
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
@@ -75,20 +78,24 @@ class Limits:
     plan: Manoeuvre | None = None  # to begin with
 
 
-def as_it_is(bench: Bench) -> Bench:
-    """Return the bench."""
-    return bench
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Through:
     """How somebody looks on: what the procedure sees of the bench, how its steps are awaited."""
 
-    look_on: Callable[[Bench], Bench] = as_it_is
-    awaited: Callable[[Iterator[Step], str], Iterator[Step]] = watched
+    look_on: Callable[[Bench], Bench]
+    awaited: Callable[[Iterator[Step], str], Iterator[Step]]
 
 
-ALONE = Through()
+def at_terminal(testbed: Testbed) -> Through:
+    """Return how a person at the terminal looks on."""
+    view = TerminalView(testbed)
+
+    def awaited(steps: Iterator[Step], what: str) -> Iterator[Step]:
+        for step in watched(steps, what, view):
+            view.step(step)
+            yield step
+
+    return Through(partial(watched_by, view), awaited)
 
 
 def run(
@@ -96,22 +103,22 @@ def run(
     goal: Goal,
     limits: Limits,
     show: Callable[[Step], None] | None,
-    through: Through = ALONE,
+    through: Through | None = None,
 ) -> Balancing:
     """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
 
     What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a
-    simulated one alone.
+    simulated one alone. Who looks on is a person at the terminal, or as ``through`` says.
     """
     simulated = bench if isinstance(bench, SimulatedBench) else None
     before = None if simulated is None else simulated.truth()
+    through = through or at_terminal(bench.testbed)
     recorded = RecordedBench(through.look_on(bench))
     steps: list[Step] = []
     truths: list[MassProperties] = []
     try:
-        for step in through.awaited(
-            until_stopped(recorded, procedure(recorded, goal, limits)), "balancing"
-        ):
+        awaited = until_stopped(recorded, procedure(recorded, goal, limits))
+        for step in through.awaited(awaited, "balancing"):
             if show is not None:
                 show(step)
             steps.append(step)
@@ -177,34 +184,10 @@ def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     return balanced_and_followed(limits.law, bench, own, limits.max_time, limits.hold)
 
 
-def at_home(estimate: Estimate) -> Believed | None:
-    """Return the centre of mass with the masses at home."""
-    return _believed(estimate, COM)
-
-
-def as_it_stands(estimate: Estimate) -> Believed | None:
-    """Return the centre of mass with the masses as they stood at the end of what was seen."""
-    return _believed(estimate, END) or at_home(estimate)
-
-
-def _believed(estimate: Estimate, names: tuple[str, ...]) -> Believed | None:
-    if not all(map(estimate.has, names)):
-        return None
-    sd = np.array([estimate.parameters[estimate.index(name)].sd for name in names])
-    return Believed(estimate.values(names), sd)
-
-
 def looks(done: Balancing) -> list[Look]:
     """Return time and centre of mass of every estimate and of the verdict."""
-    found: list[Look] = []
-    for step in done.steps:
-        believed = None if step.estimate is None else as_it_stands(step.estimate)
-        if step.verdict is not None and step.verdict.com is not None:
-            sd = step.verdict.sd
-            believed = Believed(step.verdict.com, np.zeros(3) if sd is None else sd)
-        if believed is not None:
-            found.append((step.time, believed.com, believed.sd))
-    return found
+    told = [(step.time, believed_after(step)) for step in done.steps]
+    return [(time, each.com, each.sd) for time, each in told if each is not None]
 
 
 def inertia_known(done: Balancing) -> tuple[Matrix3, float]:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.app.believed import Believed
 from equipoise.app.numbers import decimals_for, fixed, is_known, with_sd
 from equipoise.app.units import MICRO, UM, Unit
 from equipoise.assessment.residual_torque import (
@@ -19,14 +20,6 @@ from equipoise.assessment.residual_torque import (
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Believed:
-    """A centre of mass with the masses as they stand, m."""
-
-    com: Vector3
-    sd: Vector3
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,7 +8,8 @@ import numpy as np
 from equipoise.app.account import Account
 from equipoise.app.balance_views import account_of as account_of_balancing
 from equipoise.app.balance_views import pictures_of, show_step, wanted
-from equipoise.app.balancing import Balancing, Goal, Limits, at_home, run
+from equipoise.app.balancing import Balancing, Goal, Limits, run
+from equipoise.app.believed import at_home
 from equipoise.app.pictures import Picture, TrueCourse, of_fit, of_move, of_tracking
 from equipoise.app.step_pictures import pictures_of_steps
 from equipoise.app.tables import estimate_tables

@@ -17,13 +17,23 @@ class Interruption:
     """A wish to stop, carried out at once or when the compiler is done."""
 
     def __init__(self) -> None:
-        self._pending = False
+        self._pending = self._put_off = False
 
     def ask(self, _signal: int, frame: FrameType | None) -> None:
-        """Raise KeyboardInterrupt, unless it would hit the compiler."""
-        if not compiling(frame):
+        """Raise KeyboardInterrupt, unless it is put off or would hit the compiler."""
+        if not self._put_off and not compiling(frame):
             raise KeyboardInterrupt
         self._pending = True
+
+    @contextmanager
+    def put_off(self) -> Generator[None]:
+        """Let something short be done whole, such as setting the terminal right again."""
+        self._put_off = True
+        try:
+            yield
+        finally:
+            self._put_off = False
+        self.carry_out()
 
     def carry_out(self) -> None:
         """Raise what was held back."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from equipoise.app.balancing import Balancing, Goal
-from equipoise.app.change import Believed
+from equipoise.app.believed import Believed
 from equipoise.app.commands.reading import Reading
 from equipoise.app.filed_hands import FiledHands
 from equipoise.app.terminal import watched

@@ -4,7 +4,8 @@ import numpy as np
 
 from equipoise.app.account import Account, origin
 from equipoise.app.balance_views import asked, wanted
-from equipoise.app.balancing import as_it_stands, change_of
+from equipoise.app.balancing import change_of
+from equipoise.app.believed import as_it_stands
 from equipoise.app.figures import rounds_com
 from equipoise.app.figures.balanced_com import Look, Story
 from equipoise.app.manual import ByHand

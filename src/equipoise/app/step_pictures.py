@@ -6,7 +6,7 @@ from typing import TypeGuard
 import numpy as np
 from matplotlib.figure import Figure
 
-from equipoise.app.balancing import as_it_stands
+from equipoise.app.believed import as_it_stands
 from equipoise.app.figures import attitude_residual, step_com, step_look
 from equipoise.app.figures.step_com import Mark, Wanted
 from equipoise.app.pictures import Picture

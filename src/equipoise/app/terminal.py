@@ -12,11 +12,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from rich.console import Console
+    from rich.console import Console, RenderableType
 
     from equipoise.model.step import Step
 
 COMPILING = "compiling kernels, once"
+_DRAWN_ON: list["Console"] = []  # consoles with a sign of life
+REFRESHES = 8.0  # Hz, chosen: as often as a person can follow, at little cost
 
 
 def stdout() -> "Console":
@@ -28,7 +30,14 @@ def stdout() -> "Console":
 
 
 def stderr() -> "Console":
-    """Return the console for everything else."""
+    """Return the console for everything else; while a sign of life is drawn, the one it is on.
+
+    What that one prints stands above; another would print into the middle of what is drawn.
+    """
+    return _DRAWN_ON[-1] if _DRAWN_ON else _new_stderr()
+
+
+def _new_stderr() -> "Console":
     from rich.console import Console
 
     return Console(stderr=True, highlight=False, soft_wrap=True)
@@ -36,21 +45,25 @@ def stderr() -> "Console":
 
 def complain(sentence: str) -> None:
     """Print what is wrong, in one line."""
-    line = " ".join(sentence.split())
+    from rich.text import Text
+
     if sys.stderr is not None:
-        stderr().print("[bold red]equipoise:[/]", end=" ")
-        stderr().print(line, markup=False)
+        line = " ".join(sentence.split())
+        stderr().print(Text.assemble(("equipoise:", "bold red"), f" {line}"))
 
 
 @contextmanager
-def busy(what: str, announce: bool = True) -> Generator[None]:
+def busy(
+    what: str, announce: bool = True, above: "RenderableType | None" = None
+) -> Generator[None]:
     """Show on stderr that something is being done, and when it is the compiler that takes long.
 
-    Cut off from a terminal, ``announce`` says whether it is told that it begins.
+    Cut off from a terminal, ``announce`` says whether it is told that it begins, and what would
+    stand ``above`` is not shown.
     """
     from numba.core import event
 
-    console = stderr()
+    sign = _SignOfLife(what, announce, above)
 
     class Listener(event.Listener):
         """Hear when a kernel is compiled, not when it is only loaded."""
@@ -59,27 +72,55 @@ def busy(what: str, announce: bool = True) -> Generator[None]:
 
         def on_start(self, event: Any) -> None:
             self.depth += 1
-            show(f"{what}: {COMPILING}")
+            sign.say(f"{what}: {COMPILING}")
 
         def on_end(self, event: Any) -> None:
             self.depth -= 1
             if self.depth == 0:
-                show(what)
+                sign.say(what)
                 interruption.carry_out()
 
-    with held_back() as interruption, console.status(f"{what} ...") as status:
-        said = [what]
+    with held_back() as interruption:
+        try:
+            with interruption.put_off():
+                sign.begin()
+            with event.install_listener("numba:compile", Listener()):
+                yield
+        finally:
+            with interruption.put_off():
+                sign.end()
 
-        def show(text: str) -> None:
-            status.update(f"{text} ...")
-            if announce and not console.is_terminal and text not in said:
-                said.append(text)
-                console.print(f"{text} ...")
 
-        if announce and not console.is_terminal:
-            console.print(f"{what} ...")
-        with event.install_listener("numba:compile", Listener()):
-            yield
+class _SignOfLife:
+    """A line that moves at a terminal, below what it is about; elsewhere each text once."""
+
+    def __init__(self, text: str, announce: bool, above: "RenderableType | None") -> None:
+        from rich.console import Group
+        from rich.live import Live
+        from rich.spinner import Spinner
+
+        self._console, self._announce, self._said = _new_stderr(), announce, list[str]()
+        plain = self._console.options.ascii_only
+        self._line = Spinner("line" if plain else "dots", style="status.spinner")
+        shown = self._line if above is None else Group(above, self._line)
+        self._live = Live(
+            shown, console=self._console, refresh_per_second=REFRESHES, transient=True
+        )
+        self.say(text)
+
+    def begin(self) -> None:
+        _DRAWN_ON.append(self._console)
+        self._live.start(refresh=True)
+
+    def end(self) -> None:
+        _DRAWN_ON.remove(self._console)
+        self._live.stop()
+
+    def say(self, text: str) -> None:
+        self._line.update(text=f"{text} ...")
+        if self._announce and not self._console.is_interactive and text not in self._said:
+            self._said.append(text)
+            self._console.print(f"{text} ...")
 
 
 @contextmanager
@@ -96,10 +137,12 @@ def counted(what: str) -> "Generator[Callable[[float], None]]":
         yield lambda share: progress.update(bar, completed=share)
 
 
-def watched(steps: "Iterator[Step]", what: str) -> "Iterator[Step]":
+def watched(
+    steps: "Iterator[Step]", what: str, above: "RenderableType | None" = None
+) -> "Iterator[Step]":
     """Return the steps of a procedure, with a sign of life while each is awaited."""
     for count in itertools.count():
-        with busy(what, announce=count == 0):
+        with busy(what, announce=count == 0, above=above):
             step = next(steps, None)
         if step is None:
             return

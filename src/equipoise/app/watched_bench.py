@@ -9,7 +9,7 @@ from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 
 Onlooker = Callable[[Recording], None]
-ROUNDING = 0.5e-9  # s: a simulated bench counts nanoseconds, and never gets over less
+ROUNDING = 1e-6  # s, chosen: a clock of whole nanoseconds may end a reading so much early
 
 
 class WatchedBench:

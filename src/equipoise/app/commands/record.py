@@ -1,11 +1,14 @@
 """`equipoise record`: what a real bench shows, into a file that survives anything."""
 
+from contextlib import ExitStack, suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from equipoise.app.commands.kinds import Flag
-from equipoise.app.terminal import counted, stdout
+from equipoise.app.terminal import busy, stdout
 
-OFTEN = 0.5  # s, between signs of life
+if TYPE_CHECKING:
+    from equipoise.model.bench import Bench
 
 
 def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Flag = False) -> int:
@@ -33,16 +36,22 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
     duration = positive("--duration-s", duration_s)
     bed = testbed_of(testbed)
     check_new(out)
-    with (
-        real_bench(Wanted(bed, out, foxglove)) as bench,
-        counted("recording") as so_far,
-    ):
-        begin = bench.time
-        try:
-            while (passed := bench.time - begin) < duration:
-                bench.read(min(OFTEN, duration - passed))
-                so_far(min(passed / duration, 1.0))
-        except KeyboardInterrupt:
-            pass
+    with ExitStack() as held:
+        with busy("reaching the bench", announce=False):
+            bench = held.enter_context(real_bench(Wanted(bed, out, foxglove)))
+        _record(bench, out, duration)
     stdout().print(f"wrote {out}", markup=False)
     return 0
+
+
+def _record(bench: "Bench", out: Path, duration: float) -> None:
+    """Read for so long (s), or until Ctrl-C; the bench itself writes the rows."""
+    from equipoise.app.recording_view import RecordingView
+    from equipoise.app.terminal_view import SLICE, watched_by
+
+    begin = bench.time
+    view = RecordingView(bench.testbed, out, begin, duration)
+    seen = watched_by(view, bench)
+    with suppress(KeyboardInterrupt), busy("recording", above=view):
+        while (passed := bench.time - begin) < duration:
+            seen.read(min(SLICE, duration - passed))

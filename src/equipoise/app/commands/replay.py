@@ -7,7 +7,7 @@ from equipoise.app.commands.reading import WHOLE, Reading
 from equipoise.app.terminal import stdout
 
 if TYPE_CHECKING:
-    from equipoise.app.replaying import Onlooker
+    from equipoise.app.watched_bench import Onlooker
 
 
 def replay(

@@ -1,0 +1,105 @@
+"""A command at a pseudo terminal of some size: what it wrote there, and what is left to be seen."""
+
+import fcntl
+import os
+import pty
+import re
+import signal
+import struct
+import subprocess
+import sys
+import termios
+import threading
+import time
+
+PROGRAM = [sys.executable, "-m", "equipoise.app.cli"]
+ESCAPE = re.compile(r"\x1b\[(\??)([0-9;]*)([A-Za-z])")
+HIDE, SHOW = "\x1b[?25l", "\x1b[?25h"
+PATIENCE = 120.0  # s
+
+
+class AtTerminal:
+    """A command whose stderr, and stdout unless that goes elsewhere, is a pseudo terminal."""
+
+    def __init__(self, folder, words, size=(80, 24), environment=None, stdout=None):
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", size[1], size[0], 0, 0))
+        free = {name: value for name, value in os.environ.items() if name not in NOT_OURS}
+        environment = {"TERM": "xterm-256color", "EQUIPOISE_RUNS": ""} | (environment or {})
+        self._process = subprocess.Popen(
+            [*PROGRAM, *map(str, words)], cwd=folder, env=free | environment,
+            stdin=theirs, stderr=theirs, stdout=theirs if stdout is None else stdout,
+            start_new_session=True,
+        )  # fmt: skip
+        os.close(theirs)
+        self.stdout = self._process.stdout  # None at the terminal
+        self._ours, self._heard = ours, bytearray()
+        self._listener = threading.Thread(target=self._listen)
+        self._listener.start()
+
+    def _listen(self):
+        try:
+            while part := os.read(self._ours, 1 << 16):
+                self._heard += part
+        except OSError:  # who had the other end is gone
+            pass
+        os.close(self._ours)
+
+    @property
+    def written(self):
+        """All bytes so far, as text."""
+        return bytes(self._heard).decode(errors="replace")
+
+    def wait_for(self, text):
+        """Wait until something has been written."""
+        end = time.monotonic() + PATIENCE
+        while text not in self.written:
+            assert time.monotonic() < end, self.written
+            assert self._process.poll() is None, self.written
+            time.sleep(0.02)
+
+    def ctrl_c(self):
+        """Do as a terminal does: all processes of the command are told."""
+        os.killpg(self._process.pid, signal.SIGINT)
+
+    def ended(self):
+        """Return the exit code."""
+        code = self._process.wait(PATIENCE)
+        self._listener.join(PATIENCE)
+        return code
+
+
+# What others say of terminals and of the user's customs.
+NOT_OURS = {"COLUMNS", "LINES", "NO_COLOR", "FORCE_COLOR", "COLORTERM", "PYTHONIOENCODING"}
+
+
+def stripped(written):
+    """Return what was written without escape sequences."""
+    return ESCAPE.sub("", written)
+
+
+def screen(written):
+    """Return the lines left to be seen, by the few sequences that are used; nothing scrolls off.
+
+    What was written must end at the beginning of an empty line, the first below all others.
+    """
+    lines, row, column, at = [""], 0, 0, 0
+    while at < len(written):
+        if escape := ESCAPE.match(written, at):
+            _, number, verb = escape.groups()
+            row -= int(number or 1) if verb == "A" else 0
+            assert row >= 0, "above the first line"
+            lines[row] = "" if (verb, number) == ("K", "2") else lines[row]
+            at = escape.end()
+            continue
+        letter, at = written[at], at + 1
+        if letter == "\r":
+            column = 0
+        elif letter == "\n":
+            row, column = row + 1, 0
+            lines += [""] * (row + 1 - len(lines))
+        else:
+            lines[row] = lines[row][:column].ljust(column) + letter + lines[row][column + 1 :]
+            column += 1
+    assert not any(lines[row:]), "the cursor is left in the middle"
+    return [line.rstrip() for line in lines[:row]]
