@@ -217,8 +217,12 @@ def replayed_as_recorded(page, folder):
     assert float(number) == pytest.approx(float(tilt(kept.attitude.values[-1], up)), abs=1e-6)
     slider = page.get_by_role("slider", name="Time of the recording")
     slider.focus()
-    page.keyboard.press("Home")
-    wait_until(page, f"window.equipoise.state().t < {kept.attitude.t[0] + 1.0}")
+    page.keyboard.press("PageDown")  # a tenth back
+    wait_until(page, f"window.equipoise.state().series.pose?.last?.[0] < {kept.attitude.t[-1]}")
+    t, *q = state(page)["series"]["pose"]["last"]
+    back = 0.1 * np.ptp(kept.attitude.t)
+    assert t == pytest.approx(kept.attitude.t[-1] - back, abs=0.25 * back + 0.1)
+    assert q == pytest.approx(kept.attitude.values[np.searchsorted(kept.attitude.t, t - 1e-6)])
     button(page, "Back to the simulation").click()
     expect(page.locator(".eq-phase")).to_contain_text("simulated", timeout=SOON)
 

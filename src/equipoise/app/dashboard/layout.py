@@ -1,6 +1,7 @@
 """The page: header, controls, and the containers that the page's own modules fill."""
 
 from nicegui import ui
+from nicegui.events import GenericEventArguments
 
 from equipoise.app.dashboard import requests as ask
 from equipoise.app.dashboard.controls import Controls
@@ -37,7 +38,7 @@ def build(counter: Counter) -> None:
             _container("eq-numbers")
             _container("eq-story")
         with ui.element("section").classes("eq-strips"):
-            slider = _time_slider(counter, page.id)
+            _time_slider(counter, page.id)
             _container("eq-charts")
 
     def refresh() -> None:
@@ -45,7 +46,6 @@ def build(counter: Counter) -> None:
         phase.set_text(_phase(counter))
         note.set_text(state.get("note") or state.get("working") or "")
         controls.refresh()
-        _follow(slider, state.get("span"), state.get("t", 0.0))
 
     ui.timer(EVERY, refresh)
     page.on_delete(lambda: counter.guard.leave(page.id))
@@ -78,23 +78,16 @@ def _phase(counter: Counter) -> str:
     return f"{about.get('bench', '')}: {state.get('phase', 'starting')}{fast}"
 
 
-def _time_slider(counter: Counter, page: str) -> ui.slider:
-    """Lay the slider of a replay's time; it asks when it is let go."""
-    slider = ui.slider(min=0.0, max=1.0, step=0.1).props('label aria-label="Time of the recording"')
-    slider.set_visibility(False)
+def _time_slider(counter: Counter, page: str) -> None:
+    """Lay the slider of a replay's time; it follows by itself (``timebar.js``), and asks here."""
 
-    def seek() -> None:
-        why = counter.ask(page, ask.Seek(float(slider.value or 0.0)))
+    def seek(event: GenericEventArguments) -> None:
+        why = counter.ask(page, ask.Seek(float(event.args)))
         if why:
             ui.notify(why, type="warning")
 
-    slider.on("change", seek)
-    return slider
-
-
-def _follow(slider: ui.slider, span: list[float] | None, t: float) -> None:
-    """Let the slider show the time of the recording, if one is shown."""
-    slider.set_visibility(span is not None)
-    if span is not None:
-        slider.props(f"min={span[0]:.3f} max={span[1]:.3f}")
-        slider.set_value(round(t, 1))
+    with ui.element("div").classes("eq-timebar"):
+        slider = ui.element("input").props(
+            'id=eq-time type=range step=0.1 aria-label="Time of the recording"'
+        )
+    slider.on("change", seek, js_handler="(event) => emit(Number(event.target.value))")

@@ -8,6 +8,7 @@ import { keepLinked, linkWords } from "./link.js";
 import { showNumbers } from "./numbers.js";
 import { Store } from "./store.js";
 import { showStory } from "./story.js";
+import { showTimebar } from "./timebar.js";
 
 const WAIT_MS = 50;
 const NO_LIBRARIES =
@@ -82,6 +83,7 @@ present("eq-link").then((place) => {
   sayLink(link);
 });
 present("eq-story").then((place) => store.show(showStory(place)));
+present("eq-time").then((place) => store.show(showTimebar(place, store)));
 present("eq-numbers").then((place) => store.show(showNumbers(place, store, () => shown.kind)));
 showWithLibraries("eq-charts", "./charts.js", ({ showCharts }, place) =>
   showCharts(place, store, shown),
