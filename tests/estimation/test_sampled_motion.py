@@ -12,6 +12,9 @@ from equipoise.estimation.trajectory import CAPTURE, Params, misfit, problem_of
 from equipoise.maths.attitude import difference, exponential, tilt
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.recording import Recording, Samples
+from equipoise.procedure.sound_rows import sound
+from verification.method_records import regime
+from verification.robustness import spoiled
 
 SPIN = np.array([0.02, -0.01, 0.05])
 
@@ -105,3 +108,16 @@ def test_start_knows_nothing_but_the_record():
     assert not found.torque.any()
     assert found.error.shape == (0,)
     assert not found.bias.any()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_rows_of_an_impossible_body_do_not_start_wildly(seed):
+    """Outliers, dropouts and a gap: the rate of the first second, within 10 deg/s.
+
+    With seed 1 the rows' own J is nearly singular; the rate that it gives is 2700 deg/s off.
+    """
+    record = regime("moved", seed)
+    rows, testbed = sound(spoiled(record.recording, seed), record.testbed)
+    found = start(rows, testbed, problem_of(rows, testbed, Params()).layout, 0.0)
+    seen = np.median(rows.rate.values[:50], axis=0)
+    assert np.linalg.norm(found.w0 - seen) < np.radians(10)

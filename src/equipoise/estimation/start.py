@@ -38,10 +38,8 @@ def start(
 ) -> Unknowns:
     """Return a point near the optimum; ``first`` is the time (s) of the first node."""
     motion = sampled_motion(recording, testbed)
-    inertia, com, momentum = solve(recording, testbed, motion)
+    inertia, com, momentum = possible_solution(recording, testbed, motion)
     w0 = first_rate(recording, testbed, motion, inertia, momentum)
-    if not is_possible(MassProperties(testbed.body.mass, com, inertia)):
-        inertia, com = testbed.body.inertia_P, testbed.body.com
     inertia, com = kept(inertia, com, testbed, hold)
     inertia_C = inertia - parallel_axis(testbed.body.mass, com)
     turn = exponential(w0 * (first - motion.t[0]))
@@ -49,6 +47,23 @@ def start(
         multiply(motion.q[0], turn), w0, pseudo_inertia.from_inertia(inertia_C), com,
         np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(len(layout.errors)), np.zeros(3),
     )  # fmt: skip
+
+
+def possible_solution(
+    recording: Recording, testbed: Testbed, motion: SampledMotion
+) -> tuple[Matrix3, Vector3, Vector3]:
+    """Return inertia, centre of mass and first momentum of a body that can exist.
+
+    Gross errors and gaps can make the rows' own inertia impossible, nearly singular even, and the
+    first rate with it; the testbed's is held then, and momentum and com are found beside it.
+    """
+    body = testbed.body
+    found = solve(recording, testbed, motion, WITHOUT if recording.rate is None else WITH_GYRO)
+    if not is_possible(MassProperties(body.mass, found[1], found[0])):
+        found = solve(recording, testbed, motion, WITHOUT)
+    if not is_possible(MassProperties(body.mass, found[1], found[0])):
+        found = body.inertia_P, body.com, found[2]
+    return found
 
 
 def kept(
@@ -92,13 +107,15 @@ def free_rows(
 
 
 def solve(
-    recording: Recording, testbed: Testbed, motion: SampledMotion
+    recording: Recording, testbed: Testbed, motion: SampledMotion, trust: float
 ) -> tuple[Matrix3, Vector3, Vector3]:
-    """Return inertia, centre of mass, and the first momentum in laboratory axes."""
+    """Return inertia, centre of mass, and the first momentum in laboratory axes.
+
+    ``trust`` is the relative sd given to the testbed's inertia.
+    """
     regressor, known = free_rows(recording, testbed, motion)
     body = testbed.body
     sizes = element_sizes(body.inertia_P)
-    trust = WITHOUT if recording.rate is None else WITH_GYRO
     spread = np.concatenate([trust * sizes, np.maximum(3 * testbed.com_sd, COM_TRUST)])
     guess = core_of(body)
     scale = np.append(spread, np.full(3, float(sizes.max()) * 0.1))
