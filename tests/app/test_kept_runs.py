@@ -105,7 +105,7 @@ def test_runs_are_chosen(of, words, count, strict_json):
     [(["--kind", "balnace"], "balance"), (["--outcome", "good"], "cannot tell"),
      (["--since", "spring"], "2026-03-01"), (["--compare", "9"], "a number from 1 to 3"),
      (["--trend", "a.txt"], ".png .svg .pdf"), (["--export", "a.xls"], ".csv .parquet"),
-     (["--trend", "none/a.png"], "none")],
+     (["--trend", "none/a.png"], "none"), (["--builds", "--compare", "1"], "one of the two")],
 )  # fmt: skip
 def test_what_is_wrong_is_said(of, words, said):
     done = of(*words)
@@ -190,6 +190,40 @@ def test_a_trend_of_one_run_is_none(of):
     assert "two or more" in done.err
 
 
+@pytest.fixture
+def rebuilt(runs, tmp_path):
+    """Return a folder of three runs: the second one with a heavier first mass."""
+    folder, entry = tmp_path / "rebuilt", read_run(folders(runs, "identify")[0])
+    first = (folders(runs, "identify")[0] / "testbed.toml").read_text()
+    second = first.replace("mass_g = 15.6", "mass_g = 16.6", 1)
+    assert second != first
+    for k, text in enumerate((first, second, f"# tidied\n{second}")):
+        made = datetime(2026, 1, 5, 9, 0).astimezone() + timedelta(weeks=3 * k)
+        one = replace(entry, name=f"run-{k}", made_at=made.isoformat(), configuration=f"c{k}")
+        (folder / one.name).mkdir(parents=True)
+        (folder / one.name / "testbed.toml").write_text(text)
+        (folder / one.name / "run.json").write_text(text_of_run(one))
+    return folder
+
+
+def test_builds_tell_what_changed(equipoise, rebuilt, strict_json):
+    """By the key; comments are no change. Every file's text can be had again."""
+    found = strict_json(equipoise("logbook", rebuilt, "--builds", "--json").out)["builds"]
+    assert [each["build"] for each in found] == ["A", "B", "C"]
+    assert [each["changed"] for each in found] == [
+        [], ["sliding_mass.x1.mass_g: 15.6 -> 16.6"], ["comments or layout alone"]]  # fmt: skip
+    assert found[1]["text"] == (rebuilt / "run-1" / "testbed.toml").read_text()
+    shown = equipoise("logbook", rebuilt, "--builds").out
+    assert "mass_g: 15.6 -> 16.6" in " ".join(shown.split())
+
+
+def test_builds_of_some_runs_keep_their_letters(equipoise, rebuilt, strict_json):
+    late = ("--since", "2026-01-20", "--builds", "--json")
+    found = strict_json(equipoise("logbook", rebuilt, *late).out)["builds"]
+    assert [(each["build"], each["runs"]) for each in found] == [("B", 1), ("C", 1)]
+    assert found[0]["changed"] == ["sliding_mass.x1.mass_g: 15.6 -> 16.6"]
+
+
 # --- The report, set anew ------------------------------------------------------------------------
 
 
@@ -244,6 +278,7 @@ def test_a_report_tells_where_it_comes_from(runs, kind, record_file):
         assert f"<h2>{section}</h2>" in page
     for word in ("command to repeat", "95 % interval", "sha256 of testbed.toml"):
         assert word in page
+    assert ("Noise floor of this record (95 %)" in page) == (kind == "balance")
     for path in (folder / "testbed.toml", folder / "recording.csv"):
         if path.exists():
             assert hashlib.sha256(path.read_bytes()).hexdigest() in page

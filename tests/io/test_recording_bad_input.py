@@ -61,6 +61,11 @@ CASES = {
         ", header",
         ["field_x_T", "field_x_uT"],
     ),
+    "temperature in kelvin": (
+        GOOD.replace("q_w", "temperature_K"),
+        ", header",
+        ["'temperature_K'", "'temperature_degC'"],
+    ),
     "half a field": (
         "time_s,q_w,q_x,q_y,q_z,field_x_uT,field_y_uT\n" + "0,1,0,0,0,20,30\n",
         ", header",

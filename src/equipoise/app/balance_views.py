@@ -10,7 +10,7 @@ from equipoise.app.logged import Kept
 from equipoise.app.numbers import fixed
 from equipoise.app.pictures import Picture, TrueCourse, of_balancing, of_tracking
 from equipoise.app.step_pictures import pictures_of_steps
-from equipoise.app.tables import change_table, step_line
+from equipoise.app.tables import change_table, noise_floor_line, step_line
 from equipoise.app.terminal import stdout
 from equipoise.app.units import UM
 from equipoise.app.views_json import View, balance_json
@@ -32,6 +32,8 @@ def show_result(done: Balancing) -> None:
         console.print()
     style = "bold green" if verdict.passed else "bold red"
     console.print(verdict.sentence, style=style, markup=False)
+    if floor := noise_floor_line(verdict):
+        console.print(floor, style="dim", markup=False)
 
 
 def document_of(done: Balancing, seed: int) -> View:

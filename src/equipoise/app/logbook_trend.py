@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from equipoise.app.figures import trend
-from equipoise.app.logbook_views import builds
+from equipoise.app.logbook_builds import letters
 from equipoise.app.outputs import write_figure
 from equipoise.io.logbook import Logbook
 from equipoise.model.errors import InputError
@@ -39,14 +39,14 @@ Row = tuple[np.ndarray, np.ndarray]
 
 
 def _trend(book: Logbook, runs: Sequence[LoggedRun], rows: Sequence[Row]) -> trend.Trend:
-    letters = builds(book)
+    letter = letters(book)
     warmth = [np.nan if run.temperature is None else run.temperature for run in runs]
     return trend.Trend(
         runs[0].platform,
         [datetime.fromisoformat(run.made_at).astimezone().replace(tzinfo=None) for run in runs],
         np.array([values for values, _ in rows]),
         np.array([sd for _, sd in rows]),
-        [letters[run.platform, run.configuration] for run in runs],
+        [letter[run.platform, run.configuration] for run in runs],
         np.array(warmth),
     )
 

@@ -1,8 +1,9 @@
 """Runs of a logbook as tables for the terminal and as JSON."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
+from equipoise.app.logbook_builds import letters
 from equipoise.app.numbers import decimals_for, fixed, is_known
 from equipoise.app.plain_tables import quiet_table
 from equipoise.app.sheet import Sheet
@@ -27,7 +28,7 @@ def show_runs(book: Logbook, runs: Sequence[LoggedRun]) -> None:
     table = quiet_table()
     for head in ("", "made at", "platform", "build", "what", "by", "outcome", "com, um"):
         table.add_column(head, justify="right" if not head else "left", no_wrap=head != "platform")
-    build = builds(book)
+    build = letters(book)
     for number, run in enumerate(runs, 1):
         table.add_row(
             str(number), local(run), run.platform, build[run.platform, run.configuration],
@@ -57,25 +58,6 @@ def _short(parameter: Parameter) -> str:
     if not parameter.observable:
         return "?"
     return fixed(value, max(decimals_for(sd), 0)) if is_known(value, sd) else f"{value:.4g}"
-
-
-def builds(book: Logbook) -> Mapping[tuple[str, str], str]:
-    """Return a letter for each testbed file that a platform has had, in their order."""
-    found: dict[tuple[str, str], str] = {}
-    count: dict[str, int] = {}
-    for platform, configuration in book.configurations():
-        count[platform] = count.get(platform, 0) + 1
-        found[platform, configuration] = lettered(count[platform])
-    return found
-
-
-def lettered(number: int) -> str:
-    """Return A, B, ... Z, AA, AB, ... for 1, 2, ..."""
-    letters = ""
-    while number:
-        number, last = divmod(number - 1, 26)
-        letters = chr(ord("A") + last) + letters
-    return letters
 
 
 def chosen(runs: Sequence[LoggedRun], name: str) -> LoggedRun:

@@ -19,7 +19,7 @@ from equipoise.app.page import (
     Section,
 )
 from equipoise.app.pictures import Picture
-from equipoise.app.tables import cells, groups, residual_line
+from equipoise.app.tables import cells, groups, noise_floor_line, residual_line
 from equipoise.app.units import GRAM, MM, PER_DEG
 from equipoise.model.estimate import Estimate
 from equipoise.model.step import Step
@@ -36,12 +36,12 @@ def report(account: Account) -> Page:
 
 def _verdict(account: Account) -> Iterator[Section]:
     if account.verdict is not None:
-        good, sentence = account.verdict.passed, account.verdict.sentence
+        claim = Claim(account.verdict.sentence, account.verdict.passed)
+        floor = noise_floor_line(account.verdict)
+        yield Section("", (claim, Paragraph(floor)) if floor else (claim,))
     elif account.estimate is not None:
-        good, sentence = account.estimate.outcome.usable, account.estimate.outcome.sentence
-    else:
-        return
-    yield Section("", (Claim(sentence, good),))
+        outcome = account.estimate.outcome
+        yield Section("", (Claim(outcome.sentence, outcome.usable),))
 
 
 def _change(account: Account) -> Iterator[Section]:

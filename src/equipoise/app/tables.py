@@ -1,5 +1,6 @@
 """Estimates, findings and steps as tables and lines for the terminal."""
 
+import math
 from collections.abc import Iterator, Sequence
 
 from rich.console import Group
@@ -7,13 +8,14 @@ from rich.table import Table
 from rich.text import Text
 
 from equipoise.app.change import HEADS, Change, rows
-from equipoise.app.numbers import fixed, interval, with_sd
+from equipoise.app.numbers import fixed, interval, significant, with_sd
 from equipoise.app.plain_tables import quiet_table, titled
-from equipoise.app.units import PER_DEG, unit_for
+from equipoise.app.units import PER_DEG, UM, unit_for
 from equipoise.assessment.finding import Finding
 from equipoise.maths.whiteness import WHITE
 from equipoise.model.estimate import COM, Estimate, Parameter, Residual
 from equipoise.model.step import Step
+from equipoise.model.verdict import Verdict
 
 MARKS = {"content": "  ", "motion": "  ", "problem": "! ", "mended": "~ "}
 FINDING_STYLE = {"content": "", "motion": "", "problem": "bold yellow", "mended": "dim"}
@@ -105,6 +107,18 @@ def residual_line(residual: Residual) -> str:
     if residual.steady_rms is not None and fitted is not None and residual.steady_rms > fitted:
         text += f"; {_rms(residual.steady_rms)} {unit} without the torque that wanders"
     return f"{text}. Lag-one correlation {fixed(residual.lag_one, 2)}; {_white(residual)}."
+
+
+def noise_floor_line(verdict: Verdict) -> str:
+    """Return which offsets the record of a verdict cannot tell from none; empty without one."""
+    if verdict.noise_floor is None:
+        return ""
+    told = (f"{axis} {significant(um, 2)} um" if math.isfinite(um) else f"{axis} not seen"
+            for axis, um in zip("xyz", UM * verdict.noise_floor, strict=True))  # fmt: skip
+    return (
+        f"Noise floor of this record (95 %): {', '.join(told)}. "
+        "A smaller offset cannot be told from none."
+    )
 
 
 def _linear_line(residual: Residual) -> str:

@@ -4,7 +4,7 @@ import itertools
 import sys
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from equipoise.app.interruption import held_back
 
@@ -61,30 +61,19 @@ def busy(
     Cut off from a terminal, ``announce`` says whether it is told that it begins, and what would
     stand ``above`` is not shown.
     """
-    from numba.core import event
+    from equipoise.app.compiling import heard
 
     sign = _SignOfLife(what, announce, above)
 
-    class Listener(event.Listener):
-        """Hear when a kernel is compiled, not when it is only loaded."""
-
-        depth = 0
-
-        def on_start(self, event: Any) -> None:
-            self.depth += 1
-            sign.say(f"{what}: {COMPILING}")
-
-        def on_end(self, event: Any) -> None:
-            self.depth -= 1
-            if self.depth == 0:
-                sign.say(what)
-                interruption.carry_out()
+    def ended() -> None:
+        sign.say(what)
+        interruption.carry_out()
 
     with held_back() as interruption:
         try:
             with interruption.put_off():
                 sign.begin()
-            with event.install_listener("numba:compile", Listener()):
+            with heard(lambda: sign.say(f"{what}: {COMPILING}"), ended):
                 yield
         finally:
             with interruption.put_off():

@@ -176,6 +176,7 @@ def verdict_json(verdict: Verdict) -> View:
         "sentence": verdict.sentence,
         "com_um": numbers(verdict.com, UM),
         "sd_um": numbers(verdict.sd, UM),
+        "noise_floor_um": numbers(verdict.noise_floor, UM),
     }
 
 

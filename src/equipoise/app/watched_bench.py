@@ -1,19 +1,19 @@
 """A bench of which somebody sees every row soon after it was heard, also within a long reading."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
+from equipoise.app.outer_bench import OuterBench
 from equipoise.app.terminal import complain
 from equipoise.model.bench import Bench
 from equipoise.model.bench_requests import check_duration
 from equipoise.model.recording import Recording, joined
-from equipoise.model.testbed import Testbed
 
 Onlooker = Callable[[Recording], None]
 ROUNDING = 1e-6  # s, chosen: a clock of whole nanoseconds may end a reading so much early
 
 
-class WatchedBench:
-    """The same four verbs (see ``model.bench.Bench``), cut into slices for who looks on.
+class WatchedBench(OuterBench):
+    """The same bench, its readings cut into slices for who looks on.
 
     A reading is made of slices of ``slice_s`` seconds; ``inf``: of one. ``between`` is called
     before each slice and may raise to stop; ``onlooker`` gets the rows after each. An onlooker
@@ -31,19 +31,10 @@ class WatchedBench:
         slice_s: float,
         between: Callable[[], None] | None = None,
     ) -> None:
-        self._bench, self._slice, self._between = bench, slice_s, between
+        super().__init__(bench)
+        self._slice, self._between = slice_s, between
         self._onlooker: Onlooker | None = onlooker
         self._unclaimed: list[Recording] = []
-
-    @property
-    def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
-        return self._bench.testbed
-
-    @property
-    def time(self) -> float:
-        """Bench time, s."""
-        return self._bench.time
 
     def read(self, duration: float) -> Recording:
         """Read slice by slice, and return all of it."""
@@ -55,18 +46,6 @@ class WatchedBench:
         whole = joined(self._unclaimed)
         self._unclaimed = []
         return whole
-
-    def move(self, targets: Mapping[str, float]) -> None:
-        """Set masses on their way (m)."""
-        self._bench.move(targets)
-
-    def drive(self, inputs: Mapping[str, float]) -> None:
-        """Give devices their inputs."""
-        self._bench.drive(inputs)
-
-    def stop(self) -> None:
-        """Halt every mass and device."""
-        self._bench.stop()
 
     def _read_slice(self, duration: float) -> None:
         if self._between is not None:

@@ -17,7 +17,7 @@ from typing import Any
 from equipoise.io.logbook_schema import migrate
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Parameter
-from equipoise.model.logged_run import LoggedRun
+from equipoise.model.logged_run import Build, LoggedRun
 
 INDEX, RUN = "logbook.sqlite", "run.json"
 PATIENCE = 30.0  # s, chosen: for another process to end what it writes
@@ -87,11 +87,12 @@ class Logbook:
         query = f"SELECT count(*) FROM runs WHERE {where or 'TRUE'}"
         return self._index.execute(query, tuple(values)).fetchone()[0]
 
-    def configurations(self) -> list[tuple[str, str]]:
-        """Return platform and configuration of all runs, each once, as they came."""
-        query = ("SELECT platform, configuration FROM runs "
-                 "GROUP BY platform, configuration ORDER BY min(utc)")  # fmt: skip
-        return self._index.execute(query).fetchall()
+    def builds(self, where: str = "", values: Sequence[Any] = ()) -> list[Build]:
+        """Return each testbed file that platforms have had, as they came; of all runs, or some."""
+        query = ("SELECT platform, configuration, min(utc), max(utc), count(*) FROM runs "
+                 f"WHERE {where or 'TRUE'} GROUP BY platform, configuration "
+                 "ORDER BY min(utc)")  # fmt: skip
+        return [Build(*row) for row in self._index.execute(query, tuple(values))]
 
     def numbers(self, name: str, part: str) -> tuple[Parameter, ...]:
         """Return a run's numbers: of ``part`` 'home' the estimate, of 'standing' the verdict."""

@@ -28,7 +28,7 @@ TEMPERATURE = ("temperature_degC",)
 GROUPS = (ATTITUDE, RATE, MOMENTUM, TORQUE, FIELD, TEMPERATURE)
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
-OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field)_.*")
+OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature)_.*")
 PER_MM, MM, PER_UT, UT = 1e3, 1e-3, 1e6, 1e-6
 NAMED = 5  # columns that are told by name; chosen: a screen
 

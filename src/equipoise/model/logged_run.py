@@ -28,3 +28,14 @@ class LoggedRun:
     standing: tuple[Parameter, ...] = ()  # centre of mass as judged, masses as they stand, SI
     temperature: float | None = None  # degC, mean of the recording's
     provenance: Mapping[str, str] = field(default_factory=dict[str, str])
+
+
+@dataclass(frozen=True, slots=True)
+class Build:
+    """One testbed file that a platform has had, and the runs that were made with it."""
+
+    platform: str
+    configuration: str  # SHA-256 of the testbed's text
+    first: float  # s since 1970, of the first run
+    last: float
+    runs: int

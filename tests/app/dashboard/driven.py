@@ -8,9 +8,11 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 ARGUMENTS = (
@@ -52,7 +54,7 @@ class Dashboard:
             raise
 
 
-def started(folder: Path, *words, port=None) -> Dashboard:
+def started(folder: Path, *words: object, port: int | None = None) -> Dashboard:
     """Start the program and wait for what it prints."""
     port, log = port or free_port(), folder / "printed.txt"
     command = [sys.executable, "-m", "equipoise.app.cli", "dashboard", *map(str, words),
@@ -72,7 +74,7 @@ def started(folder: Path, *words, port=None) -> Dashboard:
 
 
 @contextmanager
-def dashboard(folder: Path, *words):
+def dashboard(folder: Path, *words: object) -> Iterator[Dashboard]:
     """Lend a running dashboard."""
     running = started(folder, *words)
     try:
@@ -82,7 +84,7 @@ def dashboard(folder: Path, *words):
 
 
 @contextmanager
-def browser():
+def browser() -> Iterator[Any]:
     """Lend a browser that asks nobody but us."""
     from playwright.sync_api import sync_playwright
 

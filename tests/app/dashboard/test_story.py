@@ -243,9 +243,17 @@ def restarted(page, running, folder):
     running.kill()
     expect(page.locator("#eq-link")).to_contain_text("no connection", timeout=SOON)
     again = started(folder, "nanosat", "--seed", "4", port=running.port)
+    try:
+        found_again(page, again)
+    except BaseException:
+        again.kill()
+        raise
+    return again
+
+
+def found_again(page, again):
     expect(page.locator("#eq-link")).to_contain_text("connected", timeout=LATER)
-    wait_until(page, "window.equipoise.state().link === 'open'")
+    wait_until(page, "window.equipoise?.state().link === 'open'")
     expect(button(page, "Start balancing")).to_be_disabled(timeout=SOON)
     take_command(page, again.token)
     expect(button(page, "Start balancing")).to_be_enabled(timeout=SOON)
-    return again

@@ -18,6 +18,7 @@ def logbook(
     *,
     wanted: WantedRuns = LATEST,
     compare: Listed = (),
+    builds: Flag = False,
     trend: Path | None = None,
     export: Path | None = None,
     json: Flag = False,
@@ -33,6 +34,8 @@ def logbook(
     compare
         Runs to set side by side, by their number in the list or by name, the first one as what
         the others are compared with.
+    builds
+        List instead the testbed files that platforms have had, and what changed in each.
     trend
         Figure to write (.png, .svg, .pdf): centre of mass and inertia over time, changes of the
         testbed file marked; against temperature too where that was recorded.
@@ -43,15 +46,21 @@ def logbook(
     """
     from equipoise.app.run_folder import USUAL, runs_folder
     from equipoise.io.logbook import open_logbook
+    from equipoise.model.errors import InputError
 
+    if builds and compare:
+        raise InputError("--builds", "with --compare", "one of the two")
     for path in (trend, export):
         _check(path, ".png .svg .pdf" if path is trend else ".csv .parquet")
     with open_logbook(folder or runs_folder() or Path(USUAL)) as book:
         for sentence in book.unread:
             complain(f"left out: {sentence}")
         shown = book.runs(*condition(wanted), wanted.last or None)
-        earlier = book.count(*condition(wanted)) - len(shown)
-        _tell(book, shown, earlier, compare, json)
+        if builds:
+            _tell_builds(book, wanted, json)
+        else:
+            earlier = book.count(*condition(wanted)) - len(shown)
+            _tell(book, shown, earlier, compare, json)
         _write(book, shown, trend, export, json)
     return 0
 
@@ -64,6 +73,17 @@ def _check(path: Path | None, suffixes: str) -> None:
         if path.suffix.lower() not in suffixes.split():
             raise InputError(str(path), f"suffix '{path.suffix}'", f"one of {suffixes}")
         check_writable(path)
+
+
+def _tell_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
+    from equipoise.app.logbook_builds import builds_json, show_builds
+    from equipoise.app.views_json import dump
+
+    shown = book.builds(*condition(wanted))
+    if json:
+        print(dump(builds_json(book, shown)))
+    else:
+        show_builds(book, shown)
 
 
 def _tell(

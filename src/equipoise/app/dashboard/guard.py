@@ -37,8 +37,3 @@ class Guard:
     def commands(self, page: str) -> bool:
         """Say whether a page commands."""
         return self._commander == page
-
-    @property
-    def taken(self) -> bool:
-        """Say whether any page commands."""
-        return self._commander is not None

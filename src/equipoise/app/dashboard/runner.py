@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from equipoise.app.balancing import HALTED, Balancing, Goal, Limits, Through, run
-from equipoise.app.dashboard.compiling import told_of
+from equipoise.app.compiling import heard
 from equipoise.app.dashboard.jobs import Fit, Job, Keep
 from equipoise.app.dashboard.live_belief import LiveBelief, grown
 from equipoise.app.dashboard.pace import Pace
@@ -25,6 +25,7 @@ from equipoise.app.dashboard.views import (
     step_document,
 )
 from equipoise.app.practice import practised
+from equipoise.app.terminal import COMPILING
 from equipoise.app.watched_bench import WatchedBench
 from equipoise.hardware.real_bench import RealBench
 from equipoise.hardware.replayed_bench import RecordingEnded
@@ -172,7 +173,7 @@ class Runner:
         self.phase, self.goal, self.trip, self.kept, self.note = "balancing", goal, None, None, ""
         self.tell_state()
         try:
-            with told_of(self.say):
+            with heard(lambda: self.say(f"{COMPILING} ..."), lambda: self.say("")):
                 done = self._balanced(goal, limits)
         except EquipoiseError as error:
             self.note = str(error)

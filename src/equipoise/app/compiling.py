@@ -1,4 +1,4 @@
-"""Says that kernels are being compiled, once on a computer, while nothing else can be seen."""
+"""Hears that kernels are being compiled, once on a computer, while nothing else can be seen."""
 
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
@@ -6,27 +6,25 @@ from typing import Any
 
 from numba.core import event
 
-from equipoise.app.terminal import COMPILING
-
 
 @contextmanager
-def told_of(tell: Callable[[str], None]) -> Generator[None]:
-    """Tell when the compiler begins, and with an empty sentence when it has ended."""
+def heard(begun: Callable[[], None], ended: Callable[[], None]) -> Generator[None]:
+    """Call when the compiler begins and when it has ended; kernels that are loaded do not count."""
 
     class Listener(event.Listener):
-        """Hear when a kernel is compiled, not when it is only loaded."""
+        """A kernel may have others compiled on the way: the outermost counts."""
 
         depth = 0
 
         def on_start(self, event: Any) -> None:
             self.depth += 1
             if self.depth == 1:
-                tell(f"{COMPILING} ...")
+                begun()
 
         def on_end(self, event: Any) -> None:
             self.depth -= 1
             if self.depth == 0:
-                tell("")
+                ended()
 
     with event.install_listener("numba:compile", Listener()):
         yield

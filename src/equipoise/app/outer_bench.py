@@ -1,0 +1,35 @@
+"""A bench that stands before another one and passes on what it does not do itself."""
+
+from collections.abc import Mapping
+
+from equipoise.model.bench import Bench
+from equipoise.model.testbed import Testbed
+
+
+class OuterBench:
+    """All verbs but reading (see ``model.bench.Bench``), as the inner bench does them."""
+
+    def __init__(self, bench: Bench) -> None:
+        self._bench = bench
+
+    @property
+    def testbed(self) -> Testbed:
+        """What is known of it beforehand."""
+        return self._bench.testbed
+
+    @property
+    def time(self) -> float:
+        """Bench time, s."""
+        return self._bench.time
+
+    def move(self, targets: Mapping[str, float]) -> None:
+        """Set masses on their way (m)."""
+        self._bench.move(targets)
+
+    def drive(self, inputs: Mapping[str, float]) -> None:
+        """Give devices their inputs."""
+        self._bench.drive(inputs)
+
+    def stop(self) -> None:
+        """Halt every mass and device."""
+        self._bench.stop()

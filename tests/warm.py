@@ -1,0 +1,44 @@
+"""Compiles the heaviest kernels once, on two cores, before two test workers would each do it.
+
+`make test` runs this first; with a cache that is warm it takes some seconds.
+"""
+
+import multiprocessing
+from collections.abc import Callable
+
+from equipoise.app.dashboard.live_belief import LiveBelief, grown
+from equipoise.io.presets import read_preset
+from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.simulation.bench import SimulatedBench
+
+SECONDS = 20.0  # s of a record
+
+
+def fit() -> None:
+    """What the trajectory fit needs."""
+    bench = SimulatedBench(read_preset("sputnix"), 1)
+    list(identify(bench.read(SECONDS), bench.testbed, IdentifyOptions("trajectory")))
+
+
+def track() -> None:
+    """What simulation with devices, the tracker and the smoother need."""
+    bed = read_preset("nanosat")
+    rows = SimulatedBench(bed, 1).read(SECONDS)
+    grown(LiveBelief(bed), rows)
+    SimulatedBench(read_preset("reference-table"), 1).read(SECONDS)
+    for name in ("tracker", "momentum_possible", "ekf_12", "ukf_12", "smoother"):
+        list(identify(rows, bed, IdentifyOptions(name)))
+
+
+def main() -> None:
+    """Compile both at once."""
+    tasks: tuple[Callable[[], None], ...] = (fit, track)
+    workers = [multiprocessing.get_context("spawn").Process(target=task) for task in tasks]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+
+
+if __name__ == "__main__":
+    main()
