@@ -22,6 +22,7 @@ from verification import (
     calibration,
     camera,
     compared,
+    dashboard_hour,
     defective_logs,
     design_predictions,
     drift,
@@ -100,6 +101,7 @@ CHECKS = {
     "camera": Check(camera.measure, 25),
     "latency": Check(latency.measure, 3),
     "long_emulation": Check(long_emulation.measure, 8),
+    "dashboard_hour": Check(dashboard_hour.measure, 60),
     "real_methods": Check(real_methods.measure, 1),
 }
 

@@ -10,7 +10,6 @@ from equipoise.estimation.survey import is_drowned
 from equipoise.estimation.trajectory import Params
 from equipoise.procedure.sound_rows import sound
 from verification import laboratories, starts
-from verification.workers import spread_over
 
 QUICK = (
     "280 deg/s, spinning down", "tilts to 20 deg", "gyro in steps", "gyro that the testbed lacks",
@@ -20,13 +19,13 @@ QUICK = (
 
 def test_no_record_fails_and_no_wrong_number_is_firm() -> None:
     """One record of each kind that takes seconds; compiling is not counted against the time."""
-    result = laboratories.measure(range(1), spread_over(2), QUICK, slowest=float("inf"))
+    result = laboratories.measure(range(1), kinds=QUICK, slowest=float("inf"))
     assert result.missed == ()
 
 
 def test_search_finds_the_optimum_from_anywhere() -> None:
     """One seed, from half an inertia too much, and from nothing."""
-    assert starts.measure(range(1), spread_over(2)).missed == ()
+    assert starts.measure(range(1)).missed == ()
 
 
 @pytest.mark.parametrize("seed", [1, 2])

@@ -1,14 +1,13 @@
 """The claims of `make verify` about procedures, on fewer platforms."""
 
 from verification import balanced, drift
-from verification.workers import spread_over
 
 
 def test_balancing_ends_within_tolerance_and_its_verdict_knows() -> None:
     """Ten platforms: as many good ones as 95 % leaves in all but one of 1000 such tests."""
-    assert balanced.measure(range(10), spread_over(2)).missed == ()
+    assert balanced.measure(range(10)).missed == ()
 
 
 def test_drifting_platform_is_held() -> None:
     """A platform for half an hour, within 3 um on every axis all the time."""
-    assert drift.measure(range(1), spread_over(2)).missed == ()
+    assert drift.measure(range(1)).missed == ()
