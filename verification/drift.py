@@ -5,7 +5,7 @@ The bench is watched from outside: its true centre of mass is noted every second
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import reduce
+from functools import partial, reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -96,12 +96,13 @@ def beliefs(steps: Iterator[Step], bench: Watched) -> Iterator[tuple[Step, Array
             yield step, nothing, nothing
 
 
-def held(seed: int) -> Run:
-    """Balance and hold the platform of one seed."""
+def held(hold: float, seed: int) -> Run:
+    """Balance and hold the platform of one seed for so long (s)."""
+    holding = HoldOptions(hold)
     bench = Watched(SimulatedBench(drifting(seed), seed))
     began, moves, last = np.inf, 0, None
     errors, zs = [np.full(3, np.nan)], [np.full(3, np.nan)]
-    for step, error, z in beliefs(balance_and_hold(bench, HOLDING.balancing, HOLDING), bench):
+    for step, error, z in beliefs(balance_and_hold(bench, holding.balancing, holding), bench):
         if np.isfinite(began):
             moves += step.kind == "move"
             errors.append(error)
@@ -114,7 +115,7 @@ def held(seed: int) -> Run:
     worst = off.max(axis=0) if len(off) else np.full(3, np.nan)
     at = np.array(bench.t)[while_held][off.max(axis=1).argmax()] - began if len(off) else np.nan
     start = np.array(bench.com)[~while_held][-1] - HOLDING.target
-    done = bench.time - began >= HOLD - 1e-6
+    done = bench.time - began >= hold - 1e-6
     z, error = np.array(zs)[1:], np.array(errors)[1:]
     return Run(seed, done, worst, moves, z, error, at, start, last.sentence)
 
@@ -139,9 +140,9 @@ def note_of(run: Run) -> str:
     )
 
 
-def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
+def measure(seeds: Sequence[int], spread: Spread = in_turn, hold: float = HOLD) -> Result:
     """Balance and hold one random platform for each seed."""
-    runs = spread(held, seeds)
+    runs = spread(partial(held, hold), seeds)
     error = np.vstack([run.error for run in runs if run.held] or [np.full((1, 3), np.nan)])
     z = np.vstack([run.z for run in runs if run.held] or [np.full((1, 3), np.nan)])
     spread_of_z = float(np.sqrt(np.mean(z**2)))
@@ -160,7 +161,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     claim = (
         "Preset sputnix with 1 um/min of drift in a random direction: balanced to "
         f"{1e6 * HOLDING.balancing.tolerance[2]:g} um with at most {HOLDING.balancing.max_moves} "
-        f"moves and {HOLDING.balancing.max_time:g} s, then held for {HOLD / 60:.0f} min within "
+        f"moves and {HOLDING.balancing.max_time:g} s, then held for {hold / 60:.0f} min within "
         f"{1e6 * LIMIT:g} um of the target."
     )
     return Result("drift", claim, rows, notes)

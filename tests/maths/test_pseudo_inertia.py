@@ -11,6 +11,8 @@ from equipoise.maths.pseudo_inertia import (
     FLOOR,
     exceeds,
     from_inertia,
+    inertia_of,
+    slope_of_inertia,
     to_inertia,
 )
 from equipoise.model.mass_properties import (
@@ -128,3 +130,12 @@ def test_six_numbers_agree_with_a_plain_twin(inertia):
     factor = np.linalg.cholesky(second_moments(inertia))
     expected = [*np.log(np.diag(factor)), factor[1, 0], factor[2, 0], factor[2, 1]]
     np.testing.assert_allclose(from_inertia(inertia), expected, rtol=0, atol=1e-9)
+
+
+@given(sixes)
+def test_the_slope_is_the_complex_steps(six):
+    """Each column by a step of 1e-30 i in the plain twin: exact to rounding."""
+    steps = six + 1e-30j * np.eye(6)
+    columns = [np.imag(inertia_of.py_func(tuple(step))) / 1e-30 for step in steps]
+    size = np.abs(columns).max()
+    np.testing.assert_allclose(slope_of_inertia(six), np.transpose(columns), atol=1e-14 * size)

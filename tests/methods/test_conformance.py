@@ -22,6 +22,8 @@ from equipoise.study.candour import warns
 every_method = pytest.mark.parametrize("name", METHODS)
 TRUTH = dict(zip((*COM, *INERTIA), (*TRUE_COM, *TRUE_INERTIA), strict=True))
 FARTHEST = 6.0  # sd
+# Flipped signs have a test of their own, which asks for more.
+TROUBLES = ["none", *(name for name in AWKWARD if name != "sign_flips")]
 ASKED = {
     "term": Options(terms=("viscous_x",)),
     "hold": Options(hold=("inertia_P_zz",)),
@@ -116,7 +118,7 @@ def test_an_estimate_says_where_it_comes_from(name):
 
 
 @every_method
-@pytest.mark.parametrize("trouble", ["none", *AWKWARD])
+@pytest.mark.parametrize("trouble", TROUBLES)
 def test_trouble_is_met_or_told(name, trouble):
     """As `identify` runs it: an answer within 6 sd of the truth, or word that it is not to be
     trusted, or a refusal with its reason. (What stands level has its com above or below P.)"""

@@ -12,7 +12,7 @@ from equipoise.app.numbers import significant, with_sd
 from equipoise.app.pictures import Picture
 from equipoise.app.plain_tables import show_sheet
 from equipoise.app.sheet import Sheet
-from equipoise.app.step_pictures import pictures_of_steps
+from equipoise.app.step_pictures import Frame, pictures_of_steps
 from equipoise.app.tables import residual_line, step_line
 from equipoise.app.terminal import stdout
 from equipoise.app.units import MICRO, UM
@@ -249,7 +249,7 @@ def account_of(told: Told) -> Account:
         asked=asked,
         testbed=done.testbed,
         chapters={"Steps": told.steps},
-        step_pictures=pictures_of_steps(told.steps, done.testbed),
+        step_pictures=pictures_of_steps(told.steps, Frame(done.testbed)),
         origin=origin(sha256=done.recording.sha256),
         findings=told.findings,
         estimate=done.estimate,

@@ -9,7 +9,7 @@ from equipoise.app.figures.step_com import Wanted
 from equipoise.app.logged import Kept
 from equipoise.app.numbers import fixed
 from equipoise.app.pictures import Picture, TrueCourse, of_balancing, of_tracking
-from equipoise.app.step_pictures import pictures_of_steps
+from equipoise.app.step_pictures import Frame, pictures_of_steps
 from equipoise.app.tables import change_table, noise_floor_line, step_line
 from equipoise.app.terminal import stdout
 from equipoise.app.units import UM
@@ -59,7 +59,7 @@ def account_of(done: Balancing, seed: int) -> Account:
         verdict=done.verdict,
         change=change_of(done),
         pictures=[*pictures_of_tracking(done), *pictures_of(done)],
-        step_pictures=pictures_of_steps(done.steps, done.testbed, wanted(done.goal)),
+        step_pictures=pictures_of_steps(done.steps, Frame(done.testbed, wanted(done.goal))),
     )
 
 

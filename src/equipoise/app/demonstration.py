@@ -1,6 +1,6 @@
 """The demo: a record with a known move, what it tells, then balancing the same platform."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +11,7 @@ from equipoise.app.balance_views import pictures_of, show_step, wanted
 from equipoise.app.balancing import Balancing, Goal, Limits, run
 from equipoise.app.believed import at_home
 from equipoise.app.pictures import Picture, TrueCourse, of_fit, of_move, of_tracking
-from equipoise.app.step_pictures import pictures_of_steps
+from equipoise.app.step_pictures import Frame, pictures_of_steps
 from equipoise.app.tables import estimate_tables
 from equipoise.app.terminal import busy, stdout, watched
 from equipoise.app.units import MM, UM
@@ -87,10 +87,17 @@ def account_of(shown: Demonstration, seed: int) -> Account:
         chapters={"Identify": shown.identified, "Balance": shown.balancing.steps},
         estimate=shown.estimate,
         pictures=pictures(shown),
-        step_pictures=pictures_of_steps(
-            (*shown.identified, *shown.balancing.steps), shown.balancing.testbed, wanted(GOAL)
-        ),
+        step_pictures=_pictures_of_steps(shown),
     )
+
+
+def _pictures_of_steps(shown: Demonstration) -> Mapping[Step, Picture]:
+    bed, first = shown.balancing.testbed, len(shown.identified) + 1
+    identified = pictures_of_steps(shown.identified, Frame(bed, at_home=True))
+    return {
+        **identified,
+        **pictures_of_steps(shown.balancing.steps, Frame(bed, wanted(GOAL)), first),
+    }
 
 
 def pictures(shown: Demonstration) -> list[Picture]:

@@ -7,7 +7,7 @@ from equipoise.app.account import Account, origin
 from equipoise.app.logged import Kept
 from equipoise.app.pictures import of_estimate
 from equipoise.app.plan_kept import kept_json, kept_table, promise_sentences
-from equipoise.app.step_pictures import pictures_of_steps
+from equipoise.app.step_pictures import Frame, pictures_of_steps
 from equipoise.app.tables import estimate_tables, finding_line, residual_line, step_line
 from equipoise.app.terminal import stdout
 from equipoise.app.views_json import View, estimate_json
@@ -91,5 +91,5 @@ def account_of(done: Identification) -> Account:
         findings=done.findings,
         estimate=done.estimate,
         pictures=list(of_estimate(done.recording, done.testbed, done.estimate)),
-        step_pictures=pictures_of_steps(done.steps, done.testbed),
+        step_pictures=pictures_of_steps(done.steps, Frame(done.testbed, at_home=True)),
     )

@@ -10,7 +10,7 @@ from equipoise.app.figures import rounds_com
 from equipoise.app.figures.balanced_com import Look, Story
 from equipoise.app.manual import ByHand
 from equipoise.app.pictures import Picture
-from equipoise.app.step_pictures import pictures_of_steps
+from equipoise.app.step_pictures import Frame, pictures_of_steps
 from equipoise.app.tables import change_table
 from equipoise.app.terminal import stdout
 from equipoise.app.views_json import View, balance_json
@@ -67,7 +67,9 @@ def account_of(done: ByHand, of: dict[str, str]) -> Account:
         verdict=done.verdict,
         change=change_of(balancing),
         pictures=pictures_of(done),
-        step_pictures=pictures_of_steps(balancing.steps, balancing.testbed, wanted(balancing.goal)),
+        step_pictures=pictures_of_steps(
+            balancing.steps, Frame(balancing.testbed, wanted(balancing.goal))
+        ),
     )
 
 

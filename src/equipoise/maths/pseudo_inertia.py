@@ -14,7 +14,7 @@ import numpy as np
 
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.eigen import Six, eigen
-from equipoise.model.arrays import Matrix3, Vector6
+from equipoise.model.arrays import Floats, Matrix3, Vector6
 
 FLOOR = 1e-6  # chosen: an impossible start is moved to this fraction of its trace
 
@@ -85,6 +85,22 @@ def to_inertia(six: Vector6) -> Matrix3:
     """Return J_C, kg m^2, as a matrix."""
     xx, yy, zz, xy, xz, yz = inertia_of((six[0], six[1], six[2], six[3], six[4], six[5]))
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+@kernel
+def slope_of_inertia(six: Vector6) -> Floats:
+    """Return dJ_C / d(six), (6, 6): rows xx yy zz xy xz yz, columns a1 a2 a3 b12 b13 b23."""
+    a, b, c = np.exp(six[0]), np.exp(six[1]), np.exp(six[2])
+    d, e, f = six[3], six[4], six[5]
+    xx, yy, zz = 2 * a * a, 2 * b * b, 2 * c * c
+    return np.array([
+        [0.0, yy, zz, 2 * d, 2 * e, 2 * f],
+        [xx, 0.0, zz, 0.0, 2 * e, 2 * f],
+        [xx, yy, 0.0, 2 * d, 0.0, 0.0],
+        [-a * d, 0.0, 0.0, -a, 0.0, 0.0],
+        [-a * e, 0.0, 0.0, 0.0, -a, 0.0],
+        [0.0, -b * f, 0.0, -e, -d, -b],
+    ])  # fmt: skip
 
 
 @kernel

@@ -22,7 +22,7 @@ from equipoise.procedure.foresight import Outlook, state_now
 from equipoise.procedure.knowledge import Knowledge, learn, shifted, without_stops
 from equipoise.procedure.planned_move import planned_move
 from equipoise.procedure.tilt_guard import TILTED, tilted
-from equipoise.procedure.verify import fresh_enough, is_within, verdict
+from equipoise.procedure.verify import at, fresh_enough, is_within, verdict
 
 UM = 1e-6
 
@@ -234,9 +234,8 @@ def look_step(bench: Bench, fresh: Recording) -> Step:
 def estimate_step(bench: Bench, progress: Progress) -> Step:
     """Return the step of an estimate."""
     knowledge = progress.knowledge
-    x, y, z = (f"{1e6 * c:.1f} +/- {1e6 * s:.1f}" for c, s in zip(
-        knowledge.com, knowledge.sd, strict=True))  # fmt: skip
-    text = f"Centre of mass at ({x}, {y}, {z}) um."
+    where = at(knowledge.com, knowledge.sd)
+    text = f"{where[0].upper()}{where[1:]}."
     return Step("estimate", bench.time, text, knowledge.recording, knowledge.estimate)
 
 

@@ -21,7 +21,7 @@ from equipoise.model.recording import Recording
 
 CAPTION = (
     "Measured attitude less the estimated model's, as a small turn about each body axis, deg. "
-    "Grey band: two standard deviations of the stated camera noise."
+    "Grey band: two standard deviations of the stated camera noise; grey strips: masses travel."
 )
 
 

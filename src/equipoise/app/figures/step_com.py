@@ -10,11 +10,6 @@ from equipoise.app.figures.style import AXES, BAND, WIDE, XYZ, styled
 from equipoise.app.units import UM
 from equipoise.model.arrays import Vector3
 
-CAPTION = (
-    "Centre of mass with the masses as they stand, um in body axes, with bars of two standard "
-    "deviations; shaded: the target with its tolerance."
-)
-
 
 class Mark(NamedTuple):
     """One centre of mass and what it is."""
@@ -31,6 +26,15 @@ class Wanted(NamedTuple):
     tolerance: Vector3  # m
 
 
+def caption(at_home: bool, wanted: Wanted | None) -> str:
+    """Return what the figure shows."""
+    shaded = "" if wanted is None else "; shaded: the target with its tolerance"
+    return (
+        f"Centre of mass with the masses {'at home' if at_home else 'as they stand'}, um in body "
+        f"axes, with bars of two standard deviations{shaded}."
+    )
+
+
 @styled
 def draw(marks: Sequence[Mark], wanted: Wanted | None) -> Figure:
     """Return the figure: a row for each mark, the first on top."""
@@ -42,6 +46,7 @@ def draw(marks: Sequence[Mark], wanted: Wanted | None) -> Figure:
             axes.axvspan(low, high, color="black", alpha=0.16, linewidth=0)
         _marks(axes, i, marks)
         axes.set_xlabel(f"$r_{AXES[i]}$, um")
+        axes.locator_params(axis="x", nbins=3)  # three fit, whatever their digits
         axes.set_ylim(len(marks) - 0.5, -0.5)
     row[0].set_yticks(range(len(marks)), [mark.name for mark in marks])
     return figure

@@ -4,7 +4,9 @@
 
 Every choice of the six numbers (``maths.pseudo_inertia``) is a body with J > 0 whose moments obey
 the triangle inequalities; where the unconstrained solution is such a body, both are the same.
-Where it is none, the answer lies near the border, and its interval is that of a clipped number.
+Where it is none, the answer lies near the border, and its interval is that of a clipped number:
+the diagonal of the Cholesky factor is at least the root of ``FLOOR`` of the guessed trace, so that
+the search has an end and rounding leaves the answer possible.
 """
 
 import numpy as np
@@ -20,6 +22,7 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 
 LARGEST = 20.0  # of the logarithms, chosen: so that no trial leaves the range of numbers
+FLOOR = pseudo_inertia.FLOOR
 
 
 def possible(rows: Rows, aid: Aid) -> Floats:
@@ -43,18 +46,40 @@ def nearest(
     scale = 1 / np.sqrt(np.diag(normal))
     root = np.linalg.cholesky(normal * np.outer(scale, scale) + 1e-12 * np.eye(len(free)))
 
+    least = 0.5 * np.log(FLOOR * np.trace(unpack_symmetric(guess[six])))
+
     def body(y: Floats) -> Floats:
         x = y.copy()
         r, numbers = y[com] * scale[com], y[six]
-        numbers[:3] = np.clip(numbers[:3], -LARGEST, LARGEST)
+        numbers[:3] = np.clip(numbers[:3], least, LARGEST)
         J = pseudo_inertia.to_inertia(numbers) + parallel_axis(mass, r)
         x[six] = pack_symmetric(J) / scale[six]
         return x
+
+    def slope(y: Floats) -> Floats:
+        by_y, r = np.eye(len(y)), y[com] * scale[com]
+        numbers = np.append(np.clip(y[six][:3], least, LARGEST), y[six][3:])
+        inside = numbers == y[six]
+        by_y[np.ix_(six, six)] = pseudo_inertia.slope_of_inertia(numbers) * inside
+        by_y[np.ix_(six, com)] = slope_of_shift(mass, r) * scale[com]
+        by_y[six] /= scale[six, None]
+        return root.T @ by_y
 
     start = free / scale
     inertia_C = unpack_symmetric(free[six]) - parallel_axis(mass, free[com])
     if np.trace(inertia_C) <= 0:
         inertia_C = unpack_symmetric(guess[six])
     start[six] = pseudo_inertia.from_inertia(inertia_C)
-    found = minimise(lambda y: root.T @ (body(y) - free / scale), start, method="lm", xtol=1e-12)
+    found = minimise(
+        lambda y: root.T @ (body(y) - free / scale), start, slope, method="lm", xtol=1e-12
+    )
     return body(np.asarray(found.x, dtype=np.float64)) * scale
+
+
+def slope_of_shift(mass: float, r: Floats) -> Floats:
+    """Return d/dr of m (|r|^2 E - r r^T), (6, 3): rows xx yy zz xy xz yz."""
+    x, y, z = mass * r
+    return np.array([
+        [0.0, 2 * y, 2 * z], [2 * x, 0.0, 2 * z], [2 * x, 2 * y, 0.0],
+        [-y, -x, 0.0], [-z, 0.0, -x], [0.0, -z, -y],
+    ])  # fmt: skip
