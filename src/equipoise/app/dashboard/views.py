@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from equipoise.app.balancing import Goal
 from equipoise.app.dashboard.live_belief import LiveBelief
 from equipoise.app.dashboard.rows_shown import COM, standing_com
@@ -78,5 +80,5 @@ def _believed(belief: LiveBelief) -> Mapping[str, Any] | None:
     state, covariance, known = belief.state, belief.covariance, belief.tail
     if state is None or covariance is None or known is None:
         return None
-    (com,) = standing_com(known, belief.testbed, state.q[:1] * 0 + state.t, state.com[None])
+    (com,) = standing_com(known, belief.testbed, np.array([state.t]), state.com[None])
     return {"com": com.tolist(), "covariance": covariance[COM, COM].ravel().tolist()}

@@ -1,0 +1,27 @@
+"""`verification/dashboard_hour.py` for seconds: what 100 Hz cost."""
+
+import pytest
+
+from tests.app.dashboard.driven import CHROMIUM
+from verification.dashboard_hour import SHARE, growth, share, soaked
+from verification.dashboard_hour import Seen as At
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
+def test_a_quarter_of_a_minute_at_100_hz_costs_little():
+    """Of a core; the page, whose beginning counts more here, twice what is wanted of an hour."""
+    seen = soaked(2, 8.0)
+    assert 0.0 < share(seen, "server") < SHARE
+    assert 0.0 < share(seen, "page") < 2 * SHARE
+    bench, clock = seen[-1].bench - seen[0].bench, seen[-1].clock - seen[0].clock
+    assert bench > 0.85 * clock
+
+
+def test_growth_is_the_share_from_the_first_look_to_the_last():
+    """100, 105, 110 MB: ten of 105; a look that is high in the middle alone is none."""
+    assert growth([at(100.0), at(105.0), at(110.0)], "server") == pytest.approx(10 / 105)
+    assert growth([at(100.0), at(130.0), at(100.0)], "server") == pytest.approx(0.0)
+
+
+def at(megabytes):
+    return At(0.0, 0.0, {}, {"server": megabytes})
