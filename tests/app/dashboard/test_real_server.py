@@ -9,7 +9,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from equipoise.app.dashboard.gate import LARGEST
-from tests.app.dashboard.driven import CHROMIUM, Heard, browser, dashboard
+from tests.app.dashboard.driven import CHROMIUM, Heard, browser, dashboard, started
 
 SOCKETS = ("/live", "/_nicegui_ws/socket.io/?EIO=4&transport=websocket")
 LATER = 120_000  # ms
@@ -21,6 +21,10 @@ def running(tmp_path_factory):
     folder = tmp_path_factory.mktemp("exposed")
     with dashboard(folder, "nanosat", "--expose", "127.0.0.1") as there:
         yield there
+
+
+def test_ctrl_c_ends_it_without_a_fault(tmp_path):
+    assert started(tmp_path, "nanosat").end() == 0
 
 
 def here(running):

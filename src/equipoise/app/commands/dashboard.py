@@ -1,5 +1,6 @@
 """`equipoise dashboard`: a live page of a simulated bench, a recording or the real bench."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -61,7 +62,8 @@ def dashboard(
     with session:
         for line in session.lines():
             stdout().print(line, markup=False, soft_wrap=True)
-        session.serve()
+        with suppress(KeyboardInterrupt):  # the way to end it
+            session.serve()
     return 0
 
 
