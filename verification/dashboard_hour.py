@@ -6,7 +6,6 @@ browser was made to collect what nobody holds. A page draws in software here, in
 process for graphics, which a graphics card would do elsewhere: that process is told, not judged.
 """
 
-import os
 import tempfile
 import time
 from collections.abc import Sequence
@@ -21,14 +20,13 @@ from equipoise.io.presets import read_preset
 from equipoise.io.testbed_file import write_testbed
 from equipoise.model.testbed import Testbed
 from tests.app.dashboard.driven import Dashboard, browser, dashboard
+from verification.processes import resident, spent
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
 RATE, MINUTE = 100.0, 60.0  # Hz, s
 BEGUN = 10  # min, chosen: by then the server keeps as many rows as it ever does
 SHARE, GROWN = 0.15, 0.05  # of one core; of the memory at the tenth minute
-TICK = os.sysconf("SC_CLK_TCK")
-PAGE = os.sysconf("SC_PAGE_SIZE")
-KEPT = "window.equipoise.state()"
+LAST = "window.equipoise.state().series.pose?.last?.[0] ?? 0"  # s
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,17 +53,6 @@ def testbed() -> Testbed:
         tilt_limit=3.0,
         truth=low,
     )
-
-
-def spent(process: int) -> float:
-    """Return the processor time (s) of a process."""
-    words = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
-    return (int(words[11]) + int(words[12])) / TICK
-
-
-def resident(process: int) -> float:
-    """Return the memory (MB) that a process holds."""
-    return int(Path(f"/proc/{process}/statm").read_text().split()[1]) * PAGE / 1e6
 
 
 def runner_of(server: int) -> int:
@@ -106,7 +93,7 @@ class Watched:
         """Return how far all have come."""
         self._tab.send("HeapProfiler.collectGarbage")
         heap = self._tab.send("Runtime.getHeapUsage")["usedSize"] / 1e6
-        pose = self.page.evaluate(f"{KEPT}.series.pose?.last?.[0] ?? 0")
+        pose = self.page.evaluate(LAST)
         return Seen(
             time.monotonic(),
             float(pose),

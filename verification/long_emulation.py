@@ -18,13 +18,13 @@ from equipoise.io.live_recording import LiveRecording, Opening
 from equipoise.io.presets import read_preset
 from equipoise.model.testbed import Testbed
 from tests.emulated_lab import Lab, lab, over_tcp
+from verification.processes import resident
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
 HOURS, BEGUN = 8.0, 0.25  # h of bench time; h after which memory is first looked at
 STRETCH, OFTEN = 10.0, 60  # s to a read; stretches between moves
 STEP = 0.05  # s by which both sides of the wires go on at a time: two rows of 40 Hz
 AWAY = 2e-3  # m
-PAGE = os.sysconf("SC_PAGE_SIZE")
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,12 +38,6 @@ class Soaked:
     grown: float  # share of the memory at the beginning
     megabytes: float
     stops: int
-
-
-def resident() -> float:
-    """Return the memory that this process holds, MB."""
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * PAGE / 1e6
 
 
 def unlimited(bed: Testbed) -> Testbed:
@@ -78,14 +72,14 @@ def _watched(found: Lab, hours: float) -> Soaked:
         seen[0] += 0 if rows.attitude is None else len(rows.attitude)
         seen[1] += 0 if rows.rate is None else len(rows.rate)
         if k == round(min(BEGUN, hours / 2) * 3600 / STRETCH):
-            memory = resident()
+            memory = resident(os.getpid())
     passed = found.emulated.time - start
     wanted = [round(passed * bed.attitude.rate), round(passed * bed.gyro.rate)]
     missing = [w - s for w, s in zip(wanted, seen, strict=True)]
     return Soaked(
         passed / 3600, passed / (time.perf_counter() - begun),
         sum(max(n - 1, 0) for n in missing), sum(max(-n - 1, 0) for n in missing),
-        resident() / memory - 1, resident(),
+        resident(os.getpid()) / memory - 1, resident(os.getpid()),
         sum(kind == "interlock" for _, kind, _ in found.events),
     )  # fmt: skip
 

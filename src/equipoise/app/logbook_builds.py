@@ -40,26 +40,25 @@ def lettered(number: int) -> str:
 
 def show_builds(book: Logbook, shown: Sequence[Build]) -> None:
     """Print a line for each testbed file, and below it what changed, line by line."""
-    table, letter = quiet_table(), letters(book)
+    table = quiet_table()
     for head in HEADS:
         justify = "right" if head == "runs" else "left"
         table.add_column(head, justify=justify, no_wrap=head not in (HEADS[0], HEADS[-1]))
-    for build, changes in told(book, shown):
-        cells = (build.platform, letter[build.platform, build.configuration], _day(build.first),
-                 _day(build.last), str(build.runs), "\n".join(changes))  # fmt: skip
+    for build, letter, changes in told(book, shown):
+        cells = (build.platform, letter, _day(build.first), _day(build.last), str(build.runs),
+                 "\n".join(changes))  # fmt: skip
         table.add_row(*map(Text, cells))
     stdout().print(table)
 
 
 def builds_json(book: Logbook, shown: Sequence[Build]) -> View:
     """Return the same, with each testbed file's text."""
-    letter = letters(book)
     return {
         "schema": BUILDS,
         "builds": [
             {
                 "platform": build.platform,
-                "build": letter[build.platform, build.configuration],
+                "build": letter,
                 "configuration": build.configuration,
                 "first_run": _time(build.first).isoformat(),
                 "last_run": _time(build.last).isoformat(),
@@ -67,21 +66,21 @@ def builds_json(book: Logbook, shown: Sequence[Build]) -> View:
                 "changed": list(changes),
                 "text": book.configuration(build.configuration),
             }
-            for build, changes in told(book, shown)
+            for build, letter, changes in told(book, shown)
         ],
     }
 
 
-def told(book: Logbook, shown: Sequence[Build]) -> Iterator[tuple[Build, Sequence[str]]]:
-    """Yield each build of those shown, and what changed since the platform's one before."""
+def told(book: Logbook, shown: Sequence[Build]) -> Iterator[tuple[Build, str, Sequence[str]]]:
+    """Yield each build of those shown, its letter, what changed since the platform's one before."""
     before: dict[str, str] = {}
-    wanted = {(build.platform, build.configuration) for build in shown}
-    for build in book.builds():
-        text = book.configuration(build.configuration)
-        if (build.platform, build.configuration) in wanted:
-            known = before.get(build.platform)
-            yield build, () if known is None else changed(known, text)
-        before[build.platform] = text
+    wanted = {(build.platform, build.configuration): build for build in shown}
+    for (platform, configuration), letter in letters(book).items():
+        text = book.configuration(configuration)
+        build, known = wanted.get((platform, configuration)), before.get(platform)
+        if build is not None:
+            yield build, letter, () if known is None else changed(known, text)
+        before[platform] = text
 
 
 def changed(before: str, after: str) -> Sequence[str]:

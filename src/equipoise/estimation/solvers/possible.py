@@ -5,8 +5,8 @@
 Every choice of the six numbers (``maths.pseudo_inertia``) is a body with J > 0 whose moments obey
 the triangle inequalities; where the unconstrained solution is such a body, both are the same.
 Where it is none, the answer lies near the border, and its interval is that of a clipped number:
-the diagonal of the Cholesky factor is at least the root of ``FLOOR`` of the guessed trace, so that
-the search has an end and rounding leaves the answer possible.
+the diagonal of the Cholesky factor is at least the root of ``pseudo_inertia.FLOOR`` of the guessed
+trace, so that the search has an end and rounding leaves the answer possible.
 """
 
 import numpy as np
@@ -22,7 +22,6 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 
 LARGEST = 20.0  # of the logarithms, chosen: so that no trial leaves the range of numbers
-FLOOR = pseudo_inertia.FLOOR
 
 
 def possible(rows: Rows, aid: Aid) -> Floats:
@@ -46,22 +45,24 @@ def nearest(
     scale = 1 / np.sqrt(np.diag(normal))
     root = np.linalg.cholesky(normal * np.outer(scale, scale) + 1e-12 * np.eye(len(free)))
 
-    least = 0.5 * np.log(FLOOR * np.trace(unpack_symmetric(guess[six])))
+    least = 0.5 * np.log(pseudo_inertia.FLOOR * np.trace(unpack_symmetric(guess[six])))
+
+    def six_within(y: Floats) -> Floats:
+        numbers = y[six]
+        numbers[:3] = np.clip(numbers[:3], least, LARGEST)
+        return numbers
 
     def body(y: Floats) -> Floats:
         x = y.copy()
-        r, numbers = y[com] * scale[com], y[six]
-        numbers[:3] = np.clip(numbers[:3], least, LARGEST)
-        J = pseudo_inertia.to_inertia(numbers) + parallel_axis(mass, r)
+        J = pseudo_inertia.to_inertia(six_within(y)) + parallel_axis(mass, y[com] * scale[com])
         x[six] = pack_symmetric(J) / scale[six]
         return x
 
     def slope(y: Floats) -> Floats:
-        by_y, r = np.eye(len(y)), y[com] * scale[com]
-        numbers = np.append(np.clip(y[six][:3], least, LARGEST), y[six][3:])
+        by_y, numbers = np.eye(len(y)), six_within(y)
         inside = numbers == y[six]
         by_y[np.ix_(six, six)] = pseudo_inertia.slope_of_inertia(numbers) * inside
-        by_y[np.ix_(six, com)] = slope_of_shift(mass, r) * scale[com]
+        by_y[np.ix_(six, com)] = slope_of_shift(mass, y[com] * scale[com]) * scale[com]
         by_y[six] /= scale[six, None]
         return root.T @ by_y
 
