@@ -44,6 +44,11 @@ def wheels_of(testbed: Testbed) -> tuple[Wheel, ...]:
     )
 
 
+def columns(axes: list[Array]) -> Array:
+    """Return axes side by side, (3, n)."""
+    return np.array(axes).reshape(-1, 3).T
+
+
 class MujocoBench:
     """A live bench; see ``model.bench.Bench``. ``com`` is the truth, at any time."""
 
@@ -61,6 +66,10 @@ class MujocoBench:
         self._dipole = np.zeros(len(testbed.magnetorquers))
         self._pulse = np.zeros(len(testbed.jets))  # N m s that is left of the last pulses
         self._given = np.zeros(len(testbed.jets))  # N m s since the last row of devices
+        self._coil_axes = columns([c.axis for c in testbed.magnetorquers])
+        self._jet_axes = columns([jet.axis for jet in testbed.jets])
+        self._most = STEP * np.array([jet.torque for jet in testbed.jets])  # N m s
+        self._nothing = np.zeros(3)
         self._bias = np.deg2rad([0.02, -0.01, 0.015])
         self._rows = self._empty()
         self._look()
@@ -131,21 +140,22 @@ class MujocoBench:
 
     def _from_coils(self) -> Array:
         """Return the torque of the coils in the laboratory's field, N m, body axes."""
-        bed = self._testbed
-        if bed.magnetic_field is None:
-            return np.zeros(3)
-        dipole = sum((d * c.axis for d, c in zip(self._dipole, bed.magnetorquers, strict=True)),
-                     np.zeros(3))  # fmt: skip
-        return np.cross(dipole, matrix(self._data.qpos[:4]).T @ bed.magnetic_field.field_N)
+        if self._testbed.magnetic_field is None or not self._dipole.any():
+            return self._nothing
+        moment = self._coil_axes @ self._dipole
+        field = matrix(self._data.qpos[:4]).T @ self._testbed.magnetic_field.field_N
+        torque = np.empty(3)
+        mujoco.mju_cross(torque, moment, field)
+        return torque
 
     def _from_jets(self) -> Array:
         """Return the mean torque of the jets over this step, N m; spent pulses end."""
-        most = STEP * np.array([jet.torque for jet in self._testbed.jets])
-        now = np.clip(self._pulse, -most, most)
+        if not self._pulse.any():
+            return self._nothing
+        now = np.clip(self._pulse, -self._most, self._most)
         self._pulse -= now
         self._given += now
-        pushes = (p * jet.axis for p, jet in zip(now, self._testbed.jets, strict=True))
-        return sum(pushes, np.zeros(3)) / STEP
+        return self._jet_axes @ now / STEP
 
     def _look(self) -> None:
         """Add the rows that are due."""

@@ -3,6 +3,7 @@
 import os
 import re
 from datetime import datetime
+from itertools import chain, count
 from pathlib import Path
 
 from equipoise.app.terminal import complain
@@ -39,5 +40,5 @@ def slug(name: str) -> str:
 
 def free(folder: Path) -> Path:
     """Return a path that is not there yet: the one given, or with a number."""
-    numbered = (folder.with_name(f"{folder.name}_{k}") for k in range(2, 10**6))
-    return next(path for path in (folder, *numbered) if not path.exists())
+    numbered = (folder.with_name(f"{folder.name}_{k}") for k in count(2))
+    return next(path for path in chain((folder,), numbered) if not path.exists())
