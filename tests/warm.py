@@ -15,18 +15,21 @@ SECONDS = 20.0  # s of a record
 
 
 def fit() -> None:
-    """What the trajectory fit needs."""
+    """What the trajectory fit and the filters need."""
     bench = SimulatedBench(read_preset("sputnix"), 1)
     list(identify(bench.read(SECONDS), bench.testbed, IdentifyOptions("trajectory")))
+    bed = read_preset("nanosat")
+    list(identify(SimulatedBench(bed, 1).read(SECONDS), bed, IdentifyOptions("kf_simplified")))
 
 
 def track() -> None:
-    """What simulation with devices, the tracker and the smoother need."""
+    """What simulation with devices, the tracker, the smoother and tables of rows need."""
     bed = read_preset("nanosat")
     rows = SimulatedBench(bed, 1).read(SECONDS)
     grown(LiveBelief(bed), rows)
     SimulatedBench(read_preset("reference-table"), 1).read(SECONDS)
-    for name in ("tracker", "momentum_possible", "ekf_12", "ukf_12", "smoother"):
+    others = "torque_kalman", "torque_tracking", "td_td_rls"
+    for name in ("tracker", "momentum_possible", "smoother", *others):
         list(identify(rows, bed, IdentifyOptions(name)))
 
 
