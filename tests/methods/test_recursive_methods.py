@@ -1,6 +1,7 @@
 """The recursive methods on two minutes of known square waves, seen by ordinary sensors."""
 
 from dataclasses import replace
+from itertools import cycle
 
 import numpy as np
 import pytest
@@ -39,8 +40,7 @@ def run(name, recording, testbed, options=None):
     return estimated(METHODS[name], recording, testbed, options or Options())
 
 
-@named(WITH_INERTIA)
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize(("name", "seed"), list(zip(WITH_INERTIA, cycle([1, 2]))))
 def test_inertia_and_centre_of_mass_are_found(name, seed):
     """Noise and bias of a gyro of 0.05 deg/s: moments to 1 %, products to 5 g m2, com to 5 um.
 
