@@ -99,8 +99,9 @@ def test_a_sensor_that_the_testbed_lacks_is_named() -> None:
         reference.estimate(record.recording, replace(record.testbed, attitude=None), Params())
 
 
-def test_a_file_with_a_command_column(tmp_path, capsys) -> None:
+def test_a_file_with_a_command_column(tmp_path, capsys, monkeypatch) -> None:
     """inspect and identify, as a user runs them: the column that nothing uses is told."""
+    monkeypatch.setenv("EQUIPOISE_RUNS", "")
     record = labs.motored(0, labs.sine(5e-3), duration=60.0, moved=False)
     csv, toml = tmp_path / "run.csv", tmp_path / "bed.toml"
     write_recording(replace(record.recording, mass_names=(), masses=None), csv)
