@@ -10,10 +10,11 @@ import numpy as np
 
 from benchmarks import ours
 from benchmarks.problem import make_problem
-from equipoise.estimation import tracker, trajectory
-from equipoise.estimation.jumps import RATE, walk
-from equipoise.estimation.trajectory_problem import evaluate
-from equipoise.io.presets import read_preset
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error.problem import evaluate
+from equipoise.estimation.output_error.segment_jumps import RATE, walk
+from equipoise.estimation.tracker import tracker
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor

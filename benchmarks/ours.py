@@ -7,9 +7,9 @@ from typing import TypeVar
 import numpy as np
 
 from benchmarks.problem import Array, Point, Problem
-from equipoise.estimation import trajectory
-from equipoise.estimation.conclusion import Fitted, conclude
-from equipoise.estimation.unknowns import Unknowns
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error.fit_estimate import Fitted, conclude
+from equipoise.estimation.parameters.fit_parameters import Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.mass_properties import MassProperties, parallel_axis

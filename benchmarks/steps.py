@@ -13,9 +13,7 @@ from benchmarks.ours import timed
 from equipoise.estimation.filters import driver
 from equipoise.estimation.filters.conclusion import noisy_rows
 from equipoise.estimation.filters.rows import Rows, taken
-from equipoise.estimation.formulations.momentum import body_axes
-from equipoise.estimation.linear import posed_of
-from equipoise.estimation.method import Options
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.ekf_6 import KIND as EKF_6
 from equipoise.estimation.methods.ekf_9 import KIND as EKF_9
 from equipoise.estimation.methods.ekf_12 import KIND as EKF_12
@@ -24,7 +22,15 @@ from equipoise.estimation.methods.ukf_4 import KIND as UKF_4
 from equipoise.estimation.methods.ukf_6 import KIND as UKF_6
 from equipoise.estimation.methods.ukf_9 import KIND as UKF_9
 from equipoise.estimation.methods.ukf_12 import KIND as UKF_12
-from equipoise.estimation.solvers.recursion import Plan, passed, recursion_of, some, unfiltered
+from equipoise.estimation.regression.formulations.momentum import body_axes
+from equipoise.estimation.regression.linear_method import posed_of
+from equipoise.estimation.regression.solvers.recursion import (
+    Plan,
+    passed,
+    recursion_of,
+    some,
+    unfiltered,
+)
 from tests.methods import plain_filters
 from tests.methods.plain_recursive import plain_rls
 from tests.methods.walking import guessed, square_waves, walked

@@ -3,11 +3,11 @@
 import contextlib
 from dataclasses import replace
 
-from equipoise.app.emulation import Station, emulate
-from equipoise.app.held_platform import later
-from equipoise.app.kept_bench import keeper_of
-from equipoise.app.lockstep import TICK, LockstepClock
-from equipoise.hardware.real_bench import RealBench
+from equipoise.app.bench.emulation import Station, emulate
+from equipoise.app.bench.held_platform import later
+from equipoise.app.bench.lockstep import TICK, LockstepClock
+from equipoise.app.bench.open_bench import keeper_of
+from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.model.hardware import Port
 from tests.hardware.faulty_wire import FaultyWire
 

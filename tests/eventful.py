@@ -7,8 +7,8 @@ from builders import ATTITUDE, COM, GRAVITY, INERTIA, MASS, line_of, move_at, pl
 from builders import RATE as START
 
 from equipoise.dynamics.propagation import body_of
-from equipoise.estimation.jumps import RATE as RATES
-from equipoise.estimation.unknowns import RATE, R, Unknowns
+from equipoise.estimation.output_error.segment_jumps import RATE as RATES
+from equipoise.estimation.parameters.fit_parameters import RATE, R, Unknowns
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
 from equipoise.model.estimate import COM as COM_NAMES

@@ -7,9 +7,9 @@ from builders import MASS
 
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import timeline
-from equipoise.estimation.point_steps import retract
-from equipoise.estimation.trajectory_problem import Problem
-from equipoise.estimation.unknowns import Unknowns, physical, unknowns_of
+from equipoise.estimation.output_error.problem import Problem
+from equipoise.estimation.parameters.fit_parameters import Unknowns, physical, unknowns_of
+from equipoise.estimation.parameters.retraction import retract
 from equipoise.maths.attitude import difference
 from equipoise.model.recording import Recording
 

@@ -6,9 +6,9 @@
 import multiprocessing
 from collections.abc import Callable
 
-from equipoise.app.dashboard.live_belief import LiveBelief, grown
-from equipoise.io.presets import read_preset
-from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.app.dashboard.runner.live_estimate import LiveBelief, grown
+from equipoise.io.testbed.presets import read_preset
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.simulation.bench import SimulatedBench
 
 SECONDS = 20.0  # s of a record

@@ -14,7 +14,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from equipoise.io.whole_file import check_writable, write_whole
+from equipoise.io.files.atomic_file import check_writable, write_whole
 from equipoise.model.errors import InputError
 from verification import (
     any_bytes,

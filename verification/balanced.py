@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import binom
 
-from equipoise.io.presets import read_preset
-from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.io.testbed.presets import read_preset
+from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.simulation.bench import SimulatedBench
 from verification.chance import FULL, RARE, fewest
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn, triple

@@ -14,14 +14,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.calibration import CalibrateOptions, calibrate
-from equipoise.io.presets import read_preset
+from equipoise.estimation.calibration.calibration import CalibrateOptions, calibrate
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.defects import CameraErrors, GyroErrors
 from equipoise.model.estimate import NORMAL_95, Estimate
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed, TrueDrive, Truth
-from equipoise.procedure.calibration_moves import calibration_moves
+from equipoise.procedure.identification.calibration_moves import calibration_moves
 from equipoise.simulation.record import record
 from tests.oracle import mujoco_bench as oracle
 from verification.chance import nees_band, share_band

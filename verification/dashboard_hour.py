@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.io.presets import read_preset
-from equipoise.io.testbed_file import write_testbed
+from equipoise.io.testbed.presets import read_preset
+from equipoise.io.testbed.testbed_file import write_testbed
 from equipoise.model.testbed import Testbed
 from tests.app.dashboard.driven import Dashboard, browser, dashboard
 from verification.processes import resident, spent

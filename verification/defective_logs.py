@@ -16,17 +16,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation import reference
-from equipoise.estimation.believed_model import Believed, Happening, farther, refitted
-from equipoise.estimation.event_price import threshold
-from equipoise.estimation.survey import cut_times
-from equipoise.estimation.survey_events import without
-from equipoise.estimation.trajectory import Params, fit
+from equipoise.estimation.events.detection_threshold import threshold
+from equipoise.estimation.events.event_search import without
+from equipoise.estimation.events.record_model import Believed, Happening, farther, refitted
+from equipoise.estimation.model_selection import reference_fit
+from equipoise.estimation.model_selection.survey import cut_times
+from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.model import sensor_terms
 from equipoise.model.estimate import NORMAL_95
 from equipoise.model.event import Event
 from equipoise.model.recording import Recording, Samples
-from equipoise.procedure.sound_rows import sound
+from equipoise.procedure.steps.clean_record import sound
 from tests.oracle import cases
 from tests.oracle.defects import (
     AVERAGING,
@@ -143,7 +143,7 @@ def identified(kinds: tuple[str, ...], with_gyro: bool, seed: int) -> Log:
     """Return what became of one record."""
     logged = above_floor(seed, kinds, with_gyro)
     recording, testbed = sound(with_lengths(logged), logged.testbed)
-    estimate = reference.estimate(recording, testbed, Params())
+    estimate = reference_fit.estimate(recording, testbed, Params())
     kept = recording.attitude
     assert kept is not None
     bad = np.array([row.time for row in logged.defects.bad_rows])

@@ -16,18 +16,18 @@ from scipy.optimize import linprog
 
 from equipoise.actuators.mass_allocation import allocate, rails_of
 from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
-from equipoise.design.budget import SOME, budget_of, mean_square, platforms
-from equipoise.design.case import Case
-from equipoise.design.expected_torque import expected_torque
-from equipoise.design.likely_offsets import even_normals
-from equipoise.design.look import first_look
-from equipoise.design.one_move import at_home, move
-from equipoise.design.reach import contains, reach_of
-from equipoise.design.usual_swing import usual_swing
-from equipoise.estimation import trajectory
-from equipoise.estimation.conclusion import conclude
-from equipoise.estimation.model_choice import PLUMB
-from equipoise.io.presets import read_preset
+from equipoise.design.manoeuvre.reference_swing import usual_swing
+from equipoise.design.sizing.budget import SOME, budget_of, mean_square, platforms
+from equipoise.design.sizing.case import Case
+from equipoise.design.sizing.expected_torque import expected_torque
+from equipoise.design.sizing.likely_offsets import even_normals
+from equipoise.design.sizing.measurement_bound import first_look
+from equipoise.design.sizing.move_error import at_home, move
+from equipoise.design.sizing.reachable_set import contains, reach_of
+from equipoise.estimation.model_selection.model_choice import PLUMB
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error.fit_estimate import conclude
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.defects import CameraErrors
 from equipoise.model.estimate import END, INERTIA
 from equipoise.model.testbed import SlidingMass, Testbed

@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.app.recorded_bench import RecordedBench
-from equipoise.io.presets import read_preset
+from equipoise.app.bench.recorded_bench import RecordedBench
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
-from equipoise.procedure.hold import HoldOptions, balance_and_hold
-from equipoise.procedure.planned_move import stops_covariance
+from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
+from equipoise.procedure.steps.planned_move import stops_covariance
 from equipoise.simulation.bench import SimulatedBench
 from verification.result import Result, Row, Spread, at_most, in_turn, triple
 

@@ -16,9 +16,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation import trajectory
-from equipoise.estimation.conclusion import conclude
-from equipoise.estimation.unknowns import JP, RATE, TURN, R, physical
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error.fit_estimate import conclude
+from equipoise.estimation.parameters.fit_parameters import JP, RATE, TURN, R, physical
 from equipoise.maths.attitude import difference
 from equipoise.model.estimate import NORMAL_95
 from verification import paper_runs

@@ -7,9 +7,9 @@ simulated bench lets swing beyond its tilt limit is stopped here, and counts as 
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from equipoise.app.balancing import until_stopped
-from equipoise.io.presets import read_preset
-from equipoise.procedure.balance import balance
+from equipoise.app.runs.balancing import until_stopped
+from equipoise.io.testbed.presets import read_preset
+from equipoise.procedure.balancing.balance import balance
 from tests.emulated_lab import lab, over_tcp
 from verification.balanced import OPTIONS, Run, notes_of, rows_of
 from verification.result import Result, Spread, in_turn

@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.app.balancing import until_stopped
-from equipoise.io.presets import read_preset
+from equipoise.app.runs.balancing import until_stopped
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from tests.emulated_lab import Lab, lab, over_tcp
 from tests.hardware.faulty_wire import covered, garbage, half, noisy, repeated, silent
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from equipoise.io.mcap_recording import events_of
-from equipoise.io.recording_file import read_recording
+from equipoise.io.mcap.mcap_recording import events_of
+from equipoise.io.recording.recording_file import read_recording
 from equipoise.model.recording import Samples
 from verification.recording_child import RATE, rates, turns
 from verification.result import Result, Row, Spread, at_most, in_turn

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.model.estimate import NORMAL_95, Estimate
-from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import laboratories as labs
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 from verification.stated_errors import NAMES, true_values

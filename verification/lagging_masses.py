@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.reference import estimate
-from equipoise.estimation.trajectory import Params
+from equipoise.estimation.model_selection.reference_fit import estimate
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.model.estimate import NORMAL_95
 from equipoise.model.recording import Recording, Samples
 from tests.oracle import cases

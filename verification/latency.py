@@ -17,13 +17,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.app.kept_bench import KeptBench, Wanted
-from equipoise.estimation.tracker import Params, State, first_state, track
+from equipoise.app.bench.open_bench import KeptBench, Wanted
+from equipoise.estimation.tracker.tracker import Params, State, first_state, track
+from equipoise.hardware.bench.controller_process import DistantKeeper
+from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.hardware.emulated.far_side import PtyFarSide
 from equipoise.hardware.emulated.vectornav import EmulatedVectorNav
-from equipoise.hardware.own_process import DistantKeeper
-from equipoise.hardware.real_bench import RealBench
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench

@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from equipoise.app.law_views import both
-from equipoise.app.units import MICRO, MM, UM
-from equipoise.io.presets import read_preset
-from equipoise.procedure.balance import BalanceOptions
-from equipoise.procedure.hold import FIRST_MOVES
-from equipoise.procedure.laws import CARDS
+from equipoise.app.text.units import MICRO, MM, UM
+from equipoise.app.views.law_views import both
+from equipoise.io.testbed.presets import read_preset
+from equipoise.procedure.balancing.balance import BalanceOptions
+from equipoise.procedure.balancing.catalogue import CARDS
+from equipoise.procedure.balancing.hold import FIRST_MOVES
 from equipoise.study.compare_laws import Comparison, LawSummary, compared
 from equipoise.study.law_run import Task
 from verification.chance import fewest

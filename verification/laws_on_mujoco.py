@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.control.coarse_fine import SAFE
-from equipoise.io.presets import read_preset
-from equipoise.procedure.balance import BalanceOptions
-from equipoise.procedure.laws import CARDS, balanced_by
+from equipoise.control.laws.coarse_fine import SAFE
+from equipoise.io.testbed.presets import read_preset
+from equipoise.procedure.balancing.balance import BalanceOptions
+from equipoise.procedure.balancing.catalogue import CARDS, balanced_by
 from tests.oracle.mujoco_live import MujocoBench, platform_of
 from verification.result import Result, Row, Spread, in_turn, triple
 

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.fisher import seen_by
-from equipoise.estimation.trajectory import Params
-from equipoise.io.presets import read_preset
+from equipoise.estimation.information.fisher_information import seen_by
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.study.lee import (

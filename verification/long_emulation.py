@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from equipoise.io.live_recording import LiveRecording, Opening
-from equipoise.io.presets import read_preset
+from equipoise.io.mcap.live_recording import LiveRecording, Opening
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.testbed import Testbed
 from tests.emulated_lab import Lab, lab, over_tcp
 from verification.processes import resident

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation import reference
-from equipoise.estimation.trajectory import Params
+from equipoise.estimation.model_selection import reference_fit
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import Testbed
@@ -79,9 +79,9 @@ def shorter(task: Task, minutes: float) -> Task:
 def identified(task: Task) -> Found:
     """Identify one record, once what it needs is compiled or loaded."""
     recording, testbed, truth = task
-    reference.estimate(window(recording, 0.0, WARM), testbed, Params())
+    reference_fit.estimate(window(recording, 0.0, WARM), testbed, Params())
     began = time.process_time()
-    estimate = reference.estimate(recording, testbed, Params())
+    estimate = reference_fit.estimate(recording, testbed, Params())
     seconds = time.process_time() - began
     held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9
     z, correlation = stated_errors(estimate, truth), stated_correlation(estimate)

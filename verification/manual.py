@@ -16,11 +16,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.balance_by_hand import HandOptions, balance_by_hand
+from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
 from equipoise.simulation.hands import SimulatedHands
 from verification.balanced import most
 from verification.chance import fewest

@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation import linear as linear_methods
-from equipoise.estimation.formulations.rows import Formulation, Posed, Rows
-from equipoise.estimation.linear import posed_of
-from equipoise.estimation.method import REGIMES, Method, Options, Regime
+from equipoise.estimation.method_contract import REGIMES, Method, Options, Regime
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.estimation.replicates import Drawn, pairs
+from equipoise.estimation.regression import linear_method as linear_methods
+from equipoise.estimation.regression.formulations.rows import Formulation, Posed, Rows
+from equipoise.estimation.regression.linear_method import posed_of
+from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
 from equipoise.model.estimate import Estimate
 from equipoise.study.candour import warns
 from verification.chance import share_band

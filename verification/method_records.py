@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.estimation.method import Regime
+from equipoise.estimation.method_contract import Regime
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import END

@@ -12,12 +12,12 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.formulations.momentum import body_axes
-from equipoise.estimation.formulations.rows import Formulation, Posed, Rows
-from equipoise.estimation.formulations.torque import savitzky_golay, torque
-from equipoise.estimation.linear import Question, aid_for, posed_of, posed_rows
-from equipoise.estimation.method import Method, Options, heeded
+from equipoise.estimation.method_contract import Method, Options, heeded
 from equipoise.estimation.methods.registry import METHODS
+from equipoise.estimation.regression.formulations.momentum import body_axes
+from equipoise.estimation.regression.formulations.rows import Formulation, Posed, Rows
+from equipoise.estimation.regression.formulations.torque import savitzky_golay, torque
+from equipoise.estimation.regression.linear_method import Question, aid_for, posed_of, posed_rows
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA
 from verification.method_records import Condition, Record, condition

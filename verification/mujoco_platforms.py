@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
-from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import mujoco_bench as oracle
 from verification.chance import mean_square_band
 from verification.result import Result, Row, Spread, at_most, between, in_turn

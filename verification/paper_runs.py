@@ -9,9 +9,9 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.dynamics.propagation import body_of, propagate
-from equipoise.estimation.trajectory_problem import Problem, evaluate
-from equipoise.estimation.unknowns import Unknowns
-from equipoise.io.presets import read_preset
+from equipoise.estimation.output_error.problem import Problem, evaluate
+from equipoise.estimation.parameters.fit_parameters import Unknowns
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.attitude import exponential
 from equipoise.maths.linalg import unpack_symmetric

@@ -27,15 +27,15 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.design.choices import Space
-from equipoise.design.criterion import sizes
-from equipoise.design.plan import TRIALS, Wish, planned
-from equipoise.design.promise import Promise, promise
-from equipoise.design.scenario import beforehand
-from equipoise.design.usual import usual
-from equipoise.estimation.method import Options
+from equipoise.design.manoeuvre.criterion import sizes
+from equipoise.design.manoeuvre.manoeuvre_space import Space
+from equipoise.design.manoeuvre.plan import TRIALS, Wish, planned
+from equipoise.design.manoeuvre.predicted_sd import Promise, promise
+from equipoise.design.manoeuvre.reference_manoeuvre import usual
+from equipoise.design.manoeuvre.scenario import beforehand
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.trajectory import params_of
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed, Truth

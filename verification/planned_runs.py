@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.model_choice import PLUMB
+from equipoise.estimation.model_selection.model_choice import PLUMB
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model import sensor_terms, torque_terms
@@ -20,7 +20,7 @@ from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties, smallest_second_moment
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.simulation import actuator
 from equipoise.simulation.carried_out import bench_for, carried_out, let_go
 from equipoise.simulation.draw_truth import SimulatedPlatform, draw_truth

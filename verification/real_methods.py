@@ -12,19 +12,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.formulations.rows import body_with
-from equipoise.estimation.method import Options, heeded
+from equipoise.estimation.method_contract import Options, heeded
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.estimation.trajectory import Params, fit, misfit_at
-from equipoise.io.recording_file import read_recording
-from equipoise.io.testbed_file import read_testbed
+from equipoise.estimation.output_error.trajectory import Params, fit, misfit_at
+from equipoise.estimation.regression.formulations.rows import body_with
+from equipoise.io.recording.recording_file import read_recording
+from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.recording import window
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS
-from equipoise.procedure.identify import IdentifyOptions, identify
-from equipoise.procedure.sound_rows import sound
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
+from equipoise.procedure.steps.clean_record import sound
 from equipoise.study.candour import warns
 from verification.real_record import CALM_FROM, HELD, RECORD, TESTBED, WHOLE
 from verification.result import Result, Row, Spread, at_most, in_turn

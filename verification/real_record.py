@@ -10,19 +10,19 @@ from pathlib import Path
 
 import numpy as np
 
-from equipoise.assessment.record_findings import findings
-from equipoise.estimation import reference
-from equipoise.estimation.jumps import carried
-from equipoise.estimation.trajectory import Params, problem_of
-from equipoise.estimation.trajectory_problem import evaluate
-from equipoise.io.recording_file import read_recording
-from equipoise.io.testbed_file import read_testbed
+from equipoise.assessment.findings.record_findings import findings
+from equipoise.estimation.model_selection import reference_fit
+from equipoise.estimation.output_error.problem import evaluate
+from equipoise.estimation.output_error.segment_jumps import carried
+from equipoise.estimation.output_error.trajectory import Params, problem_of
+from equipoise.io.recording.recording_file import read_recording
+from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import window
 from equipoise.model.torque_terms import GROUPS
-from equipoise.procedure.identify import IdentifyOptions, identify
-from equipoise.procedure.look_at_swing import looked_at
-from equipoise.procedure.sound_rows import sound
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.swing_metrics import looked_at
+from equipoise.procedure.steps.clean_record import sound
 from verification.result import Result, Row, Spread, at_most, in_turn, triple
 
 ROOT = Path(__file__).parents[1]
@@ -59,7 +59,7 @@ def predicted() -> float:
     recording, testbed = sound(read_recording(RECORD), read_testbed(TESTBED))
     part = window(recording, WHOLE[0], CALM_FROM)
     params = Params(GROUPS["viscous"], hold=HELD)
-    belief = reference.steady(reference.surveyed(part, testbed, params))
+    belief = reference_fit.steady(reference_fit.surveyed(part, testbed, params))
     known = replace(belief.params, jumps=belief.fitted.problem.jumps)
     problem = problem_of(recording, belief.testbed, known)
     jumps = carried(belief.fitted.problem.jumps, belief.fitted.jumps, problem.jumps)

@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 
-from equipoise.io.live_recording import LiveRecording, Opening
+from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.model.recording import Recording, Samples
 
 RATE = 200  # Hz

@@ -15,7 +15,7 @@ from scipy.stats import f
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM, END, INERTIA, Estimate
 from equipoise.model.recording import Recording, Samples
-from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import mujoco_bench as oracle
 from verification.chance import RARE
 from verification.method_records import Record, regime

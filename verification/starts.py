@@ -10,12 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.fitted import Fitted
-from equipoise.estimation.trajectory import Params, fit
+from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.model.arrays import Vector3
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import cases
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 from verification.stated_errors import stated_errors

@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation import tracker, trajectory
-from equipoise.estimation.unknowns import JP, R
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.parameters.fit_parameters import JP, R
+from equipoise.estimation.tracker import tracker
 from equipoise.maths.linalg import unpack_symmetric
 from tests import builders
 from verification import paper_runs

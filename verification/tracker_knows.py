@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation import tracker
+from equipoise.estimation.tracker import tracker
 from equipoise.model.estimate import NORMAL_95
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import Testbed

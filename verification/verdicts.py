@@ -15,19 +15,24 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import binom
 
-from equipoise.assessment.torque_range import torque_in_range
+from equipoise.assessment.metrics.torque_range import torque_in_range
 from equipoise.dynamics.sag_trim import residual_torque
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.gaussian_length import bounded_length
 from equipoise.model.estimate import COM
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
-from equipoise.procedure.assess import AssessOptions, answers_of, believed_of, pull_of
-from equipoise.procedure.look_at_swing import looked_at
-from equipoise.procedure.requirement import FAILED, OPEN, PASSED
-from equipoise.procedure.tilt_guard import guarded
+from equipoise.procedure.identification.assess import (
+    AssessOptions,
+    answers_of,
+    believed_of,
+    pull_of,
+)
+from equipoise.procedure.identification.requirement import FAILED, OPEN, PASSED
+from equipoise.procedure.identification.swing_metrics import looked_at
+from equipoise.procedure.steps.tilt_guard import guarded
 from equipoise.simulation.bench import SimulatedBench
 from tests.oracle import mujoco_bench as oracle
 from verification.chance import FULL, RARE

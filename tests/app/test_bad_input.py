@@ -6,7 +6,7 @@
 import numpy as np
 import pytest
 
-from equipoise.io.presets import preset_text
+from equipoise.io.testbed.presets import preset_text
 
 PRESET = preset_text("sputnix")
 HEAD = "time_s,q_w,q_x,q_y,q_z\n"

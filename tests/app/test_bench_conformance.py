@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from equipoise.app.watched_bench import WatchedBench
-from equipoise.hardware.replayed_bench import ReplayedBench
-from equipoise.io.presets import read_preset
+from equipoise.app.live.observed_bench import WatchedBench
+from equipoise.hardware.bench.replayed_bench import ReplayedBench
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError, MoveRefused
 from equipoise.simulation.bench import SimulatedBench

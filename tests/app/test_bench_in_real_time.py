@@ -14,9 +14,9 @@ import pytest
 from websockets.sync.client import connect
 
 from equipoise.app.cli import BY_HAND
-from equipoise.io.live_view import ADDRESS
-from equipoise.io.mcap_recording import events_of
-from equipoise.io.recording_file import read_recording
+from equipoise.io.mcap.foxglove_server import ADDRESS
+from equipoise.io.mcap.mcap_recording import events_of
+from equipoise.io.recording.recording_file import read_recording
 
 pytest.importorskip("pty", reason="no pseudo terminals, no SIGINT")
 from tests.at_terminal import AtTerminal, screen, stripped

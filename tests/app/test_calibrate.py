@@ -5,8 +5,8 @@ import json
 import pytest
 
 from equipoise.app.cli import run
-from equipoise.io.presets import preset_text
-from equipoise.io.testbed_file import read_testbed
+from equipoise.io.testbed.presets import preset_text
+from equipoise.io.testbed.testbed_file import read_testbed
 
 DRIVE = """[[truth.drive]]
 mass = "x1"

@@ -5,8 +5,8 @@ import pytest
 
 pytest.importorskip("cv2", reason="the extra 'camera' is not installed")
 
-from equipoise.io.presets import read_preset
-from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.io.testbed.presets import read_preset
+from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from tests.emulated_lab import lab, over_tcp
 
 

@@ -9,7 +9,7 @@ import pytest
 from study.made_up_runs import comparison, made_up
 from study.test_recommend import compared as compared_laws
 
-from equipoise.app import comparing
+from equipoise.app.runs import comparison as comparison_runs
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.study.method_run import JUDGED, Cost
 
@@ -86,9 +86,9 @@ def without_work(monkeypatch):
     refused = [made_up(ending="refused", sentence="No gyro.", method="ekf_12", seed=k)
                for k in range(20)]  # fmt: skip
     runs = [*refused, *failing, *honest("tracker", 2.0, settled=12.0)]
-    monkeypatch.setattr(comparing, "run_methods", lambda *_: comparison(runs))
+    monkeypatch.setattr(comparison_runs, "run_methods", lambda *_: comparison(runs))
     laws = compared_laws(("pid", 8e-6, 0, 0))
-    monkeypatch.setattr(comparing, "run", lambda *_: laws)
+    monkeypatch.setattr(comparison_runs, "run", lambda *_: laws)
 
 
 @pytest.mark.usefixtures("without_work")
@@ -147,7 +147,7 @@ def test_table_3_keeps_rows_of_the_review_that_no_law_ran_for(equipoise):
 
 def test_it_ends_with_1_when_nobody_can_be_recommended(equipoise, monkeypatch):
     runs = honest("tracker", 2.0)[:19] + [made_up([30.0], [1.0], method="tracker", seed=19)]
-    monkeypatch.setattr(comparing, "run_methods", lambda *_: comparison(runs))
+    monkeypatch.setattr(comparison_runs, "run_methods", lambda *_: comparison(runs))
     done = equipoise("compare", "sputnix", "--methods")
     assert done.code == 1
     assert "no method to recommend" in told_of(done)
@@ -156,7 +156,7 @@ def test_it_ends_with_1_when_nobody_can_be_recommended(equipoise, monkeypatch):
 
 def test_an_open_scale_is_told(equipoise, monkeypatch):
     runs = [made_up((), (), [float("inf")] * 3, method="trajectory", seed=k) for k in range(3)]
-    monkeypatch.setattr(comparing, "run_methods", lambda *_: comparison(runs))
+    monkeypatch.setattr(comparison_runs, "run_methods", lambda *_: comparison(runs))
     done = equipoise("compare", "sputnix", "--methods")
     assert done.code == 1
     assert "give --move, --hold or --prior" in told_of(done)
@@ -164,9 +164,12 @@ def test_an_open_scale_is_told(equipoise, monkeypatch):
 
 def test_names_go_to_their_kind():
     only = ("trajectory, pid", "tracker")
-    assert comparing.by_kind(only, methods=True, laws=True) == (["trajectory", "tracker"], ["pid"])
-    assert comparing.by_kind((), methods=True, laws=False) == ([], [])
-    assert comparing.chosen_methods([]) == tuple(METHODS)
+    assert comparison_runs.by_kind(only, methods=True, laws=True) == (
+        ["trajectory", "tracker"],
+        ["pid"],
+    )
+    assert comparison_runs.by_kind((), methods=True, laws=False) == ([], [])
+    assert comparison_runs.chosen_methods([]) == tuple(METHODS)
 
 
 WRONG = {

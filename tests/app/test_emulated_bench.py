@@ -9,15 +9,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.app.balancing import Goal, Limits, run
-from equipoise.io.live_recording import RecordingStopped
-from equipoise.io.presets import read_preset
+from equipoise.app.runs.balancing import Goal, Limits, run
+from equipoise.io.mcap.live_recording import RecordingStopped
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import difference
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError, MoveRefused
 from equipoise.model.hardware import Port
 from equipoise.model.recording import Samples
-from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from tests import emulated_lab
 from tests.emulated_lab import over_tcp
 from tests.hardware.board_wire import board_of

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.app import balancing
+from equipoise.app.runs import balancing
 from equipoise.model.step import Step
 from equipoise.model.verdict import Verdict
 from equipoise.simulation.bench import SimulatedBench

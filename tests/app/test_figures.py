@@ -10,16 +10,17 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
-from equipoise.app.demonstration import looked
-from equipoise.app.figures import record
-from equipoise.app.figures.balanced_com import Story
-from equipoise.app.figures.style import MOST, STYLE, thinned
-from equipoise.app.outputs import rendered
-from equipoise.app.pictures import of_balancing, of_fit, of_move, of_tracking
-from equipoise.assessment.finding import Finding
-from equipoise.estimation import reference, trajectory
-from equipoise.io.presets import read_preset
+from equipoise.app.figures.balancing.balanced_com import Story
+from equipoise.app.figures.base.files import rendered
+from equipoise.app.figures.base.style import MOST, STYLE, thinned
+from equipoise.app.figures.catalogue import of_balancing, of_fit, of_move, of_tracking
+from equipoise.app.figures.recording import record
+from equipoise.app.runs.demonstration import looked
+from equipoise.estimation.model_selection import reference_fit
+from equipoise.estimation.output_error import trajectory
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential
+from equipoise.model.finding import Finding
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.simulation.bench import SimulatedBench
 
@@ -31,7 +32,7 @@ PNG = b"\x89PNG"
 def pictures():
     bench = SimulatedBench(BED, seed=1)
     recording, truth = looked(bench)
-    estimate = reference.estimate(recording, BED, trajectory.Params())
+    estimate = reference_fit.estimate(recording, BED, trajectory.Params())
     looks = [(30.0, truth[1][0], np.full(3, 1e-6)), (90.0, truth[1][-1], np.full(3, np.inf))]
     story = Story(looks, np.array([0, 0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]), truth)
     found = [
@@ -82,7 +83,11 @@ def test_drawing_leaves_matplotlib_as_it_was(pictures):
 
 
 def test_no_window_is_ever_thought_of():
-    code = "import sys, equipoise.app.demonstration; assert 'matplotlib.pyplot' not in sys.modules"
+    code = (
+        "import sys, equipoise.app.runs.demonstration
+"
+        "assert 'matplotlib.pyplot' not in sys.modules"
+    )
     subprocess.run([sys.executable, "-c", code], check=True)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.app.views_json import finite
+from equipoise.app.text.json_document import finite
 
 PARAMETER = {"name", "unit", "value", "sd", "low95", "high95", "observable"}
 

@@ -12,7 +12,7 @@ import pypdfium2
 import pytest
 
 from equipoise.app.cli import run
-from equipoise.io.run_file import read_run, text_of_run
+from equipoise.io.documents.run_file import read_run, text_of_run
 
 INSIDE = {"report.html", "report.pdf", "report.json", "figures", "testbed.toml", "run.json"}
 

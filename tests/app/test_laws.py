@@ -6,12 +6,12 @@ import sys
 import numpy as np
 import pytest
 
-from equipoise.app import comparing
+from equipoise.app.runs import comparison
 from equipoise.control.law import NEEDS
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.balance import BalanceOptions
-from equipoise.procedure.laws import CARDS, OWN
+from equipoise.procedure.balancing.balance import BalanceOptions
+from equipoise.procedure.balancing.catalogue import CARDS, OWN
 from equipoise.study.compare_laws import Refusal, compared
 from equipoise.study.law_run import LawRun, Task
 
@@ -141,7 +141,7 @@ def without_work(monkeypatch):
                  for seed in asked.seeds for card in asked.cards]  # fmt: skip
         return compared(tasks, asked.cards, asked.required, lambda *_: map(finding, tasks))
 
-    monkeypatch.setattr(comparing, "run", found)
+    monkeypatch.setattr(comparison, "run", found)
 
 
 THREE = ("compare", "reference-table", "--laws", "--only", "pid", "--only", "slew_and_look",
@@ -204,6 +204,6 @@ def test_wrong_use_is_told_in_one_sentence(equipoise, words, wanted):
 
 def test_all_that_suit_the_testbed_are_taken_when_none_is_named():
     """The mock-up has neither gyro nor wheels."""
-    assert [card.name for card in comparing.chosen(read_preset("sputnix"), ())] == [OWN.name]
-    table = [card.name for card in comparing.chosen(read_preset("reference-table"), ())]
+    assert [card.name for card in comparison.chosen(read_preset("sputnix"), ())] == [OWN.name]
+    table = [card.name for card in comparison.chosen(read_preset("reference-table"), ())]
     assert table == list(CARDS)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from mcap.reader import make_reader
 
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.wiring import fitting_recording_of
-from equipoise.io.live_recording import LiveRecording, Opening
-from equipoise.io.mcap_recording import stored_testbed
-from equipoise.io.presets import read_preset
-from equipoise.io.recording_file import read_recording
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.resolve import fitting_recording_of
+from equipoise.io.mcap.live_recording import LiveRecording, Opening
+from equipoise.io.mcap.mcap_recording import stored_testbed
+from equipoise.io.recording.recording_file import read_recording
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording, Samples, rows_between
 
 
@@ -117,7 +117,9 @@ def test_a_replay_keeps_its_pace(equipoise, record_file):
 
 
 def test_a_replay_is_served_to_foxglove(equipoise, record_file, monkeypatch):
-    monkeypatch.setattr("equipoise.io.live_view.PORT", 0)  # the customary one may be taken here
+    monkeypatch.setattr(
+        "equipoise.io.mcap.foxglove_server.PORT", 0
+    )  # the customary one may be taken here
     words = ("--speed", 0, "--foxglove", "--from-s", 10, "--to-s", 12)
     told = equipoise("replay", record_file, "--testbed", "sputnix", *words)
     assert "ws://127.0.0.1:" in told.out

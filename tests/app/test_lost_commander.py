@@ -14,22 +14,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.app.balancing import halted
-from equipoise.app.emulation import emulate
-from equipoise.app.kept_bench import KeptBench, Wanted
-from equipoise.hardware.own_process import DistantKeeper
-from equipoise.hardware.real_bench import RealBench
-from equipoise.hardware.wall_clock import WallClock
-from equipoise.io.live_recording import RecordingStopped
-from equipoise.io.presets import read_preset
-from equipoise.io.testbed_file import write_testbed
+from equipoise.app.bench.emulation import emulate
+from equipoise.app.bench.open_bench import KeptBench, Wanted
+from equipoise.app.runs.balancing import halted
+from equipoise.hardware.bench.controller_process import DistantKeeper
+from equipoise.hardware.bench.real_bench import RealBench
+from equipoise.hardware.bench.wall_clock import WallClock
+from equipoise.io.mcap.live_recording import RecordingStopped
+from equipoise.io.testbed.presets import read_preset
+from equipoise.io.testbed.testbed_file import write_testbed
 from equipoise.model.errors import BenchStopped
 
 COMMANDER = """
 import sys, time
 from pathlib import Path
-from equipoise.app.kept_bench import Wanted, real_bench
-from equipoise.io.testbed_file import read_testbed
+from equipoise.app.bench.open_bench import Wanted, real_bench
+from equipoise.io.testbed.testbed_file import read_testbed
 
 def main():
     wanted = Wanted(read_testbed(sys.argv[1]), Path(sys.argv[2]))
@@ -202,9 +202,9 @@ def test_ctrl_c_at_any_moment_leaves_the_bench_at_command():
 
 def test_ports_are_free_again_after_a_kill(tmp_path):
     """The lock goes with the process; the record of before can be read."""
-    from equipoise.hardware.one_commander import commanding
+    from equipoise.hardware.bench.port_lock import commanding
 
-    script = "import os, signal\nfrom equipoise.hardware.one_commander import commanding\n"
+    script = "import os, signal\nfrom equipoise.hardware.bench.port_lock import commanding\n"
     script += "with commanding(['tcp:x:1']):\n    os.kill(os.getpid(), signal.SIGKILL)\n"
     subprocess.run([sys.executable, "-c", script], check=False)
     start = time.monotonic()

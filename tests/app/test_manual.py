@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from equipoise.io.hand_session import Piles
-from equipoise.io.presets import read_preset
-from equipoise.io.recording_file import write_recording
+from equipoise.io.documents.manual_session import Piles
+from equipoise.io.recording.recording_file import write_recording
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.weights import unloaded
-from equipoise.procedure.balance_by_hand import HandOptions, balance_by_hand
+from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
 from equipoise.simulation.hands import SimulatedHands
 
 BED = read_preset("weights-by-hand")
@@ -168,7 +168,7 @@ def test_a_platform_without_weights_is_sent_to_the_preset(equipoise):
 
 
 def test_a_stock_that_does_not_suffice_ends_with_1(equipoise, tmp_path):
-    from equipoise.io.testbed_file import write_testbed
+    from equipoise.io.testbed.testbed_file import write_testbed
 
     few = replace(BED, weights=(replace(BED.weights[0], count=3),))
     write_testbed(few, tmp_path / "few.toml")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.app.newest import SPAN, Newest, after, masses_of, tilt_of, time_of
+from equipoise.app.live.latest_rows import SPAN, Newest, after, masses_of, tilt_of, time_of
 from equipoise.model.recording import Recording, Samples
 
 UP = np.array([0.0, 0.0, 1.0])

@@ -5,7 +5,9 @@ from html.parser import HTMLParser
 import pypdfium2
 import pytest
 
-from equipoise.app.page import (
+from equipoise.app.report.html import html
+from equipoise.app.report.pdf import pdf
+from equipoise.app.text.blocks import (
     Claim,
     Drawn,
     Grid,
@@ -19,8 +21,6 @@ from equipoise.app.page import (
     page_of_text,
     text_of_page,
 )
-from equipoise.app.page_html import html
-from equipoise.app.page_pdf import pdf
 from equipoise.model.errors import InputError
 
 ODD = r"""#let *a* _b_ $x$ @c `d` \e <f> & "g" 'h' [i] {j} ~ = + - / // 4. k"""

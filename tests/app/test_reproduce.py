@@ -4,7 +4,7 @@ from functools import cache
 
 import pytest
 
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.study import lee
 
 SHORT = 16.0  # s: the large slew has passed its singularity

@@ -2,7 +2,7 @@
 
 from time import process_time
 
-from equipoise.app.run_folder import free
+from equipoise.app.logbook.run_folder import free
 
 
 def test_a_taken_name_gets_a_number(tmp_path):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from equipoise.app.sparkline import BLOCKS, PLAIN, in_columns, sparkline
+from equipoise.app.text.sparkline import BLOCKS, PLAIN, in_columns, sparkline
 
 
 def test_letters_go_in_eighths_from_zero_to_the_greatest():

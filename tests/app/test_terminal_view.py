@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from equipoise.app import terminal
 from equipoise.app.cli import BY_HAND
-from equipoise.app.recording_view import RecordingView
-from equipoise.app.sparkline import BLOCKS
-from equipoise.app.terminal_view import TerminalView, filled, watched_by
-from equipoise.io.presets import read_preset
+from equipoise.app.console import terminal
+from equipoise.app.live.recording_progress import RecordingView
+from equipoise.app.live.status_block import TerminalView, filled, watched_by
+from equipoise.app.text.sparkline import BLOCKS
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.step import Step
 from equipoise.model.verdict import Verdict

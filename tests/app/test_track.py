@@ -14,8 +14,8 @@ from equipoise.hardware.camera.eye import eye_of  # noqa: E402
 from equipoise.hardware.emulated.camera import EmulatedCamera, renderer_of  # noqa: E402
 from equipoise.hardware.emulated.far_side import TcpFarSide  # noqa: E402
 from equipoise.hardware.emulated.rendering import Look  # noqa: E402
-from equipoise.io.presets import read_preset  # noqa: E402
-from equipoise.io.recording_file import read_recording  # noqa: E402
+from equipoise.io.recording.recording_file import read_recording  # noqa: E402
+from equipoise.io.testbed.presets import read_preset  # noqa: E402
 from equipoise.maths.attitude import difference, from_euler321, to_matrix  # noqa: E402
 from equipoise.model.recording import Recording, Samples  # noqa: E402
 

@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.app.recorded_bench import RecordedBench
-from equipoise.app.watched_bench import WatchedBench
-from equipoise.io.presets import read_preset
+from equipoise.app.bench.recorded_bench import RecordedBench
+from equipoise.app.live.observed_bench import WatchedBench
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import BenchStopped
 from equipoise.model.recording import CHANNELS, Recording, Samples, joined
 from equipoise.simulation.bench import SimulatedBench

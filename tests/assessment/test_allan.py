@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.assessment.allan import allan_deviation, wander_of
+from equipoise.assessment.metrics.allan import allan_deviation, wander_of
 
 T = 60.0 * np.arange(240)
 SD = np.full((240, 3), 1e-7)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.assessment.clock_offset import clock_offset, offset_findings
+from equipoise.assessment.record_checks.clock_offset import clock_offset, offset_findings
 from equipoise.maths.attitude import exponential, multiply, normalise
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro

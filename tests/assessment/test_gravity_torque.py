@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from equipoise.assessment.gravity_torque import gravity_torque
-from equipoise.assessment.motion_energy import motion_energy
+from equipoise.assessment.metrics.gravity_torque import gravity_torque
+from equipoise.assessment.metrics.motion_energy import motion_energy
 from equipoise.maths.attitude import exponential, normalise
 from equipoise.maths.linalg import unpack_symmetric
 from tests.builders import COM, GRAVITY, INERTIA, MASS, platform

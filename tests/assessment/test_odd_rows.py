@@ -5,10 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from equipoise.assessment.frozen_rows import frozen_attitudes, frozen_rates
-from equipoise.assessment.odd_rows import odd_attitudes, odd_rates, odd_row_findings
-from equipoise.assessment.outlying_rows import outlying_attitudes, outlying_rates
-from equipoise.io.recording_file import read_recording
+from equipoise.assessment.record_checks.flagged_rows import (
+    odd_attitudes,
+    odd_rates,
+    odd_row_findings,
+)
+from equipoise.assessment.record_checks.frozen_rows import frozen_attitudes, frozen_rates
+from equipoise.assessment.record_checks.outliers import outlying_attitudes, outlying_rates
+from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import exponential, multiply, normalise
 from equipoise.model.recording import Recording, Samples
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.special import ellipk
 
-from equipoise.assessment.period import swings
-from equipoise.assessment.spectrum import is_even, spectrum
+from equipoise.assessment.metrics.period import swings
+from equipoise.assessment.metrics.spectrum import is_even, spectrum
 
 RNG = np.random.default_rng
 T = np.arange(0.0, 120.0, 0.2)

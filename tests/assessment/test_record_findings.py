@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from equipoise.assessment.attitude_noise import attitude_noise
-from equipoise.assessment.gyro_agreement import correlation, rate_pairs
-from equipoise.assessment.quantisation import step_of
-from equipoise.assessment.rate_quality import rate_noise
-from equipoise.assessment.record_findings import findings, problems
-from equipoise.io.presets import read_preset
+from equipoise.assessment.findings.record_findings import findings, problems
+from equipoise.assessment.record_checks.attitude_noise import attitude_noise
+from equipoise.assessment.record_checks.gyro_consistency import correlation, rate_pairs
+from equipoise.assessment.record_checks.quantisation import step_of
+from equipoise.assessment.record_checks.rate_quality import rate_noise
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.model.recording import Recording, Samples
 

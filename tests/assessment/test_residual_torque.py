@@ -3,7 +3,11 @@
 import numpy as np
 import pytest
 
-from equipoise.assessment.residual_torque import level_torque, swing_period, with_doubtful_inertia
+from equipoise.assessment.metrics.residual_torque import (
+    level_torque,
+    swing_period,
+    with_doubtful_inertia,
+)
 
 UP = np.array([0.0, 0.0, 1.0])
 WEIGHT = 10.0  # N

@@ -6,10 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from equipoise.assessment.record_findings import findings
-from equipoise.assessment.row_averaging import RowAveraging, row_averaging, with_window
-from equipoise.io.presets import read_preset
-from equipoise.io.recording_file import read_recording
+from equipoise.assessment.findings.record_findings import findings
+from equipoise.assessment.record_checks.exposure_averaging import (
+    RowAveraging,
+    row_averaging,
+    with_window,
+)
+from equipoise.io.recording.recording_file import read_recording
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, multiply, normalise
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor

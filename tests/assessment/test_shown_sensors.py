@@ -3,7 +3,11 @@
 import numpy as np
 import pytest
 
-from equipoise.assessment.shown_sensors import shown_camera, shown_gyro, unstated_findings
+from equipoise.assessment.record_checks.sensor_noise import (
+    shown_camera,
+    shown_gyro,
+    unstated_findings,
+)
 from equipoise.maths.attitude import exponential
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.assessment.period import Swing
-from equipoise.assessment.swing_height import hanging
-from equipoise.assessment.swing_modes import swing_rates
+from equipoise.assessment.metrics.period import Swing
+from equipoise.assessment.metrics.swing_height import hanging
+from equipoise.assessment.metrics.swing_modes import swing_rates
 
 DOWN = np.array([0.0, 0.0, -1.0])
 J = np.diag([0.30, 0.40, 0.60])

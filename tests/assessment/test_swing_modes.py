@@ -5,9 +5,9 @@ import pytest
 from builders import GRAVITY, MASS
 
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.assessment.period import swings
-from equipoise.assessment.residual_torque import swing_period
-from equipoise.assessment.swing_modes import across, moment_for, swing_axes, swing_rates
+from equipoise.assessment.metrics.period import swings
+from equipoise.assessment.metrics.residual_torque import swing_period
+from equipoise.assessment.metrics.swing_modes import across, moment_for, swing_axes, swing_rates
 from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.timeline import timeline
 from equipoise.maths.attitude import exponential, to_matrix

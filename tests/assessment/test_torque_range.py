@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.assessment.torque_range import Pull, levers, torque_form, torque_in_range
+from equipoise.assessment.metrics.torque_range import Pull, levers, torque_form, torque_in_range
 from equipoise.dynamics.sag_trim import SAG_TERMS, residual_torque, sag_matrix
 from equipoise.model.estimate import COM
 

@@ -19,7 +19,7 @@ from equipoise.model.following import Following
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
-from equipoise.procedure.run_law import looked_into
+from equipoise.procedure.balancing.run_law import looked_into
 from equipoise.simulation.motion import run
 
 MASS, GRAVITY = 14.0, 9.81

@@ -7,7 +7,14 @@ import pytest
 from control.plain_loop import GRAVITY, INERTIA, MASS, Truth, begun, go, platform, sample, wheels
 
 from equipoise.actuators.sliding_masses import mass_maps
-from equipoise.control.attitude_pid import Gains, at_rest, error_of, gains_for, torque, unwound
+from equipoise.control.elements.attitude_pid import (
+    Gains,
+    at_rest,
+    error_of,
+    gains_for,
+    torque,
+    unwound,
+)
 from equipoise.control.sample import Sample
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.maths.attitude import exponential, from_euler321, logarithm, multiply, to_matrix

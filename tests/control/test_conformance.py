@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 from equipoise.control.law import NEEDS, Law
-from equipoise.control.registry import ALL, LAWS
-from equipoise.io.presets import read_preset
+from equipoise.control.laws.registry import ALL, LAWS
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.command import Command, Look
 from equipoise.model.devices import JetPair, Magnetorquer, ReactionWheel
 from equipoise.model.errors import EquipoiseError, InputError
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.laws import CARDS
-from equipoise.procedure.run_law import LawOptions, check, run_law
+from equipoise.procedure.balancing.catalogue import CARDS
+from equipoise.procedure.balancing.run_law import LawOptions, check, run_law
 from equipoise.simulation.bench import SimulatedBench
 
 every_law = pytest.mark.parametrize("name", LAWS)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from control.plain_loop import GRAVITY, MASS, Truth, close, platform
 
-from equipoise.control.follow import following_law, shift_at
+from equipoise.control.laws.follow import following_law, shift_at
 from equipoise.control.sample import Sample
 from equipoise.dynamics.sag_trim import sag_matrix, trimmed_com, trimming_shift
 from equipoise.maths.attitude import exponential, to_matrix

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.control import fully_actuated
-from equipoise.control.fully_actuated import LAW, State, step
-from equipoise.control.sweep import wanted
+from equipoise.control.elements.sweep import wanted
+from equipoise.control.laws import fully_actuated
+from equipoise.control.laws.fully_actuated import LAW, State, step
 from equipoise.maths.attitude import exponential
 from equipoise.model.devices import ControlMomentGyro
 from equipoise.model.errors import InputError

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.control import hanging as h
+from equipoise.control.plant import pendulum as h
 from equipoise.control.sample import Sample
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.model.errors import InputError

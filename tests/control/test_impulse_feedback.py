@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.control import impulse_feedback as law
+from equipoise.control.laws import impulse_feedback as law
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import skew
 from equipoise.model.devices import JetPair

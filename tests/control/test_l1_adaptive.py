@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.linalg import expm, solve_continuous_lyapunov
 
-from equipoise.control import l1_adaptive as law
-from equipoise.control.hanging import rate_of, tilt_of, turned
-from equipoise.control.l1_condition import l1_norm
-from equipoise.control.sampled_loop import radius
+from equipoise.control.elements.l1_norm import l1_norm
+from equipoise.control.elements.loop_stability import radius
+from equipoise.control.laws import l1_adaptive as law
+from equipoise.control.plant.pendulum import rate_of, tilt_of, turned
 from equipoise.model.errors import InputError
 from tests.control.simple_loop import NOISE, OFFSET, Loop, Plant, fly, guess, masses, table
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from control.plain_loop import GRAVITY, MASS, UP, Truth, close, platform, sample, wheels
 
-from equipoise.control import momentum_buildup as mb
-from equipoise.control.buildup_plan import stages_of
-from equipoise.control.follow import shift_at
+from equipoise.control.elements.buildup_plan import stages_of
+from equipoise.control.laws import momentum_buildup as mb
+from equipoise.control.laws.follow import shift_at
 from equipoise.dynamics.sag_trim import downs, residual_torque, trimmed_com
 from equipoise.maths.attitude import exponential, tilt, to_matrix
 from equipoise.model.errors import InputError
@@ -121,7 +121,7 @@ def test_unloading_is_against_the_momentum_that_is_stored():
     _, params = mb.LAW.begin(bed, np.zeros(3))
     from control.test_momentum_ledger import seen_at
 
-    from equipoise.control.momentum_ledger import opened
+    from equipoise.control.elements.momentum_balance import opened
 
     q = exponential(np.array([0.1, -0.05, 0.8]))
     seen = seen_at(q)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from control.plain_loop import GRAVITY, INERTIA, MASS, Truth, begun, go, platform, sample
 
-from equipoise.control import momentum_ledger as ml
-from equipoise.control.attitude_pid import at_rest, gains_for, torque, unwound
+from equipoise.control.elements import momentum_balance as ml
+from equipoise.control.elements.attitude_pid import at_rest, gains_for, torque, unwound
 from equipoise.control.sample import Sample
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.command import Command

@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.control import hanging, height, pid
-from equipoise.control.ziegler_nichols import measured, ultimate
+from equipoise.control.elements import height_adjustment
+from equipoise.control.elements.ziegler_nichols import measured, ultimate
+from equipoise.control.laws import pid
+from equipoise.control.plant import pendulum
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
@@ -112,7 +114,7 @@ def test_an_integral_whose_command_was_not_delivered_unwinds():
     """Masses that report no shift while 20 um were asked: I' has minus their difference."""
     state, params = pid.begin(guess(), np.zeros(3))
     loop = Loop(Plant(table(), [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]))
-    asked = hanging.shift_for(params.plant, np.array([20e-6, 0.0]))
+    asked = pendulum.shift_for(params.plant, np.array([20e-6, 0.0]))
     state = replace(state, phase="level", asked=asked, integral=np.zeros(2))
     after, _ = pid.step(state, loop.sample(np.zeros(3), np.zeros(3)), params)
     p, i, _ = params.gains[0]
@@ -124,7 +126,7 @@ def test_a_look_that_sees_nothing_ends_it_level():
     state, params = pid.begin(guess(), np.zeros(3))
     loop, zero = Loop(Plant(table(), TURN, RATE)), np.zeros(3)
     level, seen = np.array([1e-6, 2e-6, 3e-6]), loop.sample(zero, zero)
-    way = height.once_level(params.plant, state.height, seen, level, zero)
+    way = height_adjustment.once_level(params.plant, state.height, seen, level, zero)
     state = replace(state, phase="level", level=level, way=way)
     blind = Estimate("trajectory", Outcome(False, "too little motion"), (), np.zeros((0, 0)))
     state, command = pid.step(state, blind, params)
@@ -139,7 +141,7 @@ def test_looks_go_on_from_further_up_until_the_height_is_known():
     run = flown(5)
     assert run.looks == 3
     depths = [s.height.depth for s in run.states if s.level is not None]
-    assert min(depths) == height.SHALLOW
+    assert min(depths) == height_adjustment.SHALLOW
 
 
 def late(testbed, delay):

@@ -7,9 +7,9 @@ import pytest
 from control.plain_loop import GRAVITY, MASS, UP, Truth, begun, go, platform, sample
 from control.test_momentum_ledger import seen_at
 
-from equipoise.control import planar_feedback as pf
-from equipoise.control.good_moment import Waiting, amplitudes, watched
-from equipoise.control.swing_looks import Shown, believed, held
+from equipoise.control.elements import planar_feedback as pf
+from equipoise.control.plant.move_timing import Waiting, amplitudes, watched
+from equipoise.control.plant.swing_estimates import Shown, believed, held
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.command import Command
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from equipoise.control.hanging import hanging
-from equipoise.control.quiet import at_depth, bounds
+from equipoise.control.plant.pendulum import hanging
+from equipoise.control.plant.settling import at_depth, bounds
 from tests.control.simple_loop import guess
 
 

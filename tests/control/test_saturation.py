@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.control.saturation import (
+from equipoise.control.plant.actuator_limits import (
     filling_time,
     greatest_shift,
     greatest_slew,

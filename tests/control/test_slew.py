@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from control.plain_loop import platform, wheels
 
-from equipoise.control.capacity import capacity
-from equipoise.control.slew import Pace, end_of, levelled, reference_at, slew
+from equipoise.control.elements.slew import Pace, end_of, levelled, reference_at, slew
+from equipoise.control.plant.wheel_capacity import capacity
 from equipoise.maths.attitude import conjugate, exponential, logarithm, multiply, tilt
 from equipoise.model.devices import ControlMomentGyro
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.control.sweep import Sweep, cone, wanted
+from equipoise.control.elements.sweep import Sweep, cone, wanted
 
 AXES = np.array([[0.0, 0.8, 0.6], [1.0, 0.0, 0.0], [0.0, 0.6, -0.8]])  # columns e1, e2, up
 SWEEP = Sweep(AXES, 0.2, 0.7, 0.3)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from control.plain_loop import Truth, begun, carried_on, close, platform, wheels
 
-from equipoise.control import coarse_fine, planar_magnetic, slew_and_look
+from equipoise.control.laws import coarse_fine, planar_magnetic, slew_and_measure
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.devices import MagneticField, Magnetorquer
 from equipoise.model.errors import InputError
@@ -81,7 +81,7 @@ def test_turns_far_apart_show_all_of_r(seed):
     """Two rounds; the truth's inertia is 2 to 3 % off what the law is told."""
     com = np.random.default_rng(100 + seed).normal(size=3) * 10e-6
     bed = replace(platform(com_sd=10e-6), wheels=wheels(torque=0.02, momentum=0.4))
-    course = close(slew_and_look.LAW, bed, Truth(com, play=2e-6, seed=seed), LEVEL, 400.0)
+    course = close(slew_and_measure.LAW, bed, Truth(com, play=2e-6, seed=seed), LEVEL, 400.0)
     assert course.finished.startswith("At its place")
     assert np.abs(course.com).max() < 0.1e-6
     assert greatest_tilt(course) < 30
@@ -91,10 +91,10 @@ def test_turns_far_apart_show_all_of_r(seed):
 def test_where_wheels_cannot_hold_it_the_platform_swings_first(seed):
     """40 mN m s and an offset known to 30 um: two or three swings, then the turns."""
     bed = replace(hand_balanced(), wheels=wheels(torque=0.005, momentum=0.04))
-    state, params = slew_and_look.LAW.begin(bed, LEVEL)
+    state, params = slew_and_measure.LAW.begin(bed, LEVEL)
     assert state.round == 0
     assert params.bearable < 10e-6
-    course = close(slew_and_look.LAW, bed, truth_of(seed), LEVEL, 700.0)
+    course = close(slew_and_measure.LAW, bed, truth_of(seed), LEVEL, 700.0)
     assert course.finished.startswith("At its place")
     assert np.abs(course.com).max() < 0.3e-6
     assert greatest_tilt(course) < 30
@@ -103,7 +103,7 @@ def test_where_wheels_cannot_hold_it_the_platform_swings_first(seed):
 def test_turns_are_not_begun_with_wheels_that_gravity_would_fill():
     bed = replace(platform(com_sd=10e-6), wheels=wheels(torque=0.005, momentum=0.004))
     with pytest.raises(InputError, match=r"store 0\.004"):
-        slew_and_look.LAW.begin(bed, LEVEL)
+        slew_and_measure.LAW.begin(bed, LEVEL)
 
 
 def test_coils_and_a_field_are_asked_for():

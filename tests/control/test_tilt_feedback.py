@@ -6,8 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from equipoise.control.beforehand import likely_height, likely_offset
-from equipoise.control.tilt_feedback import (
+from equipoise.control.elements.tilt_feedback import (
     SAMPLED,
     SPEED,
     Gains,
@@ -18,6 +17,7 @@ from equipoise.control.tilt_feedback import (
     owed,
     shift_for,
 )
+from equipoise.control.plant.offset_bounds import likely_height, likely_offset
 from equipoise.maths.attitude import exponential
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.control import two_steps, underactuated, underactuated_integral
-from equipoise.control.tilt_feedback import (
+from equipoise.control.elements.tilt_feedback import (
     INTEGRAL,
     frequency_of,
     left_over,
@@ -15,6 +14,7 @@ from equipoise.control.tilt_feedback import (
     settling,
     swing_of,
 )
+from equipoise.control.laws import two_steps, underactuated, underactuated_integral
 from equipoise.maths.attitude import exponential
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.control.sampled_loop import (
+from equipoise.control.elements.loop_stability import (
     Sampled,
     closed,
     radius,
@@ -11,7 +11,7 @@ from equipoise.control.sampled_loop import (
     swing_input,
     swing_matrix,
 )
-from equipoise.control.ziegler_nichols import (
+from equipoise.control.elements.ziegler_nichols import (
     BAND,
     Gains,
     Loop,

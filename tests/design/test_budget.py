@@ -7,23 +7,23 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from equipoise.design.better import changes, what_to_buy
-from equipoise.design.budget import budget_of, seen
-from equipoise.design.case import Case
-from equipoise.design.likely_offsets import (
+from equipoise.design.manoeuvre.reference_swing import GUARD, gentle_swing, usual_swing
+from equipoise.design.sizing.budget import budget_of, seen
+from equipoise.design.sizing.case import Case
+from equipoise.design.sizing.environment import Surroundings
+from equipoise.design.sizing.likely_offsets import (
     even_normals,
     share_within,
     stated_offsets,
     with_covariance,
     within_reach,
 )
-from equipoise.design.limits import limit_sentence, verdict, worth_telling
-from equipoise.design.look import first_look, later_look
-from equipoise.design.reach import reach_of
-from equipoise.design.sizing import sized
-from equipoise.design.surroundings import Surroundings
-from equipoise.design.usual_swing import GUARD, gentle_swing, usual_swing
-from equipoise.io.presets import read_preset
+from equipoise.design.sizing.limits import limit_sentence, verdict, worth_telling
+from equipoise.design.sizing.measurement_bound import first_look, later_look
+from equipoise.design.sizing.reachable_set import reach_of
+from equipoise.design.sizing.sensitivity import changes, what_to_buy
+from equipoise.design.sizing.sizing import sized
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.linalg import symmetrise
 from tests.design.layouts import TOTAL, X, Y, Z, mass, testbed
 

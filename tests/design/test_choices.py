@@ -7,16 +7,23 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.square_waves import inputs_along, switchings
-from equipoise.design.choices import Space, chosen, greatest, level_axes
-from equipoise.design.criterion import score, sizes
-from equipoise.design.plan import Wish, merit, planned, search_for
-from equipoise.design.predicted import predicted
-from equipoise.design.promise import met
-from equipoise.design.rehearsal import for_search, peaks, rehearsal, started, thinned, told
-from equipoise.design.scenario import Scenario, beforehand, scenarios
-from equipoise.design.usual import usual
-from equipoise.estimation.trajectory import Params
-from equipoise.io.presets import read_preset
+from equipoise.design.manoeuvre.criterion import score, sizes
+from equipoise.design.manoeuvre.limit_check import (
+    for_search,
+    peaks,
+    rehearsal,
+    started,
+    thinned,
+    told,
+)
+from equipoise.design.manoeuvre.manoeuvre_space import Space, chosen, greatest, level_axes
+from equipoise.design.manoeuvre.plan import Wish, merit, planned, search_for
+from equipoise.design.manoeuvre.predicted_information import predicted
+from equipoise.design.manoeuvre.predicted_sd import met
+from equipoise.design.manoeuvre.reference_manoeuvre import usual
+from equipoise.design.manoeuvre.scenario import Scenario, beforehand, scenarios
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import leaning, tilt, to_matrix
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import SquareWave

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.design.evolution import SHARE, SIDE_BY_SIDE, least
+from equipoise.design.manoeuvre.cma_es import SHARE, SIDE_BY_SIDE, least
 
 GOAL = np.array([0.31, 0.62, 0.47, 0.85])
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.design.choices import Space, chosen, range_of
-from equipoise.design.first_choices import first_choices, home_share
-from equipoise.design.plan import excess
-from equipoise.design.rehearsal import Peaks
-from equipoise.io.presets import read_preset
+from equipoise.design.manoeuvre.initial_population import first_choices, home_share
+from equipoise.design.manoeuvre.limit_check import Peaks
+from equipoise.design.manoeuvre.manoeuvre_space import Space, chosen, range_of
+from equipoise.design.manoeuvre.plan import excess
+from equipoise.io.testbed.presets import read_preset
 
 TILT, RATE = np.radians(30.0), np.radians(5.0)
 

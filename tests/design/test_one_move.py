@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.design.one_move import at_home, move
+from equipoise.design.sizing.move_error import at_home, move
 from tests.design.layouts import X, Y, Z, box, mass, testbed
 
 UM = 1e-6

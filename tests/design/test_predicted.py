@@ -8,11 +8,11 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from equipoise.design.noiseless_record import imagined
-from equipoise.design.predicted import Known, followed_truth, predicted
-from equipoise.estimation import fisher
-from equipoise.estimation.trajectory import Params
-from equipoise.io.presets import read_preset
+from equipoise.design.manoeuvre.noiseless_record import imagined
+from equipoise.design.manoeuvre.predicted_information import Known, followed_truth, predicted
+from equipoise.estimation.information import fisher_information
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import Manoeuvre, SquareWave
 from equipoise.model.mass_properties import MassProperties
@@ -47,7 +47,9 @@ def test_it_is_what_observe_says_of_the_recording(testbed, manoeuvre):
     """`observe` fits the noiseless rows first, and ends at the truth: sd within 1e-3."""
     params = Params(testbed.disturbances)
     said = predicted(testbed, testbed.body, manoeuvre, params)
-    seen = fisher.seen_by(imagined(testbed, testbed.body, manoeuvre).recording, testbed, params)
+    seen = fisher_information.seen_by(
+        imagined(testbed, testbed.body, manoeuvre).recording, testbed, params
+    )
     assert said.names == seen.names
     np.testing.assert_allclose(said.sd, seen.sd, rtol=1e-3)
 
@@ -117,7 +119,7 @@ def test_the_drift_of_a_rate_from_white_noise_is_known_as_the_rule_says():
 
 def test_it_is_what_observe_says_along_the_same_motion():
     said = predicted(sputnix(), sputnix().body, PAPER, Params())
-    seen = fisher.seen_along(followed_truth(sputnix(), sputnix().body, PAPER, Params()))
+    seen = fisher_information.seen_along(followed_truth(sputnix(), sputnix().body, PAPER, Params()))
     np.testing.assert_array_equal(said.sd, seen.sd)
     assert said.peak_tilt == pytest.approx(seen.tilt[1], rel=1e-3)
 

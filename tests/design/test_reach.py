@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
-from equipoise.design.reach import (
+from equipoise.design.sizing.reachable_set import (
     contains,
     furthest,
     outline,
@@ -17,7 +17,7 @@ from equipoise.design.reach import (
     volume,
     weakest,
 )
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from tests.design.layouts import TOTAL, X, Y, Z, mass, pyramid
 
 UM = 1e-6

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.design.expected_torque import expected_torque
-from equipoise.design.line import ASSUMED, PARTLY
-from equipoise.design.mass_steps import mass_steps
-from equipoise.design.surroundings import Surroundings, not_stated, sag_of, surrounding_lines
-from equipoise.io.presets import read_preset
+from equipoise.design.sizing.contribution import ASSUMED, PARTLY
+from equipoise.design.sizing.environment import Surroundings, not_stated, sag_of, surrounding_lines
+from equipoise.design.sizing.expected_torque import expected_torque
+from equipoise.design.sizing.mass_steps import mass_steps
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.mass_properties import MassProperties
 from tests.design.layouts import X, Z, box, testbed
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from equipoise.dynamics.regressor import DRIFT, MOMENT, SAG, SWIRL, TORQUE, WIDTH
-from equipoise.estimation.formulations.columns import regressor_rows
+from equipoise.estimation.regression.formulations.columns import regressor_rows
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.torque_terms import TERMS

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from equipoise.estimation.attitude_filter import WALK, followed
+from equipoise.estimation.motion.attitude_filter import WALK, followed
 from equipoise.maths.attitude import difference, exponential, multiply, to_matrix
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples, window

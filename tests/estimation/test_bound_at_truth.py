@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.estimation.bound_at_truth import least_sd
-from equipoise.estimation.trajectory import Params, problem_of
-from equipoise.estimation.unknowns import CORE
+from equipoise.estimation.information.cramer_rao_bound import least_sd
+from equipoise.estimation.output_error.trajectory import Params, problem_of
+from equipoise.estimation.parameters.fit_parameters import CORE
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.model.estimate import COM, END, INERTIA
 from equipoise.model.torque_terms import GROUPS, TERMS

@@ -6,16 +6,21 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
-from equipoise.estimation.calibration import CalibrateOptions, calibrate, calibrated, nothing
-from equipoise.estimation.conclusion import UNSETTLED
-from equipoise.estimation.sensor_alignment import AT, GYRO, alignment_of
-from equipoise.io.presets import read_preset
+from equipoise.estimation.calibration.calibration import (
+    CalibrateOptions,
+    calibrate,
+    calibrated,
+    nothing,
+)
+from equipoise.estimation.calibration.sensor_alignment import AT, GYRO, alignment_of
+from equipoise.estimation.output_error.fit_estimate import UNSETTLED
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.outcome import Outcome
 from equipoise.model.testbed import TrueDrive
-from equipoise.procedure.calibration_moves import calibration_moves, hangs
+from equipoise.procedure.identification.calibration_moves import calibration_moves, hangs
 from equipoise.simulation.draw_truth import real_masses
 from equipoise.simulation.record import record
 from verification.calibration import by_mujoco

@@ -18,8 +18,8 @@ from builders import (
 )
 
 from equipoise.dynamics.propagation import body_of
-from equipoise.estimation.conclusion import conclude, widening
-from equipoise.estimation.trajectory import Params, fit
+from equipoise.estimation.output_error.fit_estimate import conclude, widening
+from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES

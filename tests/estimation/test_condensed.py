@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from builders import move_at, noisy, platform, recording
 
-from equipoise.estimation import plain_model, reference
-from equipoise.estimation.condensed import (
+from equipoise.estimation.model_selection import initial_model, reference_fit
+from equipoise.estimation.model_selection.decimation import (
     DENSE,
     averaged,
     condensed,
@@ -18,11 +18,11 @@ from equipoise.estimation.condensed import (
     swept,
     turned,
 )
-from equipoise.estimation.dense_record import first_gap, moved, with_noise_of
-from equipoise.estimation.fitted import settle
-from equipoise.estimation.survey import cut_times, looked_into, survey
-from equipoise.estimation.trajectory import Params, fit, problem_of
-from equipoise.estimation.trajectory_problem import quickest_swing
+from equipoise.estimation.model_selection.dense_record import first_gap, moved, with_noise_of
+from equipoise.estimation.model_selection.survey import cut_times, looked_into, survey
+from equipoise.estimation.output_error.problem import quickest_swing
+from equipoise.estimation.output_error.solution import settle
+from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
 from equipoise.maths.attitude import difference, exponential
 from equipoise.model.recording import Recording, Samples
 from equipoise.sensors.timing import seen_at, spread_of
@@ -196,7 +196,7 @@ def test_a_search_gone_astray_is_an_outcome(monkeypatch):
     lost = astray(record, testbed)
     with pytest.raises(np.linalg.LinAlgError):
         looked_into(replace(survey(record, testbed, Params(), lost), cuts=cut_times(record)))
-    monkeypatch.setattr(plain_model, "fit", lambda *_: lost)
-    estimate = reference.estimate(record, testbed, Params())
+    monkeypatch.setattr(initial_model, "fit", lambda *_: lost)
+    estimate = reference_fit.estimate(record, testbed, Params())
     assert not estimate.outcome.usable
     assert "did not settle" in estimate.outcome.sentence

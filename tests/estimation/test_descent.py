@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from builders import move_at, noisy, platform, recording
 
-from equipoise.estimation.descent import HELD
-from equipoise.estimation.trajectory import Params, fit, problem_of
-from equipoise.estimation.trajectory_problem import descend, evaluate
+from equipoise.estimation.output_error.kernels.gauss_newton import HELD
+from equipoise.estimation.output_error.problem import descend, evaluate
+from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
 from equipoise.maths.levenberg_marquardt import promise
 from equipoise.maths.scaled_solve import scaled_solve
 

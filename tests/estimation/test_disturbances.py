@@ -9,10 +9,10 @@ from builders import noisy
 from eventful import EVENT, KINDS, TRUTH, eventful, told, with_event
 from scipy.stats import chi2, kstest
 
-from equipoise.estimation.disturbances import disturbances
-from equipoise.estimation.fitted import settle, smooth_at
-from equipoise.estimation.jumps import Jump
-from equipoise.estimation.trajectory import Params, problem_of
+from equipoise.estimation.events.jump_test import disturbances
+from equipoise.estimation.output_error.segment_jumps import Jump
+from equipoise.estimation.output_error.solution import settle, smooth_at
+from equipoise.estimation.output_error.trajectory import Params, problem_of
 
 every_kind = pytest.mark.parametrize("kind", KINDS)
 

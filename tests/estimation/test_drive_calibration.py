@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.estimation.calibration import guess
-from equipoise.estimation.drive_calibration import Drive, of_drive, scatter_of
-from equipoise.estimation.drive_directions import groups, together
-from equipoise.io.presets import read_preset
+from equipoise.estimation.calibration.calibration import guess
+from equipoise.estimation.calibration.drive_calibration import Drive, of_drive, scatter_of
+from equipoise.estimation.calibration.drive_observability import groups, together
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.outcome import Outcome
 from equipoise.model.testbed import DriveDoubt

@@ -8,7 +8,7 @@ import pytest
 from builders import MASS, platform
 from scipy.stats import chi2
 
-from equipoise.estimation.equilibrium import (
+from equipoise.estimation.regression.rest_positions import (
     Rest,
     along,
     estimate,
@@ -16,7 +16,7 @@ from equipoise.estimation.equilibrium import (
     solve,
     too_rough,
 )
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential
 from equipoise.model.recording import Recording, Samples
 from equipoise.simulation.bench import SimulatedBench

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.estimation.error_indices import error_indices
+from equipoise.estimation.regression.error_indices import error_indices
 from equipoise.model.errors import InputError
 
 H = np.array([[1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])

@@ -8,13 +8,13 @@ from builders import noisy
 from eventful import EVENT, KINDS, TRUTH, told, with_event
 from scipy.stats import chi2
 
-from equipoise.estimation.believed_model import Believed, Happening, refitted
-from equipoise.estimation.conclusion import conclude
-from equipoise.estimation.event_moments import later, moment_errors, timed
-from equipoise.estimation.event_spread import with_moments
-from equipoise.estimation.fitted import settle
-from equipoise.estimation.survey_events import doubted, merged, pruned
-from equipoise.estimation.trajectory import METHOD, Params, problem_of
+from equipoise.estimation.events.event_search import doubted, merged, pruned
+from equipoise.estimation.events.event_time_covariance import with_moments
+from equipoise.estimation.events.event_times import later, moment_errors, timed
+from equipoise.estimation.events.record_model import Believed, Happening, refitted
+from equipoise.estimation.output_error.fit_estimate import conclude
+from equipoise.estimation.output_error.solution import settle
+from equipoise.estimation.output_error.trajectory import METHOD, Params, problem_of
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.recording import window
 

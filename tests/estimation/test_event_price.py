@@ -8,17 +8,17 @@ import pytest
 from builders import noisy
 from eventful import EVENT, KINDS, TRUTH, told, with_event
 
-from equipoise.estimation import believed_model
-from equipoise.estimation.believed_model import (
+from equipoise.estimation.events import record_model
+from equipoise.estimation.events.detection_threshold import threshold
+from equipoise.estimation.events.record_model import (
     Believed,
     Happening,
     evidence,
     refitted,
     smoothed,
 )
-from equipoise.estimation.event_price import threshold
-from equipoise.estimation.fitted import settle
-from equipoise.estimation.trajectory import Params, problem_of
+from equipoise.estimation.output_error.solution import settle
+from equipoise.estimation.output_error.trajectory import Params, problem_of
 
 PRICE = 20.0
 
@@ -55,7 +55,7 @@ def test_a_wider_prior_of_an_event_changes_nothing(monkeypatch):
     record = noisy(with_event("impulse", 3.0), 2)
     values = []
     for width in (1.0, 10.0):
-        monkeypatch.setitem(believed_model.WIDE, "impulse", width)
+        monkeypatch.setitem(record_model.WIDE, "impulse", width)
         values.append(evidence(*smoothed(believed(record, Happening(EVENT, "impulse"))), PRICE))
     assert values[0] == pytest.approx(values[1], abs=1e-3)
 

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from builders import INERTIA, platform
 
-from equipoise.estimation.felt import felt
-from equipoise.estimation.formulations.energy import energy
-from equipoise.estimation.formulations.torque import savitzky_golay, torque
-from equipoise.estimation.linear import posed_of
-from equipoise.estimation.method import Options
-from equipoise.estimation.replicates import Drawn, pairs
+from equipoise.estimation.method_contract import Options
+from equipoise.estimation.regression.formulations.energy import energy
+from equipoise.estimation.regression.formulations.torque import savitzky_golay, torque
+from equipoise.estimation.regression.inverse_dynamics_torque import felt
+from equipoise.estimation.regression.linear_method import posed_of
+from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro

@@ -10,19 +10,8 @@ from builders import ATTITUDE, COM, GRAVITY, INERTIA, MASS, RATE, maps, move_at,
 from equipoise.dynamics import sensitivities
 from equipoise.dynamics.propagation import NO_COLUMNS, Columns, body_of, propagate
 from equipoise.dynamics.timeline import timeline
-from equipoise.estimation import filter_observability
-from equipoise.estimation.filter_models import (
-    Course,
-    acceleration,
-    by_inertia,
-    by_moment,
-    by_rate,
-    by_turn,
-    course_of,
-    rate_inertia_moment,
-    simplified_stack,
-)
-from equipoise.estimation.filter_observability import (
+from equipoise.estimation.information import filter_observability
+from equipoise.estimation.information.filter_observability import (
     MODELS,
     SCALE,
     Outputs,
@@ -35,8 +24,19 @@ from equipoise.estimation.filter_observability import (
     spelled,
     state_sensitivities,
 )
-from equipoise.estimation.followed_motion import followed, halved
-from equipoise.estimation.trajectory import Params
+from equipoise.estimation.information.linearised_filters import (
+    Course,
+    acceleration,
+    by_inertia,
+    by_moment,
+    by_rate,
+    by_turn,
+    course_of,
+    rate_inertia_moment,
+    simplified_stack,
+)
+from equipoise.estimation.information.reference_motion import followed, halved
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.maths.attitude import exponential
 from equipoise.maths.linalg import skew, unpack_symmetric
 from equipoise.model.mass_properties import MassProperties

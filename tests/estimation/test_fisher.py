@@ -23,11 +23,16 @@ from builders import (
 
 from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.timeline import timeline
-from equipoise.estimation import fisher, trajectory
-from equipoise.estimation.conclusion import conclude
-from equipoise.estimation.fisher import Observability, gravity_sweep, seen_by
-from equipoise.estimation.followed_motion import DAMPED, cautions, followed, halfway
-from equipoise.estimation.trajectory import Params
+from equipoise.estimation.information import fisher_information
+from equipoise.estimation.information.fisher_information import (
+    Observability,
+    gravity_sweep,
+    seen_by,
+)
+from equipoise.estimation.information.reference_motion import DAMPED, cautions, followed, halfway
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error.fit_estimate import conclude
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.errors import InputError
@@ -117,7 +122,7 @@ def test_a_dense_record_shows_the_same_as_means_of_its_rows():
     assert len(motion.fitted.at.left_w) < len(record.rate) / 2
     stated = conclude(trajectory.fit(record, testbed, Params()), "fit", record)
     sd = np.sqrt(np.diag(stated.covariance_of(BODY)))
-    np.testing.assert_allclose(bound(fisher.seen_along(motion), *BODY), sd, rtol=0.02)
+    np.testing.assert_allclose(bound(fisher_information.seen_along(motion), *BODY), sd, rtol=0.02)
 
 
 def test_twice_the_rows_make_it_smaller_by_the_square_root_of_two():
@@ -211,7 +216,7 @@ def test_free_motion_leaves_the_scale_and_nothing_else():
 def test_the_scale_is_the_null_direction_of_the_information():
     """(J, com) stretched: nothing of it in the information, to rounding."""
     motion = followed(clean(moved=False), level(platform()), Params())
-    information = fisher.free_information(motion.fitted, np.zeros(15, dtype=bool))
+    information = fisher_information.free_information(motion.fitted, np.zeros(15, dtype=bool))
     body = motion.fitted.point.body(MASS)
     xx, yy, zz = np.diag(body.inertia_P)
     (xy, xz), yz = body.inertia_P[0, 1:], body.inertia_P[1, 2]
@@ -251,10 +256,10 @@ def test_the_condition_of_a_known_matrix():
     """[4 2; 2 4] is [1 1/2; 1/2 1] with unit diagonal: eigenvalues 3/2 and 1/2; units go."""
     matrix = np.array([[4.0, 2.0], [2.0, 4.0]])
     stretch = np.diag([1.0, 1e6])
-    assert fisher.condition(matrix) == pytest.approx(3.0)
-    assert fisher.condition(stretch @ matrix @ stretch) == pytest.approx(3.0)
-    assert np.isinf(fisher.condition(np.ones((2, 2))))
-    assert np.isinf(fisher.condition(np.diag([1.0, 0.0])))
+    assert fisher_information.condition(matrix) == pytest.approx(3.0)
+    assert fisher_information.condition(stretch @ matrix @ stretch) == pytest.approx(3.0)
+    assert np.isinf(fisher_information.condition(np.ones((2, 2))))
+    assert np.isinf(fisher_information.condition(np.diag([1.0, 0.0])))
 
 
 def test_the_sweep_of_a_known_motion():

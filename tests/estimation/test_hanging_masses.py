@@ -6,10 +6,15 @@ import numpy as np
 import pytest
 from builders import GRAVITY, line_of, move_at, platform, recording, sliding_masses, travel
 
-from equipoise.estimation.fitted import Fitted
-from equipoise.estimation.hanging_masses import by_sag, damping, downward, lateness
-from equipoise.estimation.trajectory import Params, fit
-from equipoise.estimation.unknowns import physical
+from equipoise.estimation.output_error.servo_sag_covariance import (
+    by_sag,
+    damping,
+    downward,
+    lateness,
+)
+from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.estimation.parameters.fit_parameters import physical
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.recording import Recording, Samples

@@ -7,8 +7,8 @@ import pytest
 from builders import COM, INERTIA, MASS, noisy, platform, recording
 from eventful import TRUTH
 
-from equipoise.estimation.held_values import is_pinned, pinned, settle_pinned
-from equipoise.estimation.trajectory import Params, problem_of
+from equipoise.estimation.output_error.fixed_parameters import is_pinned, pinned, settle_pinned
+from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
 from equipoise.model.mass_properties import parallel_axis

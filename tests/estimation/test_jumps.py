@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.estimation.jumps import (
+from equipoise.estimation.output_error.segment_jumps import (
     RATE,
     TURN,
     UNCUT,
@@ -14,7 +14,7 @@ from equipoise.estimation.jumps import (
     walk,
     width,
 )
-from equipoise.estimation.unknowns import Layout
+from equipoise.estimation.parameters.fit_parameters import Layout
 from equipoise.model.estimate import COM
 
 LAYOUT = Layout(("swirl",), (), True, ("plumb_x",))

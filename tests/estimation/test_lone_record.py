@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from equipoise.estimation.lone_record import data_alone
-from equipoise.estimation.unknowns import CORE
+from equipoise.estimation.model_selection.single_record_information import data_alone
+from equipoise.estimation.parameters.fit_parameters import CORE
 
 
 def test_a_prior_leaves_no_trace_in_what_the_data_say():

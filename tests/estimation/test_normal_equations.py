@@ -22,9 +22,9 @@ from builders import (
 from posing import noded, stepped, with_errors
 
 from equipoise.dynamics.propagation import body_of, propagate
-from equipoise.estimation.trajectory import HUBER, Params, problem_of
-from equipoise.estimation.trajectory_problem import evaluate
-from equipoise.estimation.unknowns import FIXED, R, Unknowns
+from equipoise.estimation.output_error.problem import evaluate
+from equipoise.estimation.output_error.trajectory import HUBER, Params, problem_of
+from equipoise.estimation.parameters.fit_parameters import FIXED, R, Unknowns
 from equipoise.maths.attitude import difference, exponential, multiply, normalise
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from builders import ATTITUDE, COM, INERTIA, MASS, RATE
 
-from equipoise.estimation import observability
-from equipoise.estimation.observability import Visibility, natural_sizes, scale_of
-from equipoise.estimation.unknowns import JP, Layout, R, Unknowns, physical
+from equipoise.estimation.parameters import observability
+from equipoise.estimation.parameters.fit_parameters import JP, Layout, R, Unknowns, physical
+from equipoise.estimation.parameters.observability import Visibility, natural_sizes, scale_of
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.pseudo_inertia import from_inertia
 from equipoise.model.mass_properties import parallel_axis

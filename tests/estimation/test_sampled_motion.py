@@ -6,13 +6,18 @@ import numpy as np
 import pytest
 from builders import COM, INERTIA, RATE, guessed_wrong, move_at, noisy, platform, recording
 
-from equipoise.estimation.sampled_motion import averaged, integrate_rate, level, sampled_motion
-from equipoise.estimation.start import start
-from equipoise.estimation.trajectory import CAPTURE, Params, misfit, problem_of
+from equipoise.estimation.motion.sampled_motion import (
+    averaged,
+    integrate_rate,
+    level,
+    sampled_motion,
+)
+from equipoise.estimation.output_error.initial_guess import start
+from equipoise.estimation.output_error.trajectory import CAPTURE, Params, misfit, problem_of
 from equipoise.maths.attitude import difference, exponential, tilt
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.recording import Recording, Samples
-from equipoise.procedure.sound_rows import sound
+from equipoise.procedure.steps.clean_record import sound
 from verification.method_records import regime
 from verification.robustness import spoiled
 

@@ -9,9 +9,13 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from equipoise.estimation.disturbances import disturbances
-from equipoise.estimation.smoothing import Smoothed, look_ahead, look_back
-from equipoise.estimation.stretches import (
+from equipoise.estimation.events.jump_test import disturbances
+from equipoise.estimation.output_error.kernels.interval_smoother import (
+    Smoothed,
+    look_ahead,
+    look_back,
+)
+from equipoise.estimation.output_error.kernels.segments import (
     STATE,
     Cuts,
     Pieces,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.estimation.torque_colour import block_ratios, densest
+from equipoise.estimation.events.process_noise_spectrum import block_ratios, densest
 
 
 def test_ratios_by_hand() -> None:

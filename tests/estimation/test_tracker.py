@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from builders import COM, MASS, level, move_at, noisy, platform, recording
 
-from equipoise.estimation import reference, trajectory
-from equipoise.estimation.tracker import Params, first_state, track
+from equipoise.estimation.model_selection import reference_fit
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.tracker.tracker import Params, first_state, track
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import END, INERTIA
 from equipoise.model.recording import window
@@ -39,7 +40,7 @@ def start(gyro: float):
 def test_with_the_inertia_known_it_ends_where_the_fit_ends(gyro):
     """Centre of mass within one combined sd of the whole-record fit, on every axis."""
     known = replace(bed(gyro), inertia_sd=1e-6)
-    fit = reference.estimate(seen(gyro), known, trajectory.Params(use_prior=True))
+    fit = reference_fit.estimate(seen(gyro), known, trajectory.Params(use_prior=True))
     found = tracked(gyro, Params())
     sd = np.sqrt(np.diag(fit.covariance_of(COM_NAMES)))
     assert np.all(np.abs(found.com[-1] - fit.com) < np.hypot(sd, found.com_sd[-1]))
@@ -60,7 +61,7 @@ def test_with_the_inertia_to_be_learnt_it_ends_where_the_fit_ends(gyro):
     Where the masses stopped is part of the tracker's centre of mass, so the fit's last one counts.
     The tracker takes the camera's vertical for gravity's, so the fit is told the same.
     """
-    fit = reference.estimate(seen(gyro), level(wrong(gyro)), trajectory.Params(use_prior=True))
+    fit = reference_fit.estimate(seen(gyro), level(wrong(gyro)), trajectory.Params(use_prior=True))
     first = first_state(0.0, seen(gyro).attitude.values[0], wrong(gyro))
     found = track(seen(gyro), wrong(gyro), Params(com_walk=1e-10, torque_walk=1e-10), first)
     sd = np.sqrt(np.diag(fit.covariance_of((*END, *INERTIA))))

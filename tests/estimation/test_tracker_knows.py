@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from equipoise.estimation.tracker import Params, contact_alarm, first_state, track
+from equipoise.estimation.tracker.tracker import Params, contact_alarm, first_state, track
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.maths.linalg import element_sizes, pack_symmetric
 from equipoise.model.recording import Samples, window

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from equipoise.estimation import tracker_contacts as contacts
-from equipoise.estimation import tracker_mixture as mixture
-from equipoise.estimation import tracker_onsets as onsets
-from equipoise.estimation import tracker_step as steps
-from equipoise.estimation.tracker_noise import learn_noise
-from equipoise.estimation.tracker_onsets import MANY, ONSETS, new_watch
-from equipoise.estimation.tracker_rows import Rows
-from equipoise.estimation.tracker_update import take_anew
-from equipoise.estimation.tracker_walk import Place, new_tools
+from equipoise.estimation.tracker import contact_test as contacts
+from equipoise.estimation.tracker import event_signatures as onsets
+from equipoise.estimation.tracker import mixture
+from equipoise.estimation.tracker import predict_correct as steps
+from equipoise.estimation.tracker.event_signatures import MANY, ONSETS, new_watch
+from equipoise.estimation.tracker.kernel_records import Place, new_tools
+from equipoise.estimation.tracker.measurement_update import take_anew
+from equipoise.estimation.tracker.measurements import Rows
+from equipoise.estimation.tracker.noise_level import learn_noise
 from equipoise.maths.attitude import exponential
 
 sensors = pytest.mark.parametrize(("first", "second"), [(0, -1), (3, 15)], ids=["camera", "gyro"])

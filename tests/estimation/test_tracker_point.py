@@ -3,7 +3,13 @@
 import numpy as np
 import pytest
 
-from equipoise.estimation.tracker_point import distance, doubt, doubt_of_shape, nearer, transport
+from equipoise.estimation.tracker.linearisation_point import (
+    distance,
+    doubt,
+    doubt_of_shape,
+    nearer,
+    transport,
+)
 
 POINT = np.array([2e-6, -3e-6, -80e-6, 0.35, 0.54, 0.85, 0.01, -0.02, 0.015])
 BELIEF = np.array([3e-6, -2e-6, -95e-6, 0.38, 0.50, 0.92, 0.02, -0.01, 0.0])

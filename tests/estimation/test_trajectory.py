@@ -20,10 +20,10 @@ from builders import (
     recording,
 )
 
-from equipoise.estimation import unknowns
-from equipoise.estimation.reference import estimate
-from equipoise.estimation.trajectory import Params, fit
-from equipoise.estimation.unknowns import Unknowns, physical
+from equipoise.estimation.model_selection.reference_fit import estimate
+from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.estimation.parameters import fit_parameters
+from equipoise.estimation.parameters.fit_parameters import Unknowns, physical
 from equipoise.maths.attitude import difference, exponential, logarithm, multiply
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.errors import InputError
@@ -306,6 +306,6 @@ def test_residual_is_that_of_the_camera():
     assert residual.held_out_span == (90.0, 120.0)
     assert residual.reduced_chi_square == pytest.approx(1.0, abs=4 * np.sqrt(2 / 1788))
     assert abs(residual.lag_one) < 4 / np.sqrt(1800)
-    assert residual.degrees_of_freedom == 3 * 601 - unknowns.FIXED - 2  # the camera's lean
+    assert residual.degrees_of_freedom == 3 * 601 - fit_parameters.FIXED - 2  # the camera's lean
     assured = estimate(noisy(clean(), 5), level(guessed_wrong(platform())), Params()).residual
-    assert assured.degrees_of_freedom == 3 * 601 - unknowns.FIXED
+    assert assured.degrees_of_freedom == 3 * 601 - fit_parameters.FIXED

@@ -7,8 +7,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from equipoise.estimation import point_steps
-from equipoise.estimation.unknowns import JP, Layout, R, Unknowns, physical, unknowns_of
+from equipoise.estimation.parameters import retraction
+from equipoise.estimation.parameters.fit_parameters import (
+    JP,
+    Layout,
+    R,
+    Unknowns,
+    physical,
+    unknowns_of,
+)
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.levenberg_marquardt import promise
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
@@ -37,20 +44,20 @@ def local(seed: int, pull: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def retract(start, step, layout=LAYOUT) -> Unknowns:
     out = np.empty_like(start.flat)
-    point_steps.retract(start.flat, step, MASS, layout.slots, out)
+    retraction.retract(start.flat, step, MASS, layout.slots, out)
     return unknowns_of(out)
 
 
 def boundary(start, step):
     """Return the rows and gaps that there are."""
     rows, gaps = np.full((3, LAYOUT.size), np.nan), np.full(3, np.nan)
-    count = point_steps.boundary(start.flat, MASS, step, rows, gaps)
+    count = retraction.boundary(start.flat, MASS, step, rows, gaps)
     return rows[:count], gaps[:count]
 
 
 def possible_step(start, model, damping):
-    step, work = np.empty(LAYOUT.size), point_steps.step_work_for(LAYOUT.size)
-    point_steps.possible_step(start.flat, MASS, *model, damping, work, step)
+    step, work = np.empty(LAYOUT.size), retraction.step_work_for(LAYOUT.size)
+    retraction.possible_step(start.flat, MASS, *model, damping, work, step)
     return step
 
 

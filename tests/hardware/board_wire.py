@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 
-from equipoise.app.emulation import ahead_of
+from equipoise.app.bench.emulation import ahead_of
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.emulated.registry import BOARDS as FAR_SIDES
-from equipoise.hardware.mass_rows import on_the_way
-from equipoise.io.presets import read_preset
+from equipoise.hardware.links.mass_interpolation import on_the_way
+from equipoise.io.testbed.presets import read_preset
 
 BED = read_preset("nanosat")  # 8 mm/s, zero at -17 mm, 800 steps per mm
 MM = 1e-3

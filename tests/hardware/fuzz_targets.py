@@ -9,10 +9,10 @@ import numpy as np
 
 from equipoise.hardware.boards.registry import BOARDS
 from equipoise.hardware.camera.raw_picture import RawPicture, packed, unpacked
-from equipoise.hardware.driver import Phase
 from equipoise.hardware.emulated.registry import SENSORS
-from equipoise.hardware.multipart import Parts
 from equipoise.hardware.sensors.registry import DRIVERS
+from equipoise.hardware.transport.driver_protocol import Phase
+from equipoise.hardware.transport.mjpeg_stream import Parts
 from equipoise.model.errors import BenchStopped
 from equipoise.model.recording import Recording, Samples
 from tests.fuzz_target import Target

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from equipoise.hardware.boards.legs import next_leg
 from equipoise.hardware.boards.registry import BOARDS
-from equipoise.hardware.driver import LEG
 from equipoise.hardware.emulated.registry import BOARDS as FAR_SIDES
-from equipoise.hardware.heard import Heard
+from equipoise.hardware.links.row_buffer import Heard
+from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.errors import BenchStopped, InputError
 from tests.hardware.board_wire import BED, LETTERS, MM, TURN, Wire, board_of
 

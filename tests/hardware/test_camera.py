@@ -20,9 +20,9 @@ from equipoise.hardware.camera.tag_board import TagBoard, board_print  # noqa: E
 from equipoise.hardware.camera.upright import camera_to_laboratory, level_up  # noqa: E402
 from equipoise.hardware.emulated.camera import EmulatedCamera, renderer_of  # noqa: E402
 from equipoise.hardware.emulated.rendering import Look, Renderer, Sheet, project  # noqa: E402
-from equipoise.hardware.multipart import Chunks, Parts  # noqa: E402
-from equipoise.hardware.placed import placed  # noqa: E402
+from equipoise.hardware.links.frame_transform import placed  # noqa: E402
 from equipoise.hardware.sensors.camera import Camera  # noqa: E402
+from equipoise.hardware.transport.mjpeg_stream import Chunks, Parts  # noqa: E402
 from equipoise.maths.attitude import (  # noqa: E402
     difference,
     exponential,

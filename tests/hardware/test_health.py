@@ -2,9 +2,9 @@
 
 import pytest
 
-from equipoise.hardware.arrivals import Arrivals
-from equipoise.hardware.device_clock import DeviceClock, learnt, offset_of
-from equipoise.hardware.health import Health
+from equipoise.hardware.links.arrival_statistics import Arrivals
+from equipoise.hardware.links.clock_sync import DeviceClock, learnt, offset_of
+from equipoise.hardware.links.health import Health
 from equipoise.model.reading import Counts
 
 

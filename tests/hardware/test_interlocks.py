@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.hardware.driver import BoardState
-from equipoise.hardware.interlocks import Seen, silence, tripped, turning
-from equipoise.io.presets import read_preset
+from equipoise.hardware.bench.interlocks import Seen, silence, tripped, turning
+from equipoise.hardware.transport.driver_protocol import BoardState
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import from_euler321
 from equipoise.model.hardware import SafetyLimits
 

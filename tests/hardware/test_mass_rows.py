@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.stops import stops_of
-from equipoise.hardware.driver import BoardState
-from equipoise.hardware.heard import Heard
-from equipoise.hardware.mass_rows import Answer, on_the_way, rows_to
-from equipoise.io.presets import read_preset
+from equipoise.hardware.links.mass_interpolation import Answer, on_the_way, rows_to
+from equipoise.hardware.links.row_buffer import Heard
+from equipoise.hardware.transport.driver_protocol import BoardState
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.hardware import Axis
 
 SPEED = np.array([8e-3, 8e-3, 8e-3])

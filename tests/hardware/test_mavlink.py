@@ -9,8 +9,8 @@ import pytest
 from pymavlink.dialects.v20 import common
 
 from equipoise.hardware.emulated.mavlink import EmulatedMavlink
-from equipoise.hardware.placed import placed
-from equipoise.hardware.sensor_link import UNSTATED, SensorLink
+from equipoise.hardware.links.frame_transform import placed
+from equipoise.hardware.links.sensor_link import UNSTATED, SensorLink
 from equipoise.hardware.sensors.mavlink import Mavlink
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.errors import InputError

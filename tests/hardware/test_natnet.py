@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from equipoise.hardware.emulated.natnet import EmulatedNatNet
-from equipoise.hardware.placed import placed
+from equipoise.hardware.links.frame_transform import placed
 from equipoise.hardware.sensors.natnet import NatNet
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.errors import InputError

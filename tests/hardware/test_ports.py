@@ -7,10 +7,10 @@ import time
 
 import pytest
 
-from equipoise.hardware.connection import AGAIN, Connection
+from equipoise.hardware.bench.port_lock import BenchTaken, commanding
 from equipoise.hardware.emulated.far_side import TcpFarSide, far_side
-from equipoise.hardware.one_commander import BenchTaken, commanding
-from equipoise.hardware.port import PortLost, open_port
+from equipoise.hardware.transport.port import PortLost, open_port
+from equipoise.hardware.transport.reconnecting_port import AGAIN, Connection
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port
 
@@ -111,7 +111,7 @@ def test_a_connection_comes_back_when_the_device_does():
 
 HOLD = """
 import sys
-from equipoise.hardware.one_commander import commanding
+from equipoise.hardware.bench.port_lock import commanding
 with commanding(["tcp:here:1", "serial:COM9"]):
     print("held", flush=True)
     sys.stdin.read()

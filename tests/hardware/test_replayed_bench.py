@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from equipoise.hardware.replayed_bench import RecordingEnded, ReplayedBench
-from equipoise.io.presets import read_preset
+from equipoise.hardware.bench.replayed_bench import RecordingEnded, ReplayedBench
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError, MoveRefused
 from equipoise.model.recording import CHANNELS, Recording, Samples, joined

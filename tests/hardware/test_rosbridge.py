@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from equipoise.hardware.emulated.far_side import far_side
 from equipoise.hardware.emulated.rosbridge import EmulatedRosBridge
-from equipoise.hardware.port import PortLost, open_port
 from equipoise.hardware.sensors.rosbridge import RosBridge
+from equipoise.hardware.transport.port import PortLost, open_port
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port
 from equipoise.model.reading import Reading

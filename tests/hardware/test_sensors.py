@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.hardware.arrivals import FROZEN, Arrivals, arrived
-from equipoise.hardware.connection import Turn
-from equipoise.hardware.device_clock import DeviceClock, drift_of, learnt, to_bench
 from equipoise.hardware.emulated.registry import SENSORS
-from equipoise.hardware.placed import as_sensed, placed
-from equipoise.hardware.sensor_link import SensorLink
+from equipoise.hardware.links.arrival_statistics import FROZEN, Arrivals, arrived
+from equipoise.hardware.links.clock_sync import DeviceClock, drift_of, learnt, to_bench
+from equipoise.hardware.links.frame_transform import as_sensed, placed
+from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.sensors.vectornav import VectorNav, crc16
+from equipoise.hardware.transport.reconnecting_port import Turn
 from equipoise.maths.attitude import from_euler321, from_matrix, multiply, to_matrix
 from equipoise.model.errors import InputError
 from equipoise.model.reading import Reading

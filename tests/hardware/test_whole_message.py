@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from equipoise.hardware.whole_message import whole_message
+from equipoise.hardware.bench.atomic_message import whole_message
 
 
 def interrupted(done):

@@ -9,16 +9,16 @@ from pathlib import Path
 import numpy as np
 
 from equipoise.hardware.camera.eye import eye_of
-from equipoise.io.camera_file import read_camera_keys
-from equipoise.io.column_map_file import read_column_map
-from equipoise.io.hand_session import Piles, read_session
-from equipoise.io.mcap_recording import events_of, stored_testbed
-from equipoise.io.mcap_salvage import salvaged
-from equipoise.io.plan_file import read_plan
-from equipoise.io.presets import preset_text, read_preset
-from equipoise.io.protobuf_fields import fields
-from equipoise.io.recording_file import read_recording, write_recording
-from equipoise.io.testbed_file import read_testbed
+from equipoise.io.columns.column_map_file import read_column_map
+from equipoise.io.documents.camera_file import read_camera_keys
+from equipoise.io.documents.manual_session import Piles, read_session
+from equipoise.io.documents.plan_file import read_plan
+from equipoise.io.mcap.mcap_recording import events_of, stored_testbed
+from equipoise.io.mcap.mcap_salvage import salvaged
+from equipoise.io.mcap.protobuf_fields import fields
+from equipoise.io.recording.recording_file import read_recording, write_recording
+from equipoise.io.testbed.presets import preset_text, read_preset
+from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS
 from tests.fuzz_target import Target

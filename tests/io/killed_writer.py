@@ -11,9 +11,9 @@ import sys
 import time
 from pathlib import Path
 
-from equipoise.io.logbook import INDEX, RUN, open_logbook
-from equipoise.io.run_file import TESTBED, text_of_run
-from equipoise.io.whole_folder import write_folder
+from equipoise.io.documents.logbook import INDEX, RUN, open_logbook
+from equipoise.io.documents.run_file import TESTBED, text_of_run
+from equipoise.io.files.atomic_folder import write_folder
 from equipoise.model.estimate import Parameter
 from equipoise.model.logged_run import LoggedRun
 

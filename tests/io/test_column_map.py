@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from equipoise.io.axis_turns import TO_Z_UP, axes_matrix, to_z_up
-from equipoise.io.column_map_file import read_column_map
-from equipoise.io.recording_file import read_recording
+from equipoise.io.columns.axis_permutation import TO_Z_UP, axes_matrix, to_z_up
+from equipoise.io.columns.column_map_file import read_column_map
+from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import conjugate, exponential, from_euler321, from_matrix, to_matrix
 from equipoise.model.errors import InputError
 

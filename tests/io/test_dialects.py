@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.io.recording_file import read_recording
+from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.errors import InputError
 

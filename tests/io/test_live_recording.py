@@ -12,9 +12,9 @@ import pytest
 from mcap.reader import make_reader
 
 from equipoise import __version__
-from equipoise.io.live_recording import EVERY, LiveRecording, Opening, RecordingStopped
-from equipoise.io.mcap_recording import events_of, stored_testbed
-from equipoise.io.recording_file import read_recording
+from equipoise.io.mcap.live_recording import EVERY, LiveRecording, Opening, RecordingStopped
+from equipoise.io.mcap.mcap_recording import events_of, stored_testbed
+from equipoise.io.recording.recording_file import read_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
 from verification.killed_recordings import LOSS, killed

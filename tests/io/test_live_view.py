@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from websockets.sync.client import connect
 
-from equipoise.io.live_view import LiveView
+from equipoise.io.mcap.foxglove_server import LiveView
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
 

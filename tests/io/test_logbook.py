@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from equipoise.io.logbook import INDEX, RUN, open_logbook
-from equipoise.io.logbook_schema import MIGRATIONS
-from equipoise.io.run_file import read_run, text_of_run
+from equipoise.io.documents.logbook import INDEX, RUN, open_logbook
+from equipoise.io.documents.logbook_schema import MIGRATIONS
+from equipoise.io.documents.run_file import read_run, text_of_run
 from equipoise.model.errors import InputError
 from tests.io import killed_writer
 from tests.io.killed_writer import put, run
@@ -21,7 +21,7 @@ MANY = 10_000
 LISTING = """
 import sys, time
 from pathlib import Path
-from equipoise.io.logbook import open_logbook
+from equipoise.io.documents.logbook import open_logbook
 
 for k in range(6):
     start = time.perf_counter()
@@ -157,7 +157,7 @@ def test_a_newer_index_is_refused(tmp_path):
 
 
 def test_a_migration_that_fails_changes_nothing(tmp_path, monkeypatch):
-    from equipoise.io import logbook_schema
+    from equipoise.io.documents import logbook_schema
 
     listed(tmp_path)
     broken = (*MIGRATIONS, "CREATE TABLE more (x TEXT); NOT SQL;")

@@ -18,11 +18,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.writer import Writer
 
-from equipoise.io.live_recording import LiveRecording, Opening
-from equipoise.io.mcap_recording import events_of
-from equipoise.io.mcap_salvage import salvaged
-from equipoise.io.protobuf_fields import double, fields, whole
-from equipoise.io.recording_file import read_recording, write_recording
+from equipoise.io.mcap.live_recording import LiveRecording, Opening
+from equipoise.io.mcap.mcap_recording import events_of
+from equipoise.io.mcap.mcap_salvage import salvaged
+from equipoise.io.mcap.protobuf_fields import double, fields, whole
+from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 

@@ -5,8 +5,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from equipoise.io.plan_file import parse_plan, read_plan, text_of_plan, write_plan
-from equipoise.io.presets import read_preset
+from equipoise.io.documents.plan_file import parse_plan, read_plan, text_of_plan, write_plan
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
 
 TEXT = """

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from equipoise.assessment.record_findings import findings
-from equipoise.io.recording_file import read_recording
+from equipoise.assessment.findings.record_findings import findings
+from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import tilt
 
 REAL = Path(__file__).parents[3] / "shared" / "data" / "optitrack_tumbling.csv"

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from equipoise.io.frame_check import check_frame
-from equipoise.io.presets import read_preset
-from equipoise.io.recording_file import read_recording, write_recording
-from equipoise.io.testbed_file import parse_testbed
+from equipoise.io.recording.frame_check import check_frame
+from equipoise.io.recording.recording_file import read_recording, write_recording
+from equipoise.io.testbed.presets import read_preset
+from equipoise.io.testbed.testbed_file import parse_testbed
 from equipoise.maths.attitude import exponential
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples

@@ -10,9 +10,9 @@ from pyulog import ULog
 from rosbags.rosbag1 import Writer as Writer1
 from scipy.io import savemat
 
-from equipoise.io.recording_file import read_recording, write_recording
-from equipoise.io.recording_formats import FORMATS
-from equipoise.io.ulog_messages import ulog_topics
+from equipoise.io.formats.ulog_messages import ulog_topics
+from equipoise.io.recording.format_registry import FORMATS
+from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS
 from tests.io.made_logs import (

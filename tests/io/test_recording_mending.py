@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.io.recording_file import read_recording
+from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import exponential
 
 HEAD = "time_s,q_w,q_x,q_y,q_z,omega_x_rad_s,omega_y_rad_s,omega_z_rad_s\n"

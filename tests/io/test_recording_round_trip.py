@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from equipoise.io.recording_file import read_recording, write_recording
+from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.maths.attitude import exponential
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples

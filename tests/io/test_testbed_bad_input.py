@@ -2,7 +2,7 @@
 
 import pytest
 
-from equipoise.io.testbed_file import parse_testbed, read_testbed, write_testbed
+from equipoise.io.testbed.testbed_file import parse_testbed, read_testbed, write_testbed
 from equipoise.model.errors import InputError
 
 GOOD = """name = "t"

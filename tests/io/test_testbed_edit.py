@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.io.presets import preset_text
-from equipoise.io.testbed_edit import with_drives
-from equipoise.io.testbed_file import parse_testbed
+from equipoise.io.testbed.presets import preset_text
+from equipoise.io.testbed.testbed_edit import with_drives
+from equipoise.io.testbed.testbed_file import parse_testbed
 from equipoise.model.errors import InputError
 
 TEXT = preset_text("sputnix")

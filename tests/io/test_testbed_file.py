@@ -9,8 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from equipoise.io.testbed_file import json_schema, parse_testbed, read_testbed, write_testbed
-from equipoise.io.testbed_text import text_of_testbed as text_of
+from equipoise.io.testbed.testbed_file import (
+    json_schema,
+    parse_testbed,
+    read_testbed,
+    write_testbed,
+)
+from equipoise.io.testbed.testbed_text import text_of_testbed as text_of
 from equipoise.model.testbed import Fault
 
 MINIMAL = """

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from equipoise.io.presets import preset_text, read_preset
-from equipoise.io.testbed_file import parse_testbed
-from equipoise.io.testbed_text import text_of_testbed
+from equipoise.io.testbed.presets import preset_text, read_preset
+from equipoise.io.testbed.testbed_file import parse_testbed
+from equipoise.io.testbed.testbed_text import text_of_testbed
 from equipoise.model.errors import InputError
 
 TEXT = preset_text("nanosat")

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from equipoise.io.whole_file import check_writable, whole_file, write_whole
+from equipoise.io.files.atomic_file import check_writable, whole_file, write_whole
 from equipoise.model.errors import InputError
 
 

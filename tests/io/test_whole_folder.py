@@ -2,8 +2,8 @@
 
 import pytest
 
-from equipoise.io import whole_folder
-from equipoise.io.whole_folder import check_folder, write_folder
+from equipoise.io.files import atomic_folder
+from equipoise.io.files.atomic_folder import check_folder, write_folder
 from equipoise.model.errors import InputError
 
 
@@ -22,14 +22,14 @@ def test_other_files_stay(tmp_path):
 
 def test_a_failure_half_way_leaves_nothing(tmp_path, monkeypatch):
     (tmp_path / "x").write_text("old")
-    real = whole_folder.write_whole
+    real = atomic_folder.write_whole
 
     def failing(path, content):
         if path.name == "y":
             raise OSError(28, "No space left on device")
         real(path, content)
 
-    monkeypatch.setattr(whole_folder, "write_whole", failing)
+    monkeypatch.setattr(atomic_folder, "write_whole", failing)
     for folder in (tmp_path, tmp_path / "new" / "one"):
         with pytest.raises(InputError, match="No space left"):
             write_folder(folder, {"x": "new", "y": "new"})

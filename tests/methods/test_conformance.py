@@ -11,11 +11,11 @@ from builders import INERTIA as TRUE_INERTIA
 from methods.awkward import AWKWARD, bed, sound
 
 import equipoise.estimation.methods as package
-from equipoise.estimation.method import REGIMES, Options, estimated
+from equipoise.estimation.method_contract import REGIMES, Options, estimated
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.procedure.sound_rows import sound as made_sound
+from equipoise.procedure.steps.clean_record import sound as made_sound
 from equipoise.study.candour import warns
 
 every_method = pytest.mark.parametrize("name", METHODS)

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 from builders import move_at, noisy, platform, recording
 
-from equipoise.estimation.far_rows import far_off, without_far_rows
-from equipoise.estimation.method import Options
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.estimation.trajectory import Params
+from equipoise.estimation.output_error.outlier_rejection import far_off, without_far_rows
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.model.recording import Samples
 

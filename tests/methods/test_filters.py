@@ -17,7 +17,7 @@ from builders import (
     travel,
 )
 
-from equipoise.estimation.method import Options
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods import (
     ekf_6,
     ekf_9,

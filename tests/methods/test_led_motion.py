@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from builders import noisy, platform, recording
 
-from equipoise.estimation import led_motion as module
-from equipoise.estimation.led_motion import led_motion, pieces_of
+from equipoise.estimation.motion import fused_motion as module
+from equipoise.estimation.motion.fused_motion import led_motion, pieces_of
 from equipoise.maths.attitude import difference
 from equipoise.maths.walk_smoother import smoothed_walk
 from equipoise.model.recording import Recording, Samples

@@ -7,10 +7,10 @@ import pytest
 from builders import COM, INERTIA, move_at, noisy, platform, recording
 from driven import driven, driven_platform
 
-from equipoise.estimation.linear import bands, excess, posed_of
-from equipoise.estimation.method import Options
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import LINEAR, METHODS
-from equipoise.estimation.replicates import Drawn, drawn, pairs
+from equipoise.estimation.regression.linear_method import bands, excess, posed_of
+from equipoise.estimation.regression.monte_carlo_replicates import Drawn, drawn, pairs
 from equipoise.maths.attitude import difference
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES

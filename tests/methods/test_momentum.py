@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from builders import COM, INERTIA, move_at, noisy, platform, recording
 
-from equipoise.estimation.linear import FEWEST
-from equipoise.estimation.method import Options
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
+from equipoise.estimation.regression.linear_method import FEWEST
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.recording import window

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from methods.plain_recursive import plain_rls
 
-from equipoise.estimation.formulations.rows import Rows
-from equipoise.estimation.solvers.recursive import (
+from equipoise.estimation.regression.formulations.rows import Rows
+from equipoise.estimation.regression.solvers.recursive import (
     Recursion,
     advance,
     begin,

@@ -8,13 +8,13 @@ import pytest
 from builders import COM, INERTIA
 from driven import driven, driven_platform
 
-from equipoise.estimation.formulations.momentum import body_axes
-from equipoise.estimation.formulations.rows import Posed
-from equipoise.estimation.formulations.tracked import extended
-from equipoise.estimation.led_motion import led_motion
-from equipoise.estimation.method import Options, estimated
+from equipoise.estimation.method_contract import Options, estimated
 from equipoise.estimation.methods.registry import METHODS, REGRESSIONS
-from equipoise.estimation.solvers.recursion import (
+from equipoise.estimation.motion.fused_motion import led_motion
+from equipoise.estimation.regression.formulations.momentum import body_axes
+from equipoise.estimation.regression.formulations.rows import Posed
+from equipoise.estimation.regression.formulations.tracked import extended
+from equipoise.estimation.regression.solvers.recursion import (
     Plan,
     of_extended,
     passed,
@@ -22,7 +22,7 @@ from equipoise.estimation.solvers.recursion import (
     some,
     unfiltered,
 )
-from equipoise.estimation.solvers.recursive import advance, begin
+from equipoise.estimation.regression.solvers.recursive import advance, begin
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM as COM_NAMES

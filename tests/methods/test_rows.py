@@ -9,26 +9,26 @@ from driven import driven, driven_platform
 
 from equipoise.dynamics.propagation import body_of
 from equipoise.dynamics.timeline import timeline
-from equipoise.estimation.formulations.averaged import ROWS, as_printed, centred_means
-from equipoise.estimation.formulations.columns import known_momentum
-from equipoise.estimation.formulations.energy import energy
-from equipoise.estimation.formulations.kalman import filtered_rates, kalman_torque
-from equipoise.estimation.formulations.momentum import (
+from equipoise.estimation.motion.fused_motion import LedMotion
+from equipoise.estimation.regression.formulations.averaged import ROWS, as_printed, centred_means
+from equipoise.estimation.regression.formulations.columns import known_momentum
+from equipoise.estimation.regression.formulations.energy import energy
+from equipoise.estimation.regression.formulations.kalman import filtered_rates, kalman_torque
+from equipoise.estimation.regression.formulations.momentum import (
     body_axes,
     integral,
     laboratory_axes,
     segments,
 )
-from equipoise.estimation.formulations.rows import Posed, centred
-from equipoise.estimation.formulations.simplified import increments, integrated
-from equipoise.estimation.formulations.torque import (
+from equipoise.estimation.regression.formulations.rows import Posed, centred
+from equipoise.estimation.regression.formulations.simplified import increments, integrated
+from equipoise.estimation.regression.formulations.torque import (
     central,
     even_savitzky_golay,
     savitzky_golay,
     torque,
 )
-from equipoise.estimation.formulations.tracked import extended, tracking
-from equipoise.estimation.led_motion import LedMotion
+from equipoise.estimation.regression.formulations.tracked import extended, tracking
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.maths.straight_lines import integral_at

@@ -8,17 +8,23 @@ import pytest
 from builders import COM, INERTIA, level, move_at, noisy, platform, recording
 from wandering import com_at, ramp, random_walk, wandered
 
-from equipoise.estimation import smoother, tracker
-from equipoise.estimation.believed_model import evidence
-from equipoise.estimation.descent import model_at
-from equipoise.estimation.fitted import settle, smooth_at
-from equipoise.estimation.method import Options
+from equipoise.estimation.events.record_model import evidence
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.estimation.stretches import STATE, chain_for, follow
-from equipoise.estimation.trajectory import Params, fit
-from equipoise.estimation.unknowns import JP, R, unknowns_of
-from equipoise.estimation.untied_scale import disbelieved, pull, scale_row, untied
-from equipoise.estimation.walk_size import DECADES, improbability_of, linear_at, mean_size
+from equipoise.estimation.model_selection import drift_smoother
+from equipoise.estimation.output_error.drift_intensity import (
+    DECADES,
+    improbability_of,
+    linear_at,
+    mean_size,
+)
+from equipoise.estimation.output_error.drift_scale import disbelieved, pull, scale_row, untied
+from equipoise.estimation.output_error.kernels.gauss_newton import model_at
+from equipoise.estimation.output_error.kernels.segments import STATE, chain_for, follow
+from equipoise.estimation.output_error.solution import settle, smooth_at
+from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.estimation.parameters.fit_parameters import JP, R, unknowns_of
+from equipoise.estimation.tracker import tracker
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.estimate import COM as NAMES
@@ -115,7 +121,7 @@ def test_the_band_covers_a_walk_along_one_axis():
 def test_the_size_of_the_walk_is_found():
     """A fifth and ten times what is expected: to a factor of 1.6 in x and y, over five seeds."""
     for size in (1e-8, 5e-7):
-        found = [smoother.drifting(uneasy(size, seed)[1], BED, Params()) for seed in range(5)]
+        found = [drift_smoother.drifting(uneasy(size, seed)[1], BED, Params()) for seed in range(5)]
         step = np.exp(np.mean([np.log(each.sd[:2]) for each in found]))
         assert step / np.sqrt(0.5) == pytest.approx(size, rel=0.6)
 
@@ -124,8 +130,8 @@ def test_a_ramp_is_followed_from_end_to_end():
     """2 nm/s in x and y for two minutes, with a level camera: how far it went, within 3.5 sd."""
     for seed in range(4):
         way = ramp(np.array([5e-9, -3e-9, 0.0]), END)
-        found = smoother.drifting(noisy(wandered(way, TRACK), seed), level(BED), Params())
-        moved, sd = smoother.moved(found, smooth_at(found.fitted))
+        found = drift_smoother.drifting(noisy(wandered(way, TRACK), seed), level(BED), Params())
+        moved, sd = drift_smoother.moved(found, smooth_at(found.fitted))
         assert np.all(np.abs(moved - way[-1]) < 3.5 * sd)
         assert moved[0] > 3 * sd[0]
 
@@ -152,9 +158,9 @@ def test_it_is_narrower_than_the_tracker():
 
 def walked(record, testbed, size):
     """The fit with a walk of a given size (m/sqrt(s)), and its nodes."""
-    nodes = smoother.node_times(record)
+    nodes = drift_smoother.node_times(record)
     sd = np.full(3, size * np.sqrt(nodes[1] - nodes[0]))
-    params = Params(jumps=smoother.walking(nodes, NAMES, sd), use_prior=True)
+    params = Params(jumps=drift_smoother.walking(nodes, NAMES, sd), use_prior=True)
     return fit(record, testbed, params), nodes
 
 
@@ -279,8 +285,8 @@ def test_how_far_it_went_is_the_sum_of_all_jumps():
     sd = np.array(fitted.problem.jumps[0].sd)
     C = inverse(dense(fitted, sd)[0])[-3 * len(fitted.jumps) :, -3 * len(fitted.jumps) :]
     total = np.tile(np.eye(3), len(fitted.jumps))
-    found = smoother.Drifting(fitted, nodes, NAMES, sd, fitted.problem.prior, 0.0)
-    way, spread = smoother.moved(found, smooth_at(fitted))
+    found = drift_smoother.Drifting(fitted, nodes, NAMES, sd, fitted.problem.prior, 0.0)
+    way, spread = drift_smoother.moved(found, smooth_at(fitted))
     np.testing.assert_allclose(way, fitted.jumps.sum(axis=0), rtol=1e-6)
     np.testing.assert_allclose(spread, np.sqrt(np.diag(total @ C @ total.T)), rtol=1e-5)
 
@@ -456,9 +462,9 @@ def test_three_rows_are_refused():
 
 def test_nodes_are_even_and_the_walk_changes_half_way_between():
     """120 s in halves of a second; no more than 300 of them."""
-    nodes = smoother.node_times(calm())
+    nodes = drift_smoother.node_times(calm())
     np.testing.assert_allclose(nodes, 0.5 * np.arange(241))
-    jumps = smoother.walking(nodes, NAMES, np.ones(3))
+    jumps = drift_smoother.walking(nodes, NAMES, np.ones(3))
     assert [jump.t for jump in jumps[:2]] == [0.25, 0.75]
     long = replace(calm(), rate=Samples(np.array([0.0, 600.0]), np.zeros((2, 3))))
-    assert len(smoother.node_times(long)) == 301
+    assert len(drift_smoother.node_times(long)) == 301

@@ -8,15 +8,15 @@ import pytest
 from builders import platform
 from scipy import sparse
 
-from equipoise.estimation.formulations.rows import BODY, Rows, centred, held, values_of
-from equipoise.estimation.solvers.aid import Aid
-from equipoise.estimation.solvers.corrected import corrected
-from equipoise.estimation.solvers.damped import damped
-from equipoise.estimation.solvers.instrumental import instrumental
-from equipoise.estimation.solvers.least_squares import least_squares
-from equipoise.estimation.solvers.possible import possible
-from equipoise.estimation.solvers.robust import robust
-from equipoise.estimation.solvers.weighted import weighted
+from equipoise.estimation.regression.formulations.rows import BODY, Rows, centred, held, values_of
+from equipoise.estimation.regression.solvers.corrected import corrected
+from equipoise.estimation.regression.solvers.instrumental import instrumental
+from equipoise.estimation.regression.solvers.least_squares import least_squares
+from equipoise.estimation.regression.solvers.levenberg_marquardt import damped
+from equipoise.estimation.regression.solvers.physically_consistent import possible
+from equipoise.estimation.regression.solvers.robust import robust
+from equipoise.estimation.regression.solvers.solver_inputs import Aid
+from equipoise.estimation.regression.solvers.weighted import weighted
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.mass_properties import MassProperties, is_possible, smallest_second_moment
 

@@ -9,7 +9,7 @@ pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import cases, defective_run, sensors
 from tests.oracle import defects as flaws
 from tests.oracle import mujoco_bench as oracle

@@ -9,13 +9,13 @@ import pytest
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
 from equipoise.app.cli import run
-from equipoise.estimation import plain_model, reference
-from equipoise.estimation.trajectory import Params, fit
-from equipoise.io.recording_file import write_recording
-from equipoise.io.testbed_text import text_of_testbed
+from equipoise.estimation.model_selection import initial_model, reference_fit
+from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.io.recording.recording_file import write_recording
+from equipoise.io.testbed.testbed_text import text_of_testbed
 from equipoise.maths.attitude import tilt
 from equipoise.model.errors import InputError
-from equipoise.procedure.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import laboratories as labs
 from tests.oracle.defects import SIXTEENTH
 
@@ -70,8 +70,8 @@ def test_drag_over_many_turns_is_found() -> None:
     """Without the term from the start nothing is found: the heading runs away by radians."""
     record = labs.spun(1)
     plain = fit(record.recording, record.testbed, Params())
-    assert not plain_model.is_near(plain)
-    params, damped = plain_model.plainly(record.recording, record.testbed, Params())
+    assert not initial_model.is_near(plain)
+    params, damped = initial_model.plainly(record.recording, record.testbed, Params())
     assert params.terms == ("viscous_x", "viscous_y", "viscous_z")
     rows = 3 * len(record.recording.attitude)
     assert 2 * damped.at.cost == pytest.approx(rows, rel=0.1)
@@ -89,14 +89,14 @@ def test_a_platform_at_rest_shows_no_ratios() -> None:
 def test_what_no_model_explains_is_not_usable_and_fails_nothing() -> None:
     """50 mN m, ten times what gravity does."""
     record = labs.motored(0, labs.bang_bang(0.05))
-    estimate = reference.estimate(record.recording, record.testbed, Params())
+    estimate = reference_fit.estimate(record.recording, record.testbed, Params())
     assert not estimate.outcome.usable
 
 
 def test_a_sensor_that_the_testbed_lacks_is_named() -> None:
     record = labs.tilted(0, 5.0, duration=20.0, moved=False)
     with pytest.raises(InputError, match=r"sensor.attitude: found none, but 101 rows"):
-        reference.estimate(record.recording, replace(record.testbed, attitude=None), Params())
+        reference_fit.estimate(record.recording, replace(record.testbed, attitude=None), Params())
 
 
 def test_a_file_with_a_command_column(tmp_path, capsys, monkeypatch) -> None:

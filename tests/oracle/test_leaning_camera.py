@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from equipoise.estimation import reference
-from equipoise.estimation.trajectory import Params
+from equipoise.estimation.model_selection import reference_fit
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.model.sensor_terms import GROUPS
 from tests.oracle import cases
 from tests.oracle.defects import PLUMB
@@ -16,7 +16,7 @@ SEEDS = (2, 5)  # leans of 0.41 and 0.23 deg
 def estimated(seed: int, kinds: tuple[str, ...] = (PLUMB,), level: bool = False):
     logged = cases.case_s(seed, kinds)
     testbed = (cases.level(logged) if level else logged).testbed
-    return logged, reference.estimate(logged.recording, testbed, Params())
+    return logged, reference_fit.estimate(logged.recording, testbed, Params())
 
 
 @pytest.mark.parametrize("seed", SEEDS)

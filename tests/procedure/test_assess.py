@@ -7,13 +7,13 @@ import pytest
 from builders import COM, INERTIA, move_at, noisy, platform, recording
 
 from equipoise.dynamics.sag_trim import residual_torque
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Samples
-from equipoise.procedure.assess import AssessOptions, assess
-from equipoise.procedure.look_at_swing import as_one_body, looked_at, standing_part
-from equipoise.procedure.look_over_hours import looks_over_hours
+from equipoise.procedure.identification.assess import AssessOptions, assess
+from equipoise.procedure.identification.drift_metrics import looks_over_hours
+from equipoise.procedure.identification.swing_metrics import as_one_body, looked_at, standing_part
 from equipoise.simulation.bench import SimulatedBench
 from verification.verdicts import swing
 

@@ -6,9 +6,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.testbed import Fault
-from equipoise.procedure.balance import BalanceOptions, balance
+from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.simulation.bench import SimulatedBench
 
 SPUTNIX = read_preset("sputnix")

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.placed_weights import handling_covariance, load_of
-from equipoise.estimation.lone_record import shown_by
-from equipoise.io.presets import read_preset
+from equipoise.estimation.model_selection.single_record_information import shown_by
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import tilt
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA
@@ -16,14 +16,14 @@ from equipoise.model.hands import Hands
 from equipoise.model.mass_properties import MassProperties, combine
 from equipoise.model.placing import Placing
 from equipoise.model.weights import places_of, unloaded
-from equipoise.procedure.balance_by_hand import (
+from equipoise.procedure.balancing.balance_manually import (
     HandOptions,
     balance_by_hand,
     caught,
     errands,
     sentence_of,
 )
-from equipoise.procedure.hand_belief import first_belief, reloaded, taught
+from equipoise.procedure.balancing.manual_estimate import first_belief, reloaded, taught
 from equipoise.simulation.hands import SimulatedHands
 from verification import manual
 from verification.manual import TARGET, half_a_millimetre_off

@@ -11,11 +11,11 @@ import pytest
 
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.hands import Hands
 from equipoise.model.mass_properties import parallel_axis
 from equipoise.model.weights import places_of
-from equipoise.procedure.balance_by_hand import HandOptions, balance_by_hand
+from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
 from tests.oracle import mujoco_bench as oracle
 
 UM = 1e-6

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from equipoise.io.presets import read_preset
-from equipoise.procedure.hold import HoldOptions, balance_and_hold, without_drift
+from equipoise.io.testbed.presets import read_preset
+from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold, without_drift
 from equipoise.simulation.bench import SimulatedBench
 
 HOLDING = HoldOptions(120.0)

@@ -8,7 +8,7 @@ from equipoise.estimation.methods.registry import METHODS
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import END, INERTIA
-from equipoise.procedure.identify import COARSE_TO_FINE, IdentifyOptions, identify
+from equipoise.procedure.identification.identify import COARSE_TO_FINE, IdentifyOptions, identify
 
 
 @pytest.fixture(scope="module")

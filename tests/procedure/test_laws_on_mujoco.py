@@ -5,9 +5,9 @@ import pytest
 
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
-from equipoise.app.balancing import Goal, Limits, procedure
+from equipoise.app.runs.balancing import Goal, Limits, procedure
 from equipoise.model.bench import Bench
-from equipoise.procedure.balance import BalanceOptions
+from equipoise.procedure.balancing.balance import BalanceOptions
 from verification import laws_on_mujoco
 from verification.laws_on_mujoco import bench_of
 

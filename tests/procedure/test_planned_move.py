@@ -6,11 +6,11 @@ import numpy as np
 from builders import platform
 
 from equipoise.actuators.sliding_masses import displacements_for
-from equipoise.estimation import tracker
-from equipoise.io.presets import read_preset
-from equipoise.procedure.hold import before_moving
-from equipoise.procedure.knowledge import learn, without_stops
-from equipoise.procedure.planned_move import planned_move
+from equipoise.estimation.tracker import tracker
+from equipoise.io.testbed.presets import read_preset
+from equipoise.procedure.balancing.hold import before_moving
+from equipoise.procedure.steps.joint_fit import learn, without_stops
+from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.simulation.bench import SimulatedBench
 
 UM = 1e-6

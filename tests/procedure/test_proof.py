@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from equipoise.estimation.attitude_filter import AttitudeState
+from equipoise.estimation.motion.attitude_filter import AttitudeState
 from equipoise.maths.attitude import exponential
-from equipoise.procedure.proof import STILL, swinging
+from equipoise.procedure.steps.verification_swing import STILL, swinging
 
 
 def turning(rate, turn):

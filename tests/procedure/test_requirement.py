@@ -3,7 +3,7 @@
 import pytest
 
 from equipoise.maths.gaussian_length import Bounded
-from equipoise.procedure.requirement import (
+from equipoise.procedure.identification.requirement import (
     FAILED,
     OPEN,
     PASSED,

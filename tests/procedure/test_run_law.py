@@ -16,9 +16,15 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, Estimate
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed, Truth
-from equipoise.procedure.law_devices import opened_hands
-from equipoise.procedure.law_sample import looked, opened, sample_of
-from equipoise.procedure.run_law import LawOptions, control, first_sight, looked_into, run_law
+from equipoise.procedure.balancing.allocation import opened_hands
+from equipoise.procedure.balancing.run_law import (
+    LawOptions,
+    control,
+    first_sight,
+    looked_into,
+    run_law,
+)
+from equipoise.procedure.steps.sampler import looked, opened, sample_of
 from equipoise.simulation.bench import SimulatedBench
 
 EYE = np.eye(3)

@@ -9,8 +9,14 @@ from builders import noisy, platform, recording
 from equipoise.model.estimate import Parameter
 from equipoise.model.move import Move
 from equipoise.model.outcome import Outcome
-from equipoise.procedure.knowledge import learn
-from equipoise.procedure.verify import FRESH, drift_since, fresh_enough, probability_within, verdict
+from equipoise.procedure.steps.joint_fit import learn
+from equipoise.procedure.steps.verify import (
+    FRESH,
+    drift_since,
+    fresh_enough,
+    probability_within,
+    verdict,
+)
 
 UM = 1e-6
 

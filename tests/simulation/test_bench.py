@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import from_euler321
 from equipoise.model.bench import Bench
 from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors

@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import from_euler321, tilt, to_matrix
 from equipoise.model.mass_properties import MassProperties, is_possible, smallest_second_moment
 from equipoise.model.torque_terms import TERMS

@@ -6,9 +6,10 @@ import numpy as np
 from builders import CAMERA_SD, COM, INERTIA, guessed_wrong, move_at, noisy, platform, recording
 from scipy.signal import lfilter
 
-from equipoise.estimation import dense_record, reference, trajectory
-from equipoise.estimation.conclusion import conclude
-from equipoise.estimation.condensed import condensed
+from equipoise.estimation.model_selection import dense_record, reference_fit
+from equipoise.estimation.model_selection.decimation import condensed
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.model import sensor_terms
 from equipoise.model.estimate import COM as COM_NAMES
@@ -38,7 +39,7 @@ def sds(estimate: Estimate) -> np.ndarray:
 def test_the_answer_is_that_of_all_rows() -> None:
     """Against the plain fit of every row from the truth-near start: the same optimum, 0.02 sd."""
     record = logged(0)
-    found = reference.estimate(record, BED, PARAMS)
+    found = reference_fit.estimate(record, BED, PARAMS)
     free = replace(PARAMS, sensor=sensor_terms.GROUPS["plumb"])
     fitted = trajectory.fit(record, BED, free, early=record_before_gap(record))
     plain = conclude(fitted, "trajectory", record)
@@ -63,7 +64,7 @@ def test_means_lose_less_than_a_fifth_of_an_sd() -> None:
         assert few is not None
         belief = dense_record.surveyed_condensed(few, PARAMS)
         of_means = conclude(belief.fitted, "trajectory", few.recording)
-        of_rows = reference.estimate(record, BED, PARAMS)
+        of_rows = reference_fit.estimate(record, BED, PARAMS)
         off = (of_means.values(NAMES) - of_rows.values(NAMES)) / sds(of_rows)
         assert np.abs(off).max() < 0.2
         np.testing.assert_allclose(sds(of_means), sds(of_rows), rtol=0.02)
@@ -89,8 +90,8 @@ def test_rows_that_err_together_widen_the_intervals() -> None:
     """
     rho = 0.19
     scatter = np.sqrt(1 + 2 * (0.75 * rho + 0.5 * rho**2 + 0.25 * rho**3))
-    white = reference.estimate(erring_together(0.0, 1), BED, PARAMS)
-    together = reference.estimate(erring_together(rho, 1), BED, PARAMS)
+    white = reference_fit.estimate(erring_together(0.0, 1), BED, PARAMS)
+    together = reference_fit.estimate(erring_together(rho, 1), BED, PARAMS)
     wider = sds(together) / sds(white)
     assert np.all(wider > 0.98 * scatter)
     assert np.all(wider < 1.15 * np.sqrt((1 + rho) / (1 - rho)))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from verification import design_predictions as check
 
 SKEW, TIERED = check.pyramid(), read_preset("reference-table")

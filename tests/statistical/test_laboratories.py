@@ -4,11 +4,11 @@ import pytest
 
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
-from equipoise.estimation.plain_model import DAMPING, plainly
-from equipoise.estimation.reference import surveyed
-from equipoise.estimation.survey import is_drowned
-from equipoise.estimation.trajectory import Params
-from equipoise.procedure.sound_rows import sound
+from equipoise.estimation.model_selection.initial_model import DAMPING, plainly
+from equipoise.estimation.model_selection.reference_fit import surveyed
+from equipoise.estimation.model_selection.survey import is_drowned
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.procedure.steps.clean_record import sound
 from verification import laboratories, starts
 
 QUICK = (

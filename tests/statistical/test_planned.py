@@ -5,8 +5,8 @@ from functools import cache
 
 import numpy as np
 
-from equipoise.design.predicted import predicted
-from equipoise.design.promise import promise
+from equipoise.design.manoeuvre.predicted_information import predicted
+from equipoise.design.manoeuvre.predicted_sd import promise
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.manoeuvre import Manoeuvre
 from verification.chance import mean_square_band

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from equipoise.estimation.method import Options
-from equipoise.io.presets import read_preset
+from equipoise.estimation.method_contract import Options
+from equipoise.io.testbed.presets import read_preset
 from equipoise.study.compare_methods import MethodComparison, stack, summary
 from equipoise.study.method_record import Scene
 from equipoise.study.method_run import JUDGED, Cost, MethodRun

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.balance import BalanceOptions
-from equipoise.procedure.laws import CARDS
+from equipoise.procedure.balancing.balance import BalanceOptions
+from equipoise.procedure.balancing.catalogue import CARDS
 from equipoise.study import compare_laws
 from equipoise.study.compare_laws import Refusal, compared, middle, run_or_refusal, summary
 from equipoise.study.law_run import LawRun, Task

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.dynamics.sag_trim import trimmed_com
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.defects import ComStep
 from equipoise.model.following import Following
 from equipoise.model.mass_properties import MassProperties
@@ -14,8 +14,8 @@ from equipoise.model.recording import Samples
 from equipoise.model.step import Step
 from equipoise.model.testbed import SlidingMass, Testbed, Truth
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.balance import BalanceOptions
-from equipoise.procedure.run_law import SPENT
+from equipoise.procedure.balancing.balance import BalanceOptions
+from equipoise.procedure.balancing.run_law import SPENT
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.study import law_run as law_run_module
 from equipoise.study.law_run import CountedBench, Task, followed_torque, gone, law_run, rms_torque

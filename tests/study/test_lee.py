@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.cmg_steering import NEAR as GIVES_WAY
-from equipoise.estimation.formulations.averaged import as_printed, centred_means
-from equipoise.estimation.formulations.rows import centred
-from equipoise.estimation.linear import posed_of
-from equipoise.estimation.method import Options
-from equipoise.io.presets import read_preset
+from equipoise.estimation.method_contract import Options
+from equipoise.estimation.regression.formulations.averaged import as_printed, centred_means
+from equipoise.estimation.regression.formulations.rows import centred
+from equipoise.estimation.regression.linear_method import posed_of
+from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import level, tilt
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.app.metering import metered
-from equipoise.estimation.method import Options
+from equipoise.app.runs.resource_use import metered
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.model.estimate import COM, END, INERTIA, Course, Estimate, Parameter
 from equipoise.model.outcome import Outcome
 from equipoise.simulation.bench import SimulatedBench

@@ -8,7 +8,7 @@ from study.made_up_runs import made_up
 from study.test_compare_laws import NEAR, UP
 from study.test_compare_laws import made_up as made_up_law
 
-from equipoise.io.presets import read_preset
+from equipoise.io.testbed.presets import read_preset
 from equipoise.study.compare_laws import Comparison, middle
 from equipoise.study.compare_laws import summary as law_summary
 from equipoise.study.compare_methods import Ratios, Share, summary

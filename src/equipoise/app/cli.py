@@ -40,7 +40,7 @@ from equipoise.app.commands.report import report
 from equipoise.app.commands.reproduce import reproduce
 from equipoise.app.commands.simulate import simulate
 from equipoise.app.commands.track import track
-from equipoise.app.terminal import complain
+from equipoise.app.console.terminal import complain
 from equipoise.model.errors import EquipoiseError
 
 WRONG_USE = 2

@@ -12,12 +12,12 @@ import numpy as np
 
 from equipoise.actuators.cmg_steering import limited_rates, singularity_robust
 from equipoise.actuators.control_moment_gyros import jacobian, singularity_measure
-from equipoise.control.attitude_pid import Gains, Pid, at_rest, torque, unwound
+from equipoise.control.elements.attitude_pid import Gains, Pid, at_rest, torque, unwound
 from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.law_sample import Eyes, looked, opened, sample_of
+from equipoise.procedure.steps.sampler import Eyes, looked, opened, sample_of
 from equipoise.simulation.bench import SimulatedBench
 
 PERIOD = 0.05  # s, chosen: the loop's

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.control.follow import shift_at
+from equipoise.control.laws.follow import shift_at
 from equipoise.dynamics.sag_trim import downs, residual_torque
 from equipoise.maths.linalg import skew
 from equipoise.model.arrays import Floats, Vector3
@@ -23,11 +23,11 @@ from equipoise.model.recording import Recording, Samples
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.balance import BalanceOptions
-from equipoise.procedure.law_devices import opened_hands, send, travel_time
-from equipoise.procedure.law_sample import last_row
-from equipoise.procedure.laws import balanced_by
-from equipoise.procedure.run_law import SPENT
+from equipoise.procedure.balancing.allocation import opened_hands, send, travel_time
+from equipoise.procedure.balancing.balance import BalanceOptions
+from equipoise.procedure.balancing.catalogue import balanced_by
+from equipoise.procedure.balancing.run_law import SPENT
+from equipoise.procedure.steps.sampler import last_row
 from equipoise.simulation.bench import SimulatedBench
 
 STOPPED = 0.2  # s, chosen: masses that should have arrived, have

@@ -21,14 +21,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.control.attitude_pid import Gains
-from equipoise.estimation import linear
-from equipoise.estimation.fisher import Observability, seen_by
-from equipoise.estimation.linear import SPARE, posed_of
-from equipoise.estimation.method import Options
+from equipoise.control.elements.attitude_pid import Gains
+from equipoise.estimation.information.fisher_information import Observability, seen_by
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.estimation.replicates import PAIRS, Drawn, pairs
-from equipoise.estimation.trajectory import Params
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.regression import linear_method
+from equipoise.estimation.regression.linear_method import SPARE, posed_of
+from equipoise.estimation.regression.monte_carlo_replicates import PAIRS, Drawn, pairs
 from equipoise.maths.attitude import from_euler321, level, multiply, to_euler321
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Quaternion, Series3
@@ -112,7 +112,7 @@ def estimates_of(
         if method.linear is None:
             found[name] = method.run(recording, testbed, Options())
         else:
-            found[name] = linear.estimate(method.card, method.linear, posed, (), draws)
+            found[name] = linear_method.estimate(method.card, method.linear, posed, (), draws)
     return found
 
 

@@ -15,11 +15,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.error_indices import error_indices
-from equipoise.estimation.formulations.rows import Formulation, Rows, centred
-from equipoise.estimation.linear import posed_of
-from equipoise.estimation.method import Options
-from equipoise.estimation.solvers.least_squares import flat, solved
+from equipoise.estimation.method_contract import Options
+from equipoise.estimation.regression.error_indices import error_indices
+from equipoise.estimation.regression.formulations.rows import Formulation, Rows, centred
+from equipoise.estimation.regression.linear_method import posed_of
+from equipoise.estimation.regression.solvers.least_squares import flat, solved
 from equipoise.model.arrays import Floats, Series, Series1
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, window

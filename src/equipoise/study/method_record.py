@@ -17,11 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.dynamics.sag_trim import SAG_TERMS
-from equipoise.estimation.bound_at_truth import least_sd
-from equipoise.estimation.method import Options
+from equipoise.estimation.information.cramer_rao_bound import least_sd
+from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.trajectory import params_of
-from equipoise.estimation.trajectory import Params
-from equipoise.estimation.unknowns import Unknowns
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.parameters.fit_parameters import Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model import sensor_terms
@@ -29,7 +29,7 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import COM, END, INERTIA
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.sound_rows import sound
+from equipoise.procedure.steps.clean_record import sound
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.simulation.draw_truth import SimulatedPlatform
 from equipoise.simulation.record import Moves, recorded

@@ -20,7 +20,7 @@ from typing import Literal
 
 import numpy as np
 
-from equipoise.estimation.method import Method, estimated
+from equipoise.estimation.method_contract import Method, estimated
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import EquipoiseError

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from equipoise.app.dashboard import requests as ask
-from equipoise.app.dashboard.desk import Desk
-from equipoise.app.dashboard.frames import decoded
-from equipoise.app.dashboard.post import Post
-from equipoise.app.dashboard.runner import Runner
-from equipoise.app.dashboard.stations import simulated
-from equipoise.io.presets import read_preset
+from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.protocol.frames import decoded
+from equipoise.app.dashboard.runner.benches import simulated
+from equipoise.app.dashboard.runner.outbox import Post
+from equipoise.app.dashboard.runner.request_handler import Desk
+from equipoise.app.dashboard.runner.runner import Runner
+from equipoise.io.testbed.presets import read_preset
 
 BALANCE = ask.Balance((0.0, 0.0, -100e-6), (2e-6, 2e-6, 3e-6), "look_and_move")
 

@@ -5,9 +5,9 @@ import struct
 
 import numpy as np
 
-from equipoise.app.dashboard.frames import decoded, encoded
-from equipoise.app.dashboard.post import Post
-from equipoise.app.dashboard.watch import BEHIND, GONE, MOST, Watch
+from equipoise.app.dashboard.protocol.frames import decoded, encoded
+from equipoise.app.dashboard.runner.outbox import Post
+from equipoise.app.dashboard.server.broadcast import BEHIND, GONE, MOST, Watch
 
 
 def test_a_frame_byte_for_byte():

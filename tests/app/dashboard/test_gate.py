@@ -9,10 +9,10 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from equipoise.app.dashboard.data_folder import recordings, within
-from equipoise.app.dashboard.gate import LARGEST, Doors, Gate
-from equipoise.app.dashboard.guard import Guard, new_token
-from equipoise.app.dashboard.session import bracketed, names
+from equipoise.app.dashboard.protocol.data_folder import recordings, within
+from equipoise.app.dashboard.server.authorisation import Guard, new_token
+from equipoise.app.dashboard.server.gate import LARGEST, Doors, Gate
+from equipoise.app.dashboard.server.session import bracketed, names
 from equipoise.model.errors import InputError
 
 HERE, TOKEN = "127.0.0.1:8080", "the-token"

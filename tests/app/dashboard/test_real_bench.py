@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.app.dashboard import requests as ask
-from equipoise.app.dashboard.stations import Station
-from equipoise.io.presets import read_preset
+from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.runner.benches import Station
+from equipoise.io.testbed.presets import read_preset
 from tests import emulated_lab
 from tests.app.dashboard.conftest import BALANCE, Room
 from tests.emulated_lab import over_tcp

@@ -8,7 +8,7 @@ from playwright.sync_api import expect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
-from equipoise.app.dashboard.gate import LARGEST
+from equipoise.app.dashboard.server.gate import LARGEST
 from tests.app.dashboard.driven import CHROMIUM, Heard, browser, dashboard, started
 
 SOCKETS = ("/live", "/_nicegui_ws/socket.io/?EIO=4&transport=websocket")

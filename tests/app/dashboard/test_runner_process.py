@@ -2,8 +2,8 @@
 
 from multiprocessing import Pipe, get_context
 
-from equipoise.app.dashboard import requests as ask
-from equipoise.app.dashboard.runner_process import Opening, run_runner
+from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.runner.runner_process import Opening, run_runner
 from tests.app.dashboard.conftest import BALANCE
 
 

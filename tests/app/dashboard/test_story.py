@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from equipoise.io.recording_file import read_recording
+from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import tilt
 from tests.app.dashboard.driven import CHROMIUM, Heard, browser, started
 

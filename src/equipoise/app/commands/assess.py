@@ -3,20 +3,20 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag, Triple
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
-from equipoise.app.terminal import busy, watched
+from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.types import Flag, Triple
+from equipoise.app.console.terminal import busy, watched
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from equipoise.app.assess_views import Told
+    from equipoise.app.views.assess_views import Told
     from equipoise.model.recording import Recording
     from equipoise.model.step import Step
     from equipoise.model.testbed import Testbed
-    from equipoise.procedure.assess import Assessment, AssessOptions
-    from equipoise.procedure.look_over_hours import OverHours
+    from equipoise.procedure.identification.assess import Assessment, AssessOptions
+    from equipoise.procedure.identification.drift_metrics import OverHours
 
 
 def assess(
@@ -63,10 +63,10 @@ def assess(
     out
         Folder for figures, report.html and assess.json.
     """
-    from equipoise.app.options import between, positive, vector
-    from equipoise.app.units import PER_DEG, UM
-    from equipoise.app.wiring import fitting_recording_of, spelt_out, testbed_of
-    from equipoise.io.whole_folder import check_folder
+    from equipoise.app.arguments.checks import between, positive, vector
+    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
+    from equipoise.app.text.units import PER_DEG, UM
+    from equipoise.io.files.atomic_folder import check_folder
 
     bed, seeking = testbed_of(testbed), spelt_out(seeking)
     torque, offset = require_torque, require_offset_um
@@ -82,9 +82,9 @@ def assess(
     recording = fitting_recording_of(file, reading, bed)
     earlier = None if before is None else fitting_recording_of(before, WHOLE, bed)
     with busy("assessing", announce=False):
-        from equipoise.app.assess_views import Told
-        from equipoise.assessment.record_findings import findings
-        from equipoise.procedure.assess import AssessOptions
+        from equipoise.app.views.assess_views import Told
+        from equipoise.assessment.findings.record_findings import findings
+        from equipoise.procedure.identification.assess import AssessOptions
 
         options = AssessOptions(goal, tilt, torque, offset, seeking.term, seeking.hold)
     done, steps = _carried_out(recording, bed, options)
@@ -99,7 +99,7 @@ def assess(
 
 def _looked(done: "Assessment", seconds: float) -> "OverHours":
     """Return looks along the recording, at the inertia that was found."""
-    from equipoise.procedure.look_over_hours import looks_over_hours
+    from equipoise.procedure.identification.drift_metrics import looks_over_hours
 
     with busy("looking again and again"):
         return looks_over_hours(done.recording, done.testbed, seconds, done.estimate.outcome.usable)
@@ -107,10 +107,10 @@ def _looked(done: "Assessment", seconds: float) -> "OverHours":
 
 def _tell(told: "Told", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
-    from equipoise.app.archive import write_account
-    from equipoise.app.assess_json import document_of
-    from equipoise.app.assess_views import account_of, show_result
-    from equipoise.app.handing_over import hand_over
+    from equipoise.app.logbook.output import hand_over
+    from equipoise.app.report.write import write_account
+    from equipoise.app.views.assess_json import document_of
+    from equipoise.app.views.assess_views import account_of, show_result
 
     document = document_of(told)
 
@@ -124,7 +124,7 @@ def _carried_out(
     recording: "Recording", testbed: "Testbed", options: "AssessOptions"
 ) -> "tuple[Assessment, list[Step]]":
     """Return the assessment and its steps, with a sign of life."""
-    from equipoise.procedure.assess import assess as procedure
+    from equipoise.procedure.identification.assess import assess as procedure
 
     found: list[Assessment] = []
 

@@ -5,6 +5,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.types import Flag, Triple, Whole
 from equipoise.app.commands.by_hand import (
     MOVED,
     Asked,
@@ -13,7 +15,6 @@ from equipoise.app.commands.by_hand import (
     check_by_hand,
     is_by_hand,
 )
-from equipoise.app.commands.kinds import Flag, Triple, Whole
 from equipoise.app.commands.on_bench import (
     SIMULATED,
     OnBench,
@@ -21,11 +22,10 @@ from equipoise.app.commands.on_bench import (
     let_go,
     prepare,
 )
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.terminal import busy
+from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.app.balancing import Balancing
+    from equipoise.app.runs.balancing import Balancing
     from equipoise.model.arrays import Vector3
     from equipoise.model.bench import Bench
     from equipoise.model.manoeuvre import Manoeuvre
@@ -86,9 +86,9 @@ def balance(
     out
         Folder for report, figures and balance.json; else one of its own in equipoise-runs.
     """
-    from equipoise.app.options import one_of, seed_of
-    from equipoise.app.wiring import testbed_of
-    from equipoise.io.whole_folder import check_folder
+    from equipoise.app.arguments.checks import one_of, seed_of
+    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.io.files.atomic_folder import check_folder
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
@@ -96,7 +96,7 @@ def balance(
     if is_by_hand(by_hand, reading):
         others = _of_moving_masses(law, plan, until) + ["--bench"] * on_bench.bench
         check_by_hand(by_hand, reading, others)
-        from equipoise.app.balancing import Goal
+        from equipoise.app.runs.balancing import Goal
 
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Asked(testbed, goal, seed, by_hand, reading, json, out))
@@ -105,9 +105,9 @@ def balance(
     if out is not None:
         check_folder(out)
     with busy("preparing the bench", announce=False):
-        from equipoise.app.balance_views import show_step
-        from equipoise.app.balancing import Goal, Limits, run
-        from equipoise.procedure.laws import CARDS
+        from equipoise.app.runs.balancing import Goal, Limits, run
+        from equipoise.app.views.balance_views import show_step
+        from equipoise.procedure.balancing.catalogue import CARDS
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
         goal = Goal(*where)
@@ -121,8 +121,8 @@ def balance(
 
 def _where(target_um: Triple, tolerance_um: Triple) -> "tuple[Vector3, Vector3]":
     """Return target and tolerance, m, checked."""
-    from equipoise.app.options import tolerance, vector
-    from equipoise.app.units import UM
+    from equipoise.app.arguments.checks import tolerance, vector
+    from equipoise.app.text.units import UM
 
     target = vector("--target-um", target_um, 1 / UM)
     return target, tolerance("--tolerance-um", tolerance_um, 1 / UM)
@@ -130,7 +130,7 @@ def _where(target_um: Triple, tolerance_um: Triple) -> "tuple[Vector3, Vector3]"
 
 def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> Until:
     """Return moves and time (s) before giving up, and how long to hold (s), checked."""
-    from equipoise.app.options import not_negative, positive
+    from equipoise.app.arguments.checks import not_negative, positive
 
     moves = None if max_moves is None else int(not_negative("--max-moves", max_moves))
     longest = None if max_time_s is None else positive("--max-time-s", max_time_s)
@@ -148,7 +148,7 @@ def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:
 
 def _planned(plan: Path, bed: "Testbed") -> "Manoeuvre":
     """Return the manoeuvre of a plan file."""
-    from equipoise.io.plan_file import read_plan
+    from equipoise.io.documents.plan_file import read_plan
 
     return read_plan(plan, bed).manoeuvre
 
@@ -166,9 +166,9 @@ def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Gener
 
 def _tell(done: "Balancing", law: str, seed: int, json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
-    from equipoise.app.archive import write_run
-    from equipoise.app.balance_views import account_of, document_of, kept_of, show_result
-    from equipoise.app.handing_over import hand_over, keep
+    from equipoise.app.logbook.output import hand_over, keep
+    from equipoise.app.report.write import write_run
+    from equipoise.app.views.balance_views import account_of, document_of, kept_of, show_result
 
     document = document_of(done, seed)
 

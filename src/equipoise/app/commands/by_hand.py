@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 from cyclopts import Parameter
 
-from equipoise.app.commands.kinds import Flag, Whole
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.terminal import busy, stdout
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.types import Flag, Whole
+from equipoise.app.console.terminal import busy, stdout
 
 if TYPE_CHECKING:
-    from equipoise.app.balancing import Goal
-    from equipoise.app.manual import ByHand
+    from equipoise.app.runs.balancing import Goal
+    from equipoise.app.runs.manual_balancing import ByHand
     from equipoise.model.testbed import Testbed
 
 
@@ -77,10 +77,10 @@ def check_by_hand(by: Manual, reading: Reading, others: list[str]) -> None:
 
 def balance_by_hand(asked: Asked) -> int:
     """Carry a balancing by hand out, or one step of it, and return the exit code."""
-    from equipoise.app.options import positive
-    from equipoise.app.wiring import testbed_of
-    from equipoise.io.whole_folder import check_folder
-    from equipoise.procedure.balance_by_hand import check
+    from equipoise.app.arguments.checks import positive
+    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.procedure.balancing.balance_manually import check
 
     rounds = int(positive("--max-rounds", asked.by.max_rounds))
     bed = testbed_of(asked.testbed)
@@ -90,8 +90,8 @@ def balance_by_hand(asked: Asked) -> int:
     if asked.by.session is not None:
         return _a_persons(asked, asked.by.session, bed, rounds)
     with busy("preparing the bench", announce=False):
-        from equipoise.app.balance_views import show_step
-        from equipoise.app.manual import run
+        from equipoise.app.runs.manual_balancing import run
+        from equipoise.app.views.balance_views import show_step
         from equipoise.simulation.hands import SimulatedHands
 
         hands = SimulatedHands(bed, asked.seed)
@@ -101,10 +101,17 @@ def balance_by_hand(asked: Asked) -> int:
 
 def _a_persons(asked: Asked, path: Path, bed: "Testbed", rounds: int) -> int:
     """Take the next recording of a session, and say what to do next."""
-    from equipoise.app.balance_views import show_step
-    from equipoise.app.manual import begun, next_deed, noted, opened, resume, with_recording
-    from equipoise.io.hand_session import read_session, write_session
-    from equipoise.io.whole_file import check_writable
+    from equipoise.app.runs.manual_balancing import (
+        begun,
+        next_deed,
+        noted,
+        opened,
+        resume,
+        with_recording,
+    )
+    from equipoise.app.views.balance_views import show_step
+    from equipoise.io.documents.manual_session import read_session, write_session
+    from equipoise.io.files.atomic_file import check_writable
 
     check_writable(path)
     filed = begun(asked.testbed, bed, asked.goal, rounds)
@@ -122,10 +129,10 @@ def _a_persons(asked: Asked, path: Path, bed: "Testbed", rounds: int) -> int:
 
 def _tell(done: "ByHand", of: dict[str, str], asked: Asked) -> int:
     """Print the result, write it down if that is asked for, and return the exit code."""
-    from equipoise.app.archive import write_run
-    from equipoise.app.balance_views import kept_of
-    from equipoise.app.handing_over import hand_over, keep
-    from equipoise.app.manual_views import account_of, document_of, show_result
+    from equipoise.app.logbook.output import hand_over, keep
+    from equipoise.app.report.write import write_run
+    from equipoise.app.views.balance_views import kept_of
+    from equipoise.app.views.manual_views import account_of, document_of, show_result
 
     document = document_of(done, of)
 

@@ -3,14 +3,14 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag, Names
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
-from equipoise.app.terminal import busy, stdout
+from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.types import Flag, Names
+from equipoise.app.console.terminal import busy, stdout
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
-    from equipoise.estimation.calibration import CalibrateOptions
+    from equipoise.estimation.calibration.calibration import CalibrateOptions
     from equipoise.model.estimate import Estimate
     from equipoise.model.testbed import Testbed
 
@@ -46,9 +46,9 @@ def calibrate(
     json
         Print one JSON document instead.
     """
-    from equipoise.app.wiring import spelt_out, testbed_of
-    from equipoise.estimation.calibration import CalibrateOptions
-    from equipoise.io.whole_file import check_writable
+    from equipoise.app.arguments.resolve import spelt_out, testbed_of
+    from equipoise.estimation.calibration.calibration import CalibrateOptions
+    from equipoise.io.files.atomic_file import check_writable
 
     bed = testbed_of(testbed)
     if moves:
@@ -72,19 +72,19 @@ def _carried_out(
     file: str, bed: "Testbed", reading: Reading, options: "CalibrateOptions"
 ) -> "Estimate":
     """Return the calibration."""
-    from equipoise.app.wiring import fitting_recording_of
+    from equipoise.app.arguments.resolve import fitting_recording_of
 
     recording = fitting_recording_of(file, reading, bed)
     with busy("calibrating"):
-        from equipoise.procedure.calibrate import calibrate as procedure
+        from equipoise.procedure.identification.calibrate import calibrate as procedure
 
         return procedure(recording, bed, options)
 
 
 def _tell(found: "Estimate", bed: "Testbed", json: bool) -> None:
     """Print the calibration."""
-    from equipoise.app.calibration_views import show_calibration
-    from equipoise.app.views_json import dump, estimate_json
+    from equipoise.app.text.json_document import dump, estimate_json
+    from equipoise.app.views.calibration_views import show_calibration
 
     if json:
         print(dump(estimate_json(found)))
@@ -94,11 +94,11 @@ def _tell(found: "Estimate", bed: "Testbed", json: bool) -> None:
 
 def _write(found: "Estimate", bed: "Testbed", name: str, path: Path, quiet: bool) -> None:
     """Write the calibrated testbed."""
-    from equipoise.app.calibration_views import remarks_of
-    from equipoise.app.wiring import testbed_text_of
-    from equipoise.estimation.calibration import calibrated
-    from equipoise.io.testbed_edit import with_drives
-    from equipoise.io.whole_file import write_whole
+    from equipoise.app.arguments.resolve import testbed_text_of
+    from equipoise.app.views.calibration_views import remarks_of
+    from equipoise.estimation.calibration.calibration import calibrated
+    from equipoise.io.files.atomic_file import write_whole
+    from equipoise.io.testbed.testbed_edit import with_drives
 
     text = testbed_text_of(name)
     write_whole(path, with_drives(text, calibrated(bed, found), remarks_of(found, bed), name))
@@ -108,7 +108,7 @@ def _write(found: "Estimate", bed: "Testbed", name: str, path: Path, quiet: bool
 
 def _tell_moves(bed: "Testbed", name: str) -> int:
     """Print the moves that show most, as a command for the simulated bench."""
-    from equipoise.procedure.calibration_moves import calibration_moves
+    from equipoise.procedure.identification.calibration_moves import calibration_moves
 
     plan, duration = calibration_moves(bed)
     lines = [f"equipoise simulate {name} --out run.csv --duration-s {duration:g}"]

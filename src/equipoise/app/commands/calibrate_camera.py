@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from equipoise.app.commands.kinds import Whole
-from equipoise.app.terminal import counted, stdout, tell_paths
+from equipoise.app.arguments.types import Whole
+from equipoise.app.console.terminal import counted, stdout, tell_paths
 
 
 def calibrate_camera(
@@ -37,12 +37,12 @@ def calibrate_camera(
     dictionary
         Its markers: 4X4_50 or another dictionary of ArUco or AprilTag.
     """
-    from equipoise.app.lens_from_files import lens_from_files
-    from equipoise.app.options import positive
+    from equipoise.app.arguments.checks import positive
+    from equipoise.app.runs.lens_calibration import lens_from_files
     from equipoise.hardware.camera.aruco import Charuco
     from equipoise.hardware.camera.eye import settings_of_lens
-    from equipoise.io.camera_file import write_camera_keys
-    from equipoise.io.whole_file import check_writable
+    from equipoise.io.documents.camera_file import write_camera_keys
+    from equipoise.io.files.atomic_file import check_writable
 
     check_writable(out)
     square, marker = positive("--square-mm", square_mm), positive("--marker-mm", marker_mm)

@@ -2,11 +2,11 @@
 
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.terminal import busy, stdout
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import busy, stdout
 
 if TYPE_CHECKING:
-    from equipoise.app.bench_check import Told
+    from equipoise.app.bench.bench_check import Told
 
 STREAMED = 2.0  # s of every sensor, as the usage says
 
@@ -24,9 +24,9 @@ def check(testbed: str, /, *, yes: Flag = False) -> int:
     yes
         Move masses without asking.
     """
-    from equipoise.app.asking import agreed
-    from equipoise.app.bench_check import checked_bench
-    from equipoise.app.wiring import testbed_of
+    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.bench.bench_check import checked_bench
+    from equipoise.app.console.confirm import agreed
 
     bed = testbed_of(testbed)
     told: list[Told] = []

@@ -3,13 +3,13 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.judging_laws import AS_THEY_ARE, JudgingLaws
-from equipoise.app.commands.kinds import Flag, Names, Whole
-from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
-from equipoise.app.terminal import busy
+from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.law_comparison import AS_THEY_ARE, JudgingLaws
+from equipoise.app.arguments.types import Flag, Names, Whole
+from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.app.comparison_report import Compared
+    from equipoise.app.views.comparison_report import Compared
     from equipoise.model.arrays import Vector3
     from equipoise.model.testbed import Testbed
     from equipoise.simulation.record import Moves
@@ -66,9 +66,9 @@ def compare(
     out
         Folder for the report, figures, compare.json, and methods.csv or laws.csv, a line a run.
     """
-    from equipoise.app.options import positive
-    from equipoise.app.wiring import move_of, spelt_out, testbed_of
-    from equipoise.io.whole_folder import check_folder
+    from equipoise.app.arguments.checks import positive
+    from equipoise.app.arguments.resolve import move_of, spelt_out, testbed_of
+    from equipoise.io.files.atomic_folder import check_folder
     from equipoise.model.errors import InputError
 
     if not (methods or laws):
@@ -80,15 +80,15 @@ def compare(
     if out is not None:
         check_folder(out)
     with busy("preparing", announce=False):
-        from equipoise.app import comparing
-        from equipoise.app.comparison_report import Compared
+        from equipoise.app.runs import comparison
+        from equipoise.app.views.comparison_report import Compared
 
-        kinds = comparing.by_kind(only, methods, laws)
-        names = comparing.chosen_methods(kinds[0]) if methods else ()
-        cards = comparing.chosen(bed, kinds[1]) if laws else []
+        kinds = comparison.by_kind(only, methods, laws)
+        names = comparison.chosen_methods(kinds[0]) if methods else ()
+        cards = comparison.chosen(bed, kinds[1]) if laws else []
         scene = _scene(bed, duration, moves, seeking)
-    measured = comparing.run_methods(scene, names, seeds, many) if methods else None
-    balanced = comparing.run(comparing.Asked(bed, cards, seeds, *goal), many) if laws else None
+    measured = comparison.run_methods(scene, names, seeds, many) if methods else None
+    balanced = comparison.run(comparison.Asked(bed, cards, seeds, *goal), many) if laws else None
     done = Compared(bed, _asked(seeds, duration, move, goal), measured, balanced)
     _tell(done, json, out)
     return _code(done)
@@ -96,7 +96,7 @@ def compare(
 
 def _seeds(seed: int, runs: int) -> range:
     """Return the platforms' seeds, checked."""
-    from equipoise.app.options import positive, seed_of
+    from equipoise.app.arguments.checks import positive, seed_of
 
     first = seed_of(seed)
     return range(first, first + int(positive("--runs", runs)))
@@ -104,7 +104,7 @@ def _seeds(seed: int, runs: int) -> range:
 
 def _scene(bed: "Testbed", duration: float, moves: "Moves", seeking: Seeking) -> "Scene":
     """Return what methods are compared on, and what they are asked."""
-    from equipoise.estimation.method import Options
+    from equipoise.estimation.method_contract import Options
     from equipoise.study.method_record import Scene
 
     return Scene(bed, duration, moves, Options(seeking.term, seeking.hold, seeking.prior))
@@ -122,8 +122,8 @@ def _asked(seeds: range, duration: float, moves: Names, goal: "Goal") -> dict[st
 
 def _goal(judging: JudgingLaws) -> "Goal":
     """Return target and tolerance (m), tilt (deg), torque (N m) and time (s), checked."""
-    from equipoise.app.options import not_negative, positive, tolerance, vector
-    from equipoise.app.units import UM
+    from equipoise.app.arguments.checks import not_negative, positive, tolerance, vector
+    from equipoise.app.text.units import UM
 
     return (
         vector("--target-um", judging.target_um, 1 / UM),
@@ -136,9 +136,9 @@ def _goal(judging: JudgingLaws) -> "Goal":
 
 def _tell(done: "Compared", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
-    from equipoise.app.comparison_report import document, files_of, show
-    from equipoise.app.handing_over import hand_over
-    from equipoise.io.whole_folder import write_folder
+    from equipoise.app.logbook.output import hand_over
+    from equipoise.app.views.comparison_report import document, files_of, show
+    from equipoise.io.files.atomic_folder import write_folder
 
     def written(folder: Path) -> list[Path]:
         return write_folder(folder, files_of(done))

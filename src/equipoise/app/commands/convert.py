@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.terminal import stdout, tell_paths
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.console.terminal import stdout, tell_paths
 
 
 def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
@@ -18,10 +18,10 @@ def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
     out
         File to write: .csv, .parquet, .mcap or .mat.
     """
-    from equipoise.app.wiring import recording_of
-    from equipoise.io.recording_file import write_recording
-    from equipoise.io.recording_formats import format_to_write
-    from equipoise.io.whole_file import check_writable
+    from equipoise.app.arguments.resolve import recording_of
+    from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.recording.format_registry import format_to_write
+    from equipoise.io.recording.recording_file import write_recording
 
     format_to_write(out)  # a suffix that is not written is told before anything is read
     check_writable(out)

@@ -4,12 +4,12 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag, Whole
-from equipoise.app.terminal import busy, stdout
+from equipoise.app.arguments.types import Flag, Whole
+from equipoise.app.console.terminal import busy, stdout
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
-    from equipoise.app.dashboard.runner_process import Opening
+    from equipoise.app.dashboard.runner.runner_process import Opening
 
 LOOPBACK = "127.0.0.1"
 EVERYWHERE = ("0.0.0.0", "::", "*", "")
@@ -48,7 +48,7 @@ def dashboard(
         Address of this computer at which others may open the page, such as 192.168.1.5. The token
         is then needed to look on, too. Left out: this computer alone.
     """
-    from equipoise.app.options import seed_of
+    from equipoise.app.arguments.checks import seed_of
 
     if not 0 <= port < 65536:
         raise InputError("--port", str(port), "0 to 65535")
@@ -56,7 +56,7 @@ def dashboard(
         raise InputError("--expose", f"'{expose}'", "one address of this computer")
     opening = _opening(shown, testbed, seed_of(seed), bench)
     with busy("starting the dashboard", announce=False):
-        from equipoise.app.dashboard.session import open_session
+        from equipoise.app.dashboard.server.session import open_session
 
         session = open_session(opening, expose or LOOPBACK, port, expose is not None)
     with session:
@@ -69,13 +69,13 @@ def dashboard(
 
 def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Opening":
     """Return what to begin with: a run's folder, a recording, or a testbed."""
-    from equipoise.app.commands.reading import WHOLE
-    from equipoise.app.dashboard.data_folder import data_folder
-    from equipoise.app.dashboard.runner_process import Opening
-    from equipoise.app.emulation import hardware_of
-    from equipoise.app.logged import RECORDING
-    from equipoise.app.wiring import fitting_recording_of, testbed_of
-    from equipoise.io.run_file import TESTBED
+    from equipoise.app.arguments.recording_window import WHOLE
+    from equipoise.app.arguments.resolve import fitting_recording_of, testbed_of
+    from equipoise.app.bench.emulation import hardware_of
+    from equipoise.app.dashboard.protocol.data_folder import data_folder
+    from equipoise.app.dashboard.runner.runner_process import Opening
+    from equipoise.app.report.logbook_entry import RECORDING
+    from equipoise.io.documents.run_file import TESTBED
 
     path = Path(shown)
     if path.is_dir():

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from equipoise.app.commands.kinds import Whole
-from equipoise.app.terminal import busy, stdout, tell_paths
+from equipoise.app.arguments.types import Whole
+from equipoise.app.console.terminal import busy, stdout, tell_paths
 
 
 def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
@@ -16,17 +16,17 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
     seed
         Seed of all that is drawn: the same seed gives the same run.
     """
-    from equipoise.app.options import seed_of
-    from equipoise.io.presets import read_preset
-    from equipoise.io.whole_folder import check_folder
+    from equipoise.app.arguments.checks import seed_of
+    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.io.testbed.presets import read_preset
 
     bed, seed = read_preset("sputnix"), seed_of(seed)
     check_folder(out)
     with busy("preparing the bench", announce=False):
-        from equipoise.app.archive import write_run
-        from equipoise.app.balance_views import document_of, kept_of, show_result
-        from equipoise.app.demonstration import account_of, run_demo
-        from equipoise.procedure.laws import OWN
+        from equipoise.app.report.write import write_run
+        from equipoise.app.runs.demonstration import account_of, run_demo
+        from equipoise.app.views.balance_views import document_of, kept_of, show_result
+        from equipoise.procedure.balancing.catalogue import OWN
 
     shown = run_demo(bed, seed)
     show_result(shown.balancing)

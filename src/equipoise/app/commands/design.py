@@ -3,12 +3,12 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.exposure import NOTHING_STATED, Exposure, surroundings_of
-from equipoise.app.commands.kinds import Flag, Several, Triple, Whole
-from equipoise.app.terminal import busy
+from equipoise.app.arguments.environment import NOTHING_STATED, Exposure, surroundings_of
+from equipoise.app.arguments.types import Flag, Several, Triple, Whole
+from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.design.sizing import Sizing
+    from equipoise.design.sizing.sizing import Sizing
 
 
 def design(
@@ -51,10 +51,10 @@ def design(
     out
         Folder for reach.png, budget.png and design.json.
     """
-    from equipoise.app.options import not_negative, positive, vector
-    from equipoise.app.units import PER_DEG, UM
-    from equipoise.app.wiring import testbed_with_masses
-    from equipoise.io.whole_folder import check_folder
+    from equipoise.app.arguments.checks import not_negative, positive, vector
+    from equipoise.app.arguments.resolve import testbed_with_masses
+    from equipoise.app.text.units import PER_DEG, UM
+    from equipoise.io.files.atomic_folder import check_folder
 
     lengths = [positive("--record-s", length) for length in record_s]
     target = vector("--target-um", target_um, 1 / UM)
@@ -67,8 +67,8 @@ def design(
     if out is not None:
         check_folder(out)
     with busy("reckoning"):
-        from equipoise.design.case import Case
-        from equipoise.design.sizing import sized
+        from equipoise.design.sizing.case import Case
+        from equipoise.design.sizing.sizing import sized
 
         case = Case(bed, target, tilt, lengths[0], count, lean, around)
         found = sized(case, lengths, require_torque)
@@ -78,13 +78,13 @@ def design(
 
 def _tell(found: "Sizing", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
-    from equipoise.app.design_views import design_json, show_design
-    from equipoise.app.handing_over import hand_over
+    from equipoise.app.logbook.output import hand_over
+    from equipoise.app.views.design_views import design_json, show_design
 
     document = design_json(found)
 
     def written(folder: Path) -> list[Path]:
-        from equipoise.app.design_pictures import write_design
+        from equipoise.app.figures.design_catalogue import write_design
 
         return write_design(found, document, folder)
 

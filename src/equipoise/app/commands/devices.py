@@ -3,8 +3,8 @@
 import json as text
 from dataclasses import asdict
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.terminal import stdout
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import stdout
 
 
 def devices(*, json: Flag = False) -> int:
@@ -15,7 +15,7 @@ def devices(*, json: Flag = False) -> int:
     json
         Print one JSON document instead.
     """
-    from equipoise.hardware.serial_ports import serial_ports
+    from equipoise.hardware.transport.serial_ports import serial_ports
 
     found = serial_ports()
     if json:

@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Whole
-from equipoise.app.terminal import busy, stdout
+from equipoise.app.arguments.types import Whole
+from equipoise.app.console.terminal import busy, stdout
 
 if TYPE_CHECKING:
-    from equipoise.app.emulation import EmulatedBench
+    from equipoise.app.bench.emulation import EmulatedBench
 
 CAUGHT = 1.1  # of the tilt limit, chosen: where somebody catches the platform
 
@@ -30,10 +30,10 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
     max_time_s
         End by itself after so long.
     """
-    from equipoise.app.emulation import emulate as emulated
-    from equipoise.app.options import positive, seed_of
-    from equipoise.app.wiring import testbed_of
-    from equipoise.io.testbed_file import write_testbed
+    from equipoise.app.arguments.checks import positive, seed_of
+    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.bench.emulation import emulate as emulated
+    from equipoise.io.testbed.testbed_file import write_testbed
     from equipoise.simulation.bench import SimulatedBench
 
     bed, drawn = testbed_of(testbed), seed_of(seed)
@@ -56,8 +56,8 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
 
 def _run(bench: "EmulatedBench", longest: float) -> None:
     """Run as the clock on the wall does, until then or until Ctrl-C."""
-    from equipoise.app.units import UM
-    from equipoise.hardware.wall_clock import WallClock
+    from equipoise.app.text.units import UM
+    from equipoise.hardware.bench.wall_clock import WallClock
 
     clock = WallClock()
     try:

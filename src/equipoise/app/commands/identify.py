@@ -4,16 +4,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
-from equipoise.app.terminal import busy, watched
+from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import busy, watched
 
 if TYPE_CHECKING:
-    from equipoise.app.identify_views import Identification
+    from equipoise.app.views.identify_views import Identification
     from equipoise.model.recording import Recording
     from equipoise.model.testbed import Testbed
-    from equipoise.procedure.identify import IdentifyOptions
+    from equipoise.procedure.identification.identify import IdentifyOptions
 
 
 def identify(
@@ -50,10 +50,10 @@ def identify(
     out
         Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
     """
-    from equipoise.app.options import one_of
-    from equipoise.app.wiring import fitting_recording_of, spelt_out, testbed_of
-    from equipoise.io.plan_file import read_plan
-    from equipoise.io.whole_folder import check_folder
+    from equipoise.app.arguments.checks import one_of
+    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
+    from equipoise.io.documents.plan_file import read_plan
+    from equipoise.io.files.atomic_folder import check_folder
 
     bed, seeking = testbed_of(testbed), spelt_out(seeking)
     if out is not None:
@@ -62,7 +62,7 @@ def identify(
     planned = None if plan is None else read_plan(plan, bed)
     with busy("identifying", announce=False):
         from equipoise.estimation.methods.registry import METHODS
-        from equipoise.procedure.identify import IdentifyOptions
+        from equipoise.procedure.identification.identify import IdentifyOptions
 
     one_of("--method", method, ["auto", *METHODS])
     options = IdentifyOptions(method, seeking.term, seeking.hold, seeking.prior, robust)
@@ -76,10 +76,10 @@ def _carried_out(
     recording: "Recording", testbed: "Testbed", options: "IdentifyOptions", quiet: bool
 ) -> "Identification":
     """Identify; what the recording holds is told before."""
-    from equipoise.app.identify_views import Identification, show_findings
-    from equipoise.assessment.event_findings import event_findings
-    from equipoise.assessment.record_findings import findings
-    from equipoise.procedure.identify import identify as procedure
+    from equipoise.app.views.identify_views import Identification, show_findings
+    from equipoise.assessment.findings.event_findings import event_findings
+    from equipoise.assessment.findings.record_findings import findings
+    from equipoise.procedure.identification.identify import identify as procedure
 
     found = findings(recording, testbed)
     if not quiet:
@@ -94,9 +94,9 @@ def _carried_out(
 
 def _tell(done: "Identification", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
-    from equipoise.app.archive import write_run
-    from equipoise.app.handing_over import hand_over, keep
-    from equipoise.app.identify_views import account_of, document_of, kept_of, show_result
+    from equipoise.app.logbook.output import hand_over, keep
+    from equipoise.app.report.write import write_run
+    from equipoise.app.views.identify_views import account_of, document_of, kept_of, show_result
 
     document = document_of(done)
 

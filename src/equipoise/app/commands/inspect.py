@@ -3,12 +3,12 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.terminal import stdout, tell_paths
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import stdout, tell_paths
 
 if TYPE_CHECKING:
-    from equipoise.assessment.finding import Finding
+    from equipoise.model.finding import Finding
     from equipoise.model.testbed import Testbed
 
 
@@ -37,19 +37,19 @@ def inspect(
     figure
         Page with the record and its findings to write, such as record.png.
     """
-    from equipoise.app.tables import finding_line
-    from equipoise.app.views_json import dump, findings_json
-    from equipoise.app.wiring import recording_of, testbed_of
-    from equipoise.assessment.event_findings import NOT_SOUGHT
-    from equipoise.assessment.record_findings import findings
+    from equipoise.app.arguments.resolve import recording_of, testbed_of
+    from equipoise.app.console.rich_results import finding_line
+    from equipoise.app.text.json_document import dump, findings_json
+    from equipoise.assessment.findings.event_findings import NOT_SOUGHT
+    from equipoise.assessment.findings.record_findings import findings
 
     bed = None if testbed is None else testbed_of(testbed)
     recording = recording_of(file, reading)
     found = [*findings(recording, bed)]
     found += [NOT_SOUGHT] if bed is None else _happened(file, reading, bed)
     if figure is not None:
-        from equipoise.app.figures.record import draw
-        from equipoise.app.outputs import write_figure
+        from equipoise.app.figures.base.files import write_figure
+        from equipoise.app.figures.recording.record import draw
 
         write_figure(draw(recording, found, None if bed is None else bed.up), figure)
     if json:
@@ -64,11 +64,11 @@ def inspect(
 
 def _happened(file: str, reading: Reading, testbed: "Testbed") -> "list[Finding]":
     """Return what a fit of the record stepped over, and how well it explains the rest."""
-    from equipoise.app.terminal import watched
-    from equipoise.app.wiring import fitting_recording_of
-    from equipoise.assessment.event_findings import event_findings
-    from equipoise.assessment.finding import Finding
-    from equipoise.procedure.identify import IdentifyOptions, identify
+    from equipoise.app.arguments.resolve import fitting_recording_of
+    from equipoise.app.console.terminal import watched
+    from equipoise.assessment.findings.event_findings import event_findings
+    from equipoise.model.finding import Finding
+    from equipoise.procedure.identification.identify import IdentifyOptions, identify
 
     recording = fitting_recording_of(file, reading, testbed)
     *_, last = watched(identify(recording, testbed, IdentifyOptions("trajectory")), "looking")

@@ -1,7 +1,7 @@
 """`equipoise laws`: how a platform can be balanced."""
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.terminal import stdout
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import stdout
 
 
 def laws(name: str | None = None, /, *, json: Flag = False) -> int:
@@ -16,10 +16,10 @@ def laws(name: str | None = None, /, *, json: Flag = False) -> int:
     json
         Print one JSON document instead.
     """
-    from equipoise.app.law_views import card_table, laws_json, list_table
-    from equipoise.app.options import one_of
-    from equipoise.app.views_json import dump
-    from equipoise.procedure.laws import CARDS
+    from equipoise.app.arguments.checks import one_of
+    from equipoise.app.text.json_document import dump
+    from equipoise.app.views.law_views import card_table, laws_json, list_table
+    from equipoise.procedure.balancing.catalogue import CARDS
 
     chosen = list(CARDS) if name is None else [one_of("law", name, list(CARDS))]
     cards = [CARDS[each] for each in chosen]

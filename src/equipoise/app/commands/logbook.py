@@ -3,12 +3,12 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag, Listed
-from equipoise.app.commands.wanted_runs import LATEST, WantedRuns, condition
-from equipoise.app.terminal import busy, complain, stderr, stdout, tell_paths
+from equipoise.app.arguments.run_filter import LATEST, WantedRuns, condition
+from equipoise.app.arguments.types import Flag, Listed
+from equipoise.app.console.terminal import busy, complain, stderr, stdout, tell_paths
 
 if TYPE_CHECKING:
-    from equipoise.io.logbook import Logbook
+    from equipoise.io.documents.logbook import Logbook
     from equipoise.model.logged_run import LoggedRun
 
 
@@ -44,8 +44,8 @@ def logbook(
     json
         Print one JSON document instead.
     """
-    from equipoise.app.run_folder import USUAL, runs_folder
-    from equipoise.io.logbook import open_logbook
+    from equipoise.app.logbook.run_folder import USUAL, runs_folder
+    from equipoise.io.documents.logbook import open_logbook
     from equipoise.model.errors import InputError
 
     if builds and compare:
@@ -66,7 +66,7 @@ def logbook(
 
 
 def _check(path: Path | None, suffixes: str) -> None:
-    from equipoise.io.whole_file import check_writable
+    from equipoise.io.files.atomic_file import check_writable
     from equipoise.model.errors import InputError
 
     if path is not None:
@@ -76,8 +76,8 @@ def _check(path: Path | None, suffixes: str) -> None:
 
 
 def _tell_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
-    from equipoise.app.logbook_builds import builds_json, show_builds
-    from equipoise.app.views_json import dump
+    from equipoise.app.logbook.testbed_history import builds_json, show_builds
+    from equipoise.app.text.json_document import dump
 
     shown = book.builds(*condition(wanted))
     if json:
@@ -89,9 +89,9 @@ def _tell_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
 def _tell(
     book: "Logbook", shown: "list[LoggedRun]", earlier: int, compare: Listed, json: bool
 ) -> None:
-    from equipoise.app import logbook_views as views
-    from equipoise.app.plain_tables import show_sheet
-    from equipoise.app.views_json import dump
+    from equipoise.app.console.rich_tables import show_sheet
+    from equipoise.app.logbook import views as views
+    from equipoise.app.text.json_document import dump
 
     if compare:
         chosen = [views.chosen(shown, name) for name in compare]
@@ -117,11 +117,11 @@ def _write(
     paths = [path for path in (trend, export) if path is not None]
     if trend is not None:
         with busy("drawing"):
-            from equipoise.app.logbook_trend import write_trend
+            from equipoise.app.logbook.trend import write_trend
 
             write_trend(book, shown, trend)
     if export is not None:
-        from equipoise.app.logbook_export import write_export
+        from equipoise.app.logbook.export import write_export
 
         write_export(book, shown, export)
     if paths:

@@ -1,7 +1,7 @@
 """`equipoise methods`: what there is to choose from."""
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.terminal import stdout
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import stdout
 
 
 def methods(name: str | None = None, /, *, json: Flag = False) -> int:
@@ -16,9 +16,9 @@ def methods(name: str | None = None, /, *, json: Flag = False) -> int:
     json
         Print one JSON document instead.
     """
-    from equipoise.app.method_views import card_table, list_table, methods_json
-    from equipoise.app.options import one_of
-    from equipoise.app.views_json import dump
+    from equipoise.app.arguments.checks import one_of
+    from equipoise.app.text.json_document import dump
+    from equipoise.app.views.method_views import card_table, list_table, methods_json
     from equipoise.estimation.methods.registry import METHODS
 
     chosen = list(METHODS) if name is None else [one_of("method", name, list(METHODS))]

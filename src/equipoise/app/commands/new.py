@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.terminal import stdout
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import stdout
 from equipoise.model.errors import InputError
 
 
@@ -30,8 +30,8 @@ def new(
     """
     import json
 
-    from equipoise.io.presets import preset_text
-    from equipoise.io.testbed_file import json_schema, write_testbed
+    from equipoise.io.testbed.presets import preset_text
+    from equipoise.io.testbed.testbed_file import json_schema, write_testbed
 
     if schema:
         stdout().out(json.dumps(json_schema(), indent=2), highlight=False)

@@ -1,9 +1,9 @@
 """`equipoise observe`: what a recording can and cannot show, before any estimate is believed."""
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
-from equipoise.app.terminal import busy
+from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import busy
 
 
 def observe(
@@ -28,24 +28,24 @@ def observe(
     json
         Print one JSON document instead.
     """
-    from equipoise.app.wiring import fitting_recording_of, spelt_out, testbed_of
+    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
 
     bed, seeking = testbed_of(testbed), spelt_out(seeking)
     recording = fitting_recording_of(file, reading, bed)
     with busy("following the motion"):
-        from equipoise.estimation.filter_observability import filters_along
-        from equipoise.estimation.fisher import seen_along
-        from equipoise.estimation.followed_motion import followed
-        from equipoise.estimation.method import Options
+        from equipoise.estimation.information.filter_observability import filters_along
+        from equipoise.estimation.information.fisher_information import seen_along
+        from equipoise.estimation.information.reference_motion import followed
+        from equipoise.estimation.method_contract import Options
         from equipoise.estimation.methods.trajectory import params_of
-        from equipoise.procedure.sound_rows import sound
+        from equipoise.procedure.steps.clean_record import sound
 
         sound_recording, as_seen = sound(recording, bed)
         asked = params_of(bed, Options(seeking.term, seeking.hold, seeking.prior))
         motion = followed(sound_recording, as_seen, asked)
         seen, filters = seen_along(motion), filters_along(motion)
-    from equipoise.app.observe_views import observe_json, show_observability
-    from equipoise.app.views_json import dump
+    from equipoise.app.text.json_document import dump
+    from equipoise.app.views.observe_views import observe_json, show_observability
 
     if json:
         print(dump(observe_json(recording, seen, filters)))

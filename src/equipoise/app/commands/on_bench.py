@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from cyclopts import Parameter
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.terminal import busy, stderr
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import busy, stderr
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
-    from equipoise.app.balancing import Goal, Limits
+    from equipoise.app.runs.balancing import Goal, Limits
     from equipoise.model.bench import Bench
     from equipoise.model.testbed import Testbed
 
@@ -47,7 +47,7 @@ SIMULATED = OnBench()
 
 def check_on_bench(asked: OnBench) -> None:
     """Raise InputError for what only a real bench takes, and for a record that cannot be."""
-    from equipoise.io.durable_file import check_new
+    from equipoise.io.files.append_file import check_new
 
     given = {"--record": asked.record, "--foxglove": asked.foxglove, "--yes": asked.yes}
     for option in (option for option, value in given.items() if value and not asked.bench):
@@ -61,10 +61,10 @@ def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", asked: OnBench) -> N
 
     Raises BenchStopped first where a device cannot be reached.
     """
-    from equipoise.app.asking import agreed
-    from equipoise.app.emulation import hardware_of
-    from equipoise.app.practice import practised
-    from equipoise.app.reachable import check_reachable
+    from equipoise.app.bench.emulation import hardware_of
+    from equipoise.app.bench.port_check import check_reachable
+    from equipoise.app.console.confirm import agreed
+    from equipoise.app.runs.rehearsal import practised
 
     check_reachable(hardware_of(bed))
     with busy("practising on a simulated platform", announce=True):
@@ -79,7 +79,7 @@ def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", asked: OnBench) -> N
 @contextmanager
 def let_go(bed: "Testbed", asked: OnBench) -> "Generator[Bench]":
     """Return the real platform, masses at home, let go, and every sensor giving rows."""
-    from equipoise.app.kept_bench import Wanted, real_bench
+    from equipoise.app.bench.open_bench import Wanted, real_bench
 
     def say() -> None:
         stderr().print("Masses are at home: let the platform go.", style="bold")

@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Literal
 
-from equipoise.app.commands.kinds import Flag, Whole
-from equipoise.app.commands.seeking import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.types import Flag, Whole
 
 
 def plan(
@@ -55,9 +55,9 @@ def plan(
     out
         Plan file to write; simulate, identify and balance take it with --plan.
     """
-    from equipoise.app.options import not_negative, positive, seed_of
-    from equipoise.app.wiring import spelt_out, testbed_of
-    from equipoise.io.whole_file import check_writable
+    from equipoise.app.arguments.checks import not_negative, positive, seed_of
+    from equipoise.app.arguments.resolve import spelt_out, testbed_of
+    from equipoise.io.files.atomic_file import check_writable
 
     bed, seeking, seed = testbed_of(testbed), spelt_out(seeking), seed_of(seed)
     duration = positive("--duration-s", duration_s)
@@ -65,9 +65,9 @@ def plan(
     tries = int(positive("--trials", trials))
     if out is not None:
         check_writable(out)
-    from equipoise.app.plan_views import plan_json, show_plan
-    from equipoise.app.planning import Request, plan_file_of, run
-    from equipoise.app.views_json import dump
+    from equipoise.app.runs.planning import Request, plan_file_of, run
+    from equipoise.app.text.json_document import dump
+    from equipoise.app.views.plan_views import plan_json, show_plan
 
     request = Request(bed, duration, ask, criterion, int(count), rate, seeking, seen, tries, seed)
     done = run(request)
@@ -76,8 +76,8 @@ def plan(
     else:
         show_plan(done)
     if out is not None:
-        from equipoise.app.terminal import tell_paths
-        from equipoise.io.plan_file import write_plan
+        from equipoise.app.console.terminal import tell_paths
+        from equipoise.io.documents.plan_file import write_plan
 
         write_plan(plan_file_of(done), bed, out)
         tell_paths([out], json)

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from equipoise.app.commands.kinds import Whole
-from equipoise.app.terminal import stdout, tell_paths
+from equipoise.app.arguments.types import Whole
+from equipoise.app.console.terminal import stdout, tell_paths
 
 
 def print_board(
@@ -43,13 +43,13 @@ def print_board(
     keys
         TOML file to write with the board's keys, for `track` and for settings.
     """
-    from equipoise.app.options import positive
-    from equipoise.app.paper import DPI, check_paper, write_paper
+    from equipoise.app.arguments.checks import positive
+    from equipoise.app.figures.base.print_sheet import DPI, check_paper, write_paper
     from equipoise.hardware.camera.aruco import Charuco, charuco_print
     from equipoise.hardware.camera.eye import board_of
     from equipoise.hardware.camera.tag_board import board_print
-    from equipoise.io.camera_file import write_camera_keys
-    from equipoise.io.whole_file import check_writable
+    from equipoise.io.documents.camera_file import write_camera_keys
+    from equipoise.io.files.atomic_file import check_writable
 
     check_paper(out)
     for path in (out, *(() if keys is None else (keys,))):

@@ -4,8 +4,8 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.terminal import busy, stdout
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import busy, stdout
 
 if TYPE_CHECKING:
     from equipoise.model.bench import Bench
@@ -28,10 +28,10 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
     foxglove
         Also serve it live to Foxglove, Lichtblick or PlotJuggler, on this computer.
     """
-    from equipoise.app.kept_bench import Wanted, real_bench
-    from equipoise.app.options import positive
-    from equipoise.app.wiring import testbed_of
-    from equipoise.io.durable_file import check_new
+    from equipoise.app.arguments.checks import positive
+    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.bench.open_bench import Wanted, real_bench
+    from equipoise.io.files.append_file import check_new
 
     duration = positive("--duration-s", duration_s)
     bed = testbed_of(testbed)
@@ -46,8 +46,8 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
 
 def _record(bench: "Bench", out: Path, duration: float) -> None:
     """Read for so long (s), or until Ctrl-C; the bench itself writes the rows."""
-    from equipoise.app.recording_view import RecordingView
-    from equipoise.app.terminal_view import SLICE, watched_by
+    from equipoise.app.live.recording_progress import RecordingView
+    from equipoise.app.live.status_block import SLICE, watched_by
 
     begin = bench.time
     view = RecordingView(bench.testbed, out, begin, duration)

@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.terminal import stdout, tell_paths
+from equipoise.app.console.terminal import stdout, tell_paths
 
 if TYPE_CHECKING:
-    from equipoise.io.mcap_repair import Repaired
+    from equipoise.io.mcap.mcap_repair import Repaired
 
 
 def repair(file: str, /, *, out: Path) -> int:
@@ -22,8 +22,8 @@ def repair(file: str, /, *, out: Path) -> int:
     out
         File to write, .mcap.
     """
-    from equipoise.io.mcap_repair import repair as repaired
-    from equipoise.io.whole_file import check_writable
+    from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.mcap.mcap_repair import repair as repaired
 
     check_writable(out)
     done = repaired(file, out)

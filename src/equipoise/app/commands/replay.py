@@ -2,12 +2,12 @@
 
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.commands.reading import WHOLE, Reading
-from equipoise.app.terminal import stdout
+from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import stdout
 
 if TYPE_CHECKING:
-    from equipoise.app.watched_bench import Onlooker
+    from equipoise.app.live.observed_bench import Onlooker
 
 
 def replay(
@@ -36,9 +36,9 @@ def replay(
     """
     from contextlib import ExitStack
 
-    from equipoise.app.options import not_negative
-    from equipoise.app.replaying import replayed, shown_lines
-    from equipoise.app.wiring import fitting_recording_of, testbed_of
+    from equipoise.app.arguments.checks import not_negative
+    from equipoise.app.arguments.resolve import fitting_recording_of, testbed_of
+    from equipoise.app.live.replay import replayed, shown_lines
 
     not_negative("--speed", speed)
     bed = testbed_of(testbed)
@@ -46,8 +46,8 @@ def replay(
     with ExitStack() as stack:
         onlookers: list[Onlooker] = [stack.enter_context(shown_lines(bed))]
         if foxglove:
-            from equipoise.app.replaying import begun_ns
-            from equipoise.io.live_view import LiveView
+            from equipoise.app.live.replay import begun_ns
+            from equipoise.io.mcap.foxglove_server import LiveView
 
             view = stack.enter_context(LiveView(begun_ns(recording)))
             stdout().print(f"Foxglove WebSocket: {view.address}", markup=False)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.terminal import busy, tell_paths
+from equipoise.app.console.terminal import busy, tell_paths
 
 
 def report(run: Path, /) -> int:
@@ -16,7 +16,7 @@ def report(run: Path, /) -> int:
         Folder of a run.
     """
     with busy("setting the report", announce=False):
-        from equipoise.app.archive import set_again
+        from equipoise.app.report.write import set_again
 
         paths = set_again(run)
     tell_paths(paths)

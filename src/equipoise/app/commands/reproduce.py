@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag, Whole
-from equipoise.app.terminal import busy
+from equipoise.app.arguments.types import Flag, Whole
+from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
     from equipoise.study.lee import Manoeuvre
@@ -31,8 +31,8 @@ def reproduce(
     json
         Print one JSON document instead.
     """
-    from equipoise.app.options import one_of, seed_of
-    from equipoise.io.whole_folder import check_folder
+    from equipoise.app.arguments.checks import one_of, seed_of
+    from equipoise.io.files.atomic_folder import check_folder
 
     one_of("paper", paper, list(PAPERS))
     seed = seed_of(seed)
@@ -45,9 +45,9 @@ def reproduce(
 
 def _tell(runs: "list[Manoeuvre]", seed: int, json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
-    from equipoise.app.archive import write_account
-    from equipoise.app.handing_over import hand_over
-    from equipoise.app.lee_views import account_of, document_of, show_result
+    from equipoise.app.logbook.output import hand_over
+    from equipoise.app.report.write import write_account
+    from equipoise.app.views.lee_views import account_of, document_of, show_result
 
     document = document_of(runs, seed)
 
@@ -59,7 +59,7 @@ def _tell(runs: "list[Manoeuvre]", seed: int, json: bool, out: Path | None) -> N
 
 def _slews(seed: int) -> "list[Manoeuvre]":
     """Return both slews with what was made of them."""
-    from equipoise.io.presets import read_preset
+    from equipoise.io.testbed.presets import read_preset
 
     with busy("preparing", announce=False):
         from equipoise.study.lee import LARGE, SMALL, judged, slew_from

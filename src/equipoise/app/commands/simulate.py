@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from equipoise.app.commands.kinds import Names, Whole
-from equipoise.app.terminal import busy, stdout
+from equipoise.app.arguments.types import Names, Whole
+from equipoise.app.console.terminal import busy, stdout
 from equipoise.model.errors import InputError
 
 
@@ -34,11 +34,11 @@ def simulate(
     seed
         Seed of all that is drawn: the same seed gives the same record.
     """
-    from equipoise.app.options import positive, seed_of
-    from equipoise.app.wiring import move_of, testbed_of
-    from equipoise.io.plan_file import read_plan
-    from equipoise.io.recording_file import write_recording
-    from equipoise.io.whole_file import check_writable
+    from equipoise.app.arguments.checks import positive, seed_of
+    from equipoise.app.arguments.resolve import move_of, testbed_of
+    from equipoise.io.documents.plan_file import read_plan
+    from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.recording.recording_file import write_recording
 
     bed = testbed_of(testbed)
     duration = positive("--duration-s", 120.0 if duration_s is None else duration_s)

@@ -4,11 +4,11 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.commands.kinds import Flag
-from equipoise.app.terminal import counted, stdout, tell_paths
+from equipoise.app.arguments.types import Flag
+from equipoise.app.console.terminal import counted, stdout, tell_paths
 
 if TYPE_CHECKING:
-    from equipoise.app.tracking import Track
+    from equipoise.app.runs.camera_tracking import Track
 
 CAMERAS = ("camera:", "http:")
 
@@ -46,12 +46,12 @@ def track(
     level
         The board lies level, face up: print which way is up for the camera, to put into settings.
     """
-    from equipoise.app import tracking
-    from equipoise.app.options import positive
-    from equipoise.app.wiring import testbed_of
-    from equipoise.io.recording_file import write_recording
-    from equipoise.io.recording_formats import format_to_write
-    from equipoise.io.whole_file import check_writable
+    from equipoise.app.arguments.checks import positive
+    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.runs import camera_tracking
+    from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.recording.format_registry import format_to_write
+    from equipoise.io.recording.recording_file import write_recording
     from equipoise.model.errors import InputError
 
     if out is None and not level:
@@ -60,18 +60,20 @@ def track(
         format_to_write(out)
         check_writable(out)
     bed = None if testbed is None else testbed_of(testbed)
-    unit = tracking.unit_of(bed, [file for file in (board, lens) if file is not None], source)
+    unit = camera_tracking.unit_of(
+        bed, [file for file in (board, lens) if file is not None], source
+    )
     rate = None if rate_hz is None else positive("--rate-hz", rate_hz)
     duration = positive("--duration-s", duration_s)
     with counted("tracking") as so_far:
         if source.startswith(CAMERAS):
-            found = tracking.watched_camera(unit, duration, so_far)
+            found = camera_tracking.watched_camera(unit, duration, so_far)
         else:
-            found = tracking.tracked(Path(source), unit, rate, so_far)
-    recording = tracking.recording_of_track(found, source)
+            found = camera_tracking.tracked(Path(source), unit, rate, so_far)
+    recording = camera_tracking.recording_of_track(found, source)
     _tell(found)
     if level:
-        up, spread = tracking.up_from(found, unit)
+        up, spread = camera_tracking.up_from(found, unit)
         for key, value in zip(("up_x", "up_y", "up_z"), up, strict=True):
             stdout().print(f"{key} = {value:.6f}", markup=False)
         stdout().print(f"~ spread {math.degrees(spread):.3f} deg from picture to picture")

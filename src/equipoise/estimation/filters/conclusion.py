@@ -19,7 +19,7 @@ import numpy as np
 from equipoise.estimation.filters.driver import State, advance, begin, told
 from equipoise.estimation.filters.model import Kind
 from equipoise.estimation.filters.rows import Rows, camera_rows, gyro_rows
-from equipoise.estimation.method import Card, origin_of, refused
+from equipoise.estimation.method_contract import Card, origin_of, refused
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats, Matrix3, Series1
 from equipoise.model.estimate import INERTIA, Estimate, Parameter

@@ -15,7 +15,7 @@ the error state, so an unscented filter corrects by the same.
 from equipoise.dynamics.rigid_body import Now, rate_of, times
 from equipoise.estimation.filters.model import Model
 from equipoise.estimation.filters.predict import COM, INERTIA, Work
-from equipoise.estimation.tracker_step import invert3
+from equipoise.estimation.tracker.predict_correct import invert3
 from equipoise.maths.compiled import part
 from equipoise.maths.turns import Triple, turn, turned
 from equipoise.model.arrays import Floats

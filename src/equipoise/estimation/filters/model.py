@@ -35,7 +35,7 @@ import numpy as np
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.dynamics.rigid_body import Body, Six
-from equipoise.estimation.tracker import belief_of
+from equipoise.estimation.tracker.tracker import belief_of
 from equipoise.maths.linalg import pack_symmetric, skew
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3, Vector6
 from equipoise.model.testbed import Testbed

@@ -27,7 +27,7 @@ from equipoise.dynamics.rigid_body import (
     times,
 )
 from equipoise.estimation.filters.model import Model
-from equipoise.estimation.tracker_step import placed
+from equipoise.estimation.tracker.predict_correct import placed
 from equipoise.maths.compiled import part
 from equipoise.maths.turns import Triple
 from equipoise.model.arrays import Floats

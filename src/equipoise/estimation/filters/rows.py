@@ -17,8 +17,8 @@ import numpy as np
 
 from equipoise.dynamics.timeline import Timeline, timeline
 from equipoise.estimation.filters.predict import Drive
-from equipoise.estimation.led_motion import LedMotion, at_times, led_motion, pieces_of
-from equipoise.estimation.tracker_rows import LONGEST_STEP, stop_covariances
+from equipoise.estimation.motion.fused_motion import LedMotion, at_times, led_motion, pieces_of
+from equipoise.estimation.tracker.measurements import LONGEST_STEP, stop_covariances
 from equipoise.maths.attitude import continuous
 from equipoise.model.arrays import Bools, Floats, Ints, Series1, Series3, Series4
 from equipoise.model.recording import Recording

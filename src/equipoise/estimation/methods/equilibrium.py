@@ -1,7 +1,7 @@
 """Rest positions under known shifts of the masses: see ``estimation.equilibrium``."""
 
-from equipoise.estimation import equilibrium
-from equipoise.estimation.method import Card, Method, Options
+from equipoise.estimation.method_contract import Card, Method, Options
+from equipoise.estimation.regression import rest_positions
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -9,7 +9,7 @@ from equipoise.model.testbed import Testbed
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     """Return the estimate."""
-    return equilibrium.estimate(recording, testbed)
+    return rest_positions.estimate(recording, testbed)
 
 
 METHOD = Method(

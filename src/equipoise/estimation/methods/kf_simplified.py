@@ -2,7 +2,7 @@
 
 from equipoise.estimation.filters.conclusion import estimate
 from equipoise.estimation.filters.model import Kind
-from equipoise.estimation.method import Card, Method, Options
+from equipoise.estimation.method_contract import Card, Method, Options
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed

@@ -1,9 +1,9 @@
 """The momentum integral in body axes by least squares among bodies that can exist, log-Cholesky."""
 
-from equipoise.estimation.formulations.momentum import body_axes
-from equipoise.estimation.linear import Linear, method
-from equipoise.estimation.method import Card
-from equipoise.estimation.solvers.possible import possible
+from equipoise.estimation.method_contract import Card
+from equipoise.estimation.regression.formulations.momentum import body_axes
+from equipoise.estimation.regression.linear_method import Linear, method
+from equipoise.estimation.regression.solvers.physically_consistent import possible
 
 METHOD = method(
     Card(

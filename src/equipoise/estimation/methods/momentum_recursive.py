@@ -1,9 +1,9 @@
 """The momentum integral by recursive least squares."""
 
-from equipoise.estimation.formulations.momentum import body_axes
-from equipoise.estimation.linear import recursion
-from equipoise.estimation.method import Card
-from equipoise.estimation.solvers.recursion import Plan, unfiltered
+from equipoise.estimation.method_contract import Card
+from equipoise.estimation.regression.formulations.momentum import body_axes
+from equipoise.estimation.regression.linear_method import recursion
+from equipoise.estimation.regression.solvers.recursion import Plan, unfiltered
 
 METHOD = recursion(
     Card(

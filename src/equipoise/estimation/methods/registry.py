@@ -1,6 +1,6 @@
 """The only list of methods: terminal, tests, studies and documents take it from here."""
 
-from equipoise.estimation.method import Method
+from equipoise.estimation.method_contract import Method
 from equipoise.estimation.methods import (
     averaged,
     averaged_printed,

@@ -1,9 +1,9 @@
 """Increments of the simplified model by recursive least squares."""
 
-from equipoise.estimation.formulations.simplified import increments
-from equipoise.estimation.linear import recursion
-from equipoise.estimation.method import Card
-from equipoise.estimation.solvers.recursion import Plan, of_increments
+from equipoise.estimation.method_contract import Card
+from equipoise.estimation.regression.formulations.simplified import increments
+from equipoise.estimation.regression.linear_method import recursion
+from equipoise.estimation.regression.solvers.recursion import Plan, of_increments
 
 METHOD = recursion(
     Card(

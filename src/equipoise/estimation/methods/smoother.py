@@ -1,9 +1,9 @@
 """The trajectory fit with a drifting centre of mass: see ``estimation.smoother``."""
 
-from equipoise.estimation import smoother
-from equipoise.estimation.method import Card, Method, Options, refused
+from equipoise.estimation.method_contract import Card, Method, Options, refused
 from equipoise.estimation.methods.trajectory import params_of
-from equipoise.estimation.reference import FEWEST, check_sensors
+from equipoise.estimation.model_selection import drift_smoother
+from equipoise.estimation.model_selection.reference_fit import FEWEST, check_sensors
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -15,7 +15,7 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     if rows < FEWEST:
         return refused(METHOD.card, f"Only {rows} rows: nothing can be estimated.")
-    return smoother.estimate(recording, testbed, params_of(testbed, options))
+    return drift_smoother.estimate(recording, testbed, params_of(testbed, options))
 
 
 METHOD = Method(

@@ -8,9 +8,9 @@ they are wider than need be.
 import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.estimation import tracker
-from equipoise.estimation.method import Card, Method, Options, origin_of, refused
-from equipoise.estimation.tracker_update import GATE
+from equipoise.estimation.method_contract import Card, Method, Options, origin_of, refused
+from equipoise.estimation.tracker import tracker
+from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import COM, END, INERTIA, Course, Estimate, Parameter

@@ -1,8 +1,8 @@
 """Maximum likelihood in the model that the record supports: see ``estimation.reference``."""
 
-from equipoise.estimation import reference
-from equipoise.estimation.method import Card, Method, Options
-from equipoise.estimation.trajectory import Params
+from equipoise.estimation.method_contract import Card, Method, Options
+from equipoise.estimation.model_selection import reference_fit
+from equipoise.estimation.output_error.trajectory import Params
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
@@ -11,7 +11,7 @@ from equipoise.model.testbed import Testbed
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     """Return the estimate."""
-    return reference.estimate(recording, testbed, params_of(testbed, options))
+    return reference_fit.estimate(recording, testbed, params_of(testbed, options))
 
 
 def params_of(testbed: Testbed, options: Options) -> Params:

@@ -27,8 +27,15 @@ from equipoise.hardware.boards.grbl_report import (
 from equipoise.hardware.boards.grbl_settings import LETTERS, disagreement
 from equipoise.hardware.boards.grbl_words import alarm_sentence, error_sentence
 from equipoise.hardware.boards.legs import next_leg, time_left
-from equipoise.hardware.driver import ASK, ASK_MOVING, LEG, SILENCE, BoardState, Phase
-from equipoise.hardware.lines import Lines
+from equipoise.hardware.transport.driver_protocol import (
+    ASK,
+    ASK_MOVING,
+    LEG,
+    SILENCE,
+    BoardState,
+    Phase,
+)
+from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import MotorBoard
 from equipoise.model.reading import Counts

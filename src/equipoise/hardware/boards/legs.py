@@ -8,7 +8,7 @@ not be seen to move by what looks for moves in a recording.
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from equipoise.hardware.driver import LEG
+from equipoise.hardware.transport.driver_protocol import LEG
 
 HAIR = 1e-7  # m, chosen: a way shorter than any step is none
 

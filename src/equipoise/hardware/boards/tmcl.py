@@ -22,7 +22,7 @@ from equipoise.hardware.boards.tmcl_settings import disagreement, guards, speed_
 from equipoise.hardware.boards.tmcl_steps import Steps
 from equipoise.hardware.boards.tmcl_talk import Talk
 from equipoise.hardware.boards.tmcl_words import Request
-from equipoise.hardware.driver import ASK, ASK_MOVING, BoardState, Phase
+from equipoise.hardware.transport.driver_protocol import ASK, ASK_MOVING, BoardState, Phase
 from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import MotorBoard
 from equipoise.model.reading import Counts

@@ -8,7 +8,7 @@ round of questions: TMCL keeps no queue, and a target replaces the one before.
 
 from collections.abc import Mapping, Sequence
 
-from equipoise.hardware.driver import LEG
+from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from equipoise.hardware.boards.tmcl_words import Request, packed, refusal, replies_in
-from equipoise.hardware.driver import SILENCE
+from equipoise.hardware.transport.driver_protocol import SILENCE
 from equipoise.model.reading import Counts
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.hardware.extras import needed
+from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from equipoise.hardware.camera.aruco import opencv
 from equipoise.hardware.camera.raw_picture import RawPicture, packed
-from equipoise.hardware.port import PortLost
+from equipoise.hardware.transport.port import PortLost
 from equipoise.model.errors import InputError
 
 LEAVE = 2.0  # s, chosen: for the thread to end when the port is closed

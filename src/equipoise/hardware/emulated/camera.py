@@ -10,7 +10,7 @@ import numpy as np
 from equipoise.hardware.camera.aruco import Picture, encoded
 from equipoise.hardware.camera.eye import Eye, eye_of
 from equipoise.hardware.emulated.rendering import Look, Renderer, sheet_of
-from equipoise.hardware.placed import as_sensed
+from equipoise.hardware.links.frame_transform import as_sensed
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording

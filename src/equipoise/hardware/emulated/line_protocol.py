@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.hardware.placed import as_sensed
+from equipoise.hardware.links.frame_transform import as_sensed
 from equipoise.maths.attitude import to_euler321
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit

@@ -7,8 +7,8 @@ time since boot, the IMU in Unix time.
 from collections.abc import Sequence
 from typing import Any
 
-from equipoise.hardware.extras import needed
-from equipoise.hardware.placed import as_sensed
+from equipoise.hardware.links.frame_transform import as_sensed
+from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording

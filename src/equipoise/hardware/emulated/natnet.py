@@ -6,7 +6,7 @@ Written from the SDK's samples, apart from the driver.
 import struct
 from collections.abc import Sequence
 
-from equipoise.hardware.placed import as_sensed
+from equipoise.hardware.links.frame_transform import as_sensed
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording

@@ -7,7 +7,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from equipoise.hardware.placed import as_sensed
+from equipoise.hardware.links.frame_transform import as_sensed
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording

@@ -6,7 +6,7 @@ Written from the manual, apart from the driver.
 from collections.abc import Sequence
 from functools import reduce
 
-from equipoise.hardware.placed import as_sensed
+from equipoise.hardware.links.frame_transform import as_sensed
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording
 

@@ -11,7 +11,7 @@ from contextlib import suppress
 from typing import Any
 
 from equipoise.hardware.emulated.far_side import CHUNK, FULL, LOOPBACK, Outbox
-from equipoise.hardware.extras import needed
+from equipoise.hardware.transport.optional_libraries import needed
 
 LOOK = 0.05  # s, chosen: between looks whether it has been closed
 

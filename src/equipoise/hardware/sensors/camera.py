@@ -19,7 +19,7 @@ from equipoise.hardware.camera.eye import eye_of
 from equipoise.hardware.camera.pose import Pose
 from equipoise.hardware.camera.raw_picture import unpacked
 from equipoise.hardware.camera.sight import Sight
-from equipoise.hardware.multipart import Part, Parts
+from equipoise.hardware.transport.mjpeg_stream import Part, Parts
 from equipoise.maths.attitude import from_matrix
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.reading import Counts, Reading

@@ -22,10 +22,10 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
-from equipoise.hardware.lines import Lines
 from equipoise.hardware.sensors.columns import SKIPPED, columns_of
 from equipoise.hardware.sensors.settings import Settings
 from equipoise.hardware.sensors.tally import Tally
+from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.reading import Counts, Reading
 

@@ -19,10 +19,10 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from equipoise.hardware.extras import needed
 from equipoise.hardware.sensors.attitudes import unit_row
 from equipoise.hardware.sensors.settings import Settings
 from equipoise.hardware.sensors.tally import Tally
+from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.reading import Counts, Reading
 

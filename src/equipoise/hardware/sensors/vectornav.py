@@ -16,10 +16,10 @@ import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from equipoise.hardware.lines import Lines
 from equipoise.hardware.sensors.attitudes import from_angles, unit_row
 from equipoise.hardware.sensors.settings import Settings
 from equipoise.hardware.sensors.tally import Tally
+from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Counts, Reading
 

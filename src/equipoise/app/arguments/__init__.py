@@ -1,0 +1,1 @@
+"""What commands take: options, their checks, and files and names resolved to records."""

@@ -1,0 +1,1 @@
+"""Benches as commands open them: real, emulated, recorded, shared."""

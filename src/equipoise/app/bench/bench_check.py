@@ -1,0 +1,120 @@
+"""What a bench says when each device is spoken to, one sentence each.
+
+Boards answer and agree with the testbed; masses go home, and 1 mm out and back where a person
+agrees; sensors stream; attitudes are upright and turn as the gyro does.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.app.bench.emulation import hardware_of
+from equipoise.app.bench.open_bench import keeper_of
+from equipoise.app.bench.port_check import unreachable
+from equipoise.assessment.findings.record_findings import findings
+from equipoise.hardware.bench.bench_controller import Keeper
+from equipoise.hardware.bench.real_bench import RealBench
+from equipoise.hardware.bench.wall_clock import WallClock
+from equipoise.maths.attitude import tilt
+from equipoise.model.bench_units import MM, PER_DEG
+from equipoise.model.errors import BenchStopped, EquipoiseError
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import SlidingMass, Testbed
+
+A_LITTLE = 1e-3  # m: out and back
+UPSIDE = 90.0  # deg, chosen: no bench lets a platform tilt so far
+SLOW = 0.7  # of the stated rate of rows, chosen: below it a sensor is slower than stated
+LISTED = "; `equipoise devices` lists serial ports"
+ARRIVE, LOOK = 1.0, 0.05  # s, chosen: beyond the time that the way takes; between looks
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """One finding."""
+
+    good: bool
+    sentence: str
+
+
+def checked_bench(
+    testbed: Testbed, streamed: float, agreed: Callable[[str], bool]
+) -> Iterator[Told]:
+    """Return what each device says; ``agreed`` asks a person before masses move."""
+    missing = unreachable(hardware_of(testbed))
+    if missing:
+        yield from (Told(False, f"{sentence}{LISTED}") for sentence in missing)
+        return
+    keeper = keeper_of(testbed)
+    bench = RealBench(keeper, WallClock())
+    try:
+        yield from _started(keeper, bench, agreed)
+        bench.watch()
+        recording = bench.read(streamed)
+        yield from _streams(keeper, recording, streamed)
+        yield from _frames(recording, testbed)
+        if keeper.ready:
+            for mass in testbed.masses:
+                yield from _moved(bench, keeper, mass, agreed)
+    except EquipoiseError as error:
+        yield Told(False, f"{error}")
+    finally:
+        keeper.close()
+
+
+def _started(keeper: Keeper, bench: RealBench, agreed: Callable[[str], bool]) -> Iterator[Told]:
+    if keeper.links.boards and not agreed("The masses will go home. Is the way free?"):
+        yield Told(False, "masses stay where they are, their position is not known")
+        return
+    bench.start()
+    for link in keeper.links.boards:
+        names = ", ".join(axis.mass for axis in link.board.axes)
+        yield Told(True, f"board {link.board.name}: answers, agrees, {names} at home")
+
+
+def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[Told]:
+    """Tell for each sensor how many rows came, what was wrong with them, how its clock goes."""
+    for link in keeper.links.sensors:
+        for channel in link.unit.gives:
+            rows = recording.attitude if channel == "attitude" else recording.rate
+            stated = keeper.testbed.attitude if channel == "attitude" else keeper.testbed.gyro
+            count = 0 if rows is None else len(rows)
+            wanted = 0.0 if stated is None else stated.rate * streamed
+            text = f"sensor {link.unit.name}: {count} rows of {channel} in {streamed:g} s"
+            slow = count < SLOW * wanted
+            yield Told(not slow, f"{text}, {wanted:.0f} are stated" if slow else text)
+        health = link.health
+        hint = "; look at cable and baud rate" if health.counts.corrupt else ""
+        yield Told(not health.wrong, health.sentence + hint)
+
+
+def _frames(recording: Recording, testbed: Testbed) -> Iterator[Told]:
+    """Tell whether the platform is upright, and what else its rows show to be wrong."""
+    if recording.attitude is not None:
+        leaning = PER_DEG * float(np.median(tilt(recording.attitude.values, testbed.up)))
+        text = f"the axis that should point up is {leaning:.1f} deg from up"
+        wrong = "; is alignment or laboratory wrong in [[hardware.sensor]]?"
+        yield Told(leaning < UPSIDE, text + ("" if leaning < UPSIDE else wrong))
+    for finding in findings(recording, testbed):
+        if finding.kind == "problem":
+            yield Told(False, finding.sentence)
+
+
+def _moved(
+    bench: RealBench, keeper: Keeper, mass: SlidingMass, agreed: Callable[[str], bool]
+) -> Iterator[Told]:
+    """Move a mass out and back, and tell whether its board says that it went."""
+    if not agreed(f"Move mass {mass.name} by {MM * A_LITTLE:g} mm and back?"):
+        yield Told(True, f"mass {mass.name}: not moved")
+        return
+    way = A_LITTLE if mass.travel[1] >= A_LITTLE else -A_LITTLE
+    for goal in (way, 0.0):
+        bench.move({mass.name: goal})
+        latest = bench.time + A_LITTLE / mass.speed + ARRIVE
+        while not keeper.ready and bench.time < latest:
+            bench.read(LOOK)
+        at = keeper.positions[mass.name]
+        if abs(at - goal) > A_LITTLE / 2:
+            found = f"sent to {MM * goal:g} mm, its board says {MM * at:.2f} mm"
+            raise BenchStopped(f"mass {mass.name}: {found}")
+    yield Told(True, f"mass {mass.name}: went 1 mm out and back, as its board says; look at it")

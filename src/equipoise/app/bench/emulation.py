@@ -1,0 +1,172 @@
+"""A whole bench emulated: a simulated platform behind devices that speak their real protocols.
+
+The platform is the simulator's; masses go where the emulated boards lead them, and the emulated
+sensors say what it shows. Time is told from outside, so that a bench can run as fast as it likes
+or as the clock on the wall.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Generic, TypeVar
+
+from equipoise.app.bench.held_platform import HeldPlatform, later
+from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor, Leg
+from equipoise.hardware.emulated.far_side import FarSide, far_side
+from equipoise.hardware.emulated.registry import BOARDS, SENSORS
+from equipoise.hardware.transport.driver_protocol import driver_named
+from equipoise.maths.attitude import tilt
+from equipoise.model.arrays import Quaternion
+from equipoise.model.errors import InputError
+from equipoise.model.hardware import Hardware
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+from equipoise.simulation.bench import SimulatedBench
+
+AT_HOME = 2e-6  # m, chosen: boards tell positions to 1 um
+
+Device = TypeVar("Device")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Station(Generic[Device]):
+    """A device and its wire."""
+
+    device: Device
+    wire: FarSide
+
+
+class EmulatedBench:
+    """Devices on their wires and the platform behind them.
+
+    The platform is held still, as a person holds it, until every mass has come home; then it is
+    let go, and its own time begins. Who homes again holds it again: the same platform, anew.
+    """
+
+    def __init__(
+        self,
+        platform: Callable[[], SimulatedBench],
+        boards: Sequence[Station[EmulatedBoard]],
+        sensors: Sequence[Station[EmulatedSensor]],
+    ) -> None:
+        self._make, self.boards, self.sensors = platform, boards, sensors
+        self.time = 0.0  # s, of the devices
+        self._let_go = 0.0  # s, when
+        self.leaning = 0.0  # rad, as last seen
+        self._seen: tuple[float, Quaternion] | None = None  # s, the attitude last seen
+        self.catch()
+        if not boards:
+            self._held = None
+
+    def run(self, t: float) -> None:
+        """Let time pass up to ``t`` s; what the host has sent is heard first."""
+        self._hear()
+        if t <= self.time:
+            return
+        legs = [leg for station in self.boards for leg in self._ran(station, t)]
+        if self._held is None and any(station.device.homing for station in self.boards):
+            self.catch()
+        rows = self._pass(legs, t)
+        if rows.attitude is not None and len(rows.attitude):
+            self.leaning = float(tilt(rows.attitude.values[-1], self.platform.testbed.up))
+            self._seen = (self.time, rows.attitude.values[-1])
+        for station in self.sensors:
+            for message in station.device.tell(rows):
+                station.wire.send(message)
+
+    def catch(self) -> None:
+        """Lead the platform back and hold it, until every mass has been away and come home."""
+        self.platform = self._make()
+        self._held: HeldPlatform | None = HeldPlatform(self.platform, self._seen)
+        self._last: dict[str, Leg] = {}  # while it is held
+        self._away: set[str] = set()
+        self._ahead: list[Leg] = []  # that have not begun
+
+    def testbed(self) -> Testbed:
+        """Return the testbed with the ports at which these devices are reached."""
+        bed = self.platform.testbed
+        hardware = hardware_of(bed)
+        boards = tuple(
+            replace(board, port=replace(board.port, address=station.wire.address))
+            for board, station in zip(hardware.boards, self.boards, strict=True)
+        )
+        sensors = tuple(
+            replace(unit, port=replace(unit.port, address=station.wire.address))
+            for unit, station in zip(hardware.sensors, self.sensors, strict=True)
+        )
+        return replace(bed, hardware=replace(hardware, boards=boards, sensors=sensors))
+
+    def close(self) -> None:
+        """Pull out every wire."""
+        for station in (*self.boards, *self.sensors):
+            station.wire.close()
+
+    def _hear(self) -> None:
+        for station in (*self.boards, *self.sensors):
+            data = station.wire.receive()
+            if data:
+                station.wire.send(station.device.take(data, self.time))
+
+    def _ran(self, station: Station[EmulatedBoard], t: float) -> Sequence[Leg]:
+        said, legs = station.device.run(t)
+        station.wire.send(said)
+        return legs
+
+    def _pass(self, legs: Sequence[Leg], t: float) -> Recording:
+        """Let the platform go on, or be held, and return what its sensors see."""
+        before, self.time = self.time, t
+        if self._held is not None:
+            self._last |= {leg.mass: leg for leg in legs}
+            self._away |= {leg.mass for leg in legs if abs(leg.displacement) > AT_HOME}
+            rows = self._held.read(before, t)
+            if t >= self._held.still and self._all_home(t):
+                self._held, self._let_go = None, t
+            return rows
+        self._ahead = ahead_of(self._ahead, legs)
+        now = self.platform.time
+        for leg in (leg for leg in self._ahead if leg.t <= t):
+            start, end = max(leg.t - self._let_go, now), leg.end - self._let_go
+            self.platform.lead(leg.mass, start, max(start, end), leg.displacement)
+        self._ahead = [leg for leg in self._ahead if leg.t > t]
+        return later(self.platform.read(t - before), self._let_go)
+
+    def _all_home(self, t: float) -> bool:
+        """Say whether every mass of a board that homes has been away, and has come home."""
+        boards = (b for b in hardware_of(self.platform.testbed).boards if b.homing)
+        masses = {axis.mass for board in boards for axis in board.axes}
+        return masses <= self._away and all(
+            self._last[name].end <= t and abs(self._last[name].displacement) < AT_HOME
+            for name in masses
+        )
+
+
+def ahead_of(waiting: Sequence[Leg], new: Sequence[Leg]) -> list[Leg]:
+    """Return legs in order; a new one replaces those of its mass that would begin after it."""
+    legs = list(waiting)
+    for leg in new:
+        legs = [old for old in legs if old.mass != leg.mass or old.t < leg.t] + [leg]
+    return legs
+
+
+def emulate(testbed: Testbed, seed: int) -> EmulatedBench:
+    """Return a bench emulated as the testbed file declares its hardware."""
+    hardware = hardware_of(testbed)
+    boards = [
+        Station(
+            driver_named(BOARDS, board.driver, "board")(board, testbed.masses), far_side(board.port)
+        )
+        for board in hardware.boards
+    ]
+    sensors = [
+        Station(driver_named(SENSORS, unit.driver, "sensor")(unit), far_side(unit.port))
+        for unit in hardware.sensors
+    ]
+    return EmulatedBench(partial(SimulatedBench, testbed, seed), boards, sensors)
+
+
+def hardware_of(testbed: Testbed) -> Hardware:
+    """Return what is connected; InputError where nothing is."""
+    if testbed.hardware is None:
+        wanted = "a table [hardware] with its boards and sensors"
+        raise InputError(testbed.source or testbed.name, "no hardware", wanted)
+    return testbed.hardware

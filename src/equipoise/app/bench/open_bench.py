@@ -1,0 +1,132 @@
+"""A real bench as a command uses it: wired, locked, recorded, in a process of its own."""
+
+from collections.abc import Callable, Generator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import time_ns
+
+from equipoise.app.bench.emulation import hardware_of
+from equipoise.app.bench.port_check import check_reachable
+from equipoise.app.console.terminal import complain, stderr
+from equipoise.hardware.bench.bench_controller import Keeper
+from equipoise.hardware.bench.controller_process import DistantKeeper
+from equipoise.hardware.bench.port_lock import commanding
+from equipoise.hardware.bench.real_bench import RealBench
+from equipoise.hardware.boards.registry import BOARDS
+from equipoise.hardware.links.board_link import BoardLink
+from equipoise.hardware.links.device_links import Links
+from equipoise.hardware.links.sensor_link import SensorLink
+from equipoise.hardware.sensors.registry import DRIVERS
+from equipoise.hardware.transport.driver_protocol import driver_named
+from equipoise.hardware.transport.port import open_port
+from equipoise.hardware.transport.reconnecting_port import Connection, Opener
+from equipoise.io.mcap.foxglove_server import ADDRESS, LiveView
+from equipoise.io.mcap.live_recording import LiveRecording, Opening
+from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.model.errors import EquipoiseError
+from equipoise.model.hardware import Gives
+from equipoise.model.testbed import Testbed
+
+HAND = 1.0  # s, chosen: for a hand to leave the platform
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Wanted:
+    """What the keeper's process is told when it begins."""
+
+    testbed: Testbed
+    record: Path | None  # MCAP file to write; None: no record
+    live: bool = False  # serve all of it to Foxglove too
+
+
+class KeptBench:
+    """A keeper and its record, in the process that has the ports."""
+
+    def __init__(self, wanted: Wanted) -> None:
+        self._held = ExitStack()
+        try:
+            self.keeper = self._begun(wanted)
+        except BaseException:
+            self._held.close()
+            raise
+
+    def _begun(self, wanted: Wanted) -> Keeper:
+        hardware = hardware_of(wanted.testbed)
+        devices = (*hardware.boards, *hardware.sensors)
+        self._held.enter_context(commanding([device.port.address for device in devices]))
+        check_reachable(hardware)
+        keeper = keeper_of(wanted.testbed)
+        zero_ns = time_ns()
+        if wanted.record is not None:
+            drivers = {device.name: device.driver for device in devices}
+            opening = Opening(zero_ns, text_of_testbed(wanted.testbed), drivers)
+            keeper.listen(self._held.enter_context(LiveRecording(wanted.record, opening)))
+        if wanted.live:
+            keeper.listen(self._held.enter_context(LiveView(zero_ns)))
+        self._held.callback(keeper.close)  # comes first: masses stop, and the record tells it
+        return keeper
+
+    def close(self) -> None:
+        """Stop every mass, close ports, end the record; what fails then is told in a sentence."""
+        try:
+            self._held.close()
+        except EquipoiseError as error:
+            complain(str(error))
+
+
+def keeper_of(testbed: Testbed, opener: Opener = open_port) -> Keeper:
+    """Return the keeper of a testbed's hardware; ports are opened at its first turn."""
+    hardware = hardware_of(testbed)
+    boards = [
+        BoardLink(
+            board,
+            driver_named(BOARDS, board.driver, "board")(board, testbed.masses),
+            Connection(board.port, opener),
+        )
+        for board in hardware.boards
+    ]
+    sensors = [
+        SensorLink(
+            unit,
+            driver_named(DRIVERS, unit.driver, "sensor")(unit),
+            Connection(unit.port, opener),
+            periods_of(testbed),
+        )
+        for unit in hardware.sensors
+    ]
+    return Keeper(testbed, hardware, Links(boards, sensors))
+
+
+def periods_of(testbed: Testbed) -> dict[Gives, float]:
+    """Return how far apart rows of each channel are, s; 0 where nothing is stated."""
+    stated: dict[Gives, float | None] = {
+        "attitude": None if testbed.attitude is None else testbed.attitude.rate,
+        "rate": None if testbed.gyro is None else testbed.gyro.rate,
+    }
+    return {channel: 1.0 / rate if rate else 0.0 for channel, rate in stated.items()}
+
+
+@contextmanager
+def real_bench(wanted: Wanted, let_go: Callable[[], None] | None = None) -> Generator[RealBench]:
+    """Return the bench, ready: every device answers, masses are at home, sensors give rows.
+
+    ``let_go`` is called when masses are at home; the platform is taken to be free ``HAND`` later.
+    Without it masses stay where they are, and nothing can be moved.
+    When the block ends, however it ends, masses are halted and the record is closed.
+    """
+    distant = DistantKeeper(wanted.testbed, KeptBench, wanted)
+    try:
+        bench = RealBench(distant, distant)
+        if let_go is not None:
+            bench.start()
+            let_go()
+            bench.read(HAND)
+        bench.watch()
+        if wanted.live:
+            stderr().print(f"Foxglove WebSocket: {ADDRESS}", markup=False)
+        yield bench
+        for each in bench.health():
+            stderr().print(each.sentence, style="red" if each.wrong else None, markup=False)
+    finally:
+        distant.close()

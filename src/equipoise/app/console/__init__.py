@@ -1,0 +1,1 @@
+"""The terminal: console, tables, questions, notices, worker processes."""

@@ -1,0 +1,152 @@
+"""What a person sees at the terminal: results on stdout, progress and errors on stderr."""
+
+import itertools
+import sys
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from equipoise.app.console.keyboard_interrupt import held_back
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from rich.console import Console, RenderableType
+
+    from equipoise.model.step import Step
+
+COMPILING = "compiling kernels, once"
+_DRAWN_ON: list["Console"] = []  # consoles with a sign of life
+REFRESHES = 8.0  # Hz, chosen: as often as a person can follow, at little cost
+
+
+def stdout() -> "Console":
+    """Return the console for results; cut off from a terminal, lines are not folded at 80."""
+    from rich.console import Console
+
+    console = Console(highlight=False, soft_wrap=False)
+    return console if console.is_terminal else Console(highlight=False, width=120)
+
+
+def stderr() -> "Console":
+    """Return the console for everything else; while a sign of life is drawn, the one it is on.
+
+    What that one prints stands above; another would print into the middle of what is drawn.
+    """
+    return _DRAWN_ON[-1] if _DRAWN_ON else _new_stderr()
+
+
+def _new_stderr() -> "Console":
+    from rich.console import Console
+
+    return Console(stderr=True, highlight=False, soft_wrap=True)
+
+
+def complain(sentence: str) -> None:
+    """Print what is wrong, in one line."""
+    from rich.text import Text
+
+    if sys.stderr is not None:
+        line = " ".join(sentence.split())
+        stderr().print(Text.assemble(("equipoise:", "bold red"), f" {line}"))
+
+
+@contextmanager
+def busy(
+    what: str, announce: bool = True, above: "RenderableType | None" = None
+) -> Generator[None]:
+    """Show on stderr that something is being done, and when it is the compiler that takes long.
+
+    Cut off from a terminal, ``announce`` says whether it is told that it begins, and what would
+    stand ``above`` is not shown.
+    """
+    from equipoise.app.console.compile_notice import heard
+
+    sign = _SignOfLife(what, announce, above)
+
+    def ended() -> None:
+        sign.say(what)
+        interruption.carry_out()
+
+    with held_back() as interruption:
+        try:
+            with interruption.put_off():
+                sign.begin()
+            with heard(lambda: sign.say(f"{what}: {COMPILING}"), ended):
+                yield
+        finally:
+            with interruption.put_off():
+                sign.end()
+
+
+class _SignOfLife:
+    """A line that moves at a terminal, below what it is about; elsewhere each text once."""
+
+    def __init__(self, text: str, announce: bool, above: "RenderableType | None") -> None:
+        from rich.console import Group
+        from rich.live import Live
+        from rich.spinner import Spinner
+
+        self._console, self._announce, self._said = _new_stderr(), announce, list[str]()
+        plain = self._console.options.ascii_only
+        self._line = Spinner("line" if plain else "dots", style="status.spinner")
+        shown = self._line if above is None else Group(above, self._line)
+        self._live = Live(
+            shown, console=self._console, refresh_per_second=REFRESHES, transient=True
+        )
+        self.say(text)
+
+    def begin(self) -> None:
+        _DRAWN_ON.append(self._console)
+        self._live.start(refresh=True)
+
+    def end(self) -> None:
+        _DRAWN_ON.remove(self._console)
+        self._live.stop()
+
+    def say(self, text: str) -> None:
+        self._line.update(text=f"{text} ...")
+        if self._announce and not self._console.is_interactive and text not in self._said:
+            self._said.append(text)
+            self._console.print(f"{text} ...")
+
+
+@contextmanager
+def counted(what: str) -> "Generator[Callable[[float], None]]":
+    """Show on stderr what share of something is done, as the function is told that it yields."""
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
+
+    console = stderr()
+    if not console.is_terminal:
+        console.print(f"{what} ...")
+    columns = (TextColumn(what), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        bar = progress.add_task(what, total=1.0)
+        yield lambda share: progress.update(bar, completed=share)
+
+
+def watched(
+    steps: "Iterator[Step]", what: str, above: "RenderableType | None" = None
+) -> "Iterator[Step]":
+    """Return the steps of a procedure, with a sign of life while each is awaited."""
+    for count in itertools.count():
+        with busy(what, announce=count == 0, above=above):
+            step = next(steps, None)
+        if step is None:
+            return
+        yield step
+
+
+def tell_paths(paths: "Sequence[Path]", aside: bool = False) -> None:
+    """Say what was written; aside from the results when those are a JSON document.
+
+    Of a folder within the folder of the others only the number of its files.
+    """
+    console, top = stderr() if aside else stdout(), min(len(path.parts) for path in paths)
+    for folder in dict.fromkeys(path.parent for path in paths if len(path.parts) > top):
+        number = sum(path.parent == folder for path in paths)
+        console.print(f"wrote {number} files in {folder}", markup=False, soft_wrap=True)
+    for path in paths:
+        if len(path.parts) == top:
+            console.print(f"wrote {path}", markup=False, soft_wrap=True)

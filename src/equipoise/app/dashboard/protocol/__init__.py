@@ -1,0 +1,1 @@
+"""What server, runner and page say to each other."""

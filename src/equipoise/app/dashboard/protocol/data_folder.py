@@ -1,0 +1,42 @@
+"""The files that the dashboard may touch: runs and recordings in one folder, none outside."""
+
+from datetime import datetime
+from pathlib import Path
+
+from equipoise.app.logbook.run_folder import USUAL, free, runs_folder, slug
+from equipoise.app.report.logbook_entry import RECORDING
+from equipoise.model.errors import InputError
+
+RECORDINGS = "recordings"
+SUFFIX = ".mcap"
+
+
+def data_folder() -> Path:
+    """Return the folder of runs (``EQUIPOISE_RUNS``), absolute."""
+    return (runs_folder() or Path(USUAL)).resolve()
+
+
+def within(folder: Path, name: str) -> Path:
+    """Return a file of the folder by its name in it; InputError for what is outside, or not there.
+
+    Links are followed before it is asked where a file is.
+    """
+    path = (folder / name).resolve()
+    if not path.is_relative_to(folder.resolve()) or not path.is_file():
+        raise InputError("file", f"'{name}'", f"a file within {folder}")
+    return path
+
+
+def recordings(folder: Path) -> list[str]:
+    """Return the names of the recordings in it, the newest first."""
+    found = [*folder.glob(f"{RECORDINGS}/*{SUFFIX}"), *folder.glob(f"*/{RECORDING}")]
+    ordered = sorted(found, key=lambda path: path.stat().st_mtime, reverse=True)
+    return [path.relative_to(folder).as_posix() for path in ordered]
+
+
+def new_recording(folder: Path, platform: str) -> Path:
+    """Return the path of a new recording; its folder is made."""
+    where = folder / RECORDINGS
+    where.mkdir(parents=True, exist_ok=True)
+    now = datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
+    return free(where / f"{now}_{slug(platform)}{SUFFIX}")

@@ -1,0 +1,54 @@
+"""Which series the page shows of a testbed, and in which units."""
+
+from dataclasses import dataclass
+
+from equipoise.app.text.units import MICRO, SHOWN, TRAVEL, Unit
+from equipoise.model.testbed import Testbed
+
+AXES = ("x", "y", "z")
+SHARE = Unit("%", 100.0)
+ENERGY = Unit("uJ", MICRO)
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """One series; the first column of its rows is the time (s), the last ones are the sds."""
+
+    name: str
+    title: str
+    columns: tuple[str, ...]
+    si: str
+    bench: Unit  # as people at a bench think
+    sd: bool = False
+    chart: bool = True
+    line: float | None = None  # a value that is drawn across, SI
+
+    @property
+    def width(self) -> int:
+        """Return the number of columns of a row, time included."""
+        return 1 + len(self.columns) * (2 if self.sd else 1)
+
+    def document(self) -> dict[str, object]:
+        """Return it for the page."""
+        unit = {"bench": [self.bench.name, self.bench.factor], "si": [self.si, 1.0]}
+        return {"name": self.name, "title": self.title, "columns": list(self.columns),
+                "sd": self.sd, "unit": unit, "chart": self.chart, "line": self.line}  # fmt: skip
+
+
+def series_of(testbed: Testbed) -> list[Series]:
+    """Return what can be seen of a testbed, in the order of the charts."""
+    limits = ("tilt",) if testbed.hardware is None else ("tilt", "rate")
+    found = [
+        Series("pose", "Attitude quaternion", ("w", "x", "y", "z"), "", Unit("", 1.0), chart=False),
+        Series("com", "Centre of mass", AXES, "m", SHOWN["m"], sd=True),
+        Series("attitude", "Attitude", ("roll", "pitch", "yaw"), "rad", SHOWN["rad"], sd=True),
+        Series("rate", "Rate", AXES, "rad/s", SHOWN["rad/s"], sd=True),
+        Series("torque", "Residual torque", AXES, "N m", SHOWN["N m"], sd=True),
+        Series("energy", "Energy", ("kinetic", "potential", "total"), "J", ENERGY, sd=True),
+        Series("masses", "Masses", testbed.mass_names, "m", TRAVEL),
+        Series("limits", "Interlocks, share of limit", limits, "-", SHARE, line=1.0),
+    ]
+    if testbed.wheels:
+        wheels = tuple(wheel.name for wheel in testbed.wheels)
+        found.insert(-1, Series("wheels", "Wheels", wheels, "rad/s", Unit("rad/s", 1.0)))
+    return [one for one in found if one.columns]

@@ -1,0 +1,1 @@
+"""The process that has the bench: runs procedures, answers requests."""

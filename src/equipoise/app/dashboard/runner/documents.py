@@ -1,0 +1,84 @@
+"""What the runner tells as documents: what is shown, a step, how it stands."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from equipoise.app.dashboard.protocol.series import series_of
+from equipoise.app.dashboard.runner.benches import Station
+from equipoise.app.dashboard.runner.chart_rows import COM, standing_com
+from equipoise.app.dashboard.runner.live_estimate import LiveBelief
+from equipoise.app.runs.balancing import Goal
+from equipoise.model.devices import recorded_name
+from equipoise.model.step import Step
+from equipoise.model.verdict import outcome_of
+
+Document = dict[str, Any]
+
+
+def about(station: Station, clock: int, session: str) -> Document:
+    """Return what the page has to know before rows: geometry, series, a number for this clock."""
+    bed = station.testbed
+    masses = [
+        {"name": m.name, "home": m.home.tolist(), "axis": m.axis.tolist(), "travel": list(m.travel)}
+        for m in bed.masses
+    ]
+    wheels = [{"name": recorded_name(w), "axis": w.axis.tolist()} for w in bed.wheels]
+    return {
+        "kind": "about", "clock": clock, "session": session, "title": station.title,
+        "bench": station.kind, "up": bed.up.tolist(), "tilt_limit": bed.tilt_limit,
+        "gravity": bed.gravity, "masses": masses, "wheels": wheels,
+        "series": [series.document() for series in series_of(bed)],
+    }  # fmt: skip
+
+
+def step_document(index: int, step: Step) -> Document:
+    """Return a step; its verdict in a word."""
+    word = None if step.verdict is None else outcome_of(step.verdict)
+    return _line(index, step.kind, step.time, step.sentence, word)
+
+
+def mark_document(index: int, t: float, text: str) -> Document:
+    """Return what a person noted, as a line among the steps."""
+    return _line(index, "mark", t, text, None)
+
+
+def _line(index: int, of: str, t: float, sentence: str, word: str | None) -> Document:
+    return {"kind": "step", "index": index, "of": of, "t": t, "sentence": sentence, "word": word}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Standing:
+    """How the runner stands."""
+
+    phase: str
+    speed: float
+    recording: str | None
+    goal: Goal | None
+    trip: str | None
+    note: str
+    kept: str | None  # folder of the last run that was kept
+    working: str  # what is done beside, such as a report being written
+
+    def document(self, station: Station, belief: LiveBelief) -> Document:
+        """Return it for the page."""
+        goal = self.goal
+        wanted = None if goal is None else {
+            "target": goal.target.tolist(), "tolerance": goal.tolerance.tolist()}  # fmt: skip
+        return {
+            "kind": "state", "t": station.bench.time, "phase": self.phase, "speed": self.speed,
+            "recording": self.recording, "goal": wanted, "trip": self.trip, "note": self.note,
+            "kept": self.kept, "working": self.working, "span": station.span,
+            "seed": station.seed, "belief": _believed(belief),
+        }  # fmt: skip
+
+
+def _believed(belief: LiveBelief) -> Mapping[str, Any] | None:
+    """Return the centre of mass as the masses stand (m), and its covariance by rows (m^2)."""
+    state, covariance, known = belief.state, belief.covariance, belief.tail
+    if state is None or covariance is None or known is None:
+        return None
+    (com,) = standing_com(known, belief.testbed, np.array([state.t]), state.com[None])
+    return {"com": com.tolist(), "covariance": covariance[COM, COM].ravel().tolist()}

@@ -1,0 +1,53 @@
+"""What the tracker believes while rows arrive: the same numbers as of the whole recording at once.
+
+The tracker (``estimation.tracker``) is fed part by part. A tail of the rows before goes with each
+part, so that a mass that was on its way is seen to stop.
+"""
+
+from dataclasses import dataclass
+
+from equipoise.estimation.tracker import tracker
+from equipoise.model.arrays import Floats
+from equipoise.model.recording import Recording, join, window
+from equipoise.model.testbed import Testbed
+
+TAIL = 3.0  # s, chosen: longer than any gap between two rows of a mass that moves
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LiveBelief:
+    """Where the tracker is."""
+
+    testbed: Testbed
+    state: tracker.State | None = None
+    tail: Recording | None = None
+
+    @property
+    def covariance(self) -> Floats | None:
+        """Return (9, 9) of com and J; None before the first attitude."""
+        return None if self.state is None else self.state.belief.covariance
+
+
+def grown(belief: LiveBelief, rows: Recording) -> tuple[LiveBelief, tracker.Track | None]:
+    """Return the belief after more rows, and its course along them; None without an attitude."""
+    seen = rows if belief.tail is None else join(belief.tail, rows)
+    state = belief.state or _first(seen, belief.testbed)
+    if state is None:
+        return LiveBelief(belief.testbed, None, seen), None
+    if not _later(rows, state.t):
+        return LiveBelief(belief.testbed, state, seen), None
+    track = tracker.track(seen, belief.testbed, tracker.Params(), state)
+    end = track.end.t
+    return LiveBelief(belief.testbed, track.end, window(seen, end - TAIL, end)), track
+
+
+def _first(rows: Recording, testbed: Testbed) -> tracker.State | None:
+    """Return the state at the first attitude; None if there is none."""
+    if rows.attitude is None or not len(rows.attitude):
+        return None
+    return tracker.first_state(float(rows.attitude.t[0]), rows.attitude.values[0], testbed)
+
+
+def _later(rows: Recording, t: float) -> bool:
+    """Say whether any row of a sensor is later."""
+    return any(c is not None and len(c) and c.t[-1] > t for c in (rows.attitude, rows.rate))

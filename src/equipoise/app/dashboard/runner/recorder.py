@@ -1,0 +1,45 @@
+"""A recording that a person begins and ends while the bench goes on."""
+
+from pathlib import Path
+from time import time_ns
+
+from equipoise.app.dashboard.protocol.data_folder import new_recording
+from equipoise.io.formats.clock_units import nanoseconds
+from equipoise.io.mcap.live_recording import LiveRecording, Opening
+from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.model.bench import Bench
+from equipoise.model.recording import Recording
+
+
+class Recorder:
+    """Writes rows while it is on."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._file: LiveRecording | None = None
+        self.name: str | None = None  # in the folder; None: nothing is recorded
+
+    def begin(self, bench: Bench) -> None:
+        """Begin a new file; EquipoiseError where that cannot be."""
+        if self._file is None:
+            path = new_recording(self._folder, bench.testbed.name)
+            zero = time_ns() - nanoseconds(bench.time)
+            self._file = LiveRecording(path, Opening(zero, text_of_testbed(bench.testbed)))
+            self.name = path.relative_to(self._folder).as_posix()
+
+    def rows(self, t: float, rows: Recording) -> None:
+        """Write rows, if it is on."""
+        if self._file is not None:
+            self._file.rows(rows)
+            self._file.turn(t)
+
+    def event(self, t: float, kind: str, sentence: str) -> None:
+        """Write what happened at bench time t (s), if it is on."""
+        if self._file is not None:
+            self._file.event(t, kind, sentence, {})
+
+    def end(self) -> None:
+        """End the file, if it is on."""
+        file, self._file, self.name = self._file, None, None
+        if file is not None:
+            file.close()

@@ -1,0 +1,160 @@
+"""What is asked of the runner: allowed or not now, and done."""
+
+from multiprocessing.connection import Connection as Pipe
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from equipoise.app.arguments.recording_window import WHOLE
+from equipoise.app.arguments.resolve import fitting_recording_of
+from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.protocol.data_folder import within
+from equipoise.app.dashboard.runner.benches import replayed, simulated
+from equipoise.app.dashboard.runner.runner import Runner
+from equipoise.app.runs.balancing import Goal, Limits
+from equipoise.model.errors import EquipoiseError, InputError
+
+FASTEST = 100.0  # times, chosen
+
+
+class Desk:
+    """Hears requests at a pipe; what comes of each is told as a note."""
+
+    def __init__(self, runner: Runner, pipe: Pipe, folder: Path, seed: int) -> None:
+        self._runner, self._pipe, self._folder, self._seed = runner, pipe, folder, seed
+        self._next: ask.Request | None = None  # what is to be done once nothing else is
+        runner.hearing(self.hear)
+
+    def hear(self, longest: float) -> None:
+        """Wait so long (s) at most for a request, and carry out what has come.
+
+        Raises EOFError where whoever asks has gone.
+        """
+        wait = longest
+        while self._pipe.poll(wait):
+            self._deal(self._pipe.recv())
+            wait = 0.0
+
+    def turn(self) -> None:
+        """Begin what has waited for the bench."""
+        request, self._next = self._next, None
+        if request is not None:
+            self._guarded(request, self._begin)
+
+    @property
+    def _busy(self) -> bool:
+        return self._runner.phase in ("balancing", "held")
+
+    def _deal(self, request: ask.Request) -> None:
+        """Carry out at once what needs no free bench; let the rest wait, or refuse it."""
+        at_once = ask.Stop | ask.Mark | ask.Record | ask.Speed | ask.Pause
+        if isinstance(request, at_once):
+            self._guarded(request, self._at_once)
+        elif self._busy:
+            self._runner.say("Not now: a balancing is under way. Stop it first.")
+        else:
+            self._next = request
+
+    def _guarded(self, request: ask.Request, do: Any) -> None:
+        try:
+            do(request)
+        except EquipoiseError as error:
+            self._runner.say(str(error))
+
+    def _at_once(self, request: ask.Request) -> None:
+        runner = self._runner
+        if isinstance(request, ask.Stop):
+            self._stop()
+        elif isinstance(request, ask.Mark):
+            runner.mark(request.text)
+        elif isinstance(request, ask.Record):
+            self._record(request.on)
+        elif isinstance(request, ask.Speed):
+            runner.pace.at(_checked_speed(request.factor))
+        elif isinstance(request, ask.Pause):
+            self._pause(request.on)
+        runner.tell_state()
+
+    def _stop(self) -> None:
+        runner = self._runner
+        runner.stop_work()
+        if self._busy:
+            runner.stopping, runner.phase = True, "balancing"
+        else:
+            runner.station.bench.stop()
+            runner.note = "Every mass was halted where it is."
+
+    def _record(self, on: bool) -> None:
+        runner = self._runner
+        if on:
+            runner.recorder.begin(runner.station.bench)
+        else:
+            runner.recorder.end()
+
+    def _pause(self, on: bool) -> None:
+        runner = self._runner
+        if not runner.station.paced:
+            raise InputError("hold", "a real bench", "a hand: only a simulation can be held here")
+        if self._busy:
+            runner.phase = "held" if on else "balancing"
+        else:
+            runner.phase = "paused" if on else "idle"
+        runner.note = ""
+
+    def _begin(self, request: ask.Request) -> None:
+        runner = self._runner
+        if isinstance(request, ask.Balance):
+            self._balance(request)
+        elif isinstance(request, ask.Identify):
+            runner.identify(request.method)
+        elif isinstance(request, ask.Jog):
+            self._jog(request)
+        elif isinstance(request, ask.Anew):
+            self._seed = request.seed
+            self._show(request)
+        elif isinstance(request, ask.Replay | ask.Seek):
+            self._show(request)
+
+    def _balance(self, request: ask.Balance) -> None:
+        station = self._runner.station
+        if station.kind == "replayed":
+            raise InputError("balance", "a recording", "a platform: what is past cannot be moved")
+        if station.kind == "real" and not request.held:
+            raise InputError("the platform", "not said to be held", "somebody who holds it level")
+        goal = Goal(np.array(request.target), np.array(request.tolerance))
+        limits = Limits(None, request.max_time, 0.0, request.law)
+        self._runner.balance(goal, limits, self._seed)
+
+    def _jog(self, request: ask.Jog) -> None:
+        runner = self._runner
+        runner.station.bench.move({request.mass: request.displacement})
+        told = f"{request.mass} sent to {1e3 * request.displacement:.2f} mm by hand"
+        runner.mark(told)
+        runner.say("")
+
+    def _show(self, request: ask.Anew | ask.Replay | ask.Seek) -> None:
+        """Show another platform, a recording, or another time of it."""
+        runner, bed = self._runner, self._runner.station.testbed
+        if runner.station.kind == "real":
+            raise InputError("another view", "a real bench", "a dashboard of its own for it")
+        runner.note = ""
+        if isinstance(request, ask.Anew) or (isinstance(request, ask.Replay) and not request.name):
+            runner.show(simulated(bed, self._seed))
+        elif isinstance(request, ask.Replay):
+            path = within(self._folder, request.name)
+            runner.show(replayed(bed, fitting_recording_of(str(path), WHOLE, bed), request.name))
+            self._pause(False)
+            runner.tell_state()
+        elif runner.station.source is not None:
+            was, held = runner.station, runner.phase
+            assert was.source is not None
+            runner.show(replayed(bed, was.source, was.title, request.t))
+            runner.phase = held
+            runner.tell_state()
+
+
+def _checked_speed(factor: float) -> float:
+    if not 0 <= factor <= FASTEST:
+        raise InputError("speed", f"{factor:g}", f"0 (as fast as possible) to {FASTEST:g}")
+    return factor

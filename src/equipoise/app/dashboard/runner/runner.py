@@ -1,0 +1,247 @@
+"""The runner: it has the bench, balances it, shows it, and does what the page asks.
+
+One thread. Between two slices of a reading it hears what is asked (``desk``); a procedure that runs
+is a reading like any other, so that the view goes on and a stop is heard at once. It knows no page
+and no server; whoever listens gets the same.
+"""
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from equipoise.app.console.compile_notice import heard
+from equipoise.app.console.terminal import COMPILING
+from equipoise.app.dashboard.runner.background_jobs import Fit, Job, Keep
+from equipoise.app.dashboard.runner.benches import Station, let_go
+from equipoise.app.dashboard.runner.chart_rows import parts_of
+from equipoise.app.dashboard.runner.documents import (
+    Standing,
+    about,
+    mark_document,
+    step_document,
+)
+from equipoise.app.dashboard.runner.live_estimate import LiveBelief, grown
+from equipoise.app.dashboard.runner.outbox import Post
+from equipoise.app.dashboard.runner.pace import Pace
+from equipoise.app.dashboard.runner.recorder import Recorder
+from equipoise.app.live.observed_bench import WatchedBench
+from equipoise.app.runs.balancing import HALTED, Balancing, Goal, Limits, Through, run
+from equipoise.app.runs.rehearsal import practised
+from equipoise.hardware.bench.real_bench import RealBench
+from equipoise.hardware.bench.replayed_bench import RecordingEnded
+from equipoise.maths.attitude import tilt
+from equipoise.model.bench import Bench
+from equipoise.model.errors import BenchStopped, EquipoiseError
+from equipoise.model.recording import Recording, joined
+from equipoise.model.step import Step
+
+SLICE = 0.1  # s of the bench, chosen: as often as a person can follow numbers
+CAUGHT = 1.1  # of the tilt limit, chosen: where somebody catches a simulated platform
+REMEMBERED = 1200.0  # s, chosen: what an identification takes in at most
+BY_HAND = f"stopped by hand: {HALTED}"
+
+
+class Runner:
+    """A station, and all that is done with it."""
+
+    def __init__(self, station: Station, post: Post, folder: Path, session: str) -> None:
+        self.station, self.post, self.session = station, post, session
+        self.recorder, self.pace = Recorder(folder), Pace()
+        self.phase, self.note, self.working = "idle", "", ""
+        self.goal: Goal | None = None
+        self.trip: str | None = None
+        self.kept: str | None = None
+        self.stopping = False
+        self._hear: Callable[[float], None] = lambda _: None
+        self._clock, self._steps, self._due = 0, 0, 0.0
+        self._jobs: list[Job] = []
+        self.show(station)
+
+    def hearing(self, hear: Callable[[float], None]) -> None:
+        """Let somebody be asked between two slices; he waits so long (s) at most for a request."""
+        self._hear = hear
+
+    # --- What is shown -----------------------------------------------------------------------
+
+    def show(self, station: Station) -> None:
+        """Show a station from its beginning; simulated platforms and recordings begin held."""
+        self.station = station
+        self._clock += 1
+        self._steps, self._seen = 0, list[Recording]()
+        self._belief = LiveBelief(station.testbed)
+        self._watched = WatchedBench(station.bench, self._rows, SLICE, self._between)
+        self.post.about(about(station, self._clock, self.session))
+        self.goal, self.trip, self.kept = None, None, None
+        self.phase = "paused" if station.paced else "idle"
+        if station.before is not None:
+            self._told(station.before)
+        self.tell_state()
+
+    def tell_state(self) -> None:
+        """Tell how things stand."""
+        standing = Standing(self.phase, self.pace.speed, self.recorder.name, self.goal, self.trip,
+                            self.note, self.kept, self.working)  # fmt: skip
+        self.post.state(standing.document(self.station, self._belief))
+
+    def say(self, sentence: str) -> None:
+        """Tell a sentence at once."""
+        self.note = sentence
+        self.tell_state()
+
+    def mark(self, text: str) -> None:
+        """Note that something happened now."""
+        t = self.station.bench.time
+        self.post.step(mark_document(self._steps, t, text))
+        self._steps += 1
+        self.recorder.event(t, "mark", text)
+
+    def step(self, step: Step) -> None:
+        """Tell of a step."""
+        self.post.step(step_document(self._steps, step))
+        self._steps += 1
+        self.recorder.event(step.time, step.kind, step.sentence)
+
+    # --- Time passes -------------------------------------------------------------------------
+
+    def turn(self) -> None:
+        """Hear what is asked and let a slice of time pass."""
+        if self.phase == "paused":
+            self._idle(SLICE)
+            return
+        try:
+            self._watched.read(SLICE)
+        except RecordingEnded:
+            self.phase, self.note = "paused", "The recording has ended."
+        except BenchStopped as stopped:
+            self.trip = self.note = str(stopped)
+
+    def _between(self) -> None:
+        """Wait for the next slice's time and hear what is asked; a stop ends who reads."""
+        while (left := self._due - time.monotonic()) > 0:
+            self._idle(left)
+        self._idle(0.0)
+        while self.phase == "held":
+            self._idle(SLICE)
+        if self.stopping:
+            self.stopping = False
+            self.station.bench.stop()
+            raise BenchStopped(BY_HAND)
+
+    def _idle(self, longest: float) -> None:
+        """Hear what is asked, for so long (s) at most, and tell what is due."""
+        self._hear(longest)
+        self._work()
+        if self.post.turn():
+            self.tell_state()
+
+    def _rows(self, rows: Recording) -> None:
+        """Show rows and keep them; a simulated bench and a replay wait for their time."""
+        self._told(rows)
+        self._remember(rows)
+        if self.station.paced:
+            self._catch(rows)
+            self._due = time.monotonic() + self.pace.wait(SLICE)
+
+    def _told(self, rows: Recording) -> None:
+        t, bed = self.station.bench.time, self.station.testbed
+        self.recorder.rows(t, rows)
+        try:
+            self._belief, track = grown(self._belief, rows)
+        except Exception as error:  # whatever it is: a view stops no bench, and begins anew
+            self._belief, track = LiveBelief(bed), None
+            self.note = f"The live estimate begins anew: {error}"
+        self.post.rows(t, parts_of(rows, bed, self._belief, track))
+
+    def _remember(self, rows: Recording) -> None:
+        self._seen.append(rows)
+        most = int(REMEMBERED / SLICE)
+        del self._seen[:-most]
+
+    def _catch(self, rows: Recording) -> None:
+        """Hold a simulated platform that falls while nothing is done with it."""
+        idle, bed = self.phase == "idle", self.station.testbed
+        if not idle or self.station.kind != "simulated" or rows.attitude is None:
+            return
+        if tilt(rows.attitude.values[-1], bed.up) > CAUGHT * bed.tilt_limit:
+            self.phase = "paused"
+            self.note = "The platform was caught: it tilted beyond its limit."
+
+    # --- What is done ------------------------------------------------------------------------
+
+    def balance(self, goal: Goal, limits: Limits, seed: int) -> None:
+        """Balance, and have the report written beside; what stops it is its last step."""
+        self.phase, self.goal, self.trip, self.kept, self.note = "balancing", goal, None, None, ""
+        self.tell_state()
+        try:
+            with heard(lambda: self.say(f"{COMPILING} ..."), lambda: self.say("")):
+                done = self._balanced(goal, limits)
+        except EquipoiseError as error:
+            self.note = str(error)
+        else:
+            self.note = done.verdict.sentence
+            self.trip = self.note if done.verdict.halted else None
+            self._begin(Job(Keep(done, limits.law, seed)), "writing the report")
+        self.phase, self.stopping = "idle", False
+        self.tell_state()
+
+    def _balanced(self, goal: Goal, limits: Limits) -> Balancing:
+        """Balance; a real platform after a practice in simulation, once its masses are home."""
+        bench = self.station.bench
+        if isinstance(bench, RealBench):
+            self.say("Practising on a simulated platform ...")
+            practised(bench.testbed, goal, limits)
+            let_go(bench, self.say)
+        return run(bench, goal, limits, self.step, Through(self._seen_through, _plain))
+
+    def identify(self, method: str) -> None:
+        """Identify from what was seen, beside; InputError where nothing was."""
+        if not self._seen:
+            self.say("Nothing has been seen yet.")
+            return
+        task = Fit(joined(self._seen), self.station.testbed, method)
+        self._begin(Job(task), f"identifying ({method})")
+
+    def stop_work(self) -> None:
+        """End what is done beside."""
+        for job in self._jobs:
+            job.end()
+        self._jobs, self.working = [], ""
+
+    def close(self) -> None:
+        """End recordings and what is done beside."""
+        self.stop_work()
+        self.recorder.end()
+
+    def _seen_through(self, bench: Bench) -> Bench:
+        """Return the bench as a procedure is to see it: with who looks on, and this very desk."""
+        assert bench is self.station.bench
+        return self._watched
+
+    def _begin(self, job: Job, what: str) -> None:
+        self._jobs.append(job)
+        self.working = what
+        self.tell_state()
+
+    def _work(self) -> None:
+        """Tell what those have to say who work beside."""
+        for job in self._jobs:
+            for kind, what in job.news():
+                self._heard_of(job, kind, what)
+        self._jobs = [job for job in self._jobs if not job.over]
+        if not self._jobs:
+            self.working = ""
+
+    def _heard_of(self, job: Job, kind: str, what: object) -> None:
+        if isinstance(what, Step):
+            self.step(what)
+            return
+        job.end()
+        if kind == "kept":
+            self.kept = None if what is None else str(what)
+        else:
+            self.note = str(what)
+
+
+def _plain(steps: Iterator[Step], _what: str) -> Iterator[Step]:
+    """Return the steps as they are: the page itself is the sign of life."""
+    return steps

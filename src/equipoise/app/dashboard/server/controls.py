@@ -1,0 +1,178 @@
+"""The column of controls: what a person can ask. Whoever only looks on sees it, and is refused."""
+
+from collections.abc import Callable, Sequence
+
+from nicegui import ui
+
+from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.protocol.data_folder import recordings
+from equipoise.app.dashboard.server.fields import button, triple
+from equipoise.app.dashboard.server.request_queue import Counter
+from equipoise.app.text.units import TRAVEL
+from equipoise.model.testbed import SlidingMass
+
+TARGET_UM, TOLERANCE_UM = (0.0, 0.0, -100.0), (2.0, 2.0, 3.0)  # as ``equipoise balance`` has them
+SPEEDS = {0.5: "half", 1.0: "real time", 2.0: "2 x", 5.0: "5 x", 20.0: "20 x", 0.0: "fastest"}
+TABS = ("Balance", "Masses", "Data", "Bench")
+
+
+class Controls:
+    """The controls of one page."""
+
+    def __init__(self, counter: Counter, page: str) -> None:
+        self._counter, self._page = counter, page
+        self._needing: list[ui.button] = []  # a commander
+        self._listed: object = self  # what was recorded and kept when the list was made
+        self._token_row()
+        with ui.row().classes("eq-buttons"):
+            self.start = self._button("Start balancing", self._start, "unelevated color=primary")
+            self.stop = self._button("Stop", lambda: self._ask(ask.Stop()), "color=negative")
+            self.hold = self._button("Let go", self._hold, "outline")
+        with ui.tabs().props("dense no-caps align=justify").classes("eq-tabs") as tabs:
+            for name in TABS:
+                ui.tab(name)
+        with ui.tab_panels(tabs, value=TABS[0]).classes("eq-panels"):
+            for name, fill in zip(
+                TABS, (self._balance, self._masses, self._data, self._bench), strict=True
+            ):
+                with ui.tab_panel(name):
+                    fill()
+
+    def refresh(self) -> None:
+        """Show how things stand."""
+        counter, state = self._counter, self._counter.watch.state
+        mine, phase = counter.guard.commands(self._page), state.get("phase", "idle")
+        for each in self._needing:
+            each.set_enabled(mine)
+        self.start.set_enabled(mine and phase in ("idle", "paused"))
+        self.command.set_text("Release" if mine else "Command")
+        self.hold.set_text("Let go" if phase in ("paused", "held") else "Hold")
+        self.hold.set_visibility(counter.watch.about.get("bench") != "real")
+        self.record.set_text("End recording" if state.get("recording") else "Record")
+        kept = state.get("kept")
+        files = (state.get("recording"), kept)
+        if files != self._listed:
+            self.chosen.set_options(recordings(counter.folder))
+            self._listed = files
+        self.reports.set_visibility(bool(kept))
+        if kept:
+            self.html.props(f'href="/runs/{kept}/report.html"')
+            self.pdf.props(f'href="/runs/{kept}/report.pdf"')
+            self.pdf.set_visibility((counter.folder / kept / "report.pdf").is_file())
+
+    # --- Parts -------------------------------------------------------------------------------
+
+    def _token_row(self) -> None:
+        with ui.row().classes("eq-token"):
+            self.token = ui.input("Token").props(
+                'dense outlined autocomplete=off aria-label="Token" input-class="eq-secret"'
+            )
+            self.token.on("keydown.enter", self._command)
+            self.command = button("Command", self._command)
+
+    def _balance(self) -> None:
+        laws = list(self._counter.laws)
+        self.law = ui.select(laws, value=laws[0], label="Law").props("dense outlined options-dense")
+        self.target = triple("Target", TARGET_UM)
+        self.tolerance = triple("Tolerance", TOLERANCE_UM)
+        self.held = ui.checkbox("Somebody holds the platform level").props("dense")
+        self.held.set_visibility(self._counter.watch.about.get("bench") == "real")
+        ui.separator()
+        methods = ["auto", *self._counter.methods]
+        self.method = ui.select(methods, value="auto", label="Method").props(
+            "dense outlined options-dense"
+        )
+        self._button("Identify from what was seen", self._identify)
+
+    def _masses(self) -> None:
+        if not self._counter.testbed.masses:
+            ui.label("This testbed has no sliding masses.")
+        for mass in self._counter.testbed.masses:
+            self._jog(mass)
+
+    def _jog(self, mass: SlidingMass) -> None:
+        low, high = (TRAVEL.factor * edge for edge in mass.travel)
+        with ui.row().classes("eq-jog"):
+            field = ui.number(
+                f"{mass.name}: {low:g} to {high:g} mm", value=0.0, min=low, max=high, format="%.2f"
+            ).props(f'dense outlined aria-label="{mass.name} in mm"')
+
+            def move() -> None:
+                if field.value is not None:
+                    self._ask(ask.Jog(mass.name, field.value / TRAVEL.factor))
+
+            self._button(f"Move {mass.name}", move)
+
+    def _data(self) -> None:
+        self.record = self._button("Record", self._record)
+        with ui.row().classes("eq-jog"):
+            self.text = ui.input("What happened").props("dense outlined")
+            self._button("Mark", lambda: self._ask(ask.Mark(self.text.value or "mark")))
+        self.chosen = ui.select([], label="Recording").props("dense outlined options-dense")
+        with ui.row().classes("eq-buttons"):
+            self._button("Replay", self._replay)
+            self._button("Back to the simulation", lambda: self._ask(ask.Replay("")))
+        with ui.row().classes("eq-reports") as self.reports:
+            ui.label("Report of the last run:")
+            self.html = ui.link("HTML", "#", new_tab=True)
+            self.pdf = ui.link("PDF", "#", new_tab=True)
+
+    def _bench(self) -> None:
+        ui.select(SPEEDS, value=1.0, label="Speed", on_change=lambda event: self._ask(
+            ask.Speed(event.value))).props("dense outlined options-dense")  # fmt: skip
+        self.seed = ui.number("Seed", value=2, min=0, precision=0).props("dense outlined")
+        self._button("Another simulated platform", self._anew)
+
+    # --- What is asked -----------------------------------------------------------------------
+
+    def _button(self, text: str, do: Callable[[], None], look: str = "outline") -> ui.button:
+        made = button(text, do, look)
+        self._needing.append(made)
+        return made
+
+    def _ask(self, *requests: ask.Request) -> None:
+        for request in requests:
+            why = self._counter.ask(self._page, request)
+            if why:
+                ui.notify(why, type="warning")
+
+    def _command(self) -> None:
+        guard = self._counter.guard
+        if guard.commands(self._page):
+            guard.leave(self._page)
+        else:
+            why = guard.take(self._page, self.token.value or "")
+            self.token.set_value("")
+            ui.notify(why or "This page commands now.", type="negative" if why else "positive")
+        self.refresh()
+
+    def _start(self) -> None:
+        target, tolerance = self.target.read(), self.tolerance.read()
+        if target is None or tolerance is None or min(tolerance) <= 0:
+            ui.notify("Target and tolerance need three numbers each, tolerances above 0.")
+            return
+        wanted = ask.Balance(target, tolerance, str(self.law.value), None, bool(self.held.value))
+        paused = self._counter.watch.state.get("phase") == "paused"
+        self._ask(*_first_let_go(paused), wanted)
+
+    def _hold(self) -> None:
+        held = self._counter.watch.state.get("phase") in ("paused", "held")
+        self._ask(ask.Pause(not held))
+
+    def _identify(self) -> None:
+        self._ask(ask.Identify(str(self.method.value)))
+
+    def _record(self) -> None:
+        self._ask(ask.Record(not self._counter.watch.state.get("recording")))
+
+    def _replay(self) -> None:
+        if self.chosen.value:
+            self._ask(ask.Replay(str(self.chosen.value)))
+
+    def _anew(self) -> None:
+        if self.seed.value is not None and self.seed.value >= 0:
+            self._ask(ask.Anew(int(self.seed.value)))
+
+
+def _first_let_go(paused: bool) -> Sequence[ask.Request]:
+    return (ask.Pause(False),) if paused else ()

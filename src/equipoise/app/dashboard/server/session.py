@@ -1,0 +1,105 @@
+"""A dashboard from its start to its end: port, token, runner, server."""
+
+import socket
+from collections.abc import Iterator
+from contextlib import AbstractContextManager
+from types import TracebackType
+
+from equipoise.app.dashboard.protocol.requests import Request
+from equipoise.app.dashboard.runner.runner_process import Opening
+from equipoise.app.dashboard.server.authorisation import Guard, new_token
+from equipoise.app.dashboard.server.broadcast import Watch
+from equipoise.app.dashboard.server.gate import Doors, Gate
+from equipoise.app.dashboard.server.request_queue import Counter
+from equipoise.app.dashboard.server.server import VENDOR, FarRunner, application, serve
+from equipoise.estimation.methods.registry import METHODS
+from equipoise.model.errors import InputError
+from equipoise.procedure.balancing.catalogue import CARDS
+
+
+class Session(AbstractContextManager["Session"]):
+    """See above."""
+
+    def __init__(
+        self, at: socket.socket, token: str, app: Gate, runner: FarRunner, exposed: bool
+    ) -> None:
+        self._socket, self._app, self._runner = at, app, runner
+        self._token, self._exposed = token, exposed
+
+    def lines(self) -> Iterator[str]:
+        """Yield what a person has to know."""
+        host, port = self._socket.getsockname()[:2]
+        query = f"/?token={self._token}" if self._exposed else ""
+        yield f"The dashboard is at http://{bracketed(host)}:{port}{query}"
+        yield f"Token, to command: {self._token}"
+        if self._exposed:
+            yield "Others on the network see what is sent: it is not encrypted."
+        yield "Ctrl-C ends it and halts every mass."
+
+    def serve(self) -> None:
+        """Serve until Ctrl-C."""
+        serve(self._app, self._socket)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End the runner, which halts the bench."""
+        self._runner.close()
+        self._socket.close()
+
+
+def open_session(opening: Opening, host: str, port: int, exposed: bool) -> Session:
+    """Return a session that listens; InputError where it cannot."""
+    if not (VENDOR / "three.module.js").is_file():
+        found = "no three.js and uPlot beside the page"
+        raise InputError("dashboard", found, "them: `make test` in the source folder fetches them")
+    at = listening(host, port)
+    token, watch = new_token(), Watch()
+    runner = FarRunner(opening)
+    try:
+        runner.wait_until_ready()
+    except BaseException:
+        runner.close()
+        at.close()
+        raise
+
+    def send(request: Request) -> None:
+        try:
+            runner.pipe.send(request)
+        except OSError:
+            return  # it has ended; the watch says so
+
+    laws, methods = tuple(CARDS), tuple(METHODS)
+    counter = Counter(opening.testbed, opening.folder, laws, methods, watch, Guard(token), send)
+    doors = Doors(frozenset(names(host, at.getsockname()[1])), exposed)
+    return Session(at, token, application(counter, runner.pipe, doors), runner, exposed)
+
+
+def listening(host: str, port: int) -> socket.socket:
+    """Return a socket that listens; InputError where the port is taken or the address not ours."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    at = socket.socket(family, socket.SOCK_STREAM)
+    at.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        at.bind((host, port))
+        at.listen(64)
+    except OSError as error:
+        at.close()
+        why = error.strerror or str(error)
+        raise InputError(f"{host}:{port}", why, "an address and a port that are free") from error
+    return at
+
+
+def names(host: str, port: int) -> Iterator[str]:
+    """Yield what a browser may call the place where we listen."""
+    yield f"{bracketed(host)}:{port}"
+    if host == "127.0.0.1":
+        yield f"localhost:{port}"
+
+
+def bracketed(host: str) -> str:
+    """Return an address as a URL has it."""
+    return f"[{host}]" if ":" in host else host

@@ -1,0 +1,48 @@
+"""The centre of mass over hours, and how far it goes in how much time."""
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator, StrMethodFormatter
+
+from equipoise.app.figures.base.style import AXES, BAND, WIDE, XYZ, styled
+from equipoise.app.text.units import UM
+from equipoise.assessment.metrics.allan import Wander
+from equipoise.procedure.identification.drift_metrics import OverHours
+
+CAPTION = (
+    "Looks at the centre of mass along the recording, um in body axes (bars: two standard "
+    "deviations), and their Allan deviation: what it goes to from one span of time to the next. "
+    "Dashed: what looks that only err would leave."
+)
+
+
+@styled
+def draw(hours: OverHours, wander: Wander) -> Figure:
+    """Return the figure."""
+    figure = Figure(figsize=(WIDE, 5.4), layout="constrained")
+    grid = figure.subplot_mosaic([["x", "allan"], ["y", "allan"], ["z", "allan"]])
+    for i, name in enumerate(AXES):
+        axes = grid[name]
+        axes.errorbar(
+            hours.t / 60, hours.com[:, i] * UM, BAND * hours.sd[:, i] * UM, fmt="o",
+            color=XYZ[i], elinewidth=0.8, markersize=2.5,
+        )  # fmt: skip
+        axes.set_ylabel(f"$r_{name}$, um")
+    grid["z"].set_xlabel("time, min")
+    axes = grid["allan"]
+    for i, name in enumerate(AXES):
+        error = wander.deviation[:, i] * np.minimum(wander.error, 0.9) * UM
+        axes.errorbar(wander.span, wander.deviation[:, i] * UM, error, color=XYZ[i], marker="o",
+                      capsize=2, label=name)  # fmt: skip
+        axes.plot(wander.span, wander.looks_alone[:, i] * UM, color=XYZ[i], linestyle="--")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xticks(wander.span, [f"{span:g}" for span in wander.span])
+    axes.xaxis.set_minor_locator(NullLocator())
+    for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
+        which(StrMethodFormatter("{x:g}"))
+    axes.set_xlabel("over a time of, s")
+    axes.set_ylabel("Allan deviation, um")
+    axes.legend()
+    figure.align_ylabels([grid[name] for name in AXES])
+    return figure

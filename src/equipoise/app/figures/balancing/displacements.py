@@ -1,0 +1,35 @@
+"""Where the masses stood in the process of automatic balancing (Ivanov 2021 Fig. 15)."""
+
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import XYZ, course, panels, styled
+from equipoise.app.text.units import MM
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import SlidingMass, Testbed
+
+CAPTION = "Displacements of the balancing masses from home, mm; dotted: ends of the rails."
+
+
+@styled
+def draw(recording: Recording, testbed: Testbed) -> Figure:
+    """Return the figure: one panel for each body axis along which masses move."""
+    tracks = recording.masses
+    groups = [g for axis in range(3) if (g := _along(axis, recording, testbed))]
+    figure, grid = panels(max(len(groups), 1), height=1.3)
+    for (axes,), group in zip(grid, groups, strict=False):
+        assert tracks is not None
+        for k, (column, mass) in enumerate(group):
+            y = tracks.values[:, column] * MM
+            course(axes, tracks.t, y, XYZ[k % len(XYZ)], mass.name)
+            for end in mass.travel:
+                axes.axhline(end * MM, color="#888888", linestyle=":", linewidth=0.9)
+        axes.set_ylabel("mm")
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    grid[0][0].set_title("displacement from home")
+    return figure
+
+
+def _along(axis: int, recording: Recording, testbed: Testbed) -> list[tuple[int, SlidingMass]]:
+    """Return column and mass of all that mainly move along a body axis."""
+    named = [(k, testbed.mass_named(name)) for k, name in enumerate(recording.mass_names)]
+    return [(k, mass) for k, mass in named if int(abs(mass.axis).argmax()) == axis]

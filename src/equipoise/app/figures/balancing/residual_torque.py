@@ -1,0 +1,29 @@
+"""The torque that the platform felt, with the noise of feeling it."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import AXES, BAND, XYZ, legend, line, panels, styled
+from equipoise.app.text.units import MICRO
+from equipoise.estimation.regression.inverse_dynamics_torque import Felt
+
+CAPTION = (
+    "Torque on the platform in body axes, from its motion and inertia alone (Savitzky-Golay). "
+    "Shaded: two standard deviations of what noise would show of a platform that feels nothing, "
+    "a mean over the three axes."
+)
+
+
+@styled
+def draw(felt: Felt) -> Figure:
+    """Return the figure."""
+    figure, grid = panels(3, height=1.2)
+    column = [row[0] for row in grid]
+    noise = BAND * felt.noise / np.sqrt(3) * MICRO
+    for i, axes in enumerate(column):
+        axes.axhspan(-noise, noise, color="black", alpha=0.12, linewidth=0, label="noise")
+        line(axes, felt.t, felt.values[:, i] * MICRO, XYZ[i], "torque" if i == 0 else "")
+        axes.set_ylabel(f"{AXES[i]}, uN m")
+    legend(figure, column[0])
+    figure.align_ylabels()
+    return figure

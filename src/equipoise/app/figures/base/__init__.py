@@ -1,0 +1,1 @@
+"""Style, sheet and files of every figure."""

@@ -1,0 +1,31 @@
+"""One line a name: the frame of figures that compare methods or laws."""
+
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullLocator
+
+from equipoise.app.figures.base.style import WIDE
+
+LINE, AROUND = 0.19, 0.9  # inches, of a name and of what is above and below, chosen
+
+
+def named_axes(names: Sequence[str], xlabel: str) -> tuple[Figure, Axes]:
+    """Return a figure with a line for each name, the first one on top."""
+    figure = Figure(figsize=(WIDE, LINE * len(names) + AROUND), layout="constrained")
+    axes = figure.subplots()
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.set_xlabel(xlabel)
+    axes.tick_params(axis="y", length=0)
+    return figure, axes
+
+
+def plain_log(axes: Axes) -> None:
+    """Scale x logarithmically, with plain numbers at 1, 2, 5, 10 and so on."""
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.margins(x=0.03)

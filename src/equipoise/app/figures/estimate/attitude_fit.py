@@ -1,0 +1,51 @@
+"""Measured attitude and the model's, before and after estimation (Ivanov 2021 Fig. 6)."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    legend,
+    line,
+    mark_travel,
+    panels,
+    rings,
+    styled,
+)
+from equipoise.estimation.output_error.predict import Prediction
+from equipoise.maths.attitude import continuous
+from equipoise.model.arrays import Series4
+from equipoise.model.recording import Recording
+
+COMPONENTS = ((0, "q0", PURPLE), (1, "q1", BLUE), (2, "q2", ORANGE), (3, "q3", GREEN))
+CAPTION = (
+    "Attitude quaternion (body to laboratory, scalar first), measured (rings, not all of them) "
+    "and predicted by the model (lines): (a) with what was known beforehand, (b) with the "
+    "estimate. Grey: masses travel."
+)
+
+
+@styled
+def draw(recording: Recording, before: Prediction, after: Prediction) -> Figure:
+    """Return the figure; the recording needs a camera."""
+    measured = recording.attitude
+    assert measured is not None
+    q = continuous(measured.values)
+    figure, grid = panels(2, height=2.1)
+    titles = ("(a) before estimation", "(b) after estimation")
+    for (axes,), prediction, title in zip(grid, (before, after), titles, strict=True):
+        for i, name, colour in COMPONENTS:
+            rings(axes, measured.t, q[:, i], colour)
+            line(axes, prediction.t, nearest_sign(prediction.q, q)[:, i], colour, name)
+        axes.set(title=title, ylabel="quaternion", ylim=(-1.08, 1.08))
+        mark_travel([axes], recording)
+    legend(figure, grid[0][0])
+    return figure
+
+
+def nearest_sign(q: Series4, other: Series4) -> Series4:
+    """Return q with the signs that bring each row nearest to the other's."""
+    return q * np.where(np.sum(q * other, axis=1) < 0, -1.0, 1.0)[:, None]

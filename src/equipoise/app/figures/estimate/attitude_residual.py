@@ -1,0 +1,48 @@
+"""What the fitted model leaves of the measured attitude (Ivanov 2021 Fig. 7, as angles)."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import (
+    AXES,
+    BAND,
+    GREY,
+    XYZ,
+    around,
+    dots,
+    mark_travel,
+    panels,
+    styled,
+)
+from equipoise.app.text.units import PER_DEG
+from equipoise.estimation.output_error.predict import Prediction
+from equipoise.maths.attitude import difference
+from equipoise.model.recording import Recording
+
+CAPTION = (
+    "Measured attitude less the estimated model's, as a small turn about each body axis, deg. "
+    "Grey band: two standard deviations of the stated camera noise; grey strips: masses travel."
+)
+
+
+@styled
+def draw(recording: Recording, after: Prediction, noise: float | None) -> Figure:
+    """Return the figure; ``noise`` is the camera's stated sd in rad, if there is one."""
+    measured = recording.attitude
+    assert measured is not None
+    left = difference(measured.values, after.q) * PER_DEG
+    figure, grid = panels(3, height=1.15)
+    grid[0][0].set_ylim(around(left, np.zeros(3)))
+    for i, (axes,) in enumerate(grid):
+        if i:
+            axes.sharey(grid[0][0])
+        if noise is not None:
+            limit = BAND * noise * PER_DEG
+            axes.axhspan(-limit, limit, color=GREY, alpha=0.12, linewidth=0)
+        axes.axhline(0, color=GREY, linewidth=0.7)
+        dots(axes, measured.t, left[:, i], XYZ[i])
+        axes.set_ylabel(f"{AXES[i]}, deg")
+        mark_travel([axes], recording)
+    grid[0][0].set_title("measured less predicted attitude")
+    figure.align_ylabels()
+    return figure

@@ -1,0 +1,25 @@
+"""Centre of mass along a record, as a method that goes along it believes."""
+
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.com_panels import draw_com
+from equipoise.app.figures.base.style import legend, panels, styled
+from equipoise.model.estimate import COM, Course
+from equipoise.model.recording import Recording
+
+CAPTION = (
+    "Centre of mass with the masses at home, along the record, um in body axes. Bands: two "
+    "standard deviations."
+)
+
+
+@styled
+def draw(course: Course, method: str, recording: Recording) -> Figure:
+    """Return the figure of a course that has the centre of mass."""
+    where = [course.names.index(name) for name in COM]
+    figure, grid = panels(3, height=1.25)
+    column = [row[0] for row in grid]
+    draw_com(column, (course.t, course.values[:, where], course.sd[:, where]), recording, method)
+    legend(figure, column[0])
+    figure.align_ylabels()
+    return figure

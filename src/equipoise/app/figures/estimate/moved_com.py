@@ -1,0 +1,35 @@
+"""Centre of mass across a move, told to the tracker and kept from it (Ivanov 2021 Fig. 13)."""
+
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.com_panels import Curve, draw_com, draw_truth, include
+from equipoise.app.figures.base.style import legend, panels, styled
+from equipoise.model.arrays import Series1, Series3
+from equipoise.model.recording import Recording
+
+CAPTION = (
+    "Centre of mass with the masses as they stand, um in body axes, across a known move: (a) the "
+    "move is fed forward to the tracker, (b) it is ignored and has to be found. Bands: two "
+    "standard deviations. Dashed: the simulated truth. Grey: masses travel."
+)
+
+
+@styled
+def draw(
+    fed: Curve, ignored: Curve, recording: Recording, truth: tuple[Series1, Series3] | None = None
+) -> Figure:
+    """Return the figure; the centres of mass are with the masses as they stand."""
+    figure, grid = panels(3, 2, height=1.35)
+    for k, (curve, title) in enumerate(((fed, "(a) move fed"), (ignored, "(b) move ignored"))):
+        column = [row[k] for row in grid]
+        draw_com(column, curve, recording)
+        column[0].set_title(title)
+        if truth is not None:
+            draw_truth(column, *truth)
+    for left, right in grid:
+        include(left, *right.get_ylim())
+        right.set(ylim=left.get_ylim(), ylabel="")
+        right.tick_params(labelleft=False)
+    legend(figure, grid[0][0])
+    figure.align_ylabels()
+    return figure

@@ -1,0 +1,37 @@
+"""Angular velocity along the fitted trajectory (Ivanov 2021 Fig. 8)."""
+
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import (
+    AXES,
+    XYZ,
+    dots,
+    legend,
+    line,
+    mark_travel,
+    panels,
+    styled,
+)
+from equipoise.app.text.units import PER_DEG
+from equipoise.estimation.output_error.predict import Prediction
+from equipoise.model.recording import Recording
+
+CAPTION = (
+    "Angular velocity in body axes, deg/s: the estimated model (lines) and the gyro, if there is "
+    "one (dots). Grey: masses travel."
+)
+
+
+@styled
+def draw(recording: Recording, after: Prediction) -> Figure:
+    """Return the figure."""
+    figure, grid = panels(1, height=2.8)
+    axes = grid[0][0]
+    for i, colour in enumerate(XYZ):
+        if recording.rate is not None:
+            dots(axes, recording.rate.t, recording.rate.values[:, i] * PER_DEG, colour)
+        line(axes, after.t, after.rate[:, i] * PER_DEG, colour, f"$\\omega_{AXES[i]}$")
+    axes.set_ylabel("angular velocity, deg/s")
+    mark_travel([axes], recording)
+    legend(figure, axes)
+    return figure

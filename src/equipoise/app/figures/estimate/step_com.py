@@ -1,0 +1,60 @@
+"""Centres of mass beside each other, axis by axis, against the target and its tolerance."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import AXES, BAND, WIDE, XYZ, styled
+from equipoise.app.text.units import UM
+from equipoise.model.arrays import Vector3
+
+
+class Mark(NamedTuple):
+    """One centre of mass and what it is."""
+
+    name: str
+    com: Vector3  # m
+    sd: Vector3  # m
+
+
+class Wanted(NamedTuple):
+    """Where the centre of mass is to be."""
+
+    target: Vector3  # m
+    tolerance: Vector3  # m
+
+
+def caption(at_home: bool, wanted: Wanted | None) -> str:
+    """Return what the figure shows."""
+    shaded = "" if wanted is None else "; shaded: the target with its tolerance"
+    return (
+        f"Centre of mass with the masses {'at home' if at_home else 'as they stand'}, um in body "
+        f"axes, with bars of two standard deviations{shaded}."
+    )
+
+
+@styled
+def draw(marks: Sequence[Mark], wanted: Wanted | None) -> Figure:
+    """Return the figure: a row for each mark, the first on top."""
+    figure = Figure(figsize=(WIDE, 0.75 + 0.28 * len(marks)), layout="constrained")
+    row = figure.subplots(1, 3, sharey=True)
+    for i, axes in enumerate(row):
+        if wanted is not None:
+            low, high = ((wanted.target[i] + s * wanted.tolerance[i]) * UM for s in (-1, 1))
+            axes.axvspan(low, high, color="black", alpha=0.16, linewidth=0)
+        _marks(axes, i, marks)
+        axes.set_xlabel(f"$r_{AXES[i]}$, um")
+        axes.locator_params(axis="x", nbins=3)  # three fit, whatever their digits
+        axes.set_ylim(len(marks) - 0.5, -0.5)
+    row[0].set_yticks(range(len(marks)), [mark.name for mark in marks])
+    return figure
+
+
+def _marks(axes: Axes, i: int, marks: Sequence[Mark]) -> None:
+    for k, mark in enumerate(marks):
+        axes.errorbar(
+            mark.com[i] * UM, k, xerr=BAND * mark.sd[i] * UM, fmt="o", color=XYZ[i],
+            markerfacecolor="white", markersize=5, elinewidth=1.2, capsize=2.5,
+        )  # fmt: skip

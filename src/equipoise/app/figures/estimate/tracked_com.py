@@ -1,0 +1,28 @@
+"""Centre of mass as the tracker saw it, masses still (Ivanov 2021 Fig. 12)."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.com_panels import draw_com, draw_truth
+from equipoise.app.figures.base.style import legend, panels, styled
+from equipoise.estimation.tracker.tracker import Track
+from equipoise.model.arrays import Vector3
+from equipoise.model.recording import Recording
+
+CAPTION = (
+    "Centre of mass with the masses at home as the tracker (Kalman filter) sees it, um in body "
+    "axes. Bands: two standard deviations. Dashed, if drawn: the simulated truth."
+)
+
+
+@styled
+def draw(track: Track, recording: Recording, truth: Vector3 | None = None) -> Figure:
+    """Return the figure; ``truth`` (m) is drawn when the bench is simulated."""
+    figure, grid = panels(3, height=1.25)
+    column = [row[0] for row in grid]
+    draw_com(column, (track.t, track.com, track.com_sd), recording)
+    if truth is not None:
+        draw_truth(column, track.t[[0, -1]], np.array([truth, truth]))
+    legend(figure, column[0])
+    figure.align_ylabels()
+    return figure

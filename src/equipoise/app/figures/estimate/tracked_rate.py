@@ -1,0 +1,41 @@
+"""Angular velocity as the tracker saw it (Ivanov 2021 Fig. 11)."""
+
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import (
+    AXES,
+    XYZ,
+    band,
+    legend,
+    line,
+    mark_travel,
+    panels,
+    styled,
+)
+from equipoise.app.text.units import PER_DEG
+from equipoise.estimation.tracker.tracker import Track
+from equipoise.model.recording import Recording
+
+CAPTION = (
+    "Angular velocity in body axes as the tracker (Kalman filter) sees it, deg/s. "
+    "Bands: two standard deviations."
+)
+SETTLED = 0.05  # share of the rows before the scale is taken; chosen: the filter starts at rest
+
+
+@styled
+def draw(track: Track, recording: Recording) -> Figure:
+    """Return the figure."""
+    figure, grid = panels(1, height=2.8)
+    axes = grid[0][0]
+    for i, colour in enumerate(XYZ):
+        rate, sd = track.rate[:, i] * PER_DEG, track.rate_sd[:, i] * PER_DEG
+        band(axes, track.t, rate, sd, colour)
+        line(axes, track.t, rate, colour, f"$\\omega_{AXES[i]}$")
+    settled = track.rate[int(SETTLED * len(track.t)) :] * PER_DEG
+    low, high = float(settled.min()), float(settled.max())
+    air = 0.15 * (high - low)
+    axes.set(ylabel="angular velocity, deg/s", ylim=(low - air, high + air))
+    mark_travel([axes], recording)
+    legend(figure, axes)
+    return figure

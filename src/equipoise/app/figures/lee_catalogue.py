@@ -1,0 +1,170 @@
+"""Figures 3 to 18 of Lee et al., by the paper's numbers; names, captions, drawings."""
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.app.figures.catalogue import Picture
+from equipoise.app.figures.study import lee_course, lee_slew
+from equipoise.app.figures.study.lee_slew import Shown
+from equipoise.app.text.units import PER_DEG
+from equipoise.estimation.regression.formulations.averaged import as_printed, centred_means
+from equipoise.model.arrays import Floats
+from equipoise.model.estimate import COM, INERTIA
+from equipoise.study.lee import NEAR, Manoeuvre, angles_of, singular_times, true_values
+from equipoise.study.lee_course import Told, told_along
+
+KG_CM = 100.0  # kg cm in a kg m
+SINGULAR = f" Grey: the gyros' measure is below {NEAR:g}."
+BOTH = (
+    " Left: the rows as printed; right: every term averaged alike, free constants. Least squares "
+    "of all rows so far"
+)
+DASHED = f"{BOTH}; dashed: truth."
+MOMENTS, PRODUCTS = INERTIA[:3], INERTIA[3:]
+J_LABELS = tuple(f"$J_{{{name[-2:]}}}$" for name in INERTIA)
+R_LABELS = tuple(f"$m r_{axis}$" for axis in "xyz")
+GYROS = tuple(f"gyro {k}" for k in range(1, 5))
+RATES = tuple(f"$\\omega_{axis}$" for axis in "xyz")
+UNBALANCE = "mass unbalance, kg cm"
+
+
+class Sides(NamedTuple):
+    """The courses of one slew."""
+
+    printed: Told
+    corrected: Told
+
+
+def courses_of(done: Manoeuvre) -> Sides:
+    """Return how estimates grow along a slew."""
+    record, bed = done.slew.recording, done.testbed
+    return Sides(told_along(as_printed, record, bed), told_along(centred_means, record, bed))
+
+
+def pictures_of(large: Manoeuvre, small: Manoeuvre) -> Iterator[Picture]:
+    """Yield all figures."""
+    yield from slew_pictures(large)
+    yield from course_pictures(large, courses_of(large))
+    yield from small_pictures(small, courses_of(small))
+
+
+def slew_pictures(done: Manoeuvre) -> Iterator[Picture]:
+    """Yield Figs. 3 to 9."""
+    slew, near = done.slew, singular_times(done.slew)
+    torque = tuple(f"$u_{axis}$" for axis in "xyz")
+    angles = angles_of(done.testbed, slew.q) * PER_DEG
+    t = slew.t
+    shown: Mapping[str, tuple[str, Shown]] = {
+        "figure03_attitude": (
+            "Attitude angles, deg, 3-2-1 with the roll axis vertical.",
+            Shown(t, angles, "angle, deg", ("roll", "pitch", "yaw")),
+        ),
+        "figure04_rate": ("Angular velocity as the gyro saw it, deg/s.", gyro_rate(done)),
+        "figure05_gimbal_angles": (
+            "Gimbal angles, deg.",
+            Shown(t, slew.angles * PER_DEG, "gimbal angle, deg", GYROS),
+        ),
+        "figure06_singularity": (
+            "Singularity index, the measure sqrt(det D D^T) with the gyros' momentum as unit.",
+            Shown(t, slew.measure[:, None], "singularity index", ("measure",), NEAR),
+        ),
+        "figure07_gimbal_rates": (
+            "Gimbal rates asked for, deg/s.",
+            Shown(t, slew.rates * PER_DEG, "gimbal rate, deg/s", GYROS),
+        ),
+        "figure08_required_torque": (
+            "Required torque on the platform, N m.",
+            Shown(t, slew.required, "torque, N m", torque),
+        ),
+        "figure09_output_torque": (
+            "Torque that the gimbal rates give, N m.",
+            Shown(t, slew.output, "torque, N m", torque),
+        ),
+    }
+    for name, (caption, what) in shown.items():
+        yield Picture(name, f"{number(name)}{caption}{SINGULAR}", lee_slew.draw(what, near))
+
+
+def gyro_rate(done: Manoeuvre) -> Shown:
+    """Return the rates of a slew as the gyro saw them."""
+    rate = done.slew.recording.rate
+    assert rate is not None
+    return Shown(rate.t, rate.values * PER_DEG, "angular velocity, deg/s", RATES)
+
+
+def number(name: str) -> str:
+    """Return the paper's number of a figure."""
+    return f"Lee Fig. {int(name[6:8])}. "
+
+
+def course_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
+    """Yield Figs. 10 to 16."""
+    mass = done.testbed.body.mass
+    yield estimates(
+        "figure10_unbalance", "Mass unbalance m r, kg cm", UNBALANCE, (done, sides), COM
+    )
+    yield estimates("figure11_moi", *MOI, (done, sides), MOMENTS)
+    yield estimates(
+        "figure12_poi", "Products of inertia, kg m2", "POI, kg m$^2$", (done, sides), PRODUCTS
+    )
+    total = [lee_course.Told(side.t, side.total[:, None]) for side in sides]
+    drawn = lee_course.draw_indices(total, ("EI",), "total error index", wide=False)
+    yield Picture("figure13_error_index", f"Lee Fig. 13. Total error index (Eq. 9).{BOTH}.", drawn)
+    for name, what, unit, group in (
+        ("figure14_moi_index", "MOI", "kg m$^2$", MOMENTS),
+        ("figure15_poi_index", "POI", "kg m$^2$", PRODUCTS),
+        ("figure16_unbalance_index", "mass unbalance", "kg cm", COM),
+    ):
+        told = [
+            lee_course.Told(side.t, picked(side.names, side.parameter, group, mass))
+            for side in sides
+        ]
+        drawn = lee_course.draw_indices(told, labels_of(group), f"PEI of {what}, {unit}")
+        caption = (
+            f"{number(name)}Parameter error index of {what} (Eq. 10), in its unit and no standard "
+            f"deviation.{BOTH}."
+        )
+        yield Picture(name, caption, drawn)
+
+
+MOI = ("Moments of inertia, kg m2", "MOI, kg m$^2$")
+
+
+def small_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
+    """Yield Figs. 17 and 18."""
+    caption = "Lee Fig. 17. Angular velocity as the gyro saw it, deg/s, from small angles."
+    drawn = lee_slew.draw(gyro_rate(done), singular_times(done.slew))
+    yield Picture("figure17_rate_small", caption, drawn)
+    yield estimates("figure18_moi_small", f"{MOI[0]}, from small angles", MOI[1], (done, sides),
+                    MOMENTS)  # fmt: skip
+
+
+def estimates(
+    name: str, caption: str, ylabel: str, run: tuple[Manoeuvre, Sides], group: tuple[str, ...]
+) -> Picture:
+    """Return a figure of estimates along a slew."""
+    done, sides = run
+    mass = done.testbed.body.mass
+    truth = true_values(done.testbed)
+    true = np.array([truth[k] for k in group]) * scale_of(group, mass)
+    told = [lee_course.Told(side.t, picked(side.names, side.values, group, mass)) for side in sides]
+    air = 2.0 * float(np.abs(true).max()) if group == COM else 9.0
+    drawn = lee_course.draw_estimates(told, true, labels_of(group), ylabel, air)
+    return Picture(name, f"{number(name)}{caption}.{DASHED}", drawn)
+
+
+def labels_of(group: tuple[str, ...]) -> tuple[str, ...]:
+    """Return how a figure calls some unknowns."""
+    return R_LABELS if group == COM else tuple(J_LABELS[INERTIA.index(name)] for name in group)
+
+
+def scale_of(group: tuple[str, ...], mass: float) -> float:
+    """Return by what to multiply values in SI: com (m) is shown as m r in kg cm."""
+    return mass * KG_CM if group == COM else 1.0
+
+
+def picked(names: tuple[str, ...], values: Floats, group: tuple[str, ...], mass: float) -> Floats:
+    """Return some columns in the unit in which they are shown."""
+    return values[:, [names.index(name) for name in group]] * scale_of(group, mass)

@@ -1,0 +1,24 @@
+"""What one look saw, small enough to stand below its step in a report."""
+
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import panels, styled
+from equipoise.app.figures.recording.record_panels import panels_of_motion
+from equipoise.model.arrays import Vector3
+from equipoise.model.recording import Recording
+
+CAPTION = (
+    "What was recorded: tilt and rate of heading from the camera (deg, deg/s), rate from the gyro "
+    "(deg/s), displacement of the masses from home (mm), of those that there are."
+)
+
+
+@styled
+def draw(recording: Recording, up: Vector3 | None) -> Figure:
+    """Return the figure; ``up`` is the body axis that tilt is told of."""
+    parts = panels_of_motion(recording, up)
+    figure, grid = panels(max(len(parts), 1), height=0.85)
+    for (axes,), part in zip(grid, parts, strict=False):
+        part(axes)
+    figure.align_ylabels()
+    return figure

@@ -1,0 +1,164 @@
+"""What each channel of a recording shows over time, one panel for each quantity."""
+
+from collections.abc import Callable
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from equipoise.app.figures.base.style import AXES, BLUE, SIX, XYZ, course, dots
+from equipoise.app.text.units import MM, PER_DEG
+from equipoise.assessment.findings.channel_content import GAP
+from equipoise.assessment.findings.motion_range import AXES as BODY_AXES
+from equipoise.assessment.findings.motion_range import heading_rate, most_upright
+from equipoise.assessment.record_checks.outliers import outlying_attitudes, outlying_rates
+from equipoise.maths.attitude import tilt
+from equipoise.model.arrays import Series1, Series3, Vector3
+from equipoise.model.recording import Recording, Samples
+
+Panel = Callable[[Axes], None]
+MILLI = 1e3
+FEWEST = 3  # rows that a rate is told from
+RARE = 0.005  # share of values at either end that may be drawn beyond the range (chosen)
+WIDENED = 0.5  # of the range of the others, within which they are not beyond it (chosen)
+TINY = 1e-9  # deg, deg/s: a range is never empty
+DECADES = 8.0  # ratio of the longest spacing to the shortest, from which its scale is logarithmic
+
+
+def panels_of(recording: Recording, up: Vector3 | None) -> list[Panel]:
+    """Return a drawing for each panel that the recording has something for."""
+    found = panels_of_motion(recording, up)
+    attitude, rate = _enough(recording.attitude), _enough(recording.rate)
+    if attitude is not None:
+        rough = outlying_attitudes(attitude).rough
+        found.append(_rough(attitude.t, rough, "attitude\nroughness, deg"))
+    if rate is not None:
+        rough = outlying_rates(rate).rough
+        found.append(_rough(rate.t, rough, "gyro\nroughness, deg/s"))
+    return [*found, _spacing(attitude, rate)]
+
+
+def panels_of_motion(recording: Recording, up: Vector3 | None) -> list[Panel]:
+    """Return the panels that tell how platform and masses moved."""
+    found: list[Panel] = []
+    attitude, rate = _enough(recording.attitude), _enough(recording.rate)
+    if attitude is not None:
+        found += [_tilt(attitude, up), _heading_rate(attitude)]
+    if rate is not None:
+        found.append(_rate(rate))
+    if recording.masses is not None and len(recording.masses):
+        found.append(_masses(recording.masses, recording.mass_names))
+    return found
+
+
+def _enough(channel: Samples | None) -> Samples | None:
+    return channel if channel is not None and len(channel) >= FEWEST else None
+
+
+def _tilt(attitude: Samples, up: Vector3 | None) -> Panel:
+    name = most_upright(attitude)
+    axis = BODY_AXES[name] if up is None else up
+    of = f"tilt of {name}, deg" if up is None else "tilt, deg"
+
+    def draw(axes: Axes) -> None:
+        dots(axes, attitude.t, tilt(attitude.values, axis) * PER_DEG, BLUE)
+        axes.set_ylabel(of)
+
+    return draw
+
+
+def _heading_rate(attitude: Samples) -> Panel:
+    def draw(axes: Axes) -> None:
+        t, rate = heading_rate(attitude)
+        _dots_within(axes, t, [rate * PER_DEG], [BLUE], [""])
+        axes.set_ylabel("heading rate,\ndeg/s")
+
+    return draw
+
+
+def _rate(rate: Samples) -> Panel:
+    def draw(axes: Axes) -> None:
+        _three(axes, rate.t, rate.values)
+        axes.set_ylabel("gyro, deg/s")
+
+    return draw
+
+
+def _rough(t: Series1, rough: Series3, label: str) -> Panel:
+    def draw(axes: Axes) -> None:
+        _three(axes, t, rough)
+        axes.set_ylabel(label)
+
+    return draw
+
+
+def _three(axes: Axes, t: Series1, values: Series3) -> None:
+    _dots_within(axes, t, list(values.T * PER_DEG), list(XYZ), list(AXES))
+    _legend(axes)
+
+
+def _dots_within(
+    axes: Axes, t: Series1, values: list[Series1], colours: list[str], names: list[str]
+) -> None:
+    """Draw measurements over the range that most take up; those beyond as triangles at its end."""
+    low, high = _range(np.concatenate(values))
+    for y, colour, name in zip(values, colours, names, strict=True):
+        dots(axes, t, np.where((y >= low) & (y <= high), y, np.nan), colour, name)
+        for beyond, end, shape in ((y > high, high, "^"), (y < low, low, "v")):
+            axes.plot(t[beyond], np.full(beyond.sum(), end), shape, color=colour, markersize=4)
+    axes.set_ylim(low - 0.06 * (high - low), high + 0.06 * (high - low))
+
+
+def _range(values: Series1) -> tuple[float, float]:
+    """Return the range of most values, widened, or of all if that is hardly more."""
+    values = values[np.isfinite(values)]
+    if not len(values):
+        return -1.0, 1.0
+    least, most = float(values.min()), float(values.max())
+    low, high = (float(x) for x in np.quantile(values, (RARE, 1 - RARE)))
+    air = max(WIDENED * (high - low), TINY)
+    return max(least, low - air) - TINY, min(most, high + air) + TINY
+
+
+def _masses(masses: Samples, names: tuple[str, ...]) -> Panel:
+    def draw(axes: Axes) -> None:
+        for i, name in enumerate(names):
+            course(axes, masses.t, masses.values[:, i] * MM, SIX[i % len(SIX)], name)
+        axes.set_ylabel("masses, mm")
+        _legend(axes)
+
+    return draw
+
+
+def _spacing(attitude: Samples | None, rate: Samples | None) -> Panel:
+    """Return the time from each row to the next: jitter, or gaps on a logarithmic scale."""
+
+    def draw(axes: Axes) -> None:
+        steps: list[Series1] = []
+        for name, channel, colour in (("attitude", attitude, BLUE), ("gyro", rate, XYZ[1])):
+            if channel is not None:
+                steps.append(np.diff(channel.t) * MILLI)
+                dots(axes, channel.t[:-1], steps[-1], colour, name)
+                gap = steps[-1] > GAP * np.median(steps[-1])
+                axes.plot(channel.t[:-1][gap], steps[-1][gap], "o", color=colour)
+        axes.set_ylabel("row spacing,\nms")
+        _spacing_scale(axes, np.concatenate(steps))
+        _legend(axes)
+
+    return draw
+
+
+def _spacing_scale(axes: Axes, steps: Series1) -> None:
+    low, high = float(steps.min()), float(steps.max())
+    if high > DECADES * low:
+        axes.set_yscale("log")
+        axes.set_ylim(low / 1.5, high * 1.5)
+    else:
+        air = max(0.1 * (high - low), 0.1 * low)
+        axes.set_ylim(low - air, high + air)
+
+
+def _legend(axes: Axes) -> None:
+    """Put the names at the right, where they cover nothing."""
+    axes.legend(
+        loc="center left", bbox_to_anchor=(1.0, 0.5), markerscale=3, handlelength=0.9, fontsize=7.5
+    )

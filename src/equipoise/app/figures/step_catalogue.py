@@ -1,0 +1,90 @@
+"""Which figure tells a step of a procedure."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeGuard
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.catalogue import Picture
+from equipoise.app.figures.estimate import attitude_residual, step_com
+from equipoise.app.figures.estimate.step_com import Mark, Wanted
+from equipoise.app.figures.recording import measurement
+from equipoise.app.text.com_estimate import as_it_stands, at_home
+from equipoise.estimation.output_error.predict import ATTITUDE, RATE, predict
+from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+
+MOST = 40  # figures of steps in one report; chosen: a run that holds for hours has thousands
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frame:
+    """What the figures of steps have in common."""
+
+    testbed: Testbed
+    wanted: Wanted | None = None  # where the centre of mass is to be
+    at_home: bool = False  # it is shown with the masses at home; else as they stand
+
+
+def pictures_of_steps(
+    steps: Sequence[Step], frame: Frame, first: int = 1
+) -> Mapping[Step, Picture]:
+    """Return a figure for each step that has something to show, the first ``MOST`` of them.
+
+    The figure of the first step has the number ``first``.
+    """
+    found: dict[Step, Picture] = {}
+    before: Mark | None = None
+    for number, step in enumerate(steps, first):
+        told = _told(step, frame, before) if len(found) < MOST else None
+        if told is not None:
+            found[step] = Picture(f"step{number:02d}_{step.kind}", *told)
+        before = _believed(step, frame) or before
+    return found
+
+
+def _told(step: Step, frame: Frame, before: Mark | None) -> tuple[str, Figure] | None:
+    """Return caption and figure of a step."""
+    recording, believed, testbed = step.recording, _believed(step, frame), frame.testbed
+    if step.kind == "look" and recording is not None:
+        return measurement.CAPTION, measurement.draw(recording, testbed.up)
+    if step.kind == "estimate" and _is_fit(step.estimate) and _has_camera(recording):
+        after = predict(recording, testbed, step.estimate)
+        noise = testbed.attitude.noise if testbed.attitude else None
+        return attitude_residual.CAPTION, attitude_residual.draw(recording, after, noise)
+    if believed is None:
+        return None
+    marks = [mark for mark in (before, believed) if mark is not None]
+    return step_com.caption(frame.at_home, frame.wanted), step_com.draw(marks, frame.wanted)
+
+
+def _is_fit(estimate: Estimate | None) -> TypeGuard[Estimate]:
+    """Say whether an estimate tells how its record began, so that the model can be run along it."""
+    names = (*COM, *INERTIA, *RATE, *ATTITUDE)
+    return estimate is not None and all(map(estimate.has, names)) and estimate.method != "tracker"
+
+
+def _has_camera(recording: Recording | None) -> TypeGuard[Recording]:
+    return recording is not None and recording.attitude is not None
+
+
+def _believed(step: Step, frame: Frame) -> Mark | None:
+    """Return the centre of mass that a step found, or that it predicts."""
+    if step.verdict is not None and step.verdict.com is not None:
+        sd = step.verdict.sd
+        return Mark(
+            f"{step.time:.0f} s, found", step.verdict.com, np.zeros(3) if sd is None else sd
+        )
+    for ahead in (step.move, step.placing):
+        if ahead is not None:
+            sd = np.sqrt(np.diag(ahead.predicted_covariance))
+            return Mark(f"{step.time:.0f} s, predicted", ahead.predicted_com, sd)
+    if step.estimate is None:
+        return None
+    at = at_home(step.estimate) if frame.at_home else as_it_stands(step.estimate)
+    name = step.estimate.method if frame.at_home else f"{step.time:.0f} s, estimated"
+    return None if at is None else Mark(name, at.com, at.sd)

@@ -1,0 +1,46 @@
+"""Errors of methods beside the Cramer-Rao bound."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.by_name import named_axes, plain_log
+from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, legend, styled
+
+CAPTION = (
+    "Errors of each method in units of the Cramer-Rao bound (dashed), root mean square over all "
+    "records that did not fail. Open: the method failed on some records, so that the easier ones "
+    "are left."
+)
+LIMITS = (0.3, 1e4)  # chosen: beyond these nobody asks by how much
+
+
+class Accuracy(NamedTuple):
+    """One method."""
+
+    name: str
+    com: float  # RMSE / bound; nan: not stated
+    inertia: float
+    failed: bool  # on some records
+
+
+@styled
+def draw(methods: Sequence[Accuracy]) -> Figure:
+    """Return the figure."""
+    figure, axes = named_axes([m.name for m in methods], "RMSE / bound")
+    lines = np.arange(len(methods))
+    failed = np.array([m.failed for m in methods], dtype=bool)
+    axes.axvline(1.0, color=GREY, linestyle="--", linewidth=0.9)
+    for label, colour, shift in (("centre of mass", BLUE, -0.14), ("inertia", ORANGE, 0.14)):
+        ratio = [m.com if colour == BLUE else m.inertia for m in methods]
+        ratio = np.clip(np.array(ratio, dtype=float), *LIMITS)
+        for open_ended in (False, True):
+            x = np.where(failed == open_ended, ratio, np.nan)
+            face = "white" if open_ended else colour
+            axes.plot(x, lines + shift, "o", color=colour, markerfacecolor=face, markersize=4.5,
+                      label=None if open_ended else label)  # fmt: skip
+    plain_log(axes)
+    legend(figure, axes)
+    return figure

@@ -1,0 +1,39 @@
+"""How often 95 % intervals of methods hold the truth."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.by_name import named_axes
+from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, styled
+
+CAPTION = (
+    "Share of the 95 % intervals that hold the truth, of runs in which the method does not warn of "
+    "them. Shaded: what chance leaves of true intervals at least, for as many draws as there are "
+    "runs. Orange: below that."
+)
+
+
+class Coverage(NamedTuple):
+    """One method that believes some of its intervals."""
+
+    name: str
+    share: float
+    least: float  # share that may be chance
+
+
+@styled
+def draw(methods: Sequence[Coverage]) -> Figure:
+    """Return the figure."""
+    figure, axes = named_axes([m.name for m in methods], "intervals that hold the truth, %")
+    axes.axvline(95.0, color=GREY, linestyle="--", linewidth=0.9)
+    for k, method in enumerate(methods):
+        low, share = 100 * method.least, 100 * method.share
+        axes.plot([low, 100.0], [k, k], color=GREY, alpha=0.3, linewidth=6, solid_capstyle="butt")
+        colour = BLUE if method.share >= method.least else ORANGE
+        axes.plot([share], [k], "o", color=colour, markersize=4.5)
+    lowest = min((min(m.share, m.least) for m in methods), default=0.0)
+    axes.set_xlim(100 * np.floor(10 * lowest) / 10 - 2, 102)
+    return figure

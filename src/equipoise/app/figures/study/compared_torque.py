@@ -1,0 +1,36 @@
+"""The torque that laws leave."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.by_name import named_axes, plain_log
+from equipoise.app.figures.base.style import BLUE, GREY, styled
+
+CAPTION = (
+    "Torque that each law leaves, uN m rms over the tilt range: median (dot) and what 95 % of the "
+    "runs stay below (bar), with masses that follow where the law lets them. Dashed: what was "
+    "required."
+)
+
+
+class Left(NamedTuple):
+    """One law."""
+
+    name: str
+    median: float  # uN m
+    most: float  # uN m
+
+
+@styled
+def draw(laws: Sequence[Left], required: float) -> Figure:
+    """Return the figure; ``required`` is in uN m."""
+    figure, axes = named_axes([law.name for law in laws], "torque left, uN m")
+    axes.axvline(required, color=GREY, linestyle="--", linewidth=0.9)
+    for k, law in enumerate(laws):
+        axes.plot([law.median, law.most], [k, k], color=BLUE, alpha=0.6)
+        axes.plot([law.most], [k], "|", color=BLUE, markersize=8)
+        axes.plot([law.median], [k], "o", color=BLUE, markersize=4.5)
+    plain_log(axes)
+    return figure

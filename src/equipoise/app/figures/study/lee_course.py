@@ -1,0 +1,63 @@
+"""Estimates and error indices along a slew, as printed beside corrected (Lee Figs. 10-16, 18)."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import XYZ, legend, line, panels, styled
+from equipoise.model.arrays import Floats, Series, Series1
+
+TITLES = ("as printed", "corrected")
+
+
+class Told(NamedTuple):
+    """One quantity along the record: a curve for each column."""
+
+    t: Series1  # s
+    values: Series  # (n, k)
+
+
+@styled
+def draw_estimates(
+    sides: Sequence[Told], truth: Floats, labels: Sequence[str], ylabel: str, air: float
+) -> Figure:
+    """Return estimates of both sides with the truth dashed; ``air`` is shown around the truth."""
+    figure, grid = beside()
+    for axes, side, title in zip(grid, sides, TITLES, strict=True):
+        for k, (label, colour) in enumerate(zip(labels, XYZ, strict=False)):
+            line(axes, side.t, side.values[:, k], colour, label)
+            axes.axhline(truth[k], color=colour, linestyle="--", linewidth=0.9)
+        axes.set(title=title, ylim=(float(truth.min()) - air, float(truth.max()) + air))
+    grid[0].set_ylabel(ylabel)
+    legend(figure, grid[0])
+    return figure
+
+
+@styled
+def draw_indices(
+    sides: Sequence[Told], labels: Sequence[str], ylabel: str, wide: bool = True
+) -> Figure:
+    """Return error indices of both sides; on a logarithmic scale, if they range ``wide``."""
+    figure, grid = beside()
+    both = np.concatenate([side.values[np.isfinite(side.values)] for side in sides])
+    low, high = float(both.min()), float(both.max())
+    for axes, side, title in zip(grid, sides, TITLES, strict=True):
+        for k, (label, colour) in enumerate(zip(labels, XYZ, strict=False)):
+            line(axes, side.t, side.values[:, k], colour, label)
+        axes.set(title=title, yscale="log" if wide else "linear")
+        axes.set_ylim(0.7 * low if wide else 0.0, (1.4 if wide else 1.05) * high)
+    grid[0].set_ylabel(ylabel)
+    if len(labels) > 1:
+        legend(figure, grid[0])
+    return figure
+
+
+def beside() -> tuple[Figure, list[Axes]]:
+    """Return a figure with two panels side by side, of the same scale."""
+    figure, grid = panels(1, 2, height=2.6)
+    grid[0][1].sharey(grid[0][0])
+    grid[0][1].tick_params(which="both", labelleft=False)
+    return figure, grid[0]

@@ -1,0 +1,50 @@
+"""What happened in a slew by gyros, one quantity a figure (Lee et al. Figs. 3-9 and 17)."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    legend,
+    panels,
+    styled,
+)
+from equipoise.app.figures.base.style import line as drawn_line
+from equipoise.model.arrays import Series, Series1
+
+COLOURS = (BLUE, ORANGE, GREEN, PURPLE)
+Span = tuple[float, float] | None
+
+
+class Shown(NamedTuple):
+    """What a figure shows: a curve for each column."""
+
+    t: Series1  # s
+    values: Series  # (n, k)
+    ylabel: str
+    labels: Sequence[str]
+    mark: float | None = None  # a level to draw
+
+
+@styled
+def draw(shown: Shown, near: Span) -> Figure:
+    """Return the figure; ``near`` (s) is shaded: the gyros are near a singularity."""
+    figure, grid = panels(1, height=2.6)
+    axes = grid[0][0]
+    if near is not None:
+        axes.axvspan(*near, color="#cccccc", alpha=0.45, linewidth=0, zorder=0)
+    for column, label, colour in zip(shown.values.T, shown.labels, COLOURS, strict=False):
+        drawn_line(axes, shown.t, column, colour, label)
+    if shown.mark is not None:
+        axes.axhline(shown.mark, color=GREY, linestyle="--", linewidth=0.9)
+        axes.set_ylim(bottom=0.0)
+    axes.set_ylabel(shown.ylabel)
+    if len(shown.labels) > 1:
+        legend(figure, axes)
+    return figure

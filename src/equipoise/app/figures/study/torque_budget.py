@@ -1,0 +1,49 @@
+"""What is left of torque, line by line, and what would be left with one thing better."""
+
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
+from equipoise.app.text.units import MICRO
+from equipoise.design.sizing.budget import Budget
+from equipoise.design.sizing.sensitivity import Bettered
+
+CAPTION = (
+    "Torque that is left, uN m rms within the tilt: each cause by itself, all together (their root "
+    "sum square), and all together with one thing better."
+)
+ROW = 0.24  # inches a bar
+
+
+@styled
+def draw(budget: Budget, better: Sequence[Bettered], required: float | None) -> Figure:
+    """Return the figure; ``required`` (N m) is a line across."""
+    lines = [(line.cause, line.torque, BLUE) for line in budget.lines]
+    lines.append(("together", budget.torque, GREY))
+    changes = [(change.name, change.torque, ORANGE) for change in better]
+    rows = len(lines) + len(changes)
+    figure = Figure(figsize=(WIDE, ROW * rows + 1.2), layout="constrained")
+    heights = [len(lines), max(len(changes), 1)]
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=heights)
+    bars(upper, lines, "each cause by itself")
+    bars(lower, changes, "together, with one thing better")
+    lower.set_xlabel("uN m rms")
+    if required is not None:
+        for axes in (upper, lower):
+            axes.axvline(required * MICRO, color="black", linestyle="--", linewidth=0.9)
+        lower.set_title("dashed: required", loc="right")
+    return figure
+
+
+def bars(axes: Axes, rows: Sequence[tuple[str, float, str]], title: str) -> None:
+    """Draw bars from above, with their numbers beside them."""
+    torque = [value * MICRO for _, value, _ in rows]
+    drawn = axes.barh(range(len(rows)), torque, color=[colour for *_, colour in rows], height=0.7)
+    axes.bar_label(drawn, fmt="%.3g", padding=3, fontsize=8)
+    axes.set_yticks(range(len(rows)), [name for name, *_ in rows])
+    axes.invert_yaxis()
+    axes.grid(False, axis="y")
+    axes.margins(x=0.1)
+    axes.set_title(title)

@@ -1,0 +1,84 @@
+"""Mass properties of one platform over months, and against temperature."""
+
+from collections.abc import Sequence
+from datetime import datetime
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
+from matplotlib.figure import Figure
+
+from equipoise.app.figures.base.style import BAND, GREY, WIDE, XYZ, styled
+from equipoise.app.text.units import UM
+from equipoise.model.arrays import Series, Series1
+
+CAPTION = (
+    "Centre of mass (um) and moments of inertia (kg m2) with the masses at home, run by run, with "
+    "bars of two standard deviations; dashed: the testbed file changed. On the right, if it was "
+    "recorded: against temperature."
+)
+LABELS = ("$r_x$, um", "$r_y$, um", "$r_z$, um", "$J_{xx}$", "$J_{yy}$", "$J_{zz}$")
+FACTORS = np.array([UM, UM, UM, 1.0, 1.0, 1.0])
+
+
+class Trend(NamedTuple):
+    """What is drawn: a row for each run."""
+
+    platform: str
+    times: Sequence[datetime]
+    values: Series  # (n, 6) m, kg m^2; NaN: not known
+    sd: Series  # (n, 6)
+    builds: Sequence[str]  # a letter for the testbed file of each
+    temperature: Series1  # degC; NaN: not recorded
+
+
+@styled
+def draw(trend: Trend) -> Figure:
+    """Return the figure."""
+    warm = bool(np.isfinite(trend.temperature).sum() > 1)
+    figure = Figure(figsize=(WIDE * (1.35 if warm else 1.0), 8.6), layout="constrained")
+    ratios = [2.2, 1.0] if warm else [1.0]
+    grid = figure.subplots(6, len(ratios), squeeze=False, sharey="row", sharex="col",
+                           width_ratios=ratios)  # fmt: skip
+    for i, row in enumerate(grid):
+        _points(row[0], np.array(trend.times), trend, i)
+        row[0].set_ylabel(LABELS[i])
+        _mark_builds(row[0], trend, named=i == 0)
+        if warm:
+            _points(row[1], trend.temperature, trend, i)
+    locator = AutoDateLocator()
+    grid[-1][0].xaxis.set_major_locator(locator)
+    grid[-1][0].xaxis.set_major_formatter(ConciseDateFormatter(locator))
+    if warm:
+        grid[-1][1].set_xlabel("temperature, degC")
+    figure.suptitle(f"{trend.platform}, masses at home", x=0.01, ha="left", fontsize=10)
+    figure.align_ylabels(grid[:, 0])
+    return figure
+
+
+def _points(axes: Axes, x: Series1, trend: Trend, i: int) -> None:
+    y, spread = trend.values[:, i] * FACTORS[i], BAND * trend.sd[:, i] * FACTORS[i]
+    axes.errorbar(
+        x, y, spread, fmt="o", color=XYZ[i % 3], markersize=4, markerfacecolor="white",
+        elinewidth=1, capsize=2,
+    )  # fmt: skip
+
+
+def _mark_builds(axes: Axes, trend: Trend, named: bool) -> None:
+    """Mark where the testbed file became another one."""
+    for k, build in enumerate(trend.builds):
+        if k and build == trend.builds[k - 1]:
+            continue
+        if k:
+            axes.axvline(
+                trend.times[k],  # pyright: ignore[reportArgumentType]: takes dates too
+                color=GREY,
+                linestyle="--",
+                linewidth=0.8,
+            )
+        if named:
+            axes.annotate(
+                f" build {build}", (trend.times[k], 1.0), xycoords=("data", "axes fraction"),
+                fontsize=8, color=GREY, va="bottom",
+            )  # fmt: skip

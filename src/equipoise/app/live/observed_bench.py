@@ -1,0 +1,61 @@
+"""A bench of which somebody sees every row soon after it was heard, also within a long reading."""
+
+from collections.abc import Callable
+
+from equipoise.app.bench.bench_proxy import OuterBench
+from equipoise.app.console.terminal import complain
+from equipoise.model.bench import Bench
+from equipoise.model.bench_requests import check_duration
+from equipoise.model.recording import Recording, joined
+
+Onlooker = Callable[[Recording], None]
+ROUNDING = 1e-6  # s, chosen: a clock of whole nanoseconds may end a reading so much early
+
+
+class WatchedBench(OuterBench):
+    """The same bench, its readings cut into slices for who looks on.
+
+    A reading is made of slices of ``slice_s`` seconds; ``inf``: of one. ``between`` is called
+    before each slice and may raise to stop; ``onlooker`` gets the rows after each. An onlooker
+    that fails is told of and left out: who looks on does not stop a bench.
+
+    What was read before something raised within a reading is given by the next one. A real bench's
+    slice lasts until some sensor has given a row, so that a reading may end so much later. A
+    simulated bench tells where masses are at both ends of a reading: slices add rows of those.
+    """
+
+    def __init__(
+        self,
+        bench: Bench,
+        onlooker: Onlooker,
+        slice_s: float,
+        between: Callable[[], None] | None = None,
+    ) -> None:
+        super().__init__(bench)
+        self._slice, self._between = slice_s, between
+        self._onlooker: Onlooker | None = onlooker
+        self._unclaimed: list[Recording] = []
+
+    def read(self, duration: float) -> Recording:
+        """Read slice by slice, and return all of it."""
+        check_duration(duration)
+        end = self.time + duration
+        self._read_slice(min(self._slice, duration))
+        while (rest := end - self.time) > ROUNDING:
+            self._read_slice(min(self._slice, rest))
+        whole = joined(self._unclaimed)
+        self._unclaimed = []
+        return whole
+
+    def _read_slice(self, duration: float) -> None:
+        if self._between is not None:
+            self._between()
+        rows = self._bench.read(duration)
+        self._unclaimed.append(rows)
+        if self._onlooker is None:
+            return
+        try:
+            self._onlooker(rows)
+        except Exception as error:
+            self._onlooker = None
+            complain(f"the view of the bench has failed, the bench goes on: {error!r}")

@@ -1,0 +1,88 @@
+"""A recording shown at a speed: the clock, what a person sees, the others who look on."""
+
+import time
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
+
+import numpy as np
+from rich.console import Console
+from rich.live import Live
+
+from equipoise.app.console.terminal import stdout
+from equipoise.app.live.latest_rows import Newest, after, masses_of, tilt_of, time_of
+from equipoise.app.live.observed_bench import Onlooker
+from equipoise.app.live.status_block import TerminalView
+from equipoise.hardware.bench.replayed_bench import RecordingEnded, ReplayedBench
+from equipoise.io.formats.clock_units import nanoseconds
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+FRAME = 0.1  # s, chosen: as often as a person can follow numbers
+LINE = 1.0  # s of the recording from line to line, where there is no terminal (chosen)
+
+
+class Pace:
+    """A wait that keeps to a speed over all readings, whatever each of them takes."""
+
+    def __init__(self, speed: float) -> None:
+        self._speed, self._due = speed, time.monotonic()
+
+    def __call__(self, duration: float) -> None:
+        """Wait until a reading of this length (s of the recording) is over."""
+        if self._speed:
+            self._due += duration / self._speed
+            time.sleep(max(self._due - time.monotonic(), 0.0))
+
+
+def begun_ns(recording: Recording) -> int:
+    """Return UTC at the recording's time zero (ns), as if its first row were seen now."""
+    return time.time_ns() - nanoseconds(recording.span[0])
+
+
+def replayed(
+    testbed: Testbed, recording: Recording, speed: float, onlookers: Sequence[Onlooker]
+) -> None:
+    """Show a recording from its beginning to its end; 0: as fast as possible."""
+    bench = ReplayedBench(testbed, recording, Pace(speed))
+    step = FRAME * (speed or LINE / FRAME)
+    while True:
+        try:
+            rows = bench.read(step)
+        except RecordingEnded:
+            return
+        for onlooker in onlookers:
+            onlooker(rows)
+
+
+@contextmanager
+def shown_lines(testbed: Testbed) -> Generator[Onlooker]:
+    """Lend a function that shows the newest rows: in place at a terminal, else line by line."""
+    console = stdout()
+    if not console.is_interactive:
+        yield _Lines(testbed, console).rows
+        return
+    view = TerminalView(testbed)
+
+    def show(rows: Recording) -> None:
+        view.rows(rows)
+        live.update(view, refresh=True)
+
+    with Live(console=console, auto_refresh=False) as live:
+        yield show
+
+
+class _Lines:
+    """A line for every second of the recording."""
+
+    def __init__(self, testbed: Testbed, console: Console) -> None:
+        self._up, self._console = testbed.up, console
+        self._newest, self._told = Newest(), -np.inf
+
+    def rows(self, rows: Recording) -> None:
+        """Print a line if a second has passed since the last."""
+        self._newest = newest = after(self._newest, rows, self._up)
+        if newest.time - self._told < LINE * (1 - 1e-9):
+            return
+        self._told = newest.time
+        texts = (time_of(newest), tilt_of(newest), *masses_of(newest))
+        self._console.print("  ".join(filter(None, texts)), markup=False)

@@ -1,0 +1,127 @@
+"""What a person sees of a bench while something runs: the newest numbers, as a block of lines.
+
+A view: every number was measured or is a procedure's. The block stands above the sign of life
+(``terminal.busy``) and is drawn by rich's thread, which must neither stop a bench nor be seen by
+who prints results: so it draws what never changes, and what it cannot draw it says.
+"""
+
+import math
+from collections.abc import Sequence
+
+from rich.console import Console, ConsoleOptions, RenderResult
+from rich.text import Text
+
+from equipoise.app.console.terminal import stderr
+from equipoise.app.live.latest_rows import SPAN, Newest, after, tilt_of
+from equipoise.app.live.observed_bench import WatchedBench
+from equipoise.app.text.com_estimate import believed_after
+from equipoise.app.text.numbers import fixed
+from equipoise.app.text.sparkline import BLOCKS, PLAIN, in_columns, sparkline
+from equipoise.app.text.units import MM, PER_DEG, UM
+from equipoise.model.bench import Bench
+from equipoise.model.recording import Recording
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.simulation.bench import SimulatedBench
+
+SLICE = 0.125  # s, chosen: as often as the block is drawn
+INDENT, GAP = "  ", "  "
+NAMES, WIDE = 10, 60  # letters: of the longest name; of a terminal that has room for a column of it
+GREATEST = " to 123.4 deg, 60 s"
+AXES = "xyz"
+
+
+class TerminalView:
+    """The newest numbers of a bench, to be drawn at any time; ``rows`` and ``step`` tell them."""
+
+    def __init__(self, testbed: Testbed) -> None:
+        self.testbed, self.newest = testbed, Newest()
+        self._step: Step | None = None  # the last that says where the centre of mass is
+
+    def rows(self, rows: Recording) -> None:
+        """Take in new rows."""
+        self.newest = after(self.newest, rows, self.testbed.up)
+
+    def step(self, step: Step) -> None:
+        """Take in a step of a procedure."""
+        if step.estimate is not None or step.verdict is not None:
+            self._step = step
+
+    def told(self) -> list[list[str]]:
+        """Return what is known, in groups: a name, and short texts."""
+        return [self._motion(), self._masses(), self._offset()]
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        """Draw, cropped to the terminal."""
+        try:
+            lines = self._lines(options.max_width, options.ascii_only)
+        except Exception as error:
+            lines = [f"{INDENT}the view has failed, the bench goes on: {error!r}"]
+        yield Text()  # apart from the steps above
+        for line in lines:
+            yield Text(line, no_wrap=True, overflow="crop")
+
+    def _lines(self, width: int, plain: bool) -> list[str]:
+        lines = [line for group in self.told() if group for line in filled(group, width)]
+        return lines + self._course(width, plain)
+
+    def _motion(self) -> list[str]:
+        newest = self.newest
+        told = ["bench time", f"{newest.time:8.1f} s"]
+        if newest.tilt is not None:
+            told.append(f"{tilt_of(newest)} (limit {self.testbed.tilt_limit * PER_DEG:g})")
+        if newest.rate is not None:
+            told.append(f"rate {newest.rate * PER_DEG:6.2f} deg/s")
+        return told
+
+    def _masses(self) -> list[str]:
+        told = [f"{name} {at * MM:6.2f}" for name, at in self.newest.masses.items()]
+        return ["masses, mm", *told] if told else []
+
+    def _course(self, width: int, plain: bool) -> list[str]:
+        """Return the sparkline of the tilt with its greatest value; no line before there is one."""
+        indent = len(INDENT) + (NAMES + len(GAP) if width >= WIDE else 0)
+        columns, seconds = in_columns(self.newest.tilts, SPAN, width - indent - len(GREATEST))
+        if not columns:
+            return []
+        greatest = max(value for value in columns if value is not None) * PER_DEG
+        drawn = sparkline(columns, PLAIN if plain else BLOCKS)
+        name = f"{'tilt':{indent - len(INDENT)}s}" if width >= WIDE else ""
+        return [f"{INDENT}{name}{drawn} to {greatest:.1f} deg, {seconds} s"]
+
+    def _offset(self) -> list[str]:
+        """Return the last that was told of the centre of mass, um."""
+        believed = None if self._step is None else believed_after(self._step)
+        if self._step is None or believed is None:
+            return []
+        pairs = zip(AXES, believed.com * UM, believed.sd * UM, strict=True)
+        told = [f"{axis} {_um(float(value), float(sd))}" for axis, value, sd in pairs]
+        return ["com, um", *told, f"at {self._step.time:.1f} s"]
+
+
+def filled(group: Sequence[str], width: int) -> list[str]:
+    """Return a name and texts side by side, as many to a line as it has room for."""
+    name, *texts = group
+    lines = [INDENT + (f"{name:{NAMES}s}" if width >= WIDE else name)]
+    for text in texts:
+        if len(lines[-1]) + len(GAP) + len(text) <= width:
+            lines[-1] += GAP + text
+        else:
+            lines.append(INDENT + text)
+    return lines
+
+
+def watched_by(view: TerminalView, bench: Bench) -> Bench:
+    """Return a bench whose rows a view sees, if there is a terminal to draw it at.
+
+    A simulated bench is not cut into slices: it is faster than anybody can look.
+    """
+    if not stderr().is_interactive:
+        return bench
+    each = math.inf if isinstance(bench, SimulatedBench) else SLICE
+    return WatchedBench(bench, view.rows, each)
+
+
+def _um(value: float, sd: float) -> str:
+    """Return a coordinate in the digits of the steps' sentences."""
+    return f"{fixed(value, 1)} +/- {fixed(sd, 1)}" if math.isfinite(sd) else "not seen"

@@ -1,0 +1,44 @@
+"""Where a run is put down: the folder that was asked for, or one of its own among the runs."""
+
+import os
+import re
+from datetime import datetime
+from itertools import chain, count
+from pathlib import Path
+
+from equipoise.app.console.terminal import complain
+from equipoise.io.files.atomic_folder import check_folder
+from equipoise.model.errors import InputError
+
+VARIABLE, USUAL = "EQUIPOISE_RUNS", "equipoise-runs"
+
+
+def runs_folder() -> Path | None:
+    """Return the folder of runs: what the environment says, else here; None: keep no runs."""
+    named = os.environ.get(VARIABLE)
+    return Path(USUAL) if named is None else Path(named) if named else None
+
+
+def own_folder(kind: str, platform: str) -> Path | None:
+    """Return a new folder's name for a run; None if none is to be kept or can be."""
+    runs = runs_folder()
+    if runs is None:
+        return None
+    try:
+        check_folder(runs)
+    except InputError as error:
+        complain(f"this run is not kept: {error}; --out or {VARIABLE} name another folder")
+        return None
+    now = datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
+    return free(runs / f"{now}_{kind}_{slug(platform)}")
+
+
+def slug(name: str) -> str:
+    """Return a name as a part of a file's name."""
+    return re.sub(r"[^\w.]+", "-", name).strip("-").lower()[:40] or "platform"
+
+
+def free(folder: Path) -> Path:
+    """Return a path that is not there yet: the one given, or with a number."""
+    numbered = (folder.with_name(f"{folder.name}_{k}") for k in count(2))
+    return next(path for path in chain((folder,), numbered) if not path.exists())

@@ -1,0 +1,116 @@
+"""How a platform was built over time: the testbed files of its runs, and what changed in them."""
+
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from datetime import datetime
+from typing import cast
+
+from rich.text import Text
+
+from equipoise.app.console.rich_tables import quiet_table
+from equipoise.app.console.terminal import stdout
+from equipoise.app.text.json_document import View
+from equipoise.io.documents.logbook import Logbook
+from equipoise.model.logged_run import Build
+
+BUILDS = "equipoise/builds/1"
+NOTHING = "comments or layout alone"
+NONE = "none"
+HEADS = ("platform", "build", "first run", "last run", "runs", "changed since the one before")
+
+
+def letters(book: Logbook) -> Mapping[tuple[str, str], str]:
+    """Return a letter for each testbed file that a platform has had, in their order."""
+    found: dict[tuple[str, str], str] = {}
+    count: dict[str, int] = {}
+    for build in book.builds():
+        count[build.platform] = count.get(build.platform, 0) + 1
+        found[build.platform, build.configuration] = lettered(count[build.platform])
+    return found
+
+
+def lettered(number: int) -> str:
+    """Return A, B, ... Z, AA, AB, ... for 1, 2, ..."""
+    told = ""
+    while number:
+        number, last = divmod(number - 1, 26)
+        told = chr(ord("A") + last) + told
+    return told
+
+
+def show_builds(book: Logbook, shown: Sequence[Build]) -> None:
+    """Print a line for each testbed file, and below it what changed, line by line."""
+    table = quiet_table()
+    for head in HEADS:
+        justify = "right" if head == "runs" else "left"
+        table.add_column(head, justify=justify, no_wrap=head not in (HEADS[0], HEADS[-1]))
+    for build, letter, changes in told(book, shown):
+        cells = (build.platform, letter, _day(build.first), _day(build.last), str(build.runs),
+                 "\n".join(changes))  # fmt: skip
+        table.add_row(*map(Text, cells))
+    stdout().print(table)
+
+
+def builds_json(book: Logbook, shown: Sequence[Build]) -> View:
+    """Return the same, with each testbed file's text."""
+    return {
+        "schema": BUILDS,
+        "builds": [
+            {
+                "platform": build.platform,
+                "build": letter,
+                "configuration": build.configuration,
+                "first_run": _time(build.first).isoformat(),
+                "last_run": _time(build.last).isoformat(),
+                "runs": build.runs,
+                "changed": list(changes),
+                "text": book.configuration(build.configuration),
+            }
+            for build, letter, changes in told(book, shown)
+        ],
+    }
+
+
+def told(book: Logbook, shown: Sequence[Build]) -> Iterator[tuple[Build, str, Sequence[str]]]:
+    """Yield each build of those shown, its letter, what changed since the platform's one before."""
+    before: dict[str, str] = {}
+    wanted = {(build.platform, build.configuration): build for build in shown}
+    for (platform, configuration), letter in letters(book).items():
+        text = book.configuration(configuration)
+        build, known = wanted.get((platform, configuration)), before.get(platform)
+        if build is not None:
+            yield build, letter, () if known is None else changed(known, text)
+        before[platform] = text
+
+
+def changed(before: str, after: str) -> Sequence[str]:
+    """Return which values differ between two testbed files, as ``key: before -> after``."""
+    old, new = (dict(_values(tomllib.loads(text))) for text in (before, after))
+    lines = [f"{key}: {old.get(key, NONE)} -> {new.get(key, NONE)}"
+             for key in dict.fromkeys((*old, *new)) if old.get(key) != new.get(key)]  # fmt: skip
+    return lines or [NOTHING]
+
+
+def _values(node: object, path: str = "") -> Iterator[tuple[str, str]]:
+    """Yield key and text of each value; tables of a list go by their name, else by number."""
+    if isinstance(node, dict):
+        for key, below in cast("dict[str, object]", node).items():
+            yield from _values(below, f"{path}.{key}" if path else key)
+        return
+    tables = cast("list[dict[str, object]]", node if _is_tables(node) else [])
+    for number, each in enumerate(tables, 1):
+        yield from _values(each, f"{path}.{each.get('name', number)}")
+    if not tables:
+        yield path, str(node)
+
+
+def _is_tables(node: object) -> bool:
+    return isinstance(node, list) and all(isinstance(x, dict) for x in cast("list[object]", node))
+
+
+def _time(utc: float) -> datetime:
+    return datetime.fromtimestamp(utc).astimezone()
+
+
+def _day(utc: float) -> str:
+    return f"{_time(utc):%Y-%m-%d %H:%M}"

@@ -1,0 +1,125 @@
+"""Runs of a logbook as tables for the terminal and as JSON."""
+
+import math
+from collections.abc import Sequence
+
+from equipoise.app.console.rich_tables import quiet_table
+from equipoise.app.console.terminal import stdout
+from equipoise.app.logbook.testbed_history import letters
+from equipoise.app.text.json_document import View, parameter_json
+from equipoise.app.text.numbers import decimals_for, fixed, is_known
+from equipoise.app.text.sheet import Sheet
+from equipoise.app.text.units import unit_for
+from equipoise.assessment.metrics.normalised_difference import apart
+from equipoise.io.documents.logbook import Logbook
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import COM, INERTIA, Parameter
+from equipoise.model.logged_run import LoggedRun
+
+STYLE = {"passed": "green", "usable": "green", "failed": "red", "halted": "red",
+         "not usable": "red", "cannot tell": "yellow"}  # fmt: skip
+MEANING = "com: as judged, masses as they stand; of identify: masses at home"
+MINUTE = 16  # characters of a time, to the minute
+LOGBOOK, COMPARED = "equipoise/logbook/1", "equipoise/runs-compared/1"
+
+
+def show_runs(book: Logbook, runs: Sequence[LoggedRun]) -> None:
+    """Print a line for each run; the centre of mass as it was judged, else with masses at home."""
+    table = quiet_table()
+    for head in ("", "made at", "platform", "build", "what", "by", "outcome", "com, um"):
+        table.add_column(head, justify="right" if not head else "left", no_wrap=head != "platform")
+    build = letters(book)
+    for number, run in enumerate(runs, 1):
+        table.add_row(
+            str(number), local(run), run.platform, build[run.platform, run.configuration],
+            run.kind, run.method, run.outcome, com_text(book, run), style=STYLE[run.outcome],
+        )  # fmt: skip
+    stdout().print(table)
+    stdout().print(MEANING, style="dim")
+
+
+def local(run: LoggedRun) -> str:
+    """Return when a run was made, on the clock that it was made by, to the minute."""
+    return run.made_at[:MINUTE].replace("T", " ")
+
+
+def com_text(book: Logbook, run: LoggedRun) -> str:
+    """Return the centre of mass that counts: as judged, else with masses at home."""
+    numbers = book.numbers(run.name, "standing") or book.numbers(run.name, "home")
+    known = {p.name: p for p in numbers}
+    if not all(name in known for name in COM):
+        return ""
+    return "(" + ", ".join(_short(known[name]) for name in COM) + ")"
+
+
+def _short(parameter: Parameter) -> str:
+    unit = unit_for(parameter.name, parameter.unit)
+    value, sd = parameter.value * unit.factor, parameter.sd * unit.factor
+    if not parameter.observable:
+        return "?"
+    return fixed(value, max(decimals_for(sd), 0)) if is_known(value, sd) else f"{value:.4g}"
+
+
+def chosen(runs: Sequence[LoggedRun], name: str) -> LoggedRun:
+    """Return a run by its number in the list, or by its name.
+
+    Raises InputError if there is none.
+    """
+    by_name = {run.name: run for run in runs} | {str(k): r for k, r in enumerate(runs, 1)}
+    if name not in by_name:
+        raise InputError("--compare", f"'{name}'", f"a number from 1 to {len(runs)}, or a name")
+    return by_name[name]
+
+
+def compared(book: Logbook, runs: Sequence[LoggedRun]) -> Sheet:
+    """Return the numbers of several runs side by side.
+
+    Below each of the later ones stands how far it is from the first, in sd of the difference of
+    two independent estimates.
+    """
+    numbers = [_by_name(book, run) for run in runs]
+    names = [name for name in (*COM, *INERTIA) if all(name in each for each in numbers)]
+    heads = ["", "unit", *(f"{k}: {local(run)}" for k, run in enumerate(runs, 1))]
+    lines: list[list[str]] = []
+    for name in names:
+        first, *others = (each[name] for each in numbers)
+        unit = unit_for(name, first.unit)
+        told = [f"{_short(p)} ({_apart(p, first)})" for p in others]
+        lines.append([name, unit.name, _short(first), *told])
+    remarks = [f"{k}: {r.name}, {r.platform}, {r.method}" for k, r in enumerate(runs, 1)]
+    return Sheet("Masses at home; in brackets: from the first, in sd", heads, lines, remarks)
+
+
+def _by_name(book: Logbook, run: LoggedRun) -> dict[str, Parameter]:
+    return {p.name: p for p in book.numbers(run.name, "home")}
+
+
+def _apart(parameter: Parameter, other: Parameter) -> str:
+    far = apart(parameter, other)
+    return f"{far:+.1f}" if math.isfinite(far) and far else "not seen"
+
+
+def runs_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
+    """Return runs with their numbers."""
+    return {"schema": LOGBOOK, "runs": [_run_json(book, run) for run in runs]}
+
+
+def compared_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
+    """Return several runs, and how far each is from the first."""
+    first = _by_name(book, runs[0])
+    far = {
+        run.name: {n: apart(p, first[n]) for n, p in _by_name(book, run).items() if n in first}
+        for run in runs[1:]
+    }
+    return {"schema": COMPARED, "runs": [_run_json(book, r) for r in runs], "sd_from_first": far}
+
+
+def _run_json(book: Logbook, run: LoggedRun) -> View:
+    return {
+        "name": run.name, "kind": run.kind, "made_at": run.made_at, "platform": run.platform,
+        "configuration": run.configuration, "method": run.method, "bench": run.bench,
+        "outcome": run.outcome, "sentence": run.sentence, "temperature_degC": run.temperature,
+        "parameters": [parameter_json(p) for p in book.numbers(run.name, "home")],
+        "com_as_judged": [parameter_json(p) for p in book.numbers(run.name, "standing")],
+        "provenance": dict(run.provenance),
+    }  # fmt: skip

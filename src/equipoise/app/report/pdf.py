@@ -1,0 +1,35 @@
+"""A page as PDF, set by typst."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from importlib.resources import files
+from importlib.util import find_spec
+from typing import Any
+
+from equipoise.app.text.blocks import Page
+from equipoise.model.errors import InputError
+
+TEMPLATE = "page.typ"
+WANTED = "pip install equipoise[report]"
+
+
+def can_set() -> bool:
+    """Say whether typst is there."""
+    return find_spec("typst") is not None
+
+
+def pdf(page: Page, images: Mapping[str, bytes]) -> bytes:
+    """Return the file; ``images`` are the page's figures as SVG, by name.
+
+    Raises InputError if typst is not there.
+    """
+    if not can_set():
+        raise InputError("report.pdf", "no typst to set it with", WANTED)
+    import typst
+
+    source = (files("equipoise.app.report") / TEMPLATE).read_bytes()
+    parts = {f"{name}.svg": image for name, image in images.items()}
+    inputs = {"page": json.dumps(asdict(page))}
+    inside: Any = {"main.typ": source, **parts}  # its annotations know of one file only
+    return typst.compile(inside, sys_inputs=inputs)

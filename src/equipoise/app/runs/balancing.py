@@ -1,0 +1,216 @@
+"""One balancing of a bench: its steps as they come, and what they did to the platform."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from equipoise.app.bench.recorded_bench import RecordedBench
+from equipoise.app.console.terminal import watched
+from equipoise.app.figures.balancing.balanced_com import Look
+from equipoise.app.live.status_block import TerminalView, watched_by
+from equipoise.app.text.before_after import Change
+from equipoise.app.text.com_estimate import Believed, believed_after
+from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.bench import Bench
+from equipoise.model.errors import BenchStopped, InputError
+from equipoise.model.estimate import INERTIA, Estimate
+from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.recording import Recording
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.balancing.balance import BalanceOptions
+from equipoise.procedure.balancing.catalogue import CARDS, OWN, balanced_and_followed, balanced_by
+from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
+from equipoise.procedure.balancing.plan_first import planned_and_balanced
+from equipoise.simulation.bench import SimulatedBench
+
+HALTED = "every mass was halted where it is"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Goal:
+    """Where the centre of mass is wanted, m."""
+
+    target: Vector3
+    tolerance: Vector3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Balancing:
+    """What was done, and the truth at every step when it is known."""
+
+    testbed: Testbed
+    goal: Goal
+    steps: Sequence[Step]
+    recording: Recording | None = None  # all that the bench was read
+    truth_before: MassProperties | None = None
+    truths: Sequence[MassProperties] = ()
+    before: Believed | None = None  # as known otherwise; None: the first estimate's
+
+    @property
+    def simulated(self) -> bool:
+        """Say whether the platform was a simulated one."""
+        return self.truth_before is not None
+
+    @property
+    def verdict(self) -> Verdict:
+        """Return the last word."""
+        return next(step.verdict for step in reversed(self.steps) if step.verdict is not None)
+
+    @property
+    def estimate(self) -> Estimate | None:
+        """Return the last estimate."""
+        return next((s.estimate for s in reversed(self.steps) if s.estimate is not None), None)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Limits:
+    """By which law, when to give up (None: as the law has it), how long to hold the balance."""
+
+    max_moves: int | None = None
+    max_time: float | None = None  # s
+    hold: float = 0.0  # s
+    law: str = OWN.name
+    plan: Manoeuvre | None = None  # to begin with
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Through:
+    """How somebody looks on: what the procedure sees of the bench, how its steps are awaited."""
+
+    look_on: Callable[[Bench], Bench]
+    awaited: Callable[[Iterator[Step], str], Iterator[Step]]
+
+
+def at_terminal(testbed: Testbed) -> Through:
+    """Return how a person at the terminal looks on."""
+    view = TerminalView(testbed)
+
+    def awaited(steps: Iterator[Step], what: str) -> Iterator[Step]:
+        for step in watched(steps, what, view):
+            view.step(step)
+            yield step
+
+    return Through(partial(watched_by, view), awaited)
+
+
+def run(
+    bench: Bench,
+    goal: Goal,
+    limits: Limits,
+    show: Callable[[Step], None] | None,
+    through: Through | None = None,
+) -> Balancing:
+    """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
+
+    What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a
+    simulated one alone. Who looks on is a person at the terminal, or as ``through`` says.
+    """
+    simulated = bench if isinstance(bench, SimulatedBench) else None
+    before = None if simulated is None else simulated.truth()
+    through = through or at_terminal(bench.testbed)
+    recorded = RecordedBench(through.look_on(bench))
+    steps: list[Step] = []
+    truths: list[MassProperties] = []
+    try:
+        awaited = until_stopped(recorded, procedure(recorded, goal, limits))
+        for step in through.awaited(awaited, "balancing"):
+            if show is not None:
+                show(step)
+            steps.append(step)
+            if simulated is not None:
+                truths.append(simulated.truth())
+    except KeyboardInterrupt as by_hand:
+        told = halted(bench)
+        if simulated is not None:
+            raise KeyboardInterrupt(told) from by_hand
+        steps.append(stop_step(bench, f"stopped by hand: {told}"))
+        if show is not None:
+            show(steps[-1])
+    # A look of a law's may hold what is not known; its estimate is no belief to begin with.
+    body, sd = bench.testbed.body, bench.testbed.com_sd
+    known = None if limits.law == OWN.name else Believed(body.com, sd)
+    planned = limits.plan is not None and bool(truths)
+    began = truths[0] if planned else before  # after the manoeuvre
+    return Balancing(bench.testbed, goal, steps, recorded.recording(), began, truths, known)
+
+
+def halted(bench: Bench) -> str:
+    """Halt every mass; return what came of it, also where an interlock was faster."""
+    try:
+        bench.stop()
+    except BenchStopped as stopped:
+        return str(stopped)
+    return HALTED
+
+
+def until_stopped(bench: Bench, steps: Iterator[Step]) -> Iterator[Step]:
+    """Return the steps, and a stop with its reason where the bench was stopped under way."""
+    try:
+        yield from steps
+    except BenchStopped as stopped:
+        yield stop_step(bench, f"Stopped: {stopped}")
+
+
+def stop_step(bench: Bench, sentence: str) -> Step:
+    """Return the last step of a run that was stopped, for the reason given."""
+    judged = Verdict(False, f"{sentence[0].upper()}{sentence[1:]}.", halted=True)
+    return Step("stop", bench.time, judged.sentence, verdict=judged)
+
+
+def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
+    """Return the steps of balancing and, when that passes and it is asked for, of holding."""
+    holding = HoldOptions(limits.hold, goal.target, goal.tolerance)
+    usual = holding.balancing if limits.hold > 0 else BalanceOptions(goal.target, goal.tolerance)
+    moves = usual.max_moves if limits.max_moves is None else limits.max_moves
+    balancing = replace(usual, max_moves=moves, max_time=limits.max_time or usual.max_time)
+    if limits.plan is not None:
+        if limits.law != OWN.name or limits.hold > 0:
+            raise InputError("--plan", "another law, or a hold", f"{OWN.name} without a hold")
+        return planned_and_balanced(bench, balancing, limits.plan)
+    if limits.hold == 0:
+        return balanced_by(limits.law, bench, balancing, limits.max_time)
+    if limits.law == OWN.name:
+        return balance_and_hold(bench, balancing, holding)
+    able = [OWN.name, *(card.name for card in CARDS.values() if card.follows)]
+    if limits.law not in able:
+        wanted = f"a hold after {' or '.join(able)}, or no hold"
+        raise InputError("--hold-min", f"a hold after {limits.law}", wanted)
+    own = BalanceOptions(goal.target, goal.tolerance)
+    return balanced_and_followed(limits.law, bench, own, limits.max_time, limits.hold)
+
+
+def looks(done: Balancing) -> list[Look]:
+    """Return time and centre of mass of every estimate and of the verdict."""
+    told = [(step.time, believed_after(step)) for step in done.steps]
+    return [(time, each.com, each.sd) for time, each in told if each is not None]
+
+
+def inertia_known(done: Balancing) -> tuple[Matrix3, float]:
+    """Return the inertia as last estimated, else the testbed's, and its relative sd."""
+    estimate, testbed = done.estimate, done.testbed
+    if estimate is None or not estimate.sees(INERTIA):
+        return testbed.body.inertia_P, testbed.inertia_sd
+    moments = INERTIA[:3]
+    sd = np.sqrt(np.diag(estimate.covariance_of(moments)))
+    return estimate.inertia_P, float(np.max(sd / estimate.values(moments)))
+
+
+def change_of(done: Balancing) -> Change | None:
+    """Return before and after: the first estimate, and the verdict or else the last estimate."""
+    seen = looks(done)
+    if not seen:
+        return None
+    return Change(
+        done.testbed,
+        *inertia_known(done),
+        done.goal.target,
+        done.before or Believed(*seen[0][1:]),
+        Believed(*seen[-1][1:]),
+        done.truth_before,
+        done.truths[-1] if done.truths else None,
+    )

@@ -1,0 +1,112 @@
+"""The demo: a record with a known move, what it tells, then balancing the same platform."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.app.console.rich_results import estimate_tables
+from equipoise.app.console.terminal import busy, stdout, watched
+from equipoise.app.figures.catalogue import Picture, TrueCourse, of_fit, of_move, of_tracking
+from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
+from equipoise.app.report.run_record import Account
+from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
+from equipoise.app.text.com_estimate import at_home
+from equipoise.app.text.units import MM, UM
+from equipoise.app.views.balance_views import account_of as account_of_balancing
+from equipoise.app.views.balance_views import pictures_of, show_step, wanted
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording, join, window
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
+from equipoise.simulation.bench import SimulatedBench
+
+LOOK = 60.0  # s before and after the move, as in the issue's paper-like runs
+MOVE = {"x1": -10 / MM, "y1": -10 / MM, "z1": -50 / MM}  # m, the paper's section 3
+GOAL = Goal(np.array([0.0, 0.0, -100.0]) / UM, np.array([2.0, 2.0, 3.0]) / UM)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Demonstration:
+    """All that was done."""
+
+    recording: Recording
+    truth: TrueCourse  # across the known move
+    identified: Sequence[Step]
+    balancing: Balancing
+
+    @property
+    def estimate(self) -> Estimate:
+        """Return what the record with the known move told."""
+        found = self.identified[-1].estimate
+        assert found is not None
+        return found
+
+
+def run_demo(testbed: Testbed, seed: int) -> Demonstration:
+    """Identify, show the tables, and balance, on one simulated platform."""
+    console = stdout()
+    console.print(f"{testbed.name}, simulated, seed {seed}", style="bold", markup=False)
+    console.print("\n1  Identify: free motion, masses moved half way", style="bold")
+    with busy("simulating"):
+        recording, truth = looked(SimulatedBench(testbed, seed))
+    steps: list[Step] = []
+    for step in watched(identify(recording, testbed, IdentifyOptions()), "identifying"):
+        show_step(step)
+        steps.append(step)
+    estimate = steps[-1].estimate
+    assert estimate is not None
+    console.print()
+    console.print(estimate_tables(estimate)[0])
+    console.print("\n2  Balance: the same platform, set level and let go again", style="bold")
+    done = run(SimulatedBench(testbed, seed), GOAL, Limits(), show_step)
+    return Demonstration(recording, truth, steps, replace(done, before=at_home(estimate)))
+
+
+def looked(bench: SimulatedBench) -> tuple[Recording, TrueCourse]:
+    """Return a record across a known move, and the truth along it."""
+    first = bench.read(LOOK)
+    before = bench.truth().com
+    bench.move(MOVE)
+    second = bench.read(LOOK)
+    after = bench.truth().com
+    bed = bench.testbed
+    travel = max(abs(d) / bed.mass_named(name).speed for name, d in MOVE.items())
+    t = np.array([0.0, LOOK, LOOK, LOOK + travel, 2 * LOOK])
+    under_way = np.full(3, np.nan)  # the truth is asked for when masses stand
+    return join(first, second), (t, np.array([before, before, under_way, after, after]))
+
+
+def account_of(shown: Demonstration, seed: int) -> Account:
+    """Return the report: the balancing with the identification before it."""
+    account = account_of_balancing(shown.balancing, seed)
+    return replace(
+        account,
+        title="From unknown and unbalanced to identified, balanced and verified",
+        chapters={"Identify": shown.identified, "Balance": shown.balancing.steps},
+        estimate=shown.estimate,
+        pictures=pictures(shown),
+        step_pictures=_pictures_of_steps(shown),
+    )
+
+
+def _pictures_of_steps(shown: Demonstration) -> Mapping[Step, Picture]:
+    bed, first = shown.balancing.testbed, len(shown.identified) + 1
+    identified = pictures_of_steps(shown.identified, Frame(bed, at_home=True))
+    return {
+        **identified,
+        **pictures_of_steps(shown.balancing.steps, Frame(bed, wanted(GOAL)), first),
+    }
+
+
+def pictures(shown: Demonstration) -> list[Picture]:
+    """Return figures 6, 7, 8, 11, 12, 13, 14 and 15."""
+    bed, recording, estimate = shown.balancing.testbed, shown.recording, shown.estimate
+    still = window(recording, 0.0, LOOK)
+    return [
+        *of_fit(recording, bed, estimate),
+        *of_tracking(still, bed, estimate, shown.truth[1][0]),
+        *of_move(recording, bed, estimate, shown.truth),
+        *pictures_of(shown.balancing),
+    ]

@@ -1,0 +1,1 @@
+"""Numbers, tables and blocks of text, the same for terminal, report and page."""

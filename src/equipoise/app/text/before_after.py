@@ -1,0 +1,106 @@
+"""Before and after: what balancing did to a platform, as rows for a table."""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.app.text.com_estimate import Believed
+from equipoise.app.text.numbers import decimals_for, fixed, is_known, with_sd
+from equipoise.app.text.units import MICRO, UM, Unit
+from equipoise.assessment.metrics.residual_torque import (
+    Uncertain,
+    level_torque,
+    swing_period,
+    with_doubtful_inertia,
+)
+from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.testbed import Testbed
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Change:
+    """A platform before and after; truths only when it is simulated."""
+
+    testbed: Testbed
+    inertia_P: Matrix3  # kg m^2, as last estimated, else the testbed's
+    inertia_sd: float  # -, relative
+    target: Vector3  # m
+    before: Believed
+    after: Believed
+    truth_before: MassProperties | None = None
+    truth_after: MassProperties | None = None
+
+
+class Row(NamedTuple):
+    """One line of the table, as texts."""
+
+    name: str
+    unit: str
+    before: str
+    after: str
+    target: str
+    truth_before: str
+    truth_after: str
+
+
+HEADS = ("", "unit", "before", "after", "target", "truth before", "truth after")
+
+
+def rows(change: Change) -> Iterator[Row]:
+    """Yield centre of mass, torque when level, period of swing."""
+    for i, axis in enumerate("xyz"):
+        yield _row(f"centre of mass {axis}", Unit("um", UM), change, partial(_component, i))
+    yield _row("gravity torque when level", Unit("uN m", MICRO), change, _torque)
+    yield _row("period of swing", Unit("s", 1.0), change, _period)
+
+
+Quantity = Callable[[Change, Believed, Matrix3], Uncertain]
+
+
+def _component(axis: int, change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
+    return Uncertain(float(at.com[axis]), float(at.sd[axis]))
+
+
+def _torque(change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
+    return level_torque(_weight(change), at.com, at.sd, change.testbed.up)
+
+
+def _period(change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
+    period = swing_period(_weight(change), at.com, at.sd, inertia, change.testbed.up)
+    return with_doubtful_inertia(period, change.inertia_sd)
+
+
+def _weight(change: Change) -> float:
+    return change.testbed.body.mass * change.testbed.gravity
+
+
+def _row(name: str, unit: Unit, change: Change, quantity: Quantity) -> Row:
+    """Return one line: the truths and the target with the digits that the result bears."""
+    believed = [quantity(change, at, change.inertia_P) for at in (change.before, change.after)]
+    before, after = (Uncertain(n.value * unit.factor, n.sd * unit.factor) for n in believed)
+
+    def exact(com: Vector3, inertia: Matrix3) -> str:
+        value = quantity(change, Believed(com, np.zeros(3)), inertia).value * unit.factor
+        return _exact(value, after)
+
+    truths = (change.truth_before, change.truth_after)
+    shown = ("" if truth is None else exact(truth.com, truth.inertia_P) for truth in truths)
+    target = exact(change.target, change.inertia_P)
+    return Row(name, unit.name, _shown(before), _shown(after), target, *shown)
+
+
+def _shown(number: Uncertain) -> str:
+    if is_known(*number):
+        return " ± ".join(with_sd(*number))
+    return _exact(number.value, number)
+
+
+def _exact(value: float, like: Uncertain) -> str:
+    if not math.isfinite(value):
+        return "topples"
+    return fixed(value, decimals_for(like.sd)) if is_known(*like) else f"{value:.4g}"

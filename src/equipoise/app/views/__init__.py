@@ -1,0 +1,1 @@
+"""Results as blocks, documents and figures; nothing is computed here."""

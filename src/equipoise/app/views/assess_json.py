@@ -1,0 +1,116 @@
+"""An assessment as one JSON document, SI units."""
+
+from equipoise.app.text.json_document import View, estimate_json, numbers
+from equipoise.app.views.assess_views import Told
+from equipoise.assessment.metrics.swing_height import Hanging
+from equipoise.estimation.regression.inverse_dynamics_torque import Felt
+from equipoise.model.estimate import COM, Estimate
+from equipoise.procedure.identification.assess import Assessment
+from equipoise.procedure.identification.drift_metrics import OverHours
+from equipoise.procedure.identification.requirement import Judged
+
+SCHEMA = "equipoise/assess/1"
+
+
+def document_of(told: Told) -> View:
+    """Return the assessment; what the recording before showed beside it."""
+    done, before, verdict = told.done, told.before, told.steps[-1].verdict
+    return {
+        "schema": SCHEMA,
+        "verdict": None
+        if verdict is None
+        else {"passed": verdict.passed, "sure": verdict.sure, "sentence": verdict.sentence},
+        "required": [judged_json(each) for each in done.judged],
+        **platform_json(done),
+        "before": None if before is None else platform_json(before),
+        "over_hours": None if told.hours is None else hours_json(told.hours),
+        "estimate": estimate_json(done.estimate, told.findings),
+    }
+
+
+def platform_json(done: Assessment) -> View:
+    """Return what one recording shows of the platform."""
+    looks, torque = done.looks, done.torque
+    return {
+        "com": {
+            "value": numbers(done.com),
+            "covariance": numbers(done.com_covariance),
+            "covariance_at_inertia": numbers(done.com_unscaled),
+            "distance_from_target": done.offset._asdict(),
+        },
+        "torque_in_range": {
+            "tilt": torque.tilt,
+            "rms": torque.rms._asdict(),
+            "greatest": torque.worst,
+            "greatest_high": torque.worst_high,
+        },
+        "inertia_sd": done.inertia_sd,
+        "looks": {
+            "duration": looks.duration,
+            "window": looks.window,
+            "torque": felt_json(looks.torque, looks.torque_fit),
+            "energy": felt_json(looks.energy, looks.energy_fit),
+            "swings": [hanging_json(each, done.weight) for each in looks.hanging],
+            "no_period": looks.quiet,
+        },
+    }
+
+
+def hours_json(hours: OverHours) -> View:
+    """Return looks along a recording, and what they come to."""
+    wander = hours.wander
+    found = {"t": numbers(hours.t), "com": numbers(hours.com), "sd": numbers(hours.sd),
+             "left_out": hours.left_out}  # fmt: skip
+    if wander is None:
+        return found
+    return found | {
+        "drift": numbers(wander.drift),
+        "drift_sd": numbers(wander.drift_sd),
+        "walk": numbers(wander.walk),
+        "allan": {
+            "span": numbers(wander.span),
+            "deviation": numbers(wander.deviation),
+            "relative_sd": numbers(wander.error),
+            "looks_alone": numbers(wander.looks_alone),
+        },
+    }
+
+
+def judged_json(judged: Judged) -> View:
+    """Return a requirement and its answer."""
+    return {
+        "what": judged.requirement.what.rstrip(","),
+        "limit": judged.requirement.limit,
+        "answer": judged.answer,
+        "sentence": judged.sentence,
+    }
+
+
+def felt_json(seen: Felt | None, fit: Estimate | None) -> View | None:
+    """Return what was felt, and the centre of mass that it tells, as the masses stand."""
+    if seen is None:
+        return None
+    usable = fit is not None and fit.outcome.usable
+    return {
+        "rms": seen.rms,
+        "rms_sd": seen.rms_sd,
+        "greatest": seen.greatest,
+        "noise": seen.noise,
+        "com": numbers(fit.com) if usable and fit is not None else None,
+        "com_covariance": numbers(fit.covariance_of(COM)) if usable and fit is not None else None,
+    }
+
+
+def hanging_json(hanging: Hanging, weight: float) -> View:
+    """Return a swing and the distance that it tells."""
+    swing = hanging.swing
+    return {
+        "mode": {0: "slow", 1: "quick", None: "both"}[hanging.mode],
+        "frequency": swing.frequency,
+        "frequency_sd": swing.sd,
+        "period": 1 / swing.frequency,
+        "amplitude": swing.amplitude,
+        "decay": swing.decay,
+        "distance": hanging.moment / weight,
+        "distance_sd": hanging.sd / weight,
+    }

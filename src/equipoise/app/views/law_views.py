@@ -1,0 +1,132 @@
+"""Cards of laws, and laws compared, for terminal, JSON and CSV."""
+
+from collections.abc import Sequence
+from dataclasses import asdict
+
+from rich.table import Table
+
+from equipoise.app.console.rich_tables import named_rows, quiet_table
+from equipoise.app.text.csv_lines import csv_lines
+from equipoise.app.text.json_document import View
+from equipoise.app.text.sheet import Sheet
+from equipoise.app.text.units import MICRO, MM, PER_DEG, UM
+from equipoise.control.law import NEEDS, LawCard
+from equipoise.study.compare_laws import Comparison, LawSummary, Middle
+from equipoise.study.law_run import LawRun
+from equipoise.study.recommend import advised_law
+
+SCHEMA = "equipoise/laws/1"
+
+
+def list_table(cards: Sequence[LawCard]) -> Table:
+    """Return one line a law."""
+    table = quiet_table()
+    table.add_column("law", style="bold", no_wrap=True)
+    for head in ("idea", "needs", "source"):
+        table.add_column(head)
+    for card in cards:
+        table.add_row(card.name, card.idea, ", ".join(card.needs), card.source)
+    return table
+
+
+def card_table(card: LawCard) -> Table:
+    """Return all that a card says."""
+    needs = ", ".join(NEEDS[need] for need in card.needs)
+    period = f"{card.period:g} s between steps" if card.period > 0 else "as the record allows"
+    return named_rows([
+        ("law", card.name),
+        ("idea", card.idea),
+        ("source", card.source),
+        ("needs", needs),
+        ("leaves", card.leaves),
+        ("stable", card.stable),
+        ("pace", period),
+    ])  # fmt: skip
+
+
+def laws_json(cards: Sequence[LawCard]) -> View:
+    """Return cards, schema equipoise/laws/1."""
+    return {"schema": SCHEMA, "laws": [asdict(card) for card in cards]}
+
+
+def both(values: Middle, factor: float, digits: int = 2) -> str:
+    """Return a median, and in brackets what 95 % stay below."""
+    middle, most = values.median * factor, values.most * factor
+    return f"{short(middle, digits)} ({short(most, digits)})"
+
+
+def short(value: float, digits: int) -> str:
+    """Return a number with so many digits, or whole where it has more before the point."""
+    return f"{value:.0f}" if abs(value) >= 10.0**digits else f"{value:.{digits}g}"
+
+
+def summary_cells(law: LawSummary) -> tuple[str, ...]:
+    """Return one law as cells."""
+    return (
+        law.law,
+        both(law.aside, UM),
+        both(law.height, UM),
+        both(law.torque, MICRO, 3),
+        "-" if law.followed is None else both(law.followed, MICRO, 3),
+        f"{100 * law.within / law.runs:.0f} %",
+        both(law.time, 1.0, 3),
+        both(law.travel, MM, 3),
+        f"{law.halted}",
+        f"{law.late}",
+        f"{law.false_passes}",
+    )
+
+
+def laws_sheet(found: Comparison) -> Sheet:
+    """Return all laws, the one that leaves the least torque first, and who was refused why."""
+    required = f"<= {found.required * MICRO:g} uN m"
+    heads = ("law", "aside, um", "height, um", "torque, uN m", "following", required,
+             "time, s", "travel, mm", "halted", "late", "false")  # fmt: skip
+    lines = [summary_cells(law) for law in sorted(found.laws, key=lambda each: each.left.most)]
+    said = (
+        f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
+        f"the runs stay below. Offsets from the target; torque rms within "
+        f"{found.tilt * PER_DEG:.3g} deg of level, {both(found.before, MICRO, 3)} uN m before; "
+        "following: with masses that follow the tilt by the sag that was found. "
+        "Halted: broken off for safety; late: out of time; false: passed by a verdict, and twice "
+        "the tolerance off."
+    )
+    refused = [f"{each.law} was refused: {each.why}" for each in found.refusals]
+    return Sheet(f"Laws on {found.testbed.name}", heads, lines, (said, *refused))
+
+
+def comparison_json(found: Comparison) -> View:
+    """Return the comparison, schema equipoise/compare_laws/1, SI."""
+    return {
+        "schema": "equipoise/compare_laws/1",
+        "testbed": found.testbed.name,
+        "seeds": list(found.seeds),
+        "tilt": found.tilt,
+        "required_torque": found.required,
+        "torque_before": found.before._asdict(),
+        "laws": [_summary_json(law) for law in found.laws],
+        "refused": [asdict(each) for each in found.refusals],
+        "recommended": asdict(advised_law(found)),
+    }
+
+
+def _summary_json(law: LawSummary) -> View:
+    cells = asdict(law)
+    return {key: value._asdict() if isinstance(value, Middle) else value
+            for key, value in cells.items()}  # fmt: skip
+
+
+def laws_csv(found: Comparison) -> str:
+    """Return one line a run."""
+    heads = ("law", "seed", "offset_x_um", "offset_y_um", "offset_z_um", "torque_uN_m",
+             "followed_uN_m", "time_s", "travel_mm", "passed", "halted", "late",
+             "verdict")  # fmt: skip
+    return csv_lines(heads, map(_csv_line, found.runs))
+
+
+def _csv_line(run: LawRun) -> list[object]:
+    offset = [f"{UM * x:.6g}" for x in run.offset]
+    followed = "" if run.followed is None else f"{MICRO * run.followed:.6g}"
+    return [run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", followed,
+            f"{run.time:.6g}", f"{MM * run.travel:.6g}", run.verdict.passed,
+            run.verdict.halted, run.late, run.verdict.sentence]  # fmt: skip

@@ -1,0 +1,242 @@
+"""Methods compared, as tables, JSON and CSV."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+
+import numpy as np
+
+from equipoise.app.text.csv_lines import csv_lines
+from equipoise.app.text.json_document import View, numbers, schedule_json
+from equipoise.app.text.sheet import Sheet
+from equipoise.app.text.units import UM
+from equipoise.app.views.law_views import short
+from equipoise.maths.linalg import element_sizes
+from equipoise.model.arrays import Floats
+from equipoise.model.estimate import COM
+from equipoise.study.compare_methods import MethodComparison, MethodSummary, Ratios, Share
+from equipoise.study.method_run import JUDGED, MethodRun
+from equipoise.study.recommend import advised_method, lacks
+
+SCHEMA = "equipoise/compare_methods/1"
+MS, MB, PERCENT = 1e3, 1e-6, 100.0
+OPEN = (
+    "Nothing in these records, and no option, fixes the common scale of inertia and centre of "
+    "mass, so there is no bound and nothing to compare by: give --move, --hold or --prior."
+)
+READ = (
+    "RMSE / bound: root mean square of the errors, each in units of its record's Cramer-Rao bound "
+    "(of a fit that is asked the same; a method that begins from more, such as the testbed's guess "
+    "with its sd, may be below 1). bias: what of it averaging does not mend. holds: 95 % intervals "
+    "that hold the truth, of runs in which the method does not warn of them. NEES: squared error "
+    "over its covariance, a parameter; 1 is true. wrong: runs with a miss by more than 5 sd, "
+    "unwarned. warned: runs whose outcome warns of the intervals. failed: refused, not usable or "
+    "broken off; in no statistic. First those without failure and with honest intervals."
+)
+TAKES = (
+    "ms: median time of the processor for a record. MB: peak of memory of Python and NumPy. "
+    "settles, s: time from which on com stays within a tenth of its first error, of methods that "
+    "go along the record; never: mostly not at all."
+)
+
+
+def figure(value: float, digits: int = 2) -> str:
+    """Return a number with so many digits, "-" for none."""
+    if np.isnan(value):
+        return "-"
+    return f"{value:.0e}".replace("e+0", "e") if abs(value) >= 1e4 else short(value, digits)
+
+
+def percent(share: Share) -> str:
+    """Return a share in percent, "-" of nothing."""
+    return f"{PERCENT * share.value:.0f} %" if share.of else "-"
+
+
+def some(count: int) -> str:
+    """Return a count of what is not wished for, "-" for none."""
+    return str(count) if count else "-"
+
+
+def shown_order(found: MethodComparison) -> list[MethodSummary]:
+    """Return the methods: those that qualify first, each part by its error of com."""
+
+    def place(method: MethodSummary) -> tuple[bool, float]:
+        ratio = method.com.rmse
+        return bool(lacks(method, "com")), np.inf if np.isnan(ratio) else ratio
+
+    return sorted(found.methods, key=place)
+
+
+def sheets(found: MethodComparison) -> Iterator[Sheet]:
+    """Yield the tables of a comparison."""
+    yield overview(found)
+    yield com_sheet(found)
+    if any(method.inertia.stated.part for method in found.methods):
+        yield inertia_sheet(found)
+    if any(np.isfinite(method.time) for method in found.methods):
+        yield cost_sheet(found)
+
+
+def overview(found: MethodComparison) -> Sheet:
+    """Return accuracy and honesty, one line a method."""
+    heads = ("", "com", "J", "bias", "holds", "NEES", "wrong", "warned", "failed")
+    lines = [overview_cells(method) for method in shown_order(found)]
+    title = f"RMSE / bound of {len(found.seeds)} records of {found.scene.testbed.name}"
+    return Sheet(title, heads, lines, (*scale_remark(found), READ, *failures(found)))
+
+
+def overview_cells(method: MethodSummary) -> list[str]:
+    """Return one method as cells."""
+    return [
+        method.method,
+        ratio_text(method.com),
+        ratio_text(method.inertia),
+        figure(method.com.bias),
+        percent(method.coverage),
+        figure(method.nees),
+        some(method.confident_wrong),
+        some(method.warned),
+        some(method.failed),
+    ]
+
+
+def cost_sheet(found: MethodComparison) -> Sheet:
+    """Return what a record takes of those that were not refused, the quickest first."""
+    ran = sorted((m for m in found.methods if np.isfinite(m.time)), key=lambda m: m.time)
+    lines = [
+        [
+            method.method,
+            figure(MS * method.time),
+            "-" if method.memory is None else figure(MB * method.memory),
+            "-" if method.settled is None else seconds(method.settled),
+        ]
+        for method in ran
+    ]
+    return Sheet("What one record takes", ("", "ms", "MB", "settles, s"), lines, (TAKES,))
+
+
+def seconds(value: float) -> str:
+    """Return a time; infinite: never."""
+    return "never" if np.isinf(value) else figure(value)
+
+
+def ratio_text(ratios: Ratios) -> str:
+    """Return RMSE / bound; with a mark where a method states only part of what is shown."""
+    part = ratios.stated.part < ratios.stated.of
+    return figure(ratios.rmse) + ("*" if part and ratios.stated.part else "")
+
+
+def scale_remark(found: MethodComparison) -> tuple[str, ...]:
+    """Say that nothing can be compared where the scale is open."""
+    return () if np.any(np.isfinite(found.bound)) else (OPEN,)
+
+
+def failures(found: MethodComparison) -> Iterator[str]:
+    """Yield why methods failed, those together that say the same."""
+    if any(0 < r.stated.part < r.stated.of for m in found.methods for r in (m.com, m.inertia)):
+        yield "*: of part of what the records show; the rest is not stated."
+    reasons = dict[str, list[str]]()
+    for method in found.methods:
+        if method.failed:
+            told = f"{method.method} ({method.failed})"
+            reasons.setdefault(beginning(method.why), []).append(told)
+    for reason, methods in reasons.items():
+        yield f"Failed: {', '.join(methods)}: {reason}"
+
+
+def beginning(text: str) -> str:
+    """Return the first two sentences: what it is, and what is wrong with it."""
+    return ". ".join(text.split(". ")[:2]).removesuffix(".") + "."
+
+
+def com_sheet(found: MethodComparison) -> Sheet:
+    """Return bias and sd of the centre of mass along each axis and RMSE of the whole, um."""
+    heads = ("", *(f"{what} {axis}" for axis in "xyz" for what in ("bias", "sd")), "RMSE")
+    bound = [seen_text(b * UM) for b in found.bound[:3]]
+    lines = [["bound", "", bound[0], "", bound[1], "", bound[2], seen_text(norm(found.bound) * UM)]]
+    for method in shown_order(found):
+        columns = np.stack([method.bias[:3], method.sd[:3]], axis=1) * UM
+        if np.any(np.isfinite(method.rmse[:3])):
+            whole = figure(norm(method.rmse) * UM)
+            lines.append([method.method, *(figure(float(x)) for x in columns.ravel()), whole])
+    remark = (
+        "sd: of the errors over the runs. RMSE: of the vector, of what is stated of it. Bounds are "
+        "root mean squares over the records. Masses at home; a method that tells com only as the "
+        "masses stand at the end, such as the tracker, is judged by that, and by its bound."
+    )
+    return Sheet("Errors of the centre of mass, um", heads, lines, (remark,))
+
+
+def norm(sizes: Floats) -> float:
+    """Return the size of a centre of mass of which what is not nan is known."""
+    return float(np.sqrt(np.nansum(sizes[:3] ** 2)))
+
+
+def inertia_sheet(found: MethodComparison) -> Sheet:
+    """Return RMSE of the inertia, percent of sqrt(J_ii J_jj)."""
+    part = slice(3, 9)
+    factor = PERCENT / element_sizes(found.scene.testbed.body.inertia_P)
+    heads = ("", *(name[-2:] for name in JUDGED[part]), "bias / bound")
+    lines = [["bound", *map(seen_text, found.bound[part] * factor), ""]]
+    for method in shown_order(found):
+        if method.inertia.stated.part:
+            cells = map(figure, method.rmse[part] * factor)
+            lines.append([method.method, *cells, figure(method.inertia.bias)])
+    return Sheet("RMSE of the inertia about P, percent of sqrt(J_ii J_jj)", heads, lines)
+
+
+def seen_text(bound: float) -> str:
+    """Return a bound; infinite: some records do not show it, nan: it was held."""
+    return "not seen" if np.isinf(bound) else "held" if np.isnan(bound) else figure(bound)
+
+
+def methods_json(found: MethodComparison) -> View:
+    """Return the comparison, schema equipoise/compare_methods/1, SI."""
+    scene = found.scene
+    return {
+        "schema": SCHEMA,
+        "testbed": scene.testbed.name,
+        "seeds": list(found.seeds),
+        "duration_s": scene.duration,
+        "moves": schedule_json(scene.moves),
+        "options": asdict(scene.options),
+        "parameters": list(JUDGED),
+        "bound": numbers(found.bound),
+        "methods": [summary_json(method) for method in found.methods],
+        "recommended": {group: asdict(advised_method(found.methods, group))
+                        for group in ("com", "inertia")},
+    }  # fmt: skip
+
+
+def summary_json(method: MethodSummary) -> View:
+    """Return one method; arrays are in the order of ``parameters``."""
+    view = asdict(method)
+    view |= {name: numbers(getattr(method, name)) for name in ("bias", "sd", "rmse")}
+    for name in ("com", "inertia"):
+        view[name]["stated"] = getattr(method, name).stated._asdict()
+    return view | {"coverage": method.coverage._asdict()}
+
+
+def methods_csv(runs: Sequence[MethodRun]) -> str:
+    """Return one line a run: errors, stated sd and bounds, com in um and inertia in kg m2."""
+    columns = [
+        f"{name}_{what}_{'um' if name in COM else 'kg_m2'}"
+        for what in ("error", "sd", "bound")
+        for name in JUDGED
+    ]
+    heads = ("method", "seed", "ending", "warned", *columns, "nees", "settled_s", "time_s",
+             "memory_bytes", "outcome")  # fmt: skip
+    return csv_lines(heads, map(_csv_line, runs))
+
+
+def _csv_line(run: MethodRun) -> list[object]:
+    factor = np.where(np.isin(JUDGED, COM), UM, 1.0)
+    values = np.concatenate([run.error * factor, run.sd * factor, run.bound * factor])
+    cost = ("" if run.settled is None else plain(run.settled), plain(run.cost.time),
+            "" if run.cost.memory is None else run.cost.memory)  # fmt: skip
+    return [run.method, run.seed, run.ending, run.warned, *map(plain, values),
+            plain(run.nees), *cost, run.sentence]  # fmt: skip
+
+
+def plain(value: float) -> str:
+    """Return a number for a file, "" for none."""
+    return "" if np.isnan(value) else f"{value:.6g}"

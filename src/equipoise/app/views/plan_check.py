@@ -1,0 +1,67 @@
+"""Whether a record told what its plan had promised."""
+
+from collections.abc import Iterator
+
+from rich.console import Group
+
+from equipoise.app.console.rich_tables import quiet_table, titled
+from equipoise.app.text.json_document import View
+from equipoise.app.text.numbers import with_sd
+from equipoise.app.text.units import unit_for
+from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.manoeuvre import Plan
+
+TWICE = 2.0  # found / predicted, chosen: platforms of one testbed differ by so much
+NO_PROMISE = "The plan says nothing of what it predicts: there is nothing to compare."
+
+
+def promised(plan: Plan) -> dict[str, float]:
+    """Return the sd that a plan predicts, by name, SI."""
+    if plan.com_sd is None or plan.inertia_sd is None:
+        return {}
+    return dict(zip((*COM, *INERTIA), map(float, (*plan.com_sd, *plan.inertia_sd)), strict=True))
+
+
+def pairs(plan: Plan, estimate: Estimate) -> Iterator[tuple[str, float, float]]:
+    """Return name, sd predicted and sd found, SI."""
+    for name, sd in promised(plan).items():
+        if estimate.has(name):
+            yield name, sd, estimate.parameters[estimate.index(name)].sd
+
+
+def kept_table(plan: Plan, estimate: Estimate) -> Group:
+    """Return predicted and found sd side by side."""
+    table = quiet_table()
+    table.add_column("", style="bold")
+    for head in ("predicted sd", "found sd", "found / predicted"):
+        table.add_column(head, justify="right")
+    table.add_column("unit")
+    for name, sd, found in pairs(plan, estimate):
+        unit = unit_for(name, "m" if name in COM else "kg m2")
+        texts = [with_sd(0.0, value * unit.factor)[1] for value in (sd, found)]
+        table.add_row(name, *texts, f"{found / sd:.2f}", unit.name)
+    return titled("What was planned, and what came of it", table)
+
+
+def promise_sentences(plan: Plan | None, estimate: Estimate) -> list[str]:
+    """Say whether the plan was kept."""
+    if plan is None:
+        return []
+    ratios = {name: found / sd for name, sd, found in pairs(plan, estimate)}
+    if not ratios:
+        return [NO_PROMISE]
+    low, high = min(ratios.values()), max(ratios.values())
+    worst = max(ratios, key=lambda name: ratios[name])
+    if high > TWICE:
+        return [
+            f"{worst} is known {high:.2g} times worse than planned: another platform, another "
+            "start, or something that the plan did not reckon with."
+        ]
+    return [f"Found sd are {low:.2g} to {high:.2g} times those that were planned."]
+
+
+def kept_json(plan: Plan, estimate: Estimate) -> View:
+    """Return what was predicted and found, SI."""
+    rows = [{"name": n, "predicted_sd": sd, "found_sd": found}
+            for n, sd, found in pairs(plan, estimate)]  # fmt: skip
+    return {"source": plan.source, "parameters": rows}

@@ -1,0 +1,207 @@
+"""A plan for terminal and JSON: what it promises beside the usual manoeuvre, and what to do."""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from rich.console import Group
+
+from equipoise.app.console.rich_tables import named_rows, quiet_table, titled
+from equipoise.app.console.terminal import stdout
+from equipoise.app.runs.planning import Planning, Request
+from equipoise.app.text.json_document import View, schedule_json
+from equipoise.app.text.numbers import with_sd
+from equipoise.app.text.units import MM, PER_DEG, Unit, unit_for
+from equipoise.design.manoeuvre.criterion import OF_COM, OF_MOMENT, size_of
+from equipoise.design.manoeuvre.predicted_sd import Promise, times_better
+from equipoise.model.arrays import Vector3
+from equipoise.model.devices import ReactionWheel
+from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.manoeuvre import Manoeuvre, SquareWave
+from equipoise.model.testbed import Testbed
+
+SCHEMA = "equipoise/plan/1"
+UPRIGHT = 0.999  # cosine, chosen: a body's z that counts as upright
+
+
+def show_plan(done: Planning) -> None:
+    """Print what is promised, what to do, and how far it goes."""
+    console = stdout()
+    console.print(promise_table(done))
+    console.print()
+    what = named_rows(list(steps_of(done.planned.manoeuvre, done.request.testbed)))
+    console.print(titled("What to do", what))
+    console.print()
+    for sentence in done.planned.sentences:
+        console.print(f"! {sentence}", style="yellow", markup=False)
+    console.print(limits_line(done.usual, done.request, "The usual manoeuvre"),
+                  style="dim", markup=False)  # fmt: skip
+    console.print(limits_line(done.planned, done.request, "The plan"), markup=False)
+    passed = done.planned.keeps
+    style = "bold green" if passed else "bold yellow"
+    console.print(verdict(done), style=style, markup=False)
+
+
+def promise_table(done: Planning) -> Group:
+    """Return predicted sd of the usual manoeuvre and of the plan, and their ratio."""
+    table = quiet_table()
+    table.add_column("", style="bold")
+    for head in ("usual", "planned", "times better"):
+        table.add_column(head, justify="right")
+    table.add_column("unit")
+    for name in (*COM, *INERTIA):
+        unit = unit_for(name, "m" if name in COM else "kg m2")
+        texts = [sd_text(p, name, unit) for p in (done.usual, done.planned)]
+        ratio = float(times_better(done.usual, done.planned, (name,))[0])
+        asked = name in done.request.names
+        shown = f"{ratio:.2g}" if math.isfinite(ratio) and "held" not in texts else ""
+        table.add_row(name, *texts, shown, unit.name, style="" if asked else "dim")
+    after = ", known what was seen" if done.request.seen else ""
+    return titled(f"Predicted sd over {done.planned.platforms} platforms that may be there{after}",
+                  table)  # fmt: skip
+
+
+def sd_text(promise: Promise, name: str, unit: Unit) -> str:
+    """Return a predicted sd."""
+    return with_sd(0.0, float(promise.sd_of((name,))[0]) * unit.factor)[1]
+
+
+def steps_of(manoeuvre: Manoeuvre, testbed: Testbed) -> Iterator[tuple[str, str]]:
+    """Return when and what, in words for a person at the bench."""
+    if manoeuvre.standing:
+        yield "before", f"masses stand where they were left: {displacements(manoeuvre.standing)}"
+    yield "start", lean_words(manoeuvre, testbed.up)
+    yield "", rate_words(manoeuvre.rate, testbed.up)
+    for wave in manoeuvre.waves:
+        yield "from 0 s", wave_words(wave, testbed)
+    stands = dict(manoeuvre.standing)
+    for t, targets in manoeuvre.moves:
+        changed = {name: d for name, d in targets.items() if d != stands.get(name, 0.0)}
+        stands.update(changed)
+        if changed:
+            yield f"{t:g} s", f"send masses to {displacements(changed)}"
+    yield f"{manoeuvre.duration:g} s", "end of the record"
+
+
+def displacements(targets: Mapping[str, float]) -> str:
+    """Return displacements from home."""
+    return ", ".join(f"{name} {MM * d:+.4g} mm" for name, d in targets.items())
+
+
+def lean_words(manoeuvre: Manoeuvre, up: Vector3) -> str:
+    """Return how to hold the platform."""
+    if manoeuvre.tilt == 0:
+        return "hold the platform level"
+    side = manoeuvre.low_side
+    where = "(" + ", ".join(f"{x:.2f}" for x in side + 0.0) + ") of the body axes"
+    if up[2] > UPRIGHT:
+        angle = math.degrees(math.atan2(side[1], side[0]))
+        where = f"{angle:.0f} deg from body x towards y"
+    slack = f"to about {PER_DEG * manoeuvre.tilt_sd:g} deg"
+    return f"tilt it by {PER_DEG * manoeuvre.tilt:.3g} deg, {slack}, the side at {where} lowest"
+
+
+def rate_words(rate: Vector3, up: Vector3) -> str:
+    """Return how to let go."""
+    if not np.any(rate):
+        return "let go without a push"
+    x, y, z = (f"{PER_DEG * v:+.3g}" for v in rate + 0.0)
+    spin = PER_DEG * float(rate @ up)
+    return f"let go with a push: ({x}, {y}, {z}) deg/s in body axes, {spin:.3g} of it a spin"
+
+
+def wave_words(wave: SquareWave, testbed: Testbed) -> str:
+    """Return what a device is driven by."""
+    wheel = any(w.name == wave.device for w in testbed.wheels)
+    size = (f"{1e3 * wave.amplitude:+.3g} mN m" if wheel
+            else f"{PER_DEG * wave.amplitude:+.3g} deg/s")  # fmt: skip
+    turns = f"every {wave.period / 2:g} s, first at {wave.period * (0.5 - wave.phase):g} s"
+    return f"drive {wave.device} by {size}, and turn it round {turns}"
+
+
+def limits_line(promise: Promise, request: Request, who: str) -> str:
+    """Say how far a manoeuvre goes."""
+    testbed, expected, n = request.testbed, promise.expected, promise.tried
+    text = (
+        f"{who} tilts the platform that is expected by {PER_DEG * expected.peak_tilt:.3g} deg at "
+        f"most, {n} others by up to {PER_DEG * promise.greatest_tilt:.3g} deg, and reaches "
+        f"{PER_DEG * promise.greatest_rate:.3g} deg/s; {promise.kept} of them keep the limits of "
+        f"{PER_DEG * testbed.tilt_limit:.3g} deg and {request.rate_deg_s:g} deg/s"
+    )
+    if any(isinstance(d, ReactionWheel) for d in testbed.devices) or testbed.cmgs:
+        text += f", stored momentum {expected.peak_momentum:.2g} N m s"
+    return text + "."
+
+
+def worst_of(promise: Promise, done: Planning) -> tuple[str, float]:
+    """Return what is known worst of what is asked for, in units of its size."""
+    names = done.request.names
+    scaled = promise.sd_of(names) / size_of(promise.body, names)
+    k = int(np.argmax(scaled))
+    return names[k], float(scaled[k])
+
+
+def verdict(done: Planning) -> str:
+    """Say what the plan gains, and whether its limits are kept."""
+    (name, before), (other, after) = (worst_of(p, done) for p in (done.usual, done.planned))
+    if math.isinf(after):
+        text = f"Not all is seen with this plan either: {other}."
+    elif math.isinf(before):
+        text = f"The usual manoeuvre does not show {name}; the plan shows all that is asked for."
+    elif before < after:
+        text = "The usual manoeuvre would tell more, and goes further than it may."
+    else:
+        gain = f"{before / after:.2g} times better"
+        which = name if other == name else f"{name}, then {other}"
+        text = f"What is known worst ({which}) is known {gain}."
+    if done.planned.keeps:
+        return text
+    advice = (
+        "a shorter record or more --trials may keep it"
+        if done.request.seen
+        else "too little is known of the centre of mass: record a short swing, halted before the "
+        "limit, and plan again with --seen"
+    )
+    kept = f"{done.planned.kept} of {done.planned.tried}"
+    return f"{text} The limits are kept by {kept} platforms only; {advice}."
+
+
+def plan_json(done: Planning) -> View:
+    """Return a plan, schema equipoise/plan/1, SI units."""
+    plan, request = done.planned, done.request
+    m = plan.manoeuvre
+    return {
+        "schema": SCHEMA,
+        "testbed": request.testbed.name,
+        "asked": list(request.names),
+        "criterion": request.criterion,
+        "sizes": {"com_m": OF_COM, "inertia_relative": OF_MOMENT},
+        "duration_s": m.duration,
+        "tilt_rad": m.tilt,
+        "low_side": m.low_side.tolist(),
+        "rate_rad_s": m.rate.tolist(),
+        "tilt_sd_rad": m.tilt_sd,
+        "rate_sd_rad_s": m.rate_sd,
+        "standing_m": dict(m.standing),
+        "moves": schedule_json(m.moves),
+        "waves": [
+            {"device": w.device, "amplitude": w.amplitude, "period_s": w.period, "phase": w.phase}
+            for w in m.waves
+        ],
+        "usual": promise_json(done.usual),
+        "planned": promise_json(plan),
+    }
+
+
+def promise_json(promise: Promise) -> View:
+    """Return what a manoeuvre promises."""
+    return {
+        "sd": dict(zip(promise.names, map(float, promise.sd), strict=True)),
+        "platforms": promise.platforms,
+        "platforms_tried_for_limits": promise.tried,
+        "within_limits": promise.kept,
+        "greatest_tilt_rad": promise.greatest_tilt,
+        "greatest_rate_rad_s": promise.greatest_rate,
+        "peak_momentum_N_m_s": promise.expected.peak_momentum,
+        "unobservable": list(promise.sentences),
+    }

@@ -1,0 +1,74 @@
+"""Channels, their rates and spans, and where they fall silent."""
+
+import numpy as np
+
+from equipoise.model.finding import Finding
+from equipoise.model.recording import Recording, Samples
+
+GAP = 3.0  # median intervals; chosen: one missed row makes 2, two make 3
+NAMED = 5  # gaps that are told one by one; chosen: a screen
+UNEVEN = 0.1  # of the median interval, as a robust scatter, before it is told (chosen)
+ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
+
+
+def content_findings(recording: Recording) -> list[Finding]:
+    """Return what was recorded, then the gaps of the sensors."""
+    named = (
+        ("attitude", recording.attitude),
+        ("rate", recording.rate),
+        ("masses", recording.masses),
+        ("stored momentum", recording.momentum),
+        ("known torque", recording.torque),
+        ("devices", recording.devices),
+        ("magnetic field", recording.field),
+    )
+    parts = {"masses": recording.mass_names, "devices": recording.device_names}
+    present = [(name, c) for name, c in named if c is not None and len(c)]
+    absent = [name for name in ("attitude", "rate") if name not in dict(present)]
+    content = [_content(name, channel, parts.get(name, ())) for name, channel in present]
+    content += [Finding("content", f"No {name} was recorded.") for name in absent]
+    sensors = [(name, c) for name, c in present if name in ("attitude", "rate")]
+    return content + [gap for name, c in sensors for gap in _timing(name, c)]
+
+
+def _content(name: str, channel: Samples, parts: tuple[str, ...]) -> Finding:
+    first, last = float(channel.t[0]), float(channel.t[-1])
+    of = f" of {', '.join(parts)}" if parts else ""
+    text = f"{name}{of}: {len(channel)} rows from {first:.6g} to {last:.6g} s"
+    if len(channel) > 1:
+        text += f", {1 / channel.period:.4g} Hz"
+    return Finding("content", f"{text}.", (first, last))
+
+
+def _timing(name: str, channel: Samples) -> list[Finding]:
+    if len(channel) < 2:
+        return []
+    return _gaps(name, channel) + _unevenness(name, channel)
+
+
+def _gaps(name: str, channel: Samples) -> list[Finding]:
+    """Return the longest gaps in order of time, and how many more there are."""
+    t, steps = channel.t, np.diff(channel.t)
+    where = np.flatnonzero(steps > GAP * channel.period)
+    longest = np.sort(where[np.argsort(-steps[where], kind="stable")][:NAMED])
+    found = [
+        Finding(
+            "problem",
+            f"{name}: a gap of {steps[i]:.3g} s at {t[i]:.6g} s.",
+            (float(t[i]), float(t[i + 1])),
+            "gap",
+        )
+        for i in longest
+    ]
+    if len(where) > NAMED:
+        found.append(Finding("problem", f"{name}: {len(where) - NAMED} shorter gaps besides."))
+    return found
+
+
+def _unevenness(name: str, channel: Samples) -> list[Finding]:
+    middle = channel.period
+    scatter = ROBUST_SD * float(np.median(np.abs(np.diff(channel.t) - middle)))
+    if scatter < UNEVEN * middle:
+        return []
+    text = f"{name}: intervals scatter by {scatter:.2g} s about {middle:.3g} s."
+    return [Finding("problem", text)]

@@ -1,0 +1,47 @@
+"""When the sliding masses moved, and how far."""
+
+import numpy as np
+
+from equipoise.assessment.findings.unknown_names import stranger_findings
+from equipoise.model.arrays import Series1
+from equipoise.model.finding import Finding
+from equipoise.model.recording import Recording
+
+STILL = 1e-6  # m between rows; chosen: below any actuator's step, above an encoder's flicker
+NAMED = 12  # moves that are told one by one; chosen: two rounds of six masses
+
+
+def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[Finding]:
+    """Return each move in order of time; ``known`` are the testbed's masses, if it is given."""
+    masses = recording.masses
+    if masses is None or not len(masses):
+        return [Finding("content", "No mass positions were recorded: the scale stays open.")]
+    found = stranger_findings("mass", recording.mass_names, known)
+    moves = [
+        move
+        for i, name in enumerate(recording.mass_names)
+        for move in _moves(name, masses.t, masses.values[:, i])
+    ]
+    moves.sort(key=lambda move: move.span or (0.0, 0.0))
+    if not moves:
+        return [*found, Finding("content", "No mass moved: the scale stays open.")]
+    more = len(moves) - NAMED
+    rest = [Finding("motion", f"{more} further moves of masses.")] if more > 0 else []
+    return [*found, *moves[:NAMED], *rest]
+
+
+def _moves(name: str, t: Series1, x: Series1) -> list[Finding]:
+    """Return the moves of one mass: runs of rows between which it changes."""
+    moving = np.concatenate([[False], np.abs(np.diff(x)) > STILL, [False]])
+    starts = np.flatnonzero(~moving[:-1] & moving[1:])
+    ends = np.flatnonzero(moving[:-1] & ~moving[1:])
+    return [
+        Finding(
+            "motion",
+            f"mass {name} moves from {x[a] * 1e3:.4g} to {x[b] * 1e3:.4g} mm "
+            f"between {t[a]:.6g} and {t[b]:.6g} s.",
+            (float(t[a]), float(t[b])),
+            name,
+        )
+        for a, b in zip(starts.tolist(), ends.tolist(), strict=True)
+    ]

@@ -1,0 +1,47 @@
+"""What a recording holds and what is wrong with it, as findings in the order of reading."""
+
+import numpy as np
+
+from equipoise.assessment.findings.channel_content import content_findings
+from equipoise.assessment.findings.mass_moves import move_findings
+from equipoise.assessment.findings.motion_range import motion_findings
+from equipoise.assessment.findings.unknown_names import stranger_findings
+from equipoise.assessment.record_checks.attitude_noise import noise_findings
+from equipoise.assessment.record_checks.clock_offset import offset_findings
+from equipoise.assessment.record_checks.exposure_averaging import averaging_findings
+from equipoise.assessment.record_checks.flagged_rows import odd_row_findings
+from equipoise.assessment.record_checks.gyro_consistency import agreement_findings
+from equipoise.assessment.record_checks.rate_quality import rate_findings
+from equipoise.assessment.record_checks.sensor_noise import unstated_findings
+from equipoise.model.finding import Finding
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+
+def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Finding, ...]:
+    """Return all findings; a testbed adds what only it can tell, such as which axis is up."""
+    masses = tuple(mass.name for mass in testbed.masses) if testbed else None
+    devices = testbed.device_names if testbed else None
+    sensors = (None, None) if testbed is None else (testbed.attitude, testbed.gyro)
+    up = None if testbed is None else testbed.up
+    return (
+        *content_findings(recording),
+        *move_findings(recording, masses),
+        *stranger_findings("device", recording.device_names, devices),
+        *motion_findings(recording.attitude, up),
+        *noise_findings(recording.attitude),
+        *averaging_findings(recording, sensors[0]),
+        *odd_row_findings(recording),
+        *rate_findings(recording.rate),
+        *agreement_findings(recording.attitude, recording.rate),
+        *offset_findings(recording.attitude, recording.rate, *sensors),
+        *unstated_findings(recording, testbed),
+        # Gaps are named in the notes too; here they are findings of their own, with their span.
+        *(Finding("mended", note) for note in recording.notes if " gap" not in note),
+    )
+
+
+def problems(found: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return those that an estimate will suffer from, in order of time."""
+    wrong = [finding for finding in found if finding.kind == "problem"]
+    return tuple(sorted(wrong, key=lambda f: -np.inf if f.span is None else f.span[0]))

@@ -1,0 +1,1 @@
+"""Measures of balance: one metric, one file."""

@@ -1,0 +1,1 @@
+"""Checks of a recording's rows: noise, outliers, clocks, averaging."""

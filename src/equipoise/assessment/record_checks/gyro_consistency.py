@@ -1,0 +1,138 @@
+"""Whether gyro and attitude tell of the same turning: signs, axes, units, zero.
+
+The turn between two attitudes is compared with the integral of the gyro between their times. They
+are taken far enough apart for the turn to stand out from the noise, near enough for it to be small.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equipoise.assessment.record_checks.attitude_noise import attitude_noise
+from equipoise.assessment.record_checks.attitude_steps import steps
+from equipoise.model.arrays import Floats, Matrix3, Series3
+from equipoise.model.finding import Finding
+from equipoise.model.recording import Samples
+
+LONGEST = 1.0  # s apart; chosen: a gyro's drift is nothing yet
+SMALL = math.radians(20)  # turn up to which the integral of rates is a turn within 2 % (chosen)
+GAP = 3.0  # median intervals of either sensor
+SURE = 0.8  # correlation from which axes are called the same (chosen)
+UNSURE = 0.5  # correlation below which they are called different (chosen)
+FEWEST = 10  # pairs (chosen)
+ABOVE = 2.0  # of the noise of a turn, chosen: a gyro axis that felt less tells nothing of axes
+OFF = 0.2  # of the scale, before it is told (chosen: no gyro's scale is this wrong)
+ZERO_OFF = math.radians(0.05)  # rad/s: a zero worth telling (chosen)
+
+
+def agreement_findings(attitude: Samples | None, rate: Samples | None) -> list[Finding]:
+    """Return disagreements of sign, axis, scale and zero, or that there are none."""
+    if attitude is None or rate is None or min(len(attitude), len(rate)) < FEWEST:
+        return []
+    seen, felt = rate_pairs(attitude, rate)
+    if len(seen) < FEWEST:
+        return [Finding("problem", "gyro and attitude hardly overlap in time.")]
+    if _repeats(seen, felt):
+        text = "the rates are differences of the attitude to the last digit: not a second sensor."
+        return [Finding("problem", text)]
+    likeness = correlation(felt, seen)
+    turned = np.std(felt, axis=0) > ABOVE * _noise(attitude)
+    wrong = [f for axis in np.flatnonzero(turned) for f in _axis(int(axis), likeness, seen, felt)]
+    if wrong:
+        return wrong
+    return _zero(likeness, seen, felt)
+
+
+def rate_pairs(attitude: Samples, rate: Samples) -> tuple[Series3, Series3]:
+    """Return mean rates (rad/s) between pairs of attitudes, as the attitude and as the gyro saw."""
+    lag = lag_of(attitude)
+    duration, turn = steps(attitude, lag)
+    start, end = attitude.t[:-lag], attitude.t[lag:]
+    covered = (start >= rate.t[0]) & (end <= rate.t[-1])
+    covered &= duration < GAP * np.median(duration)
+    covered &= ~across_gap(rate, start, end)
+    felt = (integral(rate, end) - integral(rate, start)) / duration[:, None]
+    return (turn / duration[:, None])[covered], felt[covered]
+
+
+def correlation(felt: Series3, seen: Series3) -> Matrix3:
+    """Return the correlation of each gyro axis (row) with each attitude axis (column)."""
+    a, b = felt - felt.mean(axis=0), seen - seen.mean(axis=0)
+    scale = np.outer(np.linalg.norm(a, axis=0), np.linalg.norm(b, axis=0))
+    return (a.T @ b) / np.where(scale > 0, scale, np.inf)
+
+
+def lag_of(attitude: Samples) -> int:
+    """Return how many rows apart attitudes are compared."""
+    _, turn = steps(attitude)
+    size = float(np.median(np.linalg.norm(turn, axis=1)))
+    most = min(LONGEST / attitude.period, SMALL / max(size, 1e-12), len(attitude) / 4)
+    return max(1, int(most))
+
+
+def integral(rate: Samples, at: Floats) -> Series3:
+    """Return the integral of the gyro (rad) from its first row to given times, by trapezoids.
+
+    Its mean is taken off and added again, so that the sums stay small.
+    """
+    mean = rate.values.mean(axis=0)
+    free = rate.values - mean
+    panels = 0.5 * np.diff(rate.t)[:, None] * (free[1:] + free[:-1])
+    whole = np.vstack([np.zeros(3), np.cumsum(panels, axis=0)])
+    turned = np.stack([np.interp(at, rate.t, whole[:, i]) for i in range(3)], axis=1)
+    return turned + np.multiply.outer(at - rate.t[0], mean)
+
+
+def across_gap(rate: Samples, start: Floats, end: Floats) -> NDArray[np.bool_]:
+    """Say for each span whether it touches an interval in which the gyro was silent."""
+    t = rate.t
+    silent = np.append(False, np.diff(t) > GAP * rate.period)
+    before = np.cumsum(silent)
+    first = np.maximum(np.searchsorted(t, start, side="right") - 1, 0)
+    last = np.minimum(np.searchsorted(t, end, side="left"), len(t) - 1)
+    return before[last] > before[first]
+
+
+def _noise(attitude: Samples) -> float:
+    """Return the noise of the rates that attitudes tell, rad/s; 0 where it cannot be told."""
+    return math.sqrt(2) * (attitude_noise(attitude) or 0.0) / (lag_of(attitude) * attitude.period)
+
+
+def _repeats(seen: Series3, felt: Series3) -> bool:
+    return bool(np.abs(seen - felt).max() < 1e-9 * np.abs(seen).max())
+
+
+def _axis(axis: int, likeness: Matrix3, seen: Series3, felt: Series3) -> list[Finding]:
+    """Return what is wrong with one gyro axis."""
+    name, row = "xyz"[axis], likeness[axis]
+    other = int(np.argmax(np.abs(row)))
+    if row[axis] < -SURE:
+        text = f"gyro {name} has the opposite sign (correlation {row[axis]:.2f})."
+    elif other != axis and abs(row[other]) > SURE and abs(row[axis]) < UNSURE:
+        sign = "" if row[other] > 0 else "minus "
+        text = f"gyro {name} follows {sign}attitude {'xyz'[other]} (correlation {row[other]:.2f})."
+    elif row[axis] > SURE and abs(_slope(axis, seen, felt) - 1) > OFF:
+        text = f"gyro {name} is {_slope(axis, seen, felt):.3g} times what the attitude tells."
+    else:
+        return []
+    return [Finding("problem", text)]
+
+
+def _slope(axis: int, seen: Series3, felt: Series3) -> float:
+    """Return the gyro's scale against the attitude's."""
+    return float(np.std(felt[:, axis]) / np.std(seen[:, axis]))
+
+
+def _zero(likeness: Matrix3, seen: Series3, felt: Series3) -> list[Finding]:
+    """Return the gyro's zero and that its axes agree, if the motion is enough to tell."""
+    offset = np.median(felt - seen, axis=0)
+    told = [name for name, c in zip("xyz", np.diag(likeness), strict=True) if c > SURE]
+    agree = f"gyro and attitude agree about {', '.join(told)}" if told else ""
+    found = [Finding("content", f"{agree}.")] if told else []
+    if not told:
+        found.append(Finding("content", "the motion is too small to compare gyro and attitude."))
+    if np.abs(offset).max() > ZERO_OFF:
+        x, y, z = np.degrees(offset)
+        found.append(Finding("content", f"gyro zero: {x:.3g}, {y:.3g}, {z:.3g} deg/s."))
+    return found

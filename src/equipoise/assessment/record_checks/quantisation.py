@@ -1,0 +1,45 @@
+"""The steps in which a gyro tells its rate, and whether they are coarser than its noise.
+
+Rounding to steps of d adds an error of d / sqrt(12). Noise of half a step and more makes it white;
+below that it follows the motion, and rows that stand still tell nothing.
+"""
+
+import math
+
+import numpy as np
+
+from equipoise.model.arrays import Series1
+from equipoise.model.finding import Finding
+from equipoise.model.recording import Samples
+
+MANY = 0.5  # share of rows with a value of their own above which nothing is quantised (chosen)
+WHOLE = 1e-3  # of a step, by which values may miss whole multiples of it (chosen: rounding)
+COARSE = 2.0  # sd of the noise: finer steps are smeared by it and do no harm
+FEWEST = 20  # rows that quantisation is told from (chosen)
+THIRD = math.sqrt(20)  # sd of the third difference of unit white noise
+
+
+def quantisation_findings(rate: Samples) -> list[Finding]:
+    """Return the step of each axis that has one: a problem where it is above the noise."""
+    return [f for name, x in zip("xyz", rate.values.T, strict=True) for f in _quantised(name, x)]
+
+
+def step_of(x: Series1) -> float | None:
+    """Return the step that all values are whole multiples of apart, None if there is none."""
+    levels = np.unique(x)
+    if len(x) < FEWEST or not 1 < len(levels) < MANY * len(x):
+        return None
+    gaps = np.diff(levels)
+    # Values that went through a change of unit differ in the last bits: those are no steps.
+    gaps = gaps[gaps > 1e-9 * np.abs(levels).max()]
+    step = float(gaps.min())
+    return step if np.abs(gaps / step - np.round(gaps / step)).max() < WHOLE else None
+
+
+def _quantised(name: str, x: Series1) -> list[Finding]:
+    step = step_of(x)
+    if step is None:
+        return []
+    text = f"gyro {name} comes in steps of {math.degrees(step):.3g} deg/s."
+    noise = float(np.std(np.diff(x, n=3))) / THIRD
+    return [Finding("problem" if step > COARSE * noise else "content", text)]

@@ -1,0 +1,55 @@
+"""What a gyro's own numbers tell: coarse steps, a first row of zeros, a dead axis, its noise."""
+
+import math
+
+import numpy as np
+
+from equipoise.assessment.record_checks.quantisation import quantisation_findings
+from equipoise.model.arrays import Series1
+from equipoise.model.finding import Finding
+from equipoise.model.recording import Samples
+
+THIRD = math.sqrt(20)  # sd of the third difference of unit white noise
+ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
+
+
+def rate_findings(rate: Samples | None) -> list[Finding]:
+    """Return what is odd about a gyro, and how noisy it is."""
+    if rate is None or len(rate) < 4:
+        return []
+    axes = list(zip("xyz", rate.values.T, strict=True))
+    return [
+        *(f for name, x in axes for f in _dead(name, x)),
+        *quantisation_findings(rate),
+        *_zero_start(rate),
+        _noise(rate),
+    ]
+
+
+def _dead(name: str, x: Series1) -> list[Finding]:
+    if np.ptp(x) > 0:
+        return []
+    return [Finding("problem", f"gyro {name} is {math.degrees(x[0]):.3g} deg/s in every row.")]
+
+
+def _zero_start(rate: Samples) -> list[Finding]:
+    """Return a finding when the first row is exactly zero and the next is far from it."""
+    if rate.values[0].any() or not rate.values[1:4].any():
+        return []
+    typical = np.median(np.abs(np.diff(rate.values[1:], axis=0)))
+    if np.abs(rate.values[1]).max() <= 3 * typical:
+        return []
+    text = "rates start at exactly zero: they look like backward differences, not like a gyro."
+    return [Finding("problem", text, (float(rate.t[0]), float(rate.t[1])))]
+
+
+def rate_noise(rate: Samples) -> float:
+    """Return the white noise, rad/s per axis and sample, at most; 0 if steps are coarser."""
+    third = np.diff(rate.values, n=3, axis=0)
+    spread = ROBUST_SD * np.median(np.abs(third), axis=0) / THIRD
+    return float(np.sqrt(np.mean(spread**2)))
+
+
+def _noise(rate: Samples) -> Finding:
+    noise = math.degrees(rate_noise(rate))
+    return Finding("content", f"gyro noise: {noise:.2g} deg/s per axis at most, white part.")

@@ -1,0 +1,63 @@
+"""Sensors as their rows show them: noise with rounding in it, and what a testbed leaves out.
+
+Rounding to steps of d adds an error of d / sqrt(12) to each row, white when the noise or the motion
+from row to row is half a step and more (Widrow and Kollar 2008).
+
+Cannot see noise below a step: rows then show that of the rounding alone. Rounded roll, pitch and
+yaw count as rounded about the body axes, which they are near level.
+"""
+
+import math
+from dataclasses import replace
+
+from equipoise.assessment.record_checks.attitude_noise import attitude_noise
+from equipoise.assessment.record_checks.quantisation import step_of
+from equipoise.assessment.record_checks.rate_quality import rate_noise
+from equipoise.model.finding import Finding
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
+
+ROUNDED = math.sqrt(12)  # a step over the sd of its rounding
+USUAL = math.radians(0.2)  # rad, of a camera that has too few rows to tell (chosen)
+EXACT = 1e-7  # rad, rad/s: least noise taken for a sensor (chosen: rows that were computed)
+BIAS = math.radians(1.0)  # rad/s, sd: usual for a low-cost gyro, as in a testbed file
+
+
+def shown_camera(rows: Samples | None, stated: AttitudeSensor | None) -> AttitudeSensor | None:
+    """Return the camera with its rounding in its noise; as the rows show it if none is stated."""
+    if rows is None or len(rows) < 2:
+        return stated
+    if stated is None:
+        noise = attitude_noise(rows)
+        return AttitudeSensor(1.0 / rows.period, max(USUAL if noise is None else noise, EXACT))
+    return replace(stated, noise=math.hypot(stated.noise, stated.quantum / ROUNDED))
+
+
+def shown_gyro(rows: Samples | None, stated: Gyro | None) -> Gyro | None:
+    """Return the gyro with its rounding in its noise; as the rows show it if none is stated."""
+    if rows is None or len(rows) < 4:
+        return stated
+    step = max([step_of(axis) or 0.0 for axis in rows.values.T])
+    if stated is None:
+        noise = max(rate_noise(rows), step / ROUNDED, EXACT)
+        return Gyro(1.0 / rows.period, noise, BIAS)
+    return replace(stated, noise=math.hypot(stated.noise, max(step, stated.quantum) / ROUNDED))
+
+
+def unstated_findings(recording: Recording, testbed: Testbed | None) -> list[Finding]:
+    """Say which sensors the testbed does not have, and what noise they are given."""
+    if testbed is None:
+        return []
+    found: list[Finding] = []
+    camera = shown_camera(recording.attitude, None)
+    if testbed.attitude is None and camera is not None:
+        found.append(_taken("attitude", math.degrees(camera.noise), "deg"))
+    gyro = shown_gyro(recording.rate, None)
+    if testbed.gyro is None and gyro is not None:
+        found.append(_taken("gyro", math.degrees(gyro.noise), "deg/s"))
+    return found
+
+
+def _taken(name: str, noise: float, unit: str) -> Finding:
+    text = f"the testbed has no sensor.{name}: its noise is taken as {noise:.2g} {unit} a row."
+    return Finding("mended", text)

@@ -1,0 +1,110 @@
+"""Between levelling and levelling: see how deep the platform hangs, and raise it.
+
+A level platform at rest shows nothing of its height r.u. Masses move its centre of mass sideways by
+SWING of its depth, which sets it swinging, and a look follows, over the record from BEFORE that
+move on. The move is a known change, and gives the scale that free motion leaves open. Then the
+platform is raised to SURE sds below the target and levelled again; the next look, from there, sees
+the height so much better. When the sd is small enough, or after MOST_LOOKS, it is levelled once
+more at SHALLOW below the target, and raised by that: it is still then, and a camera that is off
+plumb by an angle leaves no more than the angle times SHALLOW.
+
+    shift along u = target.u - r_home.u - depth,       r_home of the last look
+
+Masses are sent first, and the look or the end follows when they have arrived. What the looks do not
+see (an estimate that is not usable, or does not hold the centre of mass) is left, and said.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.control.plant.pendulum import Hanging, shift_for
+from equipoise.control.sample import Sample
+from equipoise.model.arrays import Vector3
+from equipoise.model.command import Command, Look
+from equipoise.model.estimate import COM, Estimate
+
+SWING = 0.06  # rad, chosen: 7 degrees from side to side
+DURATION = 60.0  # s, chosen: three swings or more at first
+BEFORE = 5.0  # s, chosen: of rest, in the record of a look
+SURE = 3.0  # sds, chosen
+SHALLOW = 1e-5  # m, chosen: a swing of a minute or two
+CLOSE = 1e-6  # m, chosen: one sd of the height at which no further look is needed
+MOST_LOOKS = 4  # chosen: a look takes the sd to a third or less
+TINY = 1e-9  # m, chosen: a step of masses that have none
+ARRIVED = 2.0  # motor steps, chosen
+PATIENCE = 5.0  # s, chosen: beyond twice the travel, for fine masses that are slower
+
+
+@dataclass(frozen=True, slots=True)
+class Height:
+    """Where the platform hangs, and what is known of it."""
+
+    along: float  # m, the shift along u
+    depth: float  # m, as believed
+    looks: int = 0
+    known: bool = False  # to CLOSE, or as well as it will be
+
+
+class Sent(NamedTuple):
+    """Masses on their way."""
+
+    goal: Vector3  # m, shift
+    then: Command
+    late: float  # s, when they should long have arrived
+
+
+def sees(seen: Estimate) -> bool:
+    """Say whether a look shows the centre of mass."""
+    return seen.outcome.usable and seen.sees(COM)
+
+
+def raised(plant: Hanging, height: Height, seen: Estimate, target: Vector3) -> Height:
+    """Return where to level next, after a look that sees the centre of mass."""
+    up, looks = plant.up, height.looks + 1
+    sd = float(np.sqrt(up @ seen.covariance_of(COM) @ up))
+    known = sd <= CLOSE or looks >= MOST_LOOKS
+    depth = SHALLOW if known else max(SURE * sd, SHALLOW)
+    return Height(float(up @ (target - seen.com)) - depth, depth, looks, known)
+
+
+def last_shift(plant: Hanging, height: Height, level: Vector3, target: Vector3) -> Vector3:
+    """Return the shift (m) to the target from one that levels the platform at this height."""
+    up = plant.up
+    sideways: Vector3 = level + target
+    return sideways - up * (up @ sideways) + up * (height.along + height.depth)
+
+
+def once_level(
+    plant: Hanging, height: Height, seen: Sample, level: Vector3, target: Vector3
+) -> Sent:
+    """Return what follows where the shift ``level`` (m) levels the platform: a look, or the end."""
+    if height.known:
+        last = last_shift(plant, height, level, target)
+        return sent(plant, seen, last, Command(shift=last, finished="level, and at the target"))
+    kick = shift_for(plant, np.full(2, SWING * height.depth / np.sqrt(2)))
+    since = max(seen.t - BEFORE, 0.0)
+    look = Look(DURATION, "trajectory", hold=plant.still, use_prior=True, since=since)
+    note = f"level; swings by {np.degrees(SWING):.1f} deg for a look at its height"
+    return sent(plant, seen, level + kick, Command(look=look, note=note))
+
+
+def unseen(plant: Hanging, look: Estimate, way: Sent, level: Vector3) -> Sent:
+    """Return the way back to level, and the end, where a look does not show the centre of mass."""
+    why = f"level; its height was not seen: {look.outcome.sentence}"
+    longest = DURATION + 2 * float(np.linalg.norm(way.goal - level)) / plant.slew + PATIENCE
+    return Sent(level, Command(shift=level, finished=why), way.late + longest)
+
+
+def sent(plant: Hanging, seen: Sample, goal: Vector3, then: Command) -> Sent:
+    """Return masses on their way to a shift (m)."""
+    longest = 2 * float(np.linalg.norm(goal - seen.shift)) / plant.slew + PATIENCE
+    return Sent(goal, then, seen.t + longest)
+
+
+def on_the_way(plant: Hanging, way: Sent, seen: Sample) -> Command:
+    """Return the same again until the masses have arrived; then what follows."""
+    off = float(np.linalg.norm(seen.shift - way.goal))
+    there = off <= ARRIVED * max(plant.step, TINY) or seen.t >= way.late
+    return way.then if there else Command(shift=way.goal)

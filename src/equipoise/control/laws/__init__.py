@@ -1,0 +1,1 @@
+"""Balancing laws: one file each, and their registry."""

@@ -1,0 +1,101 @@
+"""Masses that follow a platform's tilt and its drift, once a law has found sag and drift.
+
+Masses that stand still leave what no centre of mass trims of the sag (``dynamics.sag_trim``). With
+n = g_B / g, masses that shift the centre of mass by
+
+    s(n, t) = s_0 - d (t - t_0) - (E - n n^T)(trim + C n)
+
+leave nothing of it: m g (r + s + C n) x n = m g target x n. What lies along n turns nothing and is
+left out, so the shift is the least that does it: 0.17 um at 20 deg for a deck that sinks by 25 um.
+
+Wheels or gyros hold the platform meanwhile, level and at its heading: one that is balanced in every
+attitude stays in none by itself.
+
+Cannot see what C and d were found wrong by; nothing is estimated here.
+"""
+
+from dataclasses import dataclass, field, replace
+
+from equipoise.control.elements.attitude_pid import Gains, Pid, gains_for, torque, unwound
+from equipoise.control.elements.slew import (
+    Pace,
+    Slew,
+    levelled,
+    moment_across,
+    pace_for,
+    reference_at,
+    slew,
+)
+from equipoise.control.law import Law, LawCard
+from equipoise.control.plant.wheel_capacity import capacity
+from equipoise.control.sample import Sample
+from equipoise.dynamics.sag_trim import trimming_shift
+from equipoise.model.arrays import Vector3
+from equipoise.model.command import Command
+from equipoise.model.estimate import Estimate
+from equipoise.model.following import Following
+from equipoise.model.testbed import Testbed
+
+PERIOD = 0.1  # s, chosen: a servo's beat
+
+CARD = LawCard(
+    "follow",
+    "Moves masses with the tilt and the drift that were found before, while wheels hold level.",
+    "Equipoise; the sag that dynamics.sag_trim cannot trim",
+    ("masses", "momentum", "gyro", "attitude"),
+    "what sag and drift were found wrong by",
+    "masses open loop: always; wheels as they are to hold what is left",
+    PERIOD,
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What is followed, until when (s), and what holds the platform."""
+
+    following: Following
+    end: float
+    target: Vector3  # m
+    testbed: Testbed
+    gains: Gains
+    pace: Pace
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """What holds the platform, and the way to level."""
+
+    pid: Pid = field(default_factory=unwound)
+    way: Slew | None = None
+
+
+def shift_at(following: Following, down: Vector3, t: float) -> Vector3:
+    """Return the shift (m) that is wanted with gravity along ``down`` (unit, body axes) at t, s."""
+    moved: Vector3 = following.shift - following.drift * (t - following.t)
+    return moved + trimming_shift(following.sag, following.trim, down)
+
+
+def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+    """Return the state and the command: the shift for this attitude and time, and what holds it."""
+    assert isinstance(seen, Sample)  # no look is ever asked for
+    bed, down = params.testbed, seen.gravity / params.testbed.gravity
+    if state.way is None:
+        state = replace(state, way=slew(seen.q, levelled(seen.q, bed.up), seen.t, params.pace))
+    assert state.way is not None
+    reference = reference_at(state.way, seen.t)
+    weight = bed.body.mass * params.target
+    pid, u = torque(state.pid, seen, reference, params.gains, weight)
+    over = "masses followed tilt and drift" if seen.t >= params.end else ""
+    shift = shift_at(params.following, down, seen.t)
+    return replace(state, pid=pid), Command(shift=shift, torque=u, finished=over)
+
+
+def following_law(following: Following, end: float) -> Law[State, Params]:
+    """Return the law that follows what was found until a time, s."""
+
+    def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
+        can, J = capacity(testbed), testbed.body.inertia_P
+        pace = pace_for(moment_across(J, testbed.up), can)
+        return State(), Params(following, end, target, testbed, gains_for(J, can.torque), pace)
+
+    return Law(CARD, begin, step)

@@ -1,0 +1,303 @@
+"""Impulse feedback: jets hold an attitude, and what they spend on it tells where the mass is.
+
+In laboratory axes the momentum L = R (J w + h) changes by gravity and by the jets' impulses alone.
+Over a window of T seconds, with the masses' shift s(t) as reported,
+
+    L_1 - L_0 = int R (m (r + s) x g_B) dt + sum R I
+    A r = b,    A = -m int R [g_B x] dt,    b = L_1 - L_0 - sum R I - m int R (s x g_B) dt
+
+r is that of the masses at home. While the attitude is held, A is singular along g_B, and with
+Delta H = b turned back into the body its least solution is the printed
+
+    r_perp = g_B x (Delta H - I) / (m g^2 T)
+
+Printed with d += -k m (U M)^-1 r_perp, 0 < k < 1: here the shift is asked for, s += -k r_perp of
+what is then left, counted from the target. No model of J is needed where the rate is the same at
+both ends of a window; Delta H is kept, so J errs with the change of the rate only.
+
+One attitude does not show the part along g_B. The platform is held in turn at those of a schedule,
+level and tilted about both horizontal axes; r of all windows together,
+
+    (sum A^T A) r = sum A^T b
+
+is then seen in all three directions, and at the end of each round of the schedule the masses go to
+target - r.
+
+The jets are on-off: with n = -g_B / g and n_ref that of the schedule the rate is to be
+
+    w_d = RETURN n_ref x n  (limited),    I = J (w_d - w)   about each axis where |w_d - w| > DEAD
+
+Heading is left free; spin about the vertical is braked like any rate. With impulses even over a
+step h and J wrong by a factor q, tilt and rate follow a matrix with determinant 1 - q + q RETURN h
+/ 2, and all is stable for q < 2 and RETURN h < 2 (Jury). Masses may be as slow as they like: what
+they do is known, but for their own momentum and moments, which are left out.
+
+Source: Hatcher and Young 1968, as da Silva et al. 2021 describe it; the equations are derived here.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from equipoise.control.law import Law, LawCard
+from equipoise.control.plant.actuator_limits import greatest_shift, limited
+from equipoise.control.plant.pendulum import level_axes
+from equipoise.control.sample import Sample
+from equipoise.maths.attitude import to_matrix
+from equipoise.maths.linalg import skew
+from equipoise.model.arrays import Floats, Matrix3, Series, Vector3
+from equipoise.model.command import Command
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate
+from equipoise.model.testbed import Testbed
+
+PERIOD = 0.2  # s, chosen: a step in which likely torques change the rate by a degree per second
+WINDOW = 20.0  # s, T; chosen: gyro noise of 0.01 deg/s is then 0.03 um for 14 kg
+SETTLING = 15.0  # s, chosen: to turn by TILT, and to come to rest
+WINDOWS = 2  # at each attitude, chosen
+ROUNDS = 2  # of the schedule, chosen: the second has little torque left to err by
+TILT = 0.2  # rad, chosen: shows the height with a fifth of its weight
+SHARE = 0.6  # of the tilt limit that TILT may take, chosen
+GAIN = 0.7  # k, chosen: below 1, for r_perp is an estimate
+RETURN = 0.4  # 1/s, chosen: two and a half seconds to come back
+FASTEST = 0.04  # rad/s, chosen: 2 deg/s while turning
+DEAD = 2e-3  # rad/s, chosen: far above noise, far below FASTEST
+COARSEST = 0.5  # of FASTEST, chosen: the greatest dead band that still holds an attitude
+SPARE = 2.0  # chosen: jets' torque over the likely weight
+LIKELY = 2.0  # sds, chosen
+FLAT = 0.3  # chosen: singular values below this share are the direction along gravity
+
+CARD = LawCard(
+    name="impulse_feedback",
+    idea="Jets hold the platform at several tilts; the impulse they spend there is the unbalance.",
+    source="Hatcher and Young 1968 (da Silva et al. 2021, section 5), with an attitude schedule",
+    needs=("masses", "jets", "gyro", "attitude"),
+    leaves="a steady torque of air or bearing, which it takes for unbalance; height five times "
+    "less sharp than the rest",
+    stable="0 < k < 1, whatever the masses' speed; jets with twice the weight of a likely offset",
+    period=PERIOD,
+)
+
+
+class Window(NamedTuple):
+    """Sums since a window was opened."""
+
+    begin: float  # s
+    momentum: Vector3  # N m s, L_0
+    A: Matrix3  # N s, so far
+    given: Vector3  # N m s, laboratory: jets, and the weight of what masses shift
+
+
+class Before(NamedTuple):
+    """The last sample, for the trapezium rule."""
+
+    t: float
+    R: Matrix3
+    gravity: Vector3
+    shift: Vector3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What does not change while it runs."""
+
+    mass: float
+    inertia: Matrix3
+    verticals: Series  # (a, 3) n_ref of the schedule
+    dead: float  # rad/s
+    reach: float  # m
+    step: float  # m, what the masses' steps leave
+    target: Vector3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """Where it stands."""
+
+    phase: Literal["settle", "window", "leave"]
+    place: int  # in the schedule, rounds counted on
+    since: float | None  # s, when the place was taken
+    asked: Vector3  # m, shift
+    information: Matrix3  # sum A^T A
+    score: Vector3  # sum A^T b
+    windows: int = 0  # closed at this place
+    window: Window | None = None
+    before: Before | None = None
+
+
+# --- Begin -----------------------------------------------------------------------------------
+
+
+def schedule(up: Vector3, tilt: float) -> Series:
+    """Return the verticals, body axes: level, and tilted about both horizontal axes."""
+    first, second = level_axes(up)
+    tilted = [np.cos(tilt) * up + np.sin(tilt) * across for across in (first, second)]
+    return np.array([up, *tilted])
+
+
+def weakest_jet(testbed: Testbed) -> float:
+    """Return the torque (N m) about the body axis about which jets have least."""
+    jets = testbed.jets
+    about = np.array([jet.torque * np.abs(jet.axis) for jet in jets]).reshape(-1, 3)
+    return float(about.max(axis=0, initial=0.0).min())
+
+
+def likely_weight(testbed: Testbed) -> float:
+    """Return the torque (N m) of an offset that few exceed."""
+    far = np.linalg.norm(testbed.body.com) + LIKELY * np.linalg.norm(testbed.com_sd)
+    return float(testbed.body.mass * testbed.gravity * far)
+
+
+def refuse(found: str, wanted: str) -> InputError:
+    """Return the error of a testbed on which the law would not hold the platform."""
+    return InputError("law impulse_feedback", found, wanted)
+
+
+def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
+    """Return where the law begins; InputError where jets cannot hold the platform."""
+    torque, weight = weakest_jet(testbed), likely_weight(testbed)
+    if torque < SPARE * weight:
+        wanted = f"{SPARE * weight:.3g} N m, twice the weight of a likely offset"
+        raise refuse(f"jets of {torque:.3g} N m about some axis", wanted)
+    reach = greatest_shift(testbed)
+    if reach == 0:
+        raise refuse("masses that cannot shift in every direction", "rails along three directions")
+    inertia = testbed.body.inertia_P
+    least = max((jet.torque * jet.min_pulse for jet in testbed.jets), default=0.0)
+    dead = max(DEAD, least / float(np.diag(inertia).min()))
+    if dead > COARSEST * FASTEST:
+        wanted = f"{COARSEST * FASTEST:.2g} rad/s or less"
+        raise refuse(f"least pulses that turn it by {dead:.2g} rad/s", wanted)
+    verticals = schedule(testbed.up, min(TILT, SHARE * testbed.tilt_limit))
+    step = sum(m.mass * m.resolution for m in testbed.masses) / testbed.body.mass
+    params = Params(testbed.body.mass, inertia, verticals, dead, reach, step, target)
+    return State("settle", 0, None, np.zeros(3), np.zeros((3, 3)), np.zeros(3)), params
+
+
+# --- Jets ------------------------------------------------------------------------------------
+
+
+def impulse_for(seen: Sample, vertical: Vector3, params: Params) -> Vector3 | None:
+    """Return the impulse (N m s) that gives the rate back to ``vertical``; None within the band."""
+    n = -seen.gravity / float(np.linalg.norm(seen.gravity))
+    wanted = limited(RETURN * np.cross(vertical, n), FASTEST)
+    off: Vector3 = wanted - seen.rate
+    off = np.where(np.abs(off) > params.dead, off, 0.0)
+    return params.inertia @ off if off.any() else None
+
+
+# --- The account -----------------------------------------------------------------------------
+
+
+def momentum_of(seen: Sample, R: Matrix3, params: Params) -> Vector3:
+    """Return L, N m s, laboratory axes."""
+    L: Vector3 = R @ (params.inertia @ seen.rate + seen.momentum)
+    return L
+
+
+def opened(seen: Sample, params: Params) -> Window:
+    """Return a window that begins now."""
+    R = to_matrix(seen.q)
+    return Window(seen.t, momentum_of(seen, R, params), np.zeros((3, 3)), np.zeros(3))
+
+
+def summed(window: Window, before: Before, seen: Sample, params: Params) -> Window:
+    """Return the window with the step up to this sample added."""
+    R, half = to_matrix(seen.q), params.mass * (seen.t - before.t) / 2
+    first, last = before.R @ skew(before.gravity), R @ skew(seen.gravity)
+    weight = -half * (first @ before.shift + last @ seen.shift)
+    jets = 0.5 * (before.R + R) @ seen.impulse
+    A = window.A - half * (first + last)
+    return window._replace(A=A, given=window.given + weight + jets)
+
+
+def told(window: Window, seen: Sample, params: Params) -> Vector3:
+    """Return b at the end of a window, N m s."""
+    now = momentum_of(seen, to_matrix(seen.q), params)
+    return now - window.momentum - window.given
+
+
+def fed_back(window: Window, b: Vector3, shift: Vector3, params: Params) -> Vector3:
+    """Return s - k r_perp, m: the part along gravity is left alone."""
+    inverse = np.linalg.pinv(window.A, rcond=FLAT)
+    seen_of: Vector3 = inverse @ (b + window.A @ (shift - params.target))
+    return limited(shift - GAIN * seen_of, params.reach)
+
+
+def closed(state: State, seen: Sample, params: Params) -> State:
+    """Return the state after a window: what it told, and the masses sent on."""
+    assert state.window is not None
+    A, b = state.window.A, told(state.window, seen, params)
+    shift = fed_back(state.window, b, state.asked, params)
+    state = replace(
+        state,
+        information=state.information + A.T @ A,
+        score=state.score + A.T @ b,
+        asked=shift,
+        windows=state.windows + 1,
+        window=opened(seen, params),
+    )
+    return state if state.windows < WINDOWS else moved_on(state, seen, params)
+
+
+def moved_on(state: State, seen: Sample, params: Params) -> State:
+    """Return the state at the next place of the schedule, or on the way out."""
+    place = state.place + 1
+    state = replace(state, phase="settle", place=place, since=seen.t, windows=0, window=None)
+    if place % len(params.verticals):
+        return state
+    r = np.linalg.solve(state.information, state.score)
+    state = replace(state, asked=limited(params.target - r, params.reach))
+    return replace(state, phase="leave") if place == ROUNDS * len(params.verticals) else state
+
+
+# --- Step ------------------------------------------------------------------------------------
+
+
+def forward(state: State, seen: Sample, params: Params) -> State:
+    """Return the state after a sample, before anything is commanded."""
+    since = seen.t if state.since is None else state.since
+    state = replace(state, since=since)
+    if state.phase == "settle" and seen.t - since >= SETTLING:
+        return replace(state, phase="window", window=opened(seen, params))
+    if state.phase == "window":
+        assert state.window is not None
+        assert state.before is not None
+        window = summed(state.window, state.before, seen, params)
+        state = replace(state, window=window)
+        if seen.t - window.begin >= WINDOW - PERIOD / 2:
+            return closed(state, seen, params)
+    return state
+
+
+def has_left(state: State, seen: Sample, params: Params) -> bool:
+    """Say whether the platform is level again and the masses have arrived."""
+    assert state.since is not None
+    there = float(np.linalg.norm(seen.shift - state.asked)) <= params.step + 1e-9
+    return state.phase == "leave" and seen.t - state.since >= SETTLING and there
+
+
+def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+    """Return the next state and command; the law asks for no look."""
+    assert isinstance(seen, Sample)
+    old = state
+    state = forward(state, seen, params)
+    before = Before(seen.t, to_matrix(seen.q), seen.gravity, seen.shift)
+    state = replace(state, before=before)
+    vertical = params.verticals[state.place % len(params.verticals)]
+    impulse = impulse_for(seen, vertical, params)
+    if has_left(state, seen, params):
+        return state, Command(shift=state.asked, finished="seen at all attitudes and moved there")
+    return state, Command(shift=state.asked, impulse=impulse, note=telling(old, state, params))
+
+
+def telling(old: State, state: State, params: Params) -> str:
+    """Return what people should know of this step."""
+    if state.asked is old.asked:
+        return ""
+    shift: Floats = (state.asked - old.asked) * 1e6
+    return "moved on by (" + ", ".join(f"{x:.2f}" for x in shift) + ") um by what the jets spent"
+
+
+LAW = Law(CARD, begin, step)

@@ -1,0 +1,338 @@
+"""L1 adaptive balancing by sliding masses: the unbalance torque is estimated, filtered, cancelled.
+
+On each of two horizontal axes of a platform that hangs (``hanging``), x = (tilt, rate),
+
+    x' = A_m x + b (u_ad + th^T x + s),   A_m = [0, 1; -w_m^2, -2 z w_m],   b = (0, 1)
+    a v = f u_m + u_ad,   u_m = -(w_m^2 - w0^2) tilt - 2 z w_m rate
+
+The matched disturbance s = a u x r is the unbalance torque over J; th is what the guess of a and of
+the height has wrong. Predictor, adaptation and control (Cao and Hovakimyan 2006, 2008), with
+e = x_hat - x:
+
+    x_hat' = [0, 1; -w0^2, 0] x + b (a v_done + th_hat^T x + s_hat) + A_s e
+    th_hat' = G Proj(th_hat, -e^T P b x),   s_hat' = G Proj(s_hat, -e^T P b)
+    u_ad = -C(s) (th_hat^T x + s_hat),   C = w_c / (s + w_c)
+
+A yaw rate W turns tilt and rate over between the axes, and the predictor is told so, a step at a
+time:
+
+    tilt_1' += W tilt_2,  tilt_2' -= W tilt_1     (theta' = w - W u x theta)
+    rate_1' += W (J_2 - J_u) / J_1 rate_2,   rate_2' += W (J_u - J_1) / J_2 rate_1
+
+v_done is the shift that was reported: what masses do late, limited or not at all is no disturbance
+then, and nothing winds up. A_s = [0, 1; -w^2, -2 w] makes e quicker than A_m would (the companion
+predictor of the same authors). With Q = diag(w^2, 1), A_s^T P + P A_s = -Q gives
+P b = (1, 1/w) / 2; with G = w^3 the poles are -w and w (-1 +- j) / 2 where x is small.
+
+Sampled with a step h, x_hat is exact for inputs held over it, and n = th_hat^T x + s_hat, less what
+is true, follows with y = e^T P b (a left eigenvector of A_s)
+
+    y+ = exp(-w h) y + (h^2 / 2 + h / w) n / 2,      n+ = n - h G (1 + |x|^2) y+
+
+which is stable for G (1 + |x|^2) < 4 (1 + exp(-w h)) / (h^2 (h / 2 + 1 / w)) (Jury). The whole is
+stable for a bounded th if ||(sE - A_m)^-1 b (1 - C)||_L1 L < 1 with L the largest |th|_1
+(``l1_condition``); masses that are late are not in that condition, so the eigenvalues of the
+sampled loop are looked at as well. ``begin`` raises InputError where one of the three fails.
+
+The height is seen by looks at the end only (``height``). Sources: Cao and Hovakimyan 2006 and 2008;
+for balancing Xuan 2016 and Hua 2018, by da Silva et al. 2021 section 5.
+"""
+
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.control.elements.height_adjustment import (
+    Height,
+    Sent,
+    on_the_way,
+    once_level,
+    raised,
+    sees,
+    unseen,
+)
+from equipoise.control.elements.l1_norm import l1_norm
+from equipoise.control.elements.loop_stability import radius, steps_late, swing_input, swing_matrix
+from equipoise.control.law import Law, LawCard
+from equipoise.control.plant.actuator_limits import limited
+from equipoise.control.plant.pendulum import (
+    SPARE,
+    Hanging,
+    hanging,
+    rate_of,
+    shift_for,
+    spared,
+    tilt_of,
+    turned,
+)
+from equipoise.control.plant.settling import Bounds, Rest, Seen, at_depth, bounds, is_quiet, settle
+from equipoise.control.sample import Sample
+from equipoise.model.arrays import Floats, Square, Vector3
+from equipoise.model.command import Command
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate
+from equipoise.model.testbed import Testbed
+
+PERIOD = 0.25  # s, chosen: a fiftieth of a swing
+DAMPING = 0.7  # z, chosen
+PREDICTOR = 4.0  # w over w_m, chosen: four times as fast, with a step of half its time at most
+FILTER = 2.5  # w_c over w_m, chosen: faster than the loop, slower than the predictor
+SURE = 3.0  # sds of the height and of the inertia that th allows for, chosen
+FASTEST = 1.0  # rad/s, chosen: rates at which the adaptation must still be stable
+FLATTEST = 0.01  # chosen: of the depth; a platform that is being lowered may not hang at all yet
+MARGIN = 2.0  # chosen: the platform's swing may be this much faster or slower, squared
+LEVEL = 1e-7  # m, chosen: an offset that counts as none, 1.4e-5 N m for 14 kg
+
+CARD = LawCard(
+    name="l1_adaptive",
+    idea="A predictor of tilt and rate learns the unbalance torque; masses cancel it, filtered.",
+    source="Cao and Hovakimyan 2006, 2008; Xuan 2016, Hua 2018 (da Silva et al. 2021, section 5)",
+    needs=("masses", "gyro", "attitude"),
+    leaves="the height, which it sees by looks at the end only; those know it by the inertia",
+    stable="hanging; sensors and fine masses up to 0.8 s late at 14 kg and steps of 0.25 s, spin "
+    "to 17 deg/s, half to twice the stiffness that is believed",
+    period=PERIOD,
+)
+
+
+class Axis(NamedTuple):
+    """The numbers of one axis."""
+
+    gain: float  # a
+    wanted: float  # w_m, rad/s
+    predictor: float  # w, rad/s
+    share: float  # of the way that C goes in a step
+    most: float  # L, bound of |th_hat|
+    furthest: float  # rad/s^2, bound of s_hat
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What does not change while it runs."""
+
+    plant: Hanging
+    axes: tuple[Axis, Axis]
+    gyroscopic: Floats  # (2,) (J_2 - J_u) / J_1 and (J_u - J_1) / J_2
+    quiet: Bounds
+    target: Vector3
+
+
+class Before(NamedTuple):
+    """What the last sample showed."""
+
+    x: Floats  # (2, 2) tilt and rate
+    frequency: Floats  # (2,) w0, rad/s
+    shift: Vector3  # m
+    spin: float  # rad/s, about u
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """Where it stands; rows of arrays are the two axes."""
+
+    height: Height
+    e: Floats = field(default_factory=lambda: np.zeros((2, 2)))  # rad, rad/s
+    th: Floats = field(default_factory=lambda: np.zeros((2, 2)))  # 1/s^2, 1/s
+    s: Floats = field(default_factory=lambda: np.zeros(2))  # rad/s^2
+    u_ad: Floats = field(default_factory=lambda: np.zeros(2))  # rad/s^2
+    before: Before | None = None
+    rest: Rest = field(default_factory=Rest)
+    level: Vector3 | None = None  # m, the mean shift that last levelled it
+    way: Sent | None = None
+
+
+# --- Predictor and adaptation ----------------------------------------------------------------
+
+
+def error_matrix(w: float, h: float) -> Square:
+    """Return exp(A_s h), A_s = [0, 1; -w^2, -2 w]."""
+    return np.exp(-w * h) * np.array([[1 + w * h, h], [-(w**2) * h, 1 - w * h]])
+
+
+def largest_adaptation(w: float, h: float) -> float:
+    """Return the G (1 + |x|^2) at which the sampled estimates begin to swing up."""
+    return 4 * (1 + np.exp(-w * h)) / (h**2 * (h / 2 + 1 / w))
+
+
+def predicted(axis: Axis, x: Floats, e: Floats, frequency: float, n: float) -> Floats:
+    """Return x_hat a step later; ``n`` is a v_done + th_hat^T x + s_hat, rad/s^2."""
+    free = swing_matrix(frequency, PERIOD) @ x + swing_input(frequency, PERIOD) * n
+    return free + error_matrix(axis.predictor, PERIOD) @ e
+
+
+def adapted(axis: Axis, e: Floats, x: Floats, th: Floats, s: float) -> tuple[Floats, float]:
+    """Return th_hat and s_hat after a step, kept within their bounds (projection)."""
+    slope = -(axis.predictor**3) * (0.5 * e[0] + 0.5 / axis.predictor * e[1])
+    th = limited(th + PERIOD * slope * x, axis.most)
+    return th, float(np.clip(s + PERIOD * slope, -axis.furthest, axis.furthest))
+
+
+# --- Begin -----------------------------------------------------------------------------------
+
+
+def axes_of(plant: Hanging, testbed: Testbed) -> tuple[Axis, Axis]:
+    """Return the numbers of both axes."""
+    made = list[Axis]()
+    for a, w0 in zip(plant.gain, plant.frequency, strict=True):
+        wrong = SURE * (plant.depth_sd / plant.depth + testbed.inertia_sd / SURE) * w0**2
+        share = 1 - np.exp(-FILTER * w0 * PERIOD)
+        numbers = (a, w0, PREDICTOR * w0, share, wrong, a * plant.reach)
+        made.append(Axis(*(float(each) for each in numbers)))
+    return made[0], made[1]
+
+
+def closed(axis: Axis, frequency: float, late: int) -> Square:
+    """Return the sampled loop of one axis: x, e, s_hat, u_ad and the ``late`` last inputs.
+
+    The platform swings at ``frequency``, where the predictor takes it for w_m.
+    """
+    size = 6 + late
+    x, last = np.eye(size)[:2], np.eye(size)[-1]
+    e, s, u_ad = np.eye(size)[2:4], np.eye(size)[4], np.eye(size)[5]
+    new_x = swing_matrix(frequency, PERIOD) @ x
+    new_x += np.outer(swing_input(frequency, PERIOD), last)
+    new_hat = swing_matrix(axis.wanted, PERIOD) @ x
+    new_hat += np.outer(swing_input(axis.wanted, PERIOD), last + s)
+    new_e = new_hat + error_matrix(axis.predictor, PERIOD) @ e - new_x
+    w = axis.predictor
+    new_s = s - PERIOD * w**3 * (0.5 * new_e[0] + 0.5 / w * new_e[1])
+    new_u = u_ad + axis.share * (-s - u_ad)
+    asked = u_ad - 2 * DAMPING * axis.wanted * x[1]
+    rows = [new_x, new_e, new_s[None], new_u[None], asked[None], np.eye(size)[6:-1]]
+    return np.concatenate(rows).astype(np.float64)
+
+
+def refuse(found: str) -> InputError:
+    """Return the error of a testbed on which the law is not stable."""
+    return InputError("law l1_adaptive", found, "a slower swing, surer mass properties")
+
+
+def check(axis: Axis, plant: Hanging, testbed: Testbed) -> None:
+    """Raise InputError where adaptation, L1 condition or the sampled loop is not stable."""
+    w, h = axis.predictor, PERIOD
+    strength = w**3 * (1 + np.sin(testbed.tilt_limit) ** 2 + FASTEST**2)
+    if strength >= largest_adaptation(w, h):
+        raise refuse(f"an adaptation too fast for steps of {h} s: w h = {w * h:.2g}")
+    wanted = np.array([[0.0, 1.0], [-(axis.wanted**2), -2 * DAMPING * axis.wanted]])
+    size = axis.most * l1_norm(wanted, np.array([0.0, 1.0]), FILTER * axis.wanted)
+    if size >= 1:
+        raise refuse(f"an L1 condition of {size:.2g}, not below 1")
+    late = steps_late(plant.delay + plant.filling, h)
+    for factor in (1 / MARGIN, 1.0, MARGIN):
+        loop = closed(axis, axis.wanted * factor**0.5, late)
+        if radius(loop) >= 1:
+            raise refuse(f"an unstable loop at {factor:.2g} times the depth, {late} steps late")
+
+
+def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
+    """Return where the law begins; InputError where it would not be stable."""
+    plant = hanging(testbed)
+    axes = axes_of(plant, testbed)
+    for axis in axes:
+        check(axis, plant, testbed)
+    quiet = bounds(plant, max(LEVEL, 2 * plant.step), 0.5)
+    one, two = plant.axes
+    J = [float(axis @ testbed.body.inertia_P @ axis) for axis in (one, two, plant.up)]
+    gyroscopic = np.array([(J[1] - J[2]) / J[0], (J[2] - J[0]) / J[1]])
+    params = Params(plant, axes, gyroscopic, quiet, target)
+    return State(Height(plant.lowered, plant.depth)), params
+
+
+# --- Step ------------------------------------------------------------------------------------
+
+
+def frequencies(state: State, seen: Sample, plant: Hanging) -> Floats:
+    """Return w0 about both axes while masses raise or lower the platform, rad/s."""
+    above = float(plant.up @ seen.shift) - state.height.along
+    return np.sqrt(plant.gain * max(state.height.depth - above, FLATTEST * plant.depth))
+
+
+def turned_about_up(x: Floats, spin: float, params: Params) -> Floats:
+    """Return what turning about the vertical (rad/s) does to x, per second."""
+    (tilt_1, rate_1), (tilt_2, rate_2) = x
+    one, two = params.gyroscopic
+    return spin * np.array([[tilt_2, one * rate_2], [-tilt_1, two * rate_1]])
+
+
+def learnt(state: State, x: Floats, seen: Sample, params: Params) -> State:
+    """Return the state with the error of the prediction for now, and what that teaches."""
+    before, plant = state.before, params.plant
+    if before is None:
+        return replace(state, e=np.zeros((2, 2)))
+    v = turned(plant, (before.shift + seen.shift) / 2)
+    th, s, e = np.zeros((2, 2)), np.zeros(2), np.zeros((2, 2))
+    turning = turned_about_up(before.x, before.spin, params)
+    for i, axis in enumerate(params.axes):
+        n = axis.gain * float(v[i]) + matched(state, before.x)[i]
+        x_hat = predicted(axis, before.x[i], state.e[i], float(before.frequency[i]), n)
+        e[i] = x_hat + PERIOD * turning[i] - x[i]
+        th[i], s[i] = adapted(axis, e[i], x[i], state.th[i], float(state.s[i]))
+    return replace(state, th=th, s=s, e=e)
+
+
+def matched(state: State, x: Floats) -> Floats:
+    """Return th_hat^T x + s_hat about both axes, rad/s^2."""
+    return np.sum(state.th * x, axis=1) + state.s
+
+
+def filtered(state: State, x: Floats, params: Params) -> Floats:
+    """Return u_ad after a step, no faster than masses can follow, rad/s^2."""
+    share = np.array([axis.share for axis in params.axes])
+    way = share * (-matched(state, x) - state.u_ad) / params.plant.gain
+    most = params.plant.slew * PERIOD * (1 - SPARE)
+    return state.u_ad + params.plant.gain * limited(way, most)
+
+
+def controlled(state: State, x: Floats, w0: Floats, params: Params) -> Vector3:
+    """Return the shift (m) that is asked."""
+    plant = params.plant
+    wanted = np.array([axis.wanted for axis in params.axes])
+    p, d = (wanted**2 - w0**2).clip(0) / plant.gain, 2 * DAMPING * wanted / plant.gain
+    f = spared(plant, p, d, x[:, 0], x[:, 1])
+    v = state.u_ad / plant.gain - f * (p * x[:, 0] + d * x[:, 1])
+    return shift_for(plant, limited(v, plant.reach)) + state.height.along * plant.up
+
+
+def sample_step(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+    """Return the next state and command after a sample."""
+    plant = params.plant
+    tilt, rate = tilt_of(plant, seen), rate_of(plant, seen)
+    x, w0 = np.column_stack([tilt, rate]), frequencies(state, seen, plant)
+    spin = float(plant.up @ seen.rate)
+    state = learnt(state, x, seen, params)
+    state = replace(state, u_ad=filtered(state, x, params))
+    now = Seen(seen.t, tilt, rate, seen.shift)
+    quiet = at_depth(params.quiet, plant.depth, state.height.depth)
+    rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
+    state = replace(state, rest=rest, before=Before(x, w0, seen.shift, spin))
+    if not is_quiet(rest, seen.t, quiet):
+        return state, Command(shift=controlled(state, x, w0, params))
+    way = once_level(plant, state.height, seen, rest.shift, params.target)
+    return replace(state, level=rest.shift, way=way), Command(shift=way.goal)
+
+
+def look_step(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
+    """Return what follows a look."""
+    assert state.level is not None
+    if not sees(seen):
+        assert state.way is not None
+        way = unseen(params.plant, seen, state.way, state.level)
+        return replace(state, way=way), Command(shift=way.goal)
+    height = raised(params.plant, state.height, seen, params.target)
+    shift = shift_for(params.plant, turned(params.plant, state.level))
+    note = f"raised to {height.depth * 1e6:.3g} um below the target"
+    state = replace(state, height=height, rest=Rest(), way=None, before=None)
+    return state, Command(shift=shift + height.along * params.plant.up, note=note)
+
+
+def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+    """Return the next state and command."""
+    if isinstance(seen, Estimate):
+        return look_step(state, seen, params)
+    if state.way is not None:
+        return state, on_the_way(params.plant, state.way, seen)
+    return sample_step(state, seen, params)
+
+
+LAW = Law(CARD, begin, step)

@@ -1,0 +1,343 @@
+"""Wheel momentum build-up: hold tilted attitudes and read r from what the wheels take up.
+
+    L' = R (m r x g_B) + ...,     L = R (J w + h)
+
+Wheels hold the platform at one tilted attitude after another, and what gravity puts in is on their
+speed. All samples enter one account (``momentum_ledger``): r, sag and drift come out together, with
+their covariance. Inertia is not needed. The course:
+
+    catch    level, then a small tilt; every second the masses follow the estimate
+    holds    opposite pairs of tilts, so that what r_z puts in is taken out again; before each, the
+             masses go to the goal when what is known of it is worth more than a move's error
+    last     the masses go to the goal as it is known by then
+
+The goal is the target and, on a platform that sags, the height that trims it (``sag_trim``) above
+it: the torque left within RANGE of level is then the least that masses standing still leave. When
+the law has ended, masses can follow the tilt by the sag that was found, and leave less
+(``control.follow``). In the catch, and when wheels have
+filled to FULL until they are EMPTY, masses are set off the goal so that gravity takes the
+horizontal momentum out again, no further than is soon travelled:
+
+    shift = goal - r + g_B x (R^T tau) / (m g^2),    tau = -UNLOAD L
+
+The seconds of a hold are the fewest of CHOICES for which the covariance foreseen leaves the goal
+known to WANTED within LONGEST; else the most that fit into it.
+
+(Hatcher and Young 1968 with wheels for jets; the trim is that of ``dynamics.sag_trim``.)
+"""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from equipoise.control.elements.attitude_pid import Gains, Pid, gains_for, torque, unwound
+from equipoise.control.elements.buildup_plan import Stage, foreseen, stages_of
+from equipoise.control.elements.momentum_balance import (
+    STANDS,
+    TERM,
+    Book,
+    Ledger,
+    book_of,
+    com_map,
+    drift_of,
+    entered,
+    opened,
+    sag_of,
+    stop_variance,
+)
+from equipoise.control.elements.slew import (
+    Pace,
+    Slew,
+    end_of,
+    levelled,
+    moment_across,
+    pace_for,
+    reference_at,
+    slew,
+    turned,
+)
+from equipoise.control.law import Law, LawCard
+from equipoise.control.plant.wheel_capacity import capacity
+from equipoise.control.sample import Sample
+from equipoise.dynamics.sag_trim import sag_matrix, trimmed_com
+from equipoise.maths.attitude import to_matrix
+from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
+from equipoise.model.command import Command
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate
+from equipoise.model.following import Following
+from equipoise.model.testbed import Testbed
+
+PERIOD = 0.1  # s
+RANGE = float(np.radians(20))  # rad, chosen: over which the torque that is left counts
+SHARE = 0.7  # of the tilt limit, chosen: the most that is held
+CHOICES = (10.0, 14.0, 20.0, 28.0, 40.0)  # s of a hold
+WANTED = 0.03e-6  # m, chosen: one sd of the goal per axis
+LONGEST = 420.0  # s, chosen: with catches that take longer still below eight minutes
+FOLLOW = 1.0  # s, chosen: between moves while the masses follow
+UNLOAD = 0.1  # 1/s, chosen: slow against masses that travel 20 um in two seconds
+SOON = 0.2  # chosen: share of 1/UNLOAD in which masses reach what unloads
+FULL, EMPTY = 0.45, 0.1  # of the momentum that wheels can take, chosen: a turn needs half
+AHEAD = 60.0  # s, chosen: drift goes on, and is at the goal in the middle of the next two minutes
+LATE = 4  # chosen: holds before which no coarse mass is moved any more
+DOUBT = 2.0  # sds of the goal, chosen: a change that is worth a move during the holds
+COARSE = 0.1e-6  # m, chosen: one sd of a stop that only a coarse mass has
+CLEAR = 0.15e-6  # m, chosen: one sd of the goal at the end; more is worth another pair of holds
+PATIENCE = 60.0  # s, chosen: for masses that do not arrive
+SETTLED = 1.0  # s, chosen: masses that then stand have arrived
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What is told."""
+
+    book: Book
+    gains: Gains
+    testbed: Testbed
+    target: Vector3  # m
+    trim: Floats  # (3, k) what each torque term asks of the goal
+    stages: tuple[Stage, ...]
+    pace: Pace
+    momentum: float  # N m s, that wheels can take
+    reach: float  # m, the most that masses are set off to unload
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """How far it has come."""
+
+    ledger: Ledger | None = None
+    pid: Pid = field(default_factory=unwound)
+    level: Quaternion | None = None  # the level attitude with the first heading
+    turn: Slew | None = None
+    stage: int = 0
+    due: float = 0.0  # s, when this stage ends
+    shift: Vector3 | None = None  # m, last asked for
+    followed: float = -np.inf  # s, when the masses last followed
+    unloading: bool = False
+    again: bool = False  # the last pair of holds is taken a second time
+    closing: float | None = None  # s, when it is level after the last move
+
+
+def reach_of(testbed: Testbed) -> float:
+    """Return how far (m) the masses may be set off so that they are soon there."""
+    speeds = [m.mass * m.speed / testbed.body.mass for m in testbed.masses]
+    return SOON / UNLOAD * max(speeds, default=0.0)
+
+
+def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
+    """Return the beginning; InputError without a gyro, masses, or wheels along all axes."""
+    can = capacity(testbed)
+    if can.torque <= 0 or testbed.gyro is None or not testbed.masses:
+        raise InputError("momentum_buildup", "a testbed without them",
+                         "sliding masses, a gyro, and wheels or gyros along all axes")  # fmt: skip
+    book = book_of(testbed)
+    tilt = min(RANGE, SHARE * testbed.tilt_limit)
+    trims = [trimmed_com(sag_matrix({term: 1.0}), testbed.up, tilt) for term in book.terms]
+    trim = np.array(trims).reshape(-1, 3).T
+    pace = pace_for(moment_across(testbed.body.inertia_P, testbed.up), can)
+    stages = planned(testbed, book, trim, pace)
+    loop = gains_for(testbed.body.inertia_P, can.torque)
+    return State(), Params(
+        book, loop, testbed, target, trim, stages, pace, can.momentum, reach_of(testbed)
+    )
+
+
+def planned(testbed: Testbed, book: Book, trim: Floats, pace: Pace) -> tuple[Stage, ...]:
+    """Return the stages with the seconds of a hold that the covariance foreseen asks for."""
+    tilt = min(RANGE, SHARE * testbed.tilt_limit)
+    best = stages_of(testbed.up, tilt, CHOICES[0])
+    for hold in CHOICES:
+        stages = stages_of(testbed.up, tilt, hold)
+        ledger = foreseen(stages, testbed, book, pace)
+        if ledger.t > LONGEST:
+            break
+        best = stages
+        covariance = off_goal(ledger, np.zeros(3), trim, book)[1]
+        if float(np.diag(covariance).max()) <= WANTED**2:
+            break
+    return best
+
+
+def off_goal(
+    ledger: Ledger, shift: Vector3, trim: Floats, book: Book, ahead: float = AHEAD
+) -> tuple[Vector3, Matrix3]:
+    """Return how far the centre of mass is from what trims the platform, and the covariance."""
+    G = com_map(ledger, book, ahead)
+    G[:, TERM:] -= trim
+    return G @ ledger.x + shift, G @ ledger.P @ G.T
+
+
+def unloading(ledger: Ledger, seen: Sample, params: Params) -> Vector3:
+    """Return how far (m) off the goal gravity takes the horizontal momentum out."""
+    outward = -UNLOAD * np.array([ledger.x[0], ledger.x[1], 0.0])
+    g = seen.gravity
+    off = np.cross(g, to_matrix(seen.q).T @ outward) / (params.book.mass * (g @ g))
+    size = float(np.linalg.norm(off))
+    return off * min(1.0, params.reach / max(size, 1e-12))
+
+
+def weight_moment(ledger: Ledger, seen: Sample, params: Params) -> Vector3:
+    """Return m (r + s + C n) as believed, kg m, for the feed-forward."""
+    book = params.book
+    down = seen.gravity / float(np.linalg.norm(seen.gravity))
+    com = com_map(ledger, book) @ ledger.x
+    return book.mass * (com + seen.shift + sag_of(ledger, book) @ down)
+
+
+def home_to_goal(ledger: Ledger, params: Params) -> tuple[Vector3, Matrix3]:
+    """Return the shift (m) that brings the centre of mass to its goal, and the covariance."""
+    off, covariance = off_goal(ledger, -params.target, params.trim, params.book)
+    return -off, covariance
+
+
+def shift_for(state: State, seen: Sample, params: Params) -> State:
+    """Return the state with the shift that this step asks for."""
+    assert state.ledger is not None
+    follows = state.unloading or params.stages[state.stage].follows
+    if not follows or seen.t < state.followed + FOLLOW:
+        return state
+    wanted = home_to_goal(state.ledger, params)[0] + unloading(state.ledger, seen, params)
+    return replace(state, shift=wanted, followed=seen.t)
+
+
+def retrimmed(
+    state: State, seen: Sample, params: Params, doubt: float, late: bool = False
+) -> State:
+    """Return the state with the masses sent to the goal, if the change is beyond their errors.
+
+    It must be beyond ``doubt`` sds of the goal, too; ``late``, no coarse mass must have to move.
+    """
+    assert state.ledger is not None
+    wanted, covariance = home_to_goal(state.ledger, params)
+    change: Vector3 = wanted - seen.shift
+    stops = float(np.sum(stop_variance(change, params.book)))
+    unsure = stops + doubt**2 * float(np.trace(covariance))
+    if (late and stops > COARSE**2) or change @ change < unsure:
+        return state
+    return replace(state, shift=wanted)
+
+
+def guarded(state: State, seen: Sample, params: Params) -> State:
+    """Return the state with the unloading begun, gone on with, or ended; the hold waits for it.
+
+    What a turn borrows of the wheels' momentum comes back by itself and does not count.
+    """
+    assert state.ledger is not None
+    size = float(np.linalg.norm(state.ledger.x[:2])) / params.momentum
+    if not state.unloading:
+        return replace(state, unloading=size > FULL)
+    if size > EMPTY:
+        return replace(state, due=state.due + PERIOD)
+    return retrimmed(replace(state, unloading=False), seen, params, 0.0)
+
+
+def entered_stage(state: State, seen: Sample, params: Params) -> State:
+    """Return the state at the beginning of its stage: the turn there, the masses to the goal."""
+    stage = params.stages[state.stage]
+    base = state.level if state.level is not None else levelled(seen.q, params.testbed.up)
+    here = seen.q if state.turn is None else reference_at(state.turn, np.inf).q
+    way = slew(here, turned(base, stage.turn), seen.t, params.pace)
+    state = replace(state, level=base, turn=way, due=end_of(way) + stage.seconds)
+    late = state.stage >= len(params.stages) - LATE
+    return state if stage.follows else retrimmed(state, seen, params, DOUBT, late)
+
+
+def advanced(state: State, seen: Sample, params: Params) -> State:
+    """Return the state in the stage that this time is in."""
+    if state.turn is None:
+        return entered_stage(state, seen, params)
+    if seen.t < state.due or state.closing is not None:
+        return state
+    if state.stage + 1 < len(params.stages):
+        return entered_stage(replace(state, stage=state.stage + 1), seen, params)
+    return closed(state, seen, params)
+
+
+def closed(state: State, seen: Sample, params: Params) -> State:
+    """Return the state with the last move asked for, or the last pair of holds taken once more.
+
+    That is when the goal is left in more doubt than is wanted, or would be by the move: masses of
+    coarse steps stop where they will, now or when wheels were unloaded late. After it only fine
+    ones have to move.
+    """
+    moved = retrimmed(state, seen, params, 0.0)
+    assert moved.shift is not None
+    assert state.ledger is not None
+    stops = stop_variance(moved.shift - seen.shift, params.book)
+    doubt = np.diag(home_to_goal(state.ledger, params)[1])
+    if state.again or float((stops + doubt).max()) <= CLEAR**2:
+        return homeward(moved, seen, params)
+    return entered_stage(replace(moved, again=True, stage=state.stage - 1), seen, params)
+
+
+def homeward(state: State, seen: Sample, params: Params) -> State:
+    """Return the state on its way back to level, where a swing proves most; sag is least there."""
+    assert state.turn is not None
+    assert state.level is not None
+    way = slew(reference_at(state.turn, np.inf).q, state.level, seen.t, params.pace)
+    return replace(state, turn=way, closing=end_of(way))
+
+
+def ended(state: State, seen: Sample) -> bool:
+    """Say whether the last move is made, or is waited for no longer."""
+    if state.closing is None or state.ledger is None or seen.t < state.closing + SETTLED:
+        return False
+    stands = bool(np.linalg.norm(seen.shift - state.ledger.stood) <= STANDS)
+    return stands or seen.t > state.closing + PATIENCE
+
+
+def following(ledger: Ledger, params: Params) -> Following:
+    """Return what masses can follow from now on: the sag, and the drift."""
+    book = params.book
+    off, _ = off_goal(ledger, -params.target, params.trim, book, 0.0)
+    sag, trim = sag_of(ledger, book), params.trim @ ledger.x[TERM:]
+    return Following(-off, ledger.t, drift_of(ledger, book), sag, trim)
+
+
+def report(ledger: Ledger, shift: Vector3, params: Params) -> str:
+    """Return where the centre of mass is believed to be, in words."""
+    off, covariance = off_goal(ledger, shift - params.target, params.trim, params.book)
+    parts = zip(1e6 * off, 1e6 * np.sqrt(np.diag(covariance)), strict=True)
+    text = ", ".join(f"{value:.3f} +/- {sd:.3f}" for value, sd in parts)
+    return f"The centre of mass is ({text}) um off what was wanted."
+
+
+def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+    """Return the next state and the command: torque at every step, masses when they should move."""
+    assert isinstance(seen, Sample)  # no look is ever asked for
+    ledger = state.ledger
+    ledger = opened(params.testbed, params.book, seen) if ledger is None else entered(
+        ledger, seen, params.book)  # fmt: skip
+    state = advanced(replace(state, ledger=ledger), seen, params)
+    if state.closing is None:
+        state = shift_for(guarded(state, seen, params), seen, params)
+    assert state.turn is not None
+    reference = reference_at(state.turn, seen.t)
+    moment = weight_moment(ledger, seen, params)
+    pid, u = torque(state.pid, seen, reference, params.gains, moment)
+    asked = Command(shift=state.shift, torque=u)
+    if ended(state, seen):
+        said = report(ledger, seen.shift, params)
+        asked = replace(asked, finished=said, following=following(ledger, params))
+    return replace(state, pid=pid), asked
+
+
+LAW = Law(
+    LawCard(
+        "momentum_buildup",
+        "Holds tilted attitudes by wheels and reads the centre of mass, sag and drift from what "
+        "they take up.",
+        "Equipoise; Hatcher and Young 1968 with wheels for jets",
+        ("masses", "momentum", "gyro", "attitude"),
+        "what no centre of mass trims of the sag, 12 uN m rms within 20 deg for 25 um, and drift "
+        "after the last move, unless masses follow both; momentum about the vertical. A torque of "
+        "the air that keeps its sign for minutes is taken for an offset",
+        "steps of 0.1 s; offsets whose weight is twice what the wheels can turn against, 75 um at "
+        "14 kg and 5 mN m, on either side of the pivot; wheels of 20 mN m s there",
+        PERIOD,
+        follows=True,
+    ),
+    begin,
+    step,
+)

@@ -1,0 +1,301 @@
+"""PID on tilt by sliding masses, tuned by a relay experiment after Ziegler and Nichols.
+
+On each of two horizontal axes of a platform that hangs (``hanging``; a = m g / J)
+
+    theta'' = -w0^2 theta + a (c + v),      c = u x r,  v = u x s
+    v = -f (K_p theta + K_d rate) - I,      I' = f K_i theta - (v_done - v_asked) / T_a
+    f = min(1, SPARE R / |slope of the demand|)                             (``hanging.spared``)
+
+The derivative is the gyro's rate, not a differenced angle. The integral carries v to -c, so the
+tilt goes to zero and with it the sideways part of r + s; its height this loop does not see. v_done
+is the shift that the last Sample reports: an integral whose command was not delivered unwinds
+(back-calculation: Astrom and Wittenmark; T_a = K_p / K_i). f keeps the demand of a large swing as
+slow as the masses are (R, m/s). K_i goes down with the swing's frequency where the platform has
+been raised, for a shallow pendulum does not bear the integral of a deep one.
+
+    1 settle   -f K_d rate, with calculated gains, while masses lower the centre of mass
+    2 relay    +-d about the rest tilt, both axes at once: K_u and T_u (``ziegler_nichols``)
+    3 level    the PID, until tilt, rate and shift stay quiet (``quiet``)
+    4 look     at the swinging platform, which tells its height (``height``); then level again,
+               from further up, and at the end a last shift to the target
+
+Source: Ziegler and Nichols 1942, and their use for balancing in da Silva et al. 2021 section 5.
+Their test, proportional action alone turned up until the loop just oscillates, cannot be done here:
+without damping it oscillates at every gain. It is done on tilt and rate together, and T_u is set by
+the masses' lag. ``begin`` raises InputError where masses cannot make the platform hang, are too
+slow or coarse for the relay, or where the sampled loop is not stable at half to twice the gains.
+"""
+
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Literal
+
+import numpy as np
+
+from equipoise.control.elements.height_adjustment import (
+    Height,
+    Sent,
+    on_the_way,
+    once_level,
+    raised,
+    sees,
+    unseen,
+)
+from equipoise.control.elements.loop_stability import Sampled, closed, radius, steps_late
+from equipoise.control.elements.ziegler_nichols import (
+    CYCLES_IN,
+    CYCLES_USED,
+    Gains,
+    Loop,
+    Relay,
+    Ultimate,
+    band_of,
+    has_settled,
+    measured,
+    relay_step,
+    rule,
+    ultimate,
+)
+from equipoise.control.law import Law, LawCard
+from equipoise.control.plant.actuator_limits import limited
+from equipoise.control.plant.pendulum import (
+    Hanging,
+    hanging,
+    rate_of,
+    shift_for,
+    spared,
+    tilt_of,
+    turned,
+)
+from equipoise.control.plant.settling import Bounds, Rest, Seen, at_depth, bounds, is_quiet, settle
+from equipoise.control.sample import Sample
+from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.command import Command
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate
+from equipoise.model.testbed import Testbed
+
+PERIOD = 0.25  # s, chosen: a fiftieth of a swing
+LATE = 0.5  # chosen: the share of the lead that masses and sensors may be late in the relay's cycle
+STEPS = 4  # chosen: motor steps in the relay's amplitude, at the least
+PATIENCE = 3.0  # chosen: of the calculated time, before the relay is given up
+FAR = 2.0  # chosen: a measured gain further than this factor from the calculated one is not taken
+MARGIN = 2.0  # chosen: the gains may be wrong by this factor
+RAISED = 0.1  # chosen: of the swing's frequency, for a platform that has been raised
+ROUGH = 0.005  # chosen: of the depth, an offset that counts as none before the first look
+LEVEL = 1e-7  # m, chosen: an offset that counts as none, 1.4e-5 N m for 14 kg
+
+CARD = LawCard(
+    name="pid",
+    idea="Tilt, its integral and the gyro's rate move the masses; a relay finds the gains.",
+    source="Ziegler and Nichols 1942; Astrom and Hagglund 1984; da Silva et al. 2021, section 5",
+    needs=("masses", "gyro", "attitude"),
+    leaves="the height, which it sees by looks at the end only; those know it by the inertia",
+    stable="hanging; sensors and fine masses up to 0.6 s late at 14 kg and steps of 0.25 s, spin "
+    "to 17 deg/s; masses of 1.4 um/s too; a swing beyond what masses can follow is damped slowly",
+    period=PERIOD,
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What does not change while it runs."""
+
+    plant: Hanging
+    loops: tuple[Loop, Loop]
+    cycles: tuple[Ultimate, Ultimate]  # calculated
+    gains: tuple[Gains, Gains]  # calculated
+    calm: Bounds  # before the relay
+    rough: Bounds  # before the first look
+    quiet: Bounds  # after it
+    target: Vector3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """Where it stands."""
+
+    phase: Literal["settle", "relay", "level"]
+    gains: tuple[Gains, Gains]
+    rest: Rest
+    height: Height
+    asked: Vector3 | None = None  # m, the last shift
+    integral: Floats | None = None  # (2,) m
+    relays: tuple[Relay, Relay] = (Relay(), Relay())
+    started: float = 0.0  # s, the relay
+    level: Vector3 | None = None  # m, the mean shift that last levelled it
+    way: Sent | None = None
+
+
+# --- Begin -----------------------------------------------------------------------------------
+
+
+def loop_of(plant: Hanging, axis: int) -> Loop:
+    """Return one axis with its lead and its relay; InputError for masses too slow or coarse."""
+    frequency = float(plant.frequency[axis])
+    lead, delay = 1 / frequency, plant.delay + PERIOD / 2
+    relay = plant.slew * (LATE * lead - delay)
+    if relay < STEPS * plant.step or relay <= 0:
+        raise InputError(
+            "law pid",
+            f"masses that shift the centre of mass by {plant.slew * 1e6:.3g} um/s in steps of "
+            f"{plant.step * 1e6:.3g} um, {delay:.2g} s late",
+            f"{STEPS} steps in {LATE * lead:.2g} s, a quarter of a hanging swing's radian",
+        )
+    return Loop(float(plant.gain[axis]), frequency, lead, delay, plant.slew, relay)
+
+
+def check(loop: Loop, gains: Gains, delay: float) -> None:
+    """Raise InputError where the sampled loop is unstable at half or twice the gains."""
+    axis = Sampled(loop.gain, loop.frequency, PERIOD, steps_late(delay, PERIOD))
+    for factor, share in product((1 / MARGIN, 1.0, MARGIN), (1.0, RAISED)):
+        at = axis._replace(frequency=share * axis.frequency)
+        p, i, d = np.array(gains) * factor
+        size = radius(closed(at, Gains(p, share * i, d)))
+        if size >= 1:
+            raise InputError(
+                "law pid",
+                f"a loop that is unstable at {factor:.2g} times its gains, sampled every "
+                f"{PERIOD} s and {delay:.2g} s late",
+                "sensors less late, fine masses that soon make up a coarse step, a slower platform",
+            )
+
+
+def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
+    """Return where the law begins; InputError where it would not be stable."""
+    plant = hanging(testbed)
+    loops = (loop_of(plant, 0), loop_of(plant, 1))
+    cycles = (ultimate(loops[0]), ultimate(loops[1]))
+    first, second = (rule(c, loop.lead) for c, loop in zip(cycles, loops, strict=True))
+    for loop, gains in zip(loops, (first, second), strict=True):
+        check(loop, gains, plant.delay + plant.filling)
+    calm = bounds(plant, 0.3 * loops[0].relay, 0.5)
+    quiet = bounds(plant, max(LEVEL, 2 * plant.step), 0.5)
+    rough = bounds(plant, max(quiet.shift, ROUGH * plant.depth), 0.5)
+    params = Params(plant, loops, cycles, (first, second), calm, rough, quiet, target)
+    return State("settle", params.gains, Rest(), Height(plant.lowered, plant.depth)), params
+
+
+# --- Step ------------------------------------------------------------------------------------
+
+
+def asked_shift(state: State, plant: Hanging, v: Floats) -> Vector3:
+    """Return the shift (m) that gives v within reach, and the height that is wanted."""
+    return shift_for(plant, limited(v, plant.reach)) + state.height.along * plant.up
+
+
+def damping(state: State, seen: Sample, params: Params) -> Floats:
+    """Return -f K_d rate, m."""
+    rate = rate_of(params.plant, seen)
+    d = np.array([gains.derivative for gains in state.gains])
+    return -spared(params.plant, 0 * d, d, np.zeros(2), rate) * d * rate
+
+
+def settle_phase(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+    """Return the next step of the first phase."""
+    plant = params.plant
+    now = Seen(seen.t, tilt_of(plant, seen), rate_of(plant, seen), seen.shift)
+    rest = settle(state.rest, now, PERIOD, params.calm)
+    v = damping(state, seen, params)
+    state = replace(state, rest=rest)
+    note = ""
+    if is_quiet(rest, seen.t, params.calm):
+        state = replace(state, phase="relay", started=seen.t)
+        note = "hangs at rest; the relay experiment begins"
+    return state, Command(shift=asked_shift(state, plant, v), note=note)
+
+
+def relay_v(state: State, seen: Sample, params: Params) -> tuple[State, Floats]:
+    """Return the relays after a sample, and v (m)."""
+    tilt = tilt_of(params.plant, seen) - state.rest.tilt
+    rate = rate_of(params.plant, seen)
+    relays, v = list(state.relays), damping(state, seen, params)
+    for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
+        if not has_settled(relay):
+            band = band_of(loop, params.cycles[i])
+            sigma = float(tilt[i] + loop.lead * rate[i])
+            relays[i] = relay_step(relay, seen.t, sigma, band)
+            v[i] = relays[i].output * loop.relay
+    return replace(state, relays=(relays[0], relays[1])), v
+
+
+def tuned(state: State, params: Params) -> tuple[tuple[Gains, Gains], str]:
+    """Return the gains by the experiment, or the calculated ones where it is not to be trusted."""
+    found, notes = list[Gains](), list[str]()
+    for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
+        cycle = measured(relay, loop.relay) if has_settled(relay) else None
+        expected = params.cycles[i]
+        if cycle is None or not 1 / FAR < cycle.gain / expected.gain < FAR:
+            found.append(params.gains[i])
+            notes.append("no cycle to be trusted, calculated gains")
+        else:
+            found.append(rule(cycle, loop.lead))
+            notes.append(
+                f"K_u {cycle.gain * 1e6:.3g} um/rad, T_u {cycle.period:.3g} s "
+                f"(calculated {expected.gain * 1e6:.3g} and {expected.period:.3g})"
+            )
+    return (found[0], found[1]), "; ".join(notes)
+
+
+def relay_phase(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+    """Return the next step of the experiment."""
+    state, v = relay_v(state, seen, params)
+    note = ""
+    longest = max(cycle.period for cycle in params.cycles)
+    late = seen.t - state.started > PATIENCE * (CYCLES_IN + CYCLES_USED + 1) * longest
+    if late or all(has_settled(relay) for relay in state.relays):
+        gains, note = tuned(state, params)
+        state = replace(state, phase="level", gains=gains, rest=Rest(), integral=np.zeros(2))
+    shift = asked_shift(state, params.plant, v)
+    return replace(state, asked=shift), Command(shift=shift, note=note)
+
+
+def level_phase(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+    """Return the next step of the PID."""
+    plant = params.plant
+    tilt, rate = tilt_of(plant, seen), rate_of(plant, seen)
+    assert state.integral is not None
+    assert state.asked is not None
+    p, i, d = np.array(state.gains).T
+    i = i * (state.height.depth / plant.depth) ** 0.5
+    f = spared(plant, p, d, tilt, rate)
+    undelivered = turned(plant, seen.shift - state.asked)
+    integral = state.integral + PERIOD * (f * i * tilt - undelivered * i / p)
+    shift = asked_shift(state, plant, -f * (p * tilt + d * rate) - integral)
+    now = Seen(seen.t, tilt, rate, seen.shift)
+    wanted = params.quiet if state.height.looks else params.rough
+    quiet = at_depth(wanted, plant.depth, state.height.depth)
+    rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
+    state = replace(state, integral=integral, asked=shift, rest=rest)
+    if not is_quiet(rest, seen.t, quiet):
+        return state, Command(shift=shift)
+    way = once_level(plant, state.height, seen, rest.shift, params.target)
+    return replace(state, level=rest.shift, way=way), Command(shift=way.goal)
+
+
+def look_phase(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
+    """Return what follows a look."""
+    assert state.level is not None
+    if not sees(seen):
+        assert state.way is not None
+        way = unseen(params.plant, seen, state.way, state.level)
+        return replace(state, way=way), Command(shift=way.goal)
+    height = raised(params.plant, state.height, seen, params.target)
+    state = replace(state, phase="level", height=height, rest=Rest(), way=None)
+    assert state.integral is not None
+    shift = asked_shift(state, params.plant, -state.integral)
+    note = f"raised to {height.depth * 1e6:.3g} um below the target"
+    return replace(state, asked=shift), Command(shift=shift, note=note)
+
+
+def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+    """Return the next state and command."""
+    if isinstance(seen, Estimate):
+        return look_phase(state, seen, params)
+    if state.way is not None:
+        return state, on_the_way(params.plant, state.way, seen)
+    phases = {"settle": settle_phase, "relay": relay_phase, "level": level_phase}
+    return phases[state.phase](state, seen, params)
+
+
+LAW = Law(CARD, begin, step)

@@ -1,0 +1,267 @@
+"""Balance with masses alone in two steps, again and again (Chesi 2014; Bahu & Modenini 2020).
+
+    follow   the tilt feedback levels the platform: across gravity it is balanced, nearly
+    push     the masses go aside for a second, and back: the platform swings
+    look     masses still; the swing is recorded and the centre of mass estimated from it
+    trim     the masses move along up by what the look says is missing; then again from the start;
+             the last time they level only, and the platform rests
+
+The push moves the centre of mass by d for PUSH seconds, so that the platform turns at
+
+    w = m g d PUSH / J = SWING tilt_limit / LOOK
+
+and gets at most about SWING of the way to its limit during the look. Before the first step the
+centre of mass is lowered by twice its sd, so that the platform does not stand on its head when the
+masses hold still; so a look ends near where it began, or swings.
+
+Every round begins anew with what the masses report: rh(0) = -shift across up. Published rounds add
+nothing to one another but the smaller height; begun so, each leaves |r_up| / (|r_up| + X) of what
+the last one left. Rounds end when the look finds no more than a motor step, or no gain.
+
+From the look only the height is used. The method is ``ukf_4`` (rate and r_up) when com across up
+is known to ACROSS beforehand: it takes that from the testbed, and knows nothing of what the masses
+did about it in the first step. Else it is ``trajectory`` with the testbed's inertia and its sd,
+which finds all of com. The record begins with the push: a known change, by which the scale of J is
+seen. A J that is wrong yet makes r_up wrong by the same share, and the next round takes that away
+but for the share of the target's own depth.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from equipoise.control.elements.tilt_feedback import (
+    Gains,
+    followed,
+    frequency_for,
+    gains_at,
+    owed,
+    settling,
+    shift_for,
+    swing_of,
+)
+from equipoise.control.plant.actuator_limits import greatest_shift, greatest_slew, limited
+from equipoise.control.plant.offset_bounds import (
+    LIKELY,
+    across,
+    around,
+    coarsest_step,
+    height_sd,
+    level_inertia,
+    likely_height,
+)
+from equipoise.control.plant.swing_estimates import of_group
+from equipoise.control.sample import Sample
+from equipoise.model.arrays import Vector3
+from equipoise.model.command import Command, Look
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import COM, Estimate
+from equipoise.model.testbed import Testbed
+
+PERIOD = 0.1  # s, chosen: a servo's beat
+SETTLED = 8.0  # time constants, chosen: 3e-4 of the swing is left
+PAY = 0.3  # chosen: of the masses' speed
+MEAN = 1.0  # s, chosen: at the end of a follow, over which the rest is averaged
+PUSH = 1.0  # s
+BACK = 10.0  # s, chosen: masses that are not back by then stand still
+LOOK = 20.0  # s
+SWING = 0.4  # of the tilt limit, chosen
+ACROSS = 2e-6  # m, chosen: com_sd across up at which ukf_4 may be believed
+LATE = 2.0  # motor steps, chosen: masses farther than that from where they should be are late
+NEAR = 1e-6  # m, chosen: masses without steps are not late when they are as near as that
+GAIN = 0.8  # chosen: a round that leaves more than that of the one before is no gain
+LEAST = 1e-7  # m, chosen: what masses without steps may leave
+ROUNDS = 6  # chosen
+
+Phase = Literal["follow", "push", "back", "look"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Params:
+    """What does not change from step to step."""
+
+    gains: Gains
+    look: Look
+    push: float  # m, by which the masses go aside
+    follow: int  # steps until the platform rests
+    tolerance: float  # m, what a motor step leaves
+    late: float  # m, off what was asked: the masses are on their way
+    pay: float  # m, of what is owed, in a step
+    target: float  # m, along up
+    tilt_limit: float  # rad
+    rounds: int = ROUNDS
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """Where the law stands."""
+
+    held: Vector3  # m, rh; of a round that begins, what is believed
+    height: float  # m, shift along up
+    gravity: Vector3 | None = None  # m/s^2, at the last step; None: a round begins
+    owed: Vector3 | None = None  # m, what rh has yet to get for the tilt at which the round began
+    phase: Phase = "follow"
+    step: int = 0  # of the phase
+    asked: Vector3 | None = None  # m, shift at the last step
+    rest: Vector3 | None = None  # m, sum of shifts asked in the last second of a follow
+    level: Vector3 | None = None  # sum of P_up g_b / g then
+    since: float = 0.0  # s, when the push began
+    rounds: int = 0  # looks made
+    left: float = np.inf  # m, what the last look found
+    ending: str = ""  # why this follow is the last
+
+
+def method_for(testbed: Testbed) -> Look:
+    """Return the look that this testbed allows; InputError if there is none."""
+    spread = across(testbed.up) @ testbed.com_sd
+    if testbed.attitude is None or testbed.gyro is None:
+        raise InputError(testbed.name, "no gyro, or no attitude sensor", "both")
+    if float(np.linalg.norm(spread)) <= ACROSS:
+        return Look(LOOK, "ukf_4")
+    return Look(LOOK, "trajectory", hold=of_group(testbed, "drift"), use_prior=True)
+
+
+def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Params]:
+    """Return state and parameters; ``integral`` is w_i over w_a."""
+    up, quantum, reach = testbed.up, coarsest_step(testbed), greatest_shift(testbed)
+    if float(np.linalg.norm(across(up) @ target)) > LEAST:
+        raise InputError(
+            "target", "a centre of mass aside of up", "one along up: masses settle there"
+        )
+    w = frequency_for(testbed, PERIOD)
+    gains = gains_at(testbed, w, integral * w, PERIOD)
+    slowest = settling(w, integral * w, min(swing_of(testbed, likely_height(testbed)), 0.0))
+    lower = float(up @ (target - testbed.body.com)) - LIKELY * height_sd(testbed)
+    height = float(np.clip(lower, -reach, reach))
+    params = Params(
+        gains, method_for(testbed), push_for(testbed),
+        int(np.ceil(SETTLED * slowest / PERIOD)), max(quantum, LEAST),
+        max(LATE * quantum, NEAR), PAY * greatest_slew(testbed) * PERIOD, float(up @ target),
+        testbed.tilt_limit,
+    )  # fmt: skip
+    return State(across(up) @ testbed.body.com, height), params
+
+
+def push_for(testbed: Testbed) -> float:
+    """Return how far (m) the centre of mass goes aside for a swing of the wanted size."""
+    rate = SWING * testbed.tilt_limit / LOOK
+    wanted = rate * level_inertia(testbed) / (testbed.body.mass * testbed.gravity * PUSH)
+    return min(wanted, greatest_slew(testbed) * PUSH)
+
+
+def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+    """Return the next state and what is wanted."""
+    if isinstance(seen, Estimate):
+        return trimmed(state, seen, params)
+    if tilt_of(seen, params.gains) > params.tilt_limit:
+        return state, Command(finished="Stopped: the platform tilts beyond its limit.")
+    if state.phase == "follow":
+        return follow(state, seen, params)
+    return swing(state, seen, params)
+
+
+def tilt_of(seen: Sample, gains: Gains) -> float:
+    """Return the tilt, rad."""
+    return float(np.arccos(np.clip(-gains.up @ seen.gravity / gains.gravity, -1.0, 1.0)))
+
+
+def follow(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+    """Level the platform; at the end, push it."""
+    gains = params.gains
+    held, owing = held_now(state, seen, params)
+    upward = state.height * gains.up
+    shift = shift_for(gains, held, seen.gravity, seen.rate) + upward
+    paid = float(np.linalg.norm(owing)) < params.tolerance
+    count = state.step + 1 if paid else 0
+    state = replace(state, held=held, gravity=seen.gravity, owed=owing, asked=shift, step=count)
+    if state.step > params.follow - round(MEAN / PERIOD):
+        still = shift_for(gains, held, seen.gravity, np.zeros(3)) + upward
+        tilt = across(gains.up) @ seen.gravity / gains.gravity
+        state = replace(state, rest=added(state.rest, still), level=added(state.level, tilt))
+    if state.step < params.follow:
+        return state, Command(shift=shift)
+    n = round(MEAN / PERIOD)
+    assert state.rest is not None
+    assert state.level is not None
+    state = replace(state, rest=state.rest / n, level=state.level / n, phase="push", step=0,
+                    since=seen.t)  # fmt: skip
+    if state.ending:
+        return state, Command(shift=state.rest, finished=state.ending)
+    return state, Command(shift=state.rest, note="Levelled; now a push, and a look at the swing.")
+
+
+def held_now(state: State, seen: Sample, params: Params) -> tuple[Vector3, Vector3]:
+    """Return rh (m), begun anew at the first sample of a round, and what is still owed (m)."""
+    if state.gravity is None or state.asked is None or state.owed is None:
+        return state.held, owed(params.gains, seen.gravity)
+    late = float(np.linalg.norm(state.asked - seen.shift)) > params.late
+    held = followed(params.gains, state.held, state.gravity, seen.gravity, late)
+    paid = limited(state.owed, params.pay)
+    return held + paid, state.owed - paid
+
+
+def added(total: Vector3 | None, vector: Vector3) -> Vector3:
+    """Return the sum; None: nothing yet."""
+    return vector if total is None else total + vector
+
+
+def swing(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+    """Push, come back, and look."""
+    assert state.rest is not None
+    count = state.step + 1
+    if state.phase == "push":
+        aside = around(params.gains.up)[state.rounds % 2]
+        ends = count >= round(PUSH / PERIOD)
+        state = replace(state, phase="back" if ends else "push", step=0 if ends else count)
+        return state, Command(shift=state.rest + params.push * aside)
+    arrived = float(np.linalg.norm(seen.shift - state.rest)) <= params.late
+    if count == 1 or (not arrived and count < round(BACK / PERIOD)):
+        return replace(state, step=count), Command(shift=state.rest)
+    return replace(state, phase="look", rest=seen.shift), Command(
+        look=replace(params.look, since=state.since)
+    )
+
+
+def trimmed(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
+    """Move along up by what the look says is missing, or finish."""
+    assert state.rest is not None
+    assert state.level is not None
+    rounds = state.rounds + 1
+    if not seen.outcome.usable:
+        again = replace(state, rounds=rounds, phase="push", step=0)
+        text = f"The look cannot be used: {seen.outcome.sentence}"
+        over = text if rounds >= params.rounds else ""
+        return again, Command(shift=state.rest, finished=over, note=text)
+    above = height_in(seen, params.gains.up) + float(params.gains.up @ state.rest)
+    missing = params.target - above
+    sideways = abs(above) * float(np.linalg.norm(state.level))
+    left = float(np.hypot(missing, sideways))
+    text = (
+        f"Look {rounds}: {1e6 * missing:.2f} um missing along up, "
+        f"about {1e6 * sideways:.2f} um left across."
+    )
+    over = why_over(left, replace(state, rounds=rounds), params)
+    up, ending = params.gains.up, f"{text} {over} Level again." if over else ""
+    held, height = -across(up) @ state.rest, float(up @ state.rest) + missing
+    onward = State(held, height, rounds=rounds, left=left, ending=ending)
+    return onward, Command(shift=state.rest + missing * up, note="" if over else text)
+
+
+def height_in(seen: Estimate, up: Vector3) -> float:
+    """Return the centre of mass along up (m), masses at home; some methods tell no more."""
+    if all(seen.has(name) for name in COM):
+        return float(up @ seen.com)
+    k = int(np.argmax(np.abs(up)))
+    if seen.has(COM[k]):
+        return float(np.sign(up[k]) * seen.values((COM[k],))[0])
+    return float(seen.values(("com_up",))[0])
+
+
+def why_over(left: float, state: State, params: Params) -> str:
+    """Return why no further round is made, or nothing."""
+    if left <= params.tolerance:
+        return "That is a motor step or less."
+    if left > GAIN * state.left:
+        return "The last round gained nothing."
+    return "The rounds are used up." if state.rounds >= params.rounds else ""

@@ -1,0 +1,1 @@
+"""The platform as laws model it: pendulum, limits, settling."""

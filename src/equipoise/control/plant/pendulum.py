@@ -1,0 +1,141 @@
+"""A platform that hangs from its bearing, as a law that moves masses sees it.
+
+With u the body axis that points up when level and n = -g_B / g the vertical in body axes,
+
+    theta = n x u                       tilt, the small turn that led from level (rad)
+    J theta'' = m g (r.u) theta + m g u x (r + s)                       s: shift by the masses
+    theta'' = -w0^2 theta + a (c + v),     a = m g / J,  w0^2 = -a (r.u),  c = u x r,  v = u x s
+
+for tilt and rate along two horizontal body axes; their moments differ, products couple them weakly
+and are left out. A wanted v (m) is the shift s = v x u. From m r x g_B with u = z: weight at +y
+turns about -x, and c = (-r_y, r_x).
+
+A demand v = -(p theta + d rate) that is faster than masses go would be delivered late, by up to 90
+degrees of the swing, and a proportional part that is late drives it. Through a swing at w0 the
+demand has the greatest slope |w0 (p theta + d rate) + j (p rate - d w0^2 theta)|; it is scaled down
+to what masses can follow, in phase with the swing (``spared``).
+
+It hangs where r.u < 0. Masses first lower the centre of mass so far that it surely does, by the
+testbed's guess and its sd, and so far that what is left sideways tilts it by a part of the limit
+only. Sees nothing of a rotation about the vertical: a yaw rate far below w0 is taken for granted.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.control.plant.actuator_limits import filling_time, greatest_shift, greatest_slew
+from equipoise.control.plant.swing_estimates import of_group
+from equipoise.control.sample import Sample
+from equipoise.model.arrays import Floats, Series, Vector3
+from equipoise.model.errors import InputError
+from equipoise.model.testbed import Testbed
+
+SURE = 3.0  # sds of the height, chosen
+LIKELY = 2.0  # sds of what is left sideways, chosen
+SHARE = 0.7  # of the tilt limit, chosen: where it then rests; let go level it swings to twice that
+SPARE = 0.7  # chosen: of the masses' speed for tilt and rate; the rest is the integral's
+ALONG = 0.5  # cosine, chosen: a rail nearer than 60 degrees counts for an axis
+SHALLOWEST = 1e-4  # m, chosen: a swing of half a minute
+
+
+class Hanging(NamedTuple):
+    """The platform about two horizontal body axes, as guessed beforehand."""
+
+    up: Vector3  # unit vector u
+    axes: Series  # (2, 3) horizontal unit vectors
+    gain: Floats  # (2,) a, rad/s^2 per m
+    depth: float  # m, -r.u once masses have lowered it
+    lowered: float  # m, the shift along u that does it
+    depth_sd: float  # m
+    slew: float  # m/s, of a shift by the masses
+    reach: float  # m
+    step: float  # m, the finest that masses can shift it sideways
+    delay: float  # s, of what is seen
+    filling: float  # s, that fine masses take over half a step of coarse ones
+    still: tuple[str, ...] = ()  # torques that a look takes for none: drift
+
+    @property
+    def frequency(self) -> Floats:
+        """The swing's w0 about both axes, rad/s."""
+        return np.sqrt(self.gain * self.depth)
+
+
+def level_axes(up: Vector3) -> Series:
+    """Return two body axes that are horizontal when level, as rows; x and y for up = z."""
+    nearest: Vector3 = np.eye(3)[int(np.argmin(np.abs(up) + [0.0, 1e-9, 2e-9]))]
+    first: Vector3 = nearest - up * float(up @ nearest)
+    first = first / float(np.linalg.norm(first))
+    second: Vector3 = np.cross(up, first)
+    return np.vstack([first, second])
+
+
+def tilt_of(plant: Hanging, seen: Sample) -> Floats:
+    """Return the tilt theta about both axes, rad."""
+    vertical = -seen.gravity / float(np.linalg.norm(seen.gravity))
+    return plant.axes @ np.cross(vertical, plant.up)
+
+
+def rate_of(plant: Hanging, seen: Sample) -> Floats:
+    """Return the rate about both axes, rad/s."""
+    return plant.axes @ seen.rate
+
+
+def shift_for(plant: Hanging, v: Floats) -> Vector3:
+    """Return the horizontal shift (m) whose u x s is v along the axes."""
+    return np.cross(plant.axes.T @ v, plant.up)
+
+
+def turned(plant: Hanging, shift: Vector3) -> Floats:
+    """Return v = u x s along the axes, m: the way back from ``shift_for``."""
+    return plant.axes @ np.cross(plant.up, shift)
+
+
+def spared(plant: Hanging, p: Floats, d: Floats, tilt: Floats, rate: Floats) -> float:
+    """Return how much of v = -(p tilt + d rate) the masses can follow through a swing, 0 to 1."""
+    w = plant.frequency
+    slope = np.hypot(w * (p * tilt + d * rate), p * rate - d * w**2 * tilt)
+    fastest = float(np.linalg.norm(slope))
+    return min(1.0, SPARE * plant.slew / fastest) if fastest > 0 else 1.0
+
+
+def sensor_delay(testbed: Testbed) -> float:
+    """Return by how much the later of camera and gyro is late, s."""
+    seeing = [s for s in (testbed.attitude, testbed.gyro) if s is not None]
+    return max((s.delay + s.averaging / 2 for s in seeing), default=0.0)
+
+
+def finest_step(testbed: Testbed, axes: Series) -> float:
+    """Return the coarser of the finest shifts (m) along two axes; 0: any shift."""
+    steps = [
+        [m.mass * m.resolution for m in testbed.masses if abs(float(axis @ m.axis)) > ALONG]
+        for axis in axes
+    ]
+    return max(min(each, default=0.0) for each in steps) / testbed.body.mass
+
+
+def wanted_depth(testbed: Testbed) -> float:
+    """Return how deep (m) the centre of mass is to hang by the guess."""
+    up, sd = testbed.up, testbed.com_sd
+    sideways: Vector3 = testbed.body.com - up * (up @ testbed.body.com)
+    off = float(np.linalg.norm(sideways)) + LIKELY * float(np.linalg.norm(sd - up * (up @ sd)))
+    return max(SHALLOWEST, SURE * float(np.abs(up) @ sd), off / (SHARE * testbed.tilt_limit))
+
+
+def hanging(testbed: Testbed) -> Hanging:
+    """Return the platform as it hangs; InputError where masses cannot make it hang."""
+    body, up = testbed.body, testbed.up
+    depth, height = wanted_depth(testbed), float(up @ body.com)
+    reach = greatest_shift(testbed)
+    lowered = min(-depth - height, 0.0)
+    if reach < -lowered or reach == 0:
+        wanted = f"masses that shift it by {(depth + height) * 1e6:.3g} um, whatever the direction"
+        raise InputError("balancing law", f"masses that shift it by {reach * 1e6:.3g} um", wanted)
+    axes = level_axes(up)
+    moments = np.einsum("ij,jk,ik->i", axes, body.inertia_P, axes)
+    return Hanging(
+        up, axes, body.mass * testbed.gravity / moments, -height - lowered, lowered,
+        float(np.abs(up) @ testbed.com_sd), greatest_slew(testbed), reach,
+        finest_step(testbed, axes), sensor_delay(testbed), filling_time(testbed),
+        of_group(testbed, "drift"),
+    )  # fmt: skip

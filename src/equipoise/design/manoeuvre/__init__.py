@@ -1,0 +1,1 @@
+"""Which manoeuvre shows most, before it is made."""

@@ -1,0 +1,113 @@
+"""What a manoeuvre would look like to the testbed's sensors, had they no noise.
+
+The motion is that of the one propagator, masses travelling as the bench's do, devices following
+their waves. Rows come at the sensors' own times; masses stop where they are told, the camera
+stands level and the gyro has no bias, as an estimator expects them beforehand.
+
+Torques other than gravity's and the devices' are zero.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.actuators.square_waves import inputs_along
+from equipoise.actuators.stored_momentum import stored_momentum
+from equipoise.dynamics.propagation import Motion, body_of, propagate
+from equipoise.dynamics.timeline import timeline
+from equipoise.estimation.output_error.problem import longest_step
+from equipoise.maths.attitude import leaning
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model.arrays import Series1
+from equipoise.model.devices import recorded_name
+from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+from equipoise.sensors.timing import seen_at
+from equipoise.simulation import actuator
+from equipoise.simulation.camera_and_gyro import Sensor
+from equipoise.simulation.clock import samples, tick_one
+from equipoise.simulation.devices import inputs_of, started
+from equipoise.simulation.followers import driven, followed
+
+SOURCE = "planned manoeuvre"
+
+
+class Imagined(NamedTuple):
+    """A recording that was never made, and the motion behind it."""
+
+    recording: Recording
+    motion: Motion  # at every node
+    t: Series1  # s, of the nodes
+
+
+def mass_track(testbed: Testbed, manoeuvre: Manoeuvre) -> Samples | None:
+    """Return what would be reported of the masses (m); InputError or MoveRefused as at a bench."""
+    masses = testbed.masses
+    if not masses:
+        return None
+    unused = np.random.default_rng(0)  # of where masses stop, which is not reported
+    travel = actuator.left_at(masses, manoeuvre.standing, unused)
+    track = actuator.retracked(actuator.track_home(masses), travel, 0.0)
+    for t, targets in manoeuvre.moves:
+        goals = actuator.checked(travel, t, targets, masses)
+        travel = actuator.sent(travel, t, goals, masses, (), unused)
+        track = actuator.retracked(track, travel, t)
+    return actuator.reported_rows(track, 0.0, manoeuvre.duration)
+
+
+def device_rows(testbed: Testbed, manoeuvre: Manoeuvre, t: Series1) -> Samples | None:
+    """Return what wheels and gyros would report at times (s) without noise; others stand at 0."""
+    if not (testbed.wheels or testbed.cmgs):
+        return None
+    devices = started(testbed)
+    for when, inputs in inputs_along(manoeuvre.waves, manoeuvre.duration):
+        devices = driven(devices, tick_one(when), *inputs_of(testbed, inputs))
+    rows = followed(devices, t)[1]
+    rows[:, len(testbed.wheels) + len(testbed.cmgs) :] = 0.0
+    return Samples(t, rows)
+
+
+def row_times(sensor: Sensor | None, duration: float) -> Series1:
+    """Return the stamps of a sensor's rows, s."""
+    return np.zeros(0) if sensor is None else samples(sensor.rate, -1.0, duration)
+
+
+def known_side(testbed: Testbed, manoeuvre: Manoeuvre) -> Recording:
+    """Return a recording with what is told of masses and devices, and no rows of sensors."""
+    sensor = testbed.gyro or testbed.attitude
+    devices = device_rows(testbed, manoeuvre, row_times(sensor, manoeuvre.duration))
+    names = tuple(recorded_name(device) for device in testbed.devices)
+    told = Recording(
+        mass_names=testbed.mass_names,
+        masses=mass_track(testbed, manoeuvre),
+        device_names=names if devices else (),
+        devices=devices,
+        source=SOURCE,
+    )
+    return replace(told, momentum=stored_momentum(told, testbed))
+
+
+def imagined(testbed: Testbed, body: MassProperties, manoeuvre: Manoeuvre) -> Imagined:
+    """Return the noiseless recording of a manoeuvre by a platform with this body."""
+    told = known_side(testbed, manoeuvre)
+    camera, gyro = testbed.attitude, testbed.gyro
+    t_q, t_w = (row_times(sensor, manoeuvre.duration) for sensor in (camera, gyro))
+    fastest = float(np.linalg.norm(manoeuvre.rate))
+    line = timeline(
+        seen_at(t_q, camera), seen_at(t_w, gyro), told.masses, len(testbed.masses),
+        longest_step(testbed, fastest, len(t_q) + len(t_w)), told.momentum,
+    )  # fmt: skip
+    maps = mass_maps(testbed.masses)
+    rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment)
+    q0 = leaning(testbed.up, manoeuvre.low_side, manoeuvre.tilt)
+    motion = propagate(rigid, maps, line, q0, manoeuvre.rate)
+    recording = replace(
+        told,
+        attitude=Samples(t_q, motion.q[line.attitude_node]) if camera else None,
+        rate=Samples(t_w, motion.rate[line.rate_node]) if gyro else None,
+    )
+    return Imagined(recording, motion, line.t)

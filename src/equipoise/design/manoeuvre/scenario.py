@@ -1,0 +1,63 @@
+"""The platforms that may be there, and how a hand may let them go: what a plan must stand.
+
+    body    centre of mass and moments drawn from what is known, again until a body can have them
+    start   the planned one, with a hand's error
+
+The first of several is what is expected: no error anywhere.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.estimation.parameters.fit_parameters import core_of
+from equipoise.maths.linalg import element_sizes, unpack_symmetric
+from equipoise.model.arrays import Floats, Square, Vector3
+from equipoise.model.mass_properties import MassProperties, is_possible
+from equipoise.model.testbed import Testbed
+
+TRIES = 1000  # chosen: draws of a body before what is known counts as impossible
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Belief:
+    """What is known of inertia and centre of mass: a normal distribution in ``unknowns.CORE``."""
+
+    body: MassProperties
+    covariance: Square  # (9, 9) SI
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scenario:
+    """One platform, and how far its start is off the planned one, in sd of the hand."""
+
+    body: MassProperties
+    lean: Vector3  # -, about the body's axes
+    push: Vector3  # -
+
+
+def beforehand(testbed: Testbed) -> Belief:
+    """Return what a testbed states of its platform."""
+    inertia_sd = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
+    return Belief(testbed.body, np.diag(np.concatenate([inertia_sd, testbed.com_sd]) ** 2))
+
+
+def scenarios(belief: Belief, count: int, rng: np.random.Generator) -> list[Scenario]:
+    """Return what is expected, and further draws."""
+    zero = np.zeros(3)
+    drawn = [
+        Scenario(drawn_body(belief, rng), rng.standard_normal(3), rng.standard_normal(3))
+        for _ in range(count - 1)
+    ]
+    return [Scenario(belief.body, zero, zero), *drawn]
+
+
+def drawn_body(belief: Belief, rng: np.random.Generator) -> MassProperties:
+    """Return a body that can be, with the masses at home; the expected one if none is found."""
+    mean = core_of(belief.body)
+    for _ in range(TRIES):
+        core: Floats = rng.multivariate_normal(mean, belief.covariance)
+        body = MassProperties(belief.body.mass, core[6:], unpack_symmetric(core[:6]))
+        if is_possible(body):
+            return body
+    return belief.body

@@ -1,0 +1,1 @@
+"""What a mass system and its sensors can reach: the error budget."""

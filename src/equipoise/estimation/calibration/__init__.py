@@ -1,0 +1,1 @@
+"""Gains, rails and backlash of drives, axes of sensors."""

@@ -1,0 +1,69 @@
+"""Which drives a record does not tell apart.
+
+Masses that always move together in one pattern show the sum of their first moments only. With P the
+posterior covariance of gains or of rails (``actuators.drive_errors``), each unknown over its prior
+sd, a record leaves belief as it was along the eigenvectors of
+
+    (E - s s^T) P (E - s s^T),     s: all gains alike, the common scale, which is told elsewhere
+
+whose eigenvalue is near 1. Masses with a large part in one of them are not told apart by it.
+
+Cannot see a pattern of errors of stops; these have a prior that is stated.
+"""
+
+import numpy as np
+
+from equipoise.estimation.calibration.drive_calibration import SHOWN, Drive
+from equipoise.model.arrays import Floats, Ints
+
+LARGE = 0.3  # of the greatest part of a mass, chosen: smaller ones come along by chance
+KINDS = (("gains", (0,)), ("rails", (1, 2)))  # and which of a drive's columns they are
+
+
+def together(drives: tuple[Drive, ...], covariance: Floats) -> dict[str, list[tuple[int, ...]]]:
+    """Return, of gains and of rails, the groups of drives (their indices) not told apart."""
+    found: dict[str, list[tuple[int, ...]]] = {}
+    for kind, places in KINDS:
+        sought = [(i, int(drive.columns[k])) for i, drive in enumerate(drives) for k in places
+                  if drive.columns[k] >= 0]  # fmt: skip
+        if sought:
+            owner, columns = np.array(sought).T
+            prior = np.array([prior_of(drives[i], kind) for i, _ in sought])
+            P = covariance[np.ix_(columns, columns)] / np.outer(prior, prior)
+            found[kind] = groups(without_scale(P) if kind == "gains" else P, owner)
+    return found
+
+
+def prior_of(drive: Drive, kind: str) -> float:
+    """Return one sd of what is believed of an unknown."""
+    assert drive.mass.doubt is not None
+    return drive.mass.doubt.gain if kind == "gains" else drive.mass.doubt.across
+
+
+def without_scale(P: Floats) -> Floats:
+    """Return a covariance of gains without what they share."""
+    n = len(P)
+    apart = np.eye(n) - np.full((n, n), 1 / n)
+    return apart @ P @ apart
+
+
+def groups(P: Floats, owner: Ints) -> list[tuple[int, ...]]:
+    """Return the masses, two at least, that have a part in a direction left open."""
+    values, vectors = np.linalg.eigh(P)
+    found: set[tuple[int, ...]] = set()
+    for direction in vectors[:, values > SHOWN**2].T:
+        part = {int(i): float(np.linalg.norm(direction[owner == i])) for i in owner}
+        most = max(part.values())
+        found.add(tuple(i for i, size in part.items() if size > LARGE * most))
+    return sorted(group for group in found if len(group) > 1)
+
+
+def sentences(drives: tuple[Drive, ...], found: dict[str, list[tuple[int, ...]]]) -> list[str]:
+    """Name the masses that a record does not tell apart."""
+    return [
+        f"The moves do not tell apart the {kind} of "
+        f"{' and '.join(drives[i].mass.name for i in group)}: masses that always move together "
+        "show their sum only. Move each by itself."
+        for kind, each in found.items()
+        for group in each
+    ]

@@ -1,0 +1,1 @@
+"""Contacts and shifts within a recording: search, threshold, times."""

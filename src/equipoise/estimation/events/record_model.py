@@ -1,0 +1,180 @@
+"""A model of a record under survey: its noise, process noise and events, and the fit in it.
+
+Process noise is a torque that wanders, as white noise of density ``walk`` about each body
+axis; over a stretch of length dt it jumps the rate by walk_i sqrt(dt) / J_ii.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.estimation.events.detection_threshold import threshold
+from equipoise.estimation.output_error.fixed_parameters import settle_pinned
+from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
+from equipoise.estimation.output_error.kernels.segments import count_free
+from equipoise.estimation.output_error.problem import posed
+from equipoise.estimation.output_error.segment_jumps import RATE, Jump, carried, inside, walk
+from equipoise.estimation.output_error.solution import Fitted, smooth_at
+from equipoise.estimation.output_error.trajectory import Params, problem_of
+from equipoise.model.arrays import Floats, Series1, Square, Vector3
+from equipoise.model.estimate import COM
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+WIDE = {"impulse": 1.0, "com_step": 1e-3}  # rad/s, m: sd of an event, chosen: any
+EACH = 60  # evaluations, chosen: twice what a fit takes that settles
+NAMES = {"impulse": RATE, "com_step": COM}
+
+
+@dataclass(frozen=True, slots=True)
+class Happening:
+    """An event that is believed in."""
+
+    t: float  # s
+    kind: str  # of NAMES
+    unclear: bool = False  # it may as well be of another kind: both may jump
+    aside: float = 0.0  # s, by which the moment of the other kind differs
+
+    @property
+    def jump(self) -> Jump:
+        """Return what may jump then, that of its own kind first."""
+        others = [kind for kind in NAMES if kind != self.kind] if self.unclear else []
+        pairs = [(name, WIDE[kind]) for kind in (self.kind, *others) for name in NAMES[kind]]
+        names, sd = zip(*pairs, strict=True)
+        return Jump(self.t, names, sd, is_event=True)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Believed:
+    """A model of a record, and the fit in it."""
+
+    recording: Recording
+    testbed: Testbed  # with the noise as believed
+    params: Params  # without jumps
+    cuts: Series1  # s, where a look may find something
+    walk: Vector3  # N m sqrt(s)
+    events: tuple[Happening, ...]
+    fitted: Fitted
+    stated: Testbed  # with the noise as it was told
+    coloured: float = 1.0  # times an interval is as wide as rows say that err independently
+
+    @property
+    def wanders(self) -> bool:
+        """Say whether there is process noise."""
+        return bool(np.any(self.walk > 0))
+
+    @property
+    def spacing(self) -> float:
+        """Return the time between cuts, s."""
+        return float(self.cuts[1] - self.cuts[0]) if len(self.cuts) > 1 else 1.0
+
+
+def jumps_of(belief: Believed, cuts: Series1) -> tuple[Jump, ...]:
+    """Return the jumps of a model: process noise, events, and cuts where nothing may jump."""
+    at_event = [event.t for event in belief.events]
+    plain = cuts[[all(abs(t - s) > 1e-9 for s in at_event) for t in cuts]]
+    if belief.wanders:
+        moments = np.diag(belief.testbed.body.inertia_P)
+        sd = belief.walk * np.sqrt(belief.spacing) / moments
+        noise = walk(plain, RATE, sd)
+    else:
+        noise = tuple(Jump(float(t), (), ()) for t in plain)
+    return inside((*noise, *(event.jump for event in belief.events)), *belief.recording.span)
+
+
+def fitted_in(
+    belief: Believed, cuts: Series1, most: int, moved: tuple[Happening, ...] = ()
+) -> Fitted:
+    """Return the optimum of a model with these cuts, from where the belief stands.
+
+    ``moved``: where the events were in the fit that the belief holds, if elsewhere.
+    """
+    jumps = jumps_of(belief, cuts)
+    params = replace(belief.params, jumps=jumps)
+    problem = problem_of(belief.recording, belief.testbed, params)
+    before = belief.fitted
+    now = {old.t: event.t for old, event in zip(moved, belief.events, strict=bool(moved))}
+    old = tuple(replace(jump, t=now.get(jump.t, jump.t)) for jump in before.problem.jumps)
+    first = carried(old, before.jumps, problem.jumps)
+    return settle_pinned(problem, before.point, first, most)
+
+
+def refitted(belief: Believed, moved: tuple[Happening, ...] = ()) -> Believed:
+    """Return the belief at its optimum, with a cut only where something may jump."""
+    return replace(belief, fitted=fitted_in(belief, active(belief), EACH, moved))
+
+
+def active(belief: Believed) -> Series1:
+    """Return the cuts at which something may jump."""
+    return belief.cuts if belief.wanders else np.zeros(0)
+
+
+def smoothed(belief: Believed) -> tuple[Fitted, Smoothed]:
+    """Return the fit with every cut in it, and what is known of every stretch."""
+    fit = fitted_in(belief, belief.cuts, 1)
+    return fit, smooth_at(fit)
+
+
+def nearest(models: Iterable[Believed]) -> Believed:
+    """Return the model that explains the record best, whatever it took."""
+    return min(models, key=lambda model: model.fitted.at.cost)
+
+
+def farther(model: Believed, other: Believed) -> float:
+    """Return the chi-square by which a model is farther from the record than another."""
+    return 2.0 * (model.fitted.at.cost - other.fitted.at.cost)
+
+
+def slowest(belief: Believed) -> float:
+    """Return the time (s) within which gravity must tell: that of the swing, over 2 pi."""
+    body = belief.fitted.point.body(belief.testbed.body.mass)
+    stiffness = body.mass * belief.testbed.gravity * float(np.linalg.norm(body.com))
+    start, end = belief.recording.span
+    swing = float(np.sqrt(np.trace(body.inertia_P) / 3 / max(stiffness, 1e-12)))
+    return float(np.clip(swing, belief.spacing, end - start))
+
+
+def misfits(fit: Fitted) -> tuple[Floats, Floats]:
+    """Return squared residual vectors of camera and gyro in sd."""
+    return np.sum(fit.at.left_q**2, axis=1), np.sum(fit.at.left_w**2, axis=1)
+
+
+def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
+    """Return -2 ln of how probable the record is in a model, but for a constant.
+
+    All unknowns are integrated out about the optimum (Laplace's approximation):
+    2 cost + sum ln sd^2 over rows, jumps and priors + ln det of the information on all unknowns.
+    An event has no prior to speak of: all else is as informed as if it were known, and it costs
+    ``price``, the surprise that it must exceed.
+    """
+    seen, prior = fit.problem.seen, fit.problem.prior
+    loose = (prior.weight > 0) & ~prior.held
+    total = 2.0 * fit.at.cost + log_det(fit.at.normal) - float(np.sum(np.log(prior.weight[loose])))
+    for rows, sd in ((seen.attitude, seen.attitude_sd), (seen.rate, seen.rate_sd)):
+        total += 6.0 * len(rows) * float(np.log(sd))
+    cuts, jumps = posed(fit.problem).cuts, fit.problem.jumps
+    for k, (jump, free, weight) in enumerate(zip(jumps, cuts.free, cuts.weight, strict=True)):
+        a = count_free(free)
+        if not a:
+            continue
+        total -= log_det(after.firm[k, :a, :a])
+        if jump.is_event:
+            total += price * a / 3 + log_det(after.jump_covariance[k, :a, :a])
+        else:
+            total -= float(np.sum(np.log(weight[:a])))
+    return total
+
+
+def improbability(belief: Believed) -> float:
+    """Return -2 ln of how probable the record is in a model, its events at the usual price."""
+    return evidence(*smoothed(belief), threshold(belief.spacing))
+
+
+def log_det(matrix: Square) -> float:
+    """Return ln det of a positive definite matrix in any units; LinAlgError if it is not one."""
+    if not np.all(np.diag(matrix) > 0):
+        raise np.linalg.LinAlgError("the matrix is not positive definite")
+    unit = 1 / np.sqrt(np.diag(matrix))
+    scaled = matrix * np.outer(unit, unit)
+    return float(np.linalg.slogdet(scaled)[1] - 2 * np.sum(np.log(unit)))

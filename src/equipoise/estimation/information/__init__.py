@@ -1,0 +1,1 @@
+"""Fisher information, Cramer-Rao bounds and observability."""

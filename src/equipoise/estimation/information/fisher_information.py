@@ -1,0 +1,135 @@
+"""What a recording can and cannot show: its Fisher information, and the Cramer-Rao bound.
+
+    I  = sum S_k^T S_k / sd_k^2 + priors          S_k = d(row k)/dx along the motion
+    sd(x_i) >= sqrt([I^-1]_ii)
+
+x is all that a trajectory fit seeks (``unknowns``), the rows are those of camera and gyro with the
+testbed's noise, and S_k the sensitivities of the one propagator along the motion that a plain fit
+follows (``followed_motion``). Priors are the testbed's for where masses stop, the gyro's zero and
+the camera's vertical, and for the body when asked. No unbiased method does better; the trajectory
+fit does as well where the model holds.
+
+    rank        of D I D, D natural sizes: directions whose sd is below half of one, each that is
+                not costs one, an open scale too (``observability``)
+    condition   of I with unit diagonal; infinite where a direction is not seen at all
+    sweep       least eigenvalue of int (|g|^2 E - g g^T) dt / (g^2 T), g in body axes: how far
+                gravity leaves its mean direction, the mean square of the sine of that angle. Zero
+                when it never does; the centre of mass along it is not seen then. 2/3 at most.
+
+A held parameter is not sought, and not counted. When nothing fixes the common scale of J and com,
+neither is seen; bounds of their ratios are.
+
+Cannot see what is wrong with the model (torques nobody asked for, touches), or with the noise: rows
+that err together say less than is stated here.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.estimation.information.reference_motion import Followed, followed, halfway
+from equipoise.estimation.output_error.fit_estimate import visibility_of, without_anchor
+from equipoise.estimation.output_error.problem import evaluate, prior_of
+from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.parameters.fit_parameters import CORE, physical
+from equipoise.estimation.parameters.scale_free_ratios import ratios_of
+from equipoise.maths.attitude import tilt, to_matrix
+from equipoise.maths.linalg import symmetrise
+from equipoise.model.arrays import Bools, Floats, Matrix3, Series3, Square
+from equipoise.model.estimate import Parameter
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+ROUNDING = 1e-13  # of the largest eigenvalue, chosen: smaller ones are zero
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Observability:
+    """What a recording shows. Arrays are in the order of ``names``."""
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]  # SI
+    sd: Floats  # Cramer-Rao bound, SI; infinite: not seen
+    before: Floats  # sd that the testbed states beforehand, SI; infinite: none
+    hidden: Bools
+    held: Bools  # not sought
+    sentences: tuple[str, ...]  # directions that are not seen
+    cautions: tuple[str, ...]  # why the motion may be another than the recording's
+    ratios: tuple[Parameter, ...]  # when the scale is open
+    condition: float
+    gravity_sweep: float
+    tilt: tuple[float, float]  # rad, least and greatest
+    rank: int
+    size: int
+    inertia_P: Matrix3  # kg m^2, of the motion
+
+
+def seen_by(recording: Recording, testbed: Testbed, params: Params) -> Observability:
+    """Return what a recording can show, bounds in SI units."""
+    return seen_along(followed(recording, testbed, params))
+
+
+def seen_along(motion: Followed) -> Observability:
+    """Return what a motion that was followed can show, bounds in SI units."""
+    fitted = motion.fitted
+    problem, layout = fitted.problem, fitted.problem.layout
+    values = physical(fitted.point, problem.mass, layout)
+    view = visibility_of(fitted, values)
+    held = np.isin(layout.names, motion.params.hold)
+    sentences = tuple(dict.fromkeys(view.sentences))
+    variance = np.maximum(np.diag(view.covariance), 0.0)
+    line, path = halfway(fitted)
+    upward = tilt(path.q, motion.testbed.up)
+    return Observability(
+        layout.names,
+        layout.units,
+        np.where(view.hidden, np.inf, np.where(held, 0.0, np.sqrt(variance))),
+        stated_before(motion),
+        view.hidden,
+        held,
+        sentences,
+        motion.cautions,
+        ratios_of(values[CORE], view.covariance[CORE, CORE], view.unseen[CORE])
+        if problem.scale_open
+        else (),
+        condition(free_information(fitted, held)),
+        gravity_sweep(line.t, -to_matrix(path.q)[:, 2, :]),
+        (float(upward.min()), float(upward.max())),
+        int(np.sum(~held)) - len(sentences),
+        int(np.sum(~held)),
+        fitted.point.body(problem.mass).inertia_P,
+    )
+
+
+def free_information(fitted: Fitted, held: Bools) -> Square:
+    """Return the information about all but ``held``, that is about an open scale too."""
+    problem = fitted.problem
+    loose = replace(problem, prior=replace(problem.prior, held=held))
+    at = evaluate(loose, fitted.point, fitted.jumps)
+    whole = without_anchor(at.normal, replace(fitted, problem=loose))
+    return symmetrise(whole[np.ix_(~held, ~held)])
+
+
+def stated_before(motion: Followed) -> Floats:
+    """Return the sd of what the testbed states of each unknown."""
+    problem, testbed = motion.fitted.problem, motion.testbed
+    prior = prior_of(testbed, problem.errors, problem.layout, True, ())
+    with np.errstate(divide="ignore"):
+        return 1.0 / np.sqrt(np.maximum(prior.weight - prior.anchor, 0.0))
+
+
+def condition(information: Square) -> float:
+    """Return the condition number of information with unit diagonal."""
+    diagonal = np.diag(information)
+    if not np.all(diagonal > 0):
+        return np.inf
+    values = np.linalg.eigvalsh(information / np.sqrt(np.outer(diagonal, diagonal)))
+    return float(values[-1] / values[0]) if values[0] > ROUNDING * values[-1] else np.inf
+
+
+def gravity_sweep(t: Floats, down: Series3) -> float:
+    """Return the least eigenvalue of the mean of E - n n^T; n are unit vectors, t in s."""
+    outer = np.eye(3) - down[:, :, None] * down[:, None, :]
+    mean = np.trapezoid(outer, t, axis=0) / (t[-1] - t[0])
+    return max(float(np.linalg.eigvalsh(mean)[0]), 0.0)

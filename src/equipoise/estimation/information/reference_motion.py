@@ -1,0 +1,118 @@
+"""The motion of a recording, to linearise along: a plain fit, and how far it can be believed.
+
+Sensitivities are taken along a motion, and the record's own is best told by a fit. A plain one is
+enough: the terms asked for, damping where nothing follows the motion without, and the camera's
+vertical free as far as it may lean. Neither events nor process noise are looked for. A dense record
+is followed as means of its rows, which tell as much (``condensed``).
+
+Cannot see whether the model is right; ``cautions`` say when its fit shows that it is not.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.dynamics.propagation import Motion, body_of, propagate
+from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.dynamics.timeline import Timeline
+from equipoise.estimation.events.record_model import Believed
+from equipoise.estimation.model_selection.decimation import condensed
+from equipoise.estimation.model_selection.dense_record import FINE, first_gap
+from equipoise.estimation.model_selection.initial_model import plainly
+from equipoise.estimation.model_selection.model_choice import levelled
+from equipoise.estimation.model_selection.reference_fit import FEWEST, check_sensors
+from equipoise.estimation.output_error.fit_estimate import EXPLAINED
+from equipoise.estimation.output_error.solution import Fitted, chi_square_share
+from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model.arrays import Floats, Ints
+from equipoise.model.errors import InputError
+from equipoise.model.recording import Recording, arranged, window
+from equipoise.model.testbed import Testbed
+
+UNSETTLED = (
+    "The fit did not settle: bounds and ranks are those of the motion where it stopped, which need "
+    "not be the recording's."
+)
+DAMPED = "Damping is sought too, unasked: without it the motion cannot be followed."
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Followed:
+    """A fit of a recording, and what it was a fit of."""
+
+    fitted: Fitted
+    testbed: Testbed
+    params: Params  # what was asked, with what had to be added
+    cautions: tuple[str, ...]  # sentences: why the motion may be another
+
+
+def followed(recording: Recording, testbed: Testbed, params: Params) -> Followed:
+    """Return the motion of a recording; InputError if it has too few rows or no such sensor."""
+    recording = arranged(recording, testbed.mass_names)
+    check_sensors(recording, testbed)
+    rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
+    if rows < FEWEST:
+        raise InputError(recording.source or "recording", f"{rows} rows", f"at least {FEWEST}")
+    recording, testbed, richer, fitted = searched(recording, testbed, params)
+    still = np.zeros(0)
+    belief = Believed(recording, testbed, richer, still, np.zeros(3), (), fitted, testbed)
+    if np.isfinite(fitted.at.cost):
+        belief = levelled(belief)
+    told = cautions(belief.fitted, damped=richer.terms != params.terms)
+    return Followed(belief.fitted, testbed, belief.params, told)
+
+
+def searched(
+    recording: Recording, testbed: Testbed, params: Params
+) -> tuple[Recording, Testbed, Params, Fitted]:
+    """Return the plain fit, of what record, with what sensors and terms."""
+    few = condensed(recording, testbed)
+    if few is None:
+        return recording, testbed, *plainly(recording, testbed, params)
+    recording, testbed, params = few.recording, few.testbed, replace(params, fineness=FINE)
+    early = window(recording, recording.span[0], first_gap(recording, testbed))
+    return recording, testbed, params, fit(recording, testbed, params, early=early)
+
+
+def cautions(fitted: Fitted, damped: bool) -> tuple[str, ...]:
+    """Say why the motion may not be the recording's."""
+    found = [DAMPED] if damped else []
+    share = chi_square_share(fitted)
+    if not fitted.converged:
+        found.append(UNSETTLED)
+    elif share > EXPLAINED:
+        found.append(
+            f"The plain model does not explain the record: it leaves {np.sqrt(share):.2g} times "
+            "the stated noise. Bounds hold for noise as stated, and if nothing else moves the "
+            "platform; an estimate will be wider."
+        )
+    return tuple(found)
+
+
+def halved(line: Timeline) -> Timeline:
+    """Return a timeline with a node more in the middle of each step."""
+    t, known = (np.repeat(x, 2, axis=0)[:-1] for x in (line.t, line.known))
+    t[1::2] = 0.5 * (line.t[1:] + line.t[:-1])
+    known[1::2] = 0.5 * (line.known[1:] + line.known[:-1])
+    return line._replace(t=t, known=known)
+
+
+def displaced(known: Floats, owners: Ints, error: Floats) -> Floats:
+    """Return the known inputs with masses where the fit found them."""
+    k = known.shape[1] - KNOWN_D - len(owners)
+    out = known.copy()
+    for j, (owner, unknown) in enumerate(owners):
+        out[:, KNOWN_D + owner] += known[:, KNOWN_D + k + j] * error[unknown]
+    return out
+
+
+def halfway(fitted: Fitted) -> tuple[Timeline, Motion]:
+    """Return the motion at both ends and in the middle of each step, as the model has it."""
+    problem, point = fitted.problem, fitted.point
+    line = halved(problem.line)
+    line = line._replace(known=displaced(line.known, line.owners, point.error))
+    body = point.body(problem.mass)
+    inertia = pack_symmetric(body.inertia_P)
+    rigid = body_of(body.mass, problem.gravity, inertia, body.first_moment, point.torque)
+    return line, propagate(rigid, problem.maps, line, point.q0, point.w0)

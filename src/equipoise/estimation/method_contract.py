@@ -1,0 +1,110 @@
+"""What a method is: a card that says what to expect of it, and the estimator itself.
+
+A method is a formulation (what it believes of the motion) times a solver. Every method takes the
+same three things and gives the same record, so that lists, tests and studies need not know them.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from equipoise import __version__
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate
+from equipoise.model.outcome import Outcome
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+if TYPE_CHECKING:
+    from equipoise.estimation.regression.linear_method import Linear
+
+Regime = Literal["free", "driven", "moved", "drifting", "wandering", "played", "levelled", "rests"]
+Choice = Literal["term", "hold", "prior", "robust"]
+
+REGIMES: dict[Regime, str] = {
+    "free": "free swing of a minute, inertia known; 0.05 deg and 0.005 deg/s/sqrt(Hz), 50 Hz",
+    "driven": "a minute under known square-wave torques of 10 mN m; the same sensors",
+    "moved": "two minutes with two known moves; 0.05 deg and 1e-4 rad/s, 50 Hz",
+    "drifting": "two minutes with a known move; com walks by 0.05 um/sqrt(s) and 1 uN m sqrt(s) of "
+    "torque play; J known to 5 %; 0.2 deg, 5 Hz and 1e-4 rad/s, 20 Hz",
+    "wandering": "free swing of a minute, com walks by 0.05 um/sqrt(s) and 1 uN m sqrt(s) of "
+    "torque play; J known to 5 %; 0.2 deg, 5 Hz and 1e-4 rad/s, 20 Hz",
+    "played": "the same under known square-wave torques of 10 mN m",
+    "levelled": "the same swing, com across the vertical known to 1 um",
+    "rests": "five minutes, damped, com 0.4 to 0.9 mm low, four moves with rests between; a camera",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What is asked of a method."""
+
+    terms: tuple[str, ...] = ()  # torques and sensors' errors to estimate, beside the testbed's own
+    hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
+    use_prior: bool = False  # the testbed's inertia and centre of mass, with their sd
+    robust: bool = False  # rows that stand far off weigh less
+
+
+@dataclass(frozen=True, slots=True)
+class Card:
+    """What to expect of a method."""
+
+    name: str
+    formulation: str
+    solver: str
+    source: str  # where it is published, with equation numbers
+    needs: str
+    cannot_see: str
+    regime: Regime  # where its intervals are measured
+    heeds: tuple[Choice, ...] = ()  # which of the options it knows
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """A card and its estimator."""
+
+    card: Card
+    run: Callable[[Recording, Testbed, Options], Estimate]
+    linear: "Linear | None" = None  # of which parts a linear method is made
+
+
+def ignored(card: Card, options: Options) -> tuple[str, ...]:
+    """Return the options that were asked for and that a method does not know."""
+    asked: dict[Choice, bool] = {
+        "term": bool(options.terms),
+        "hold": bool(options.hold),
+        "prior": options.use_prior,
+        "robust": options.robust,
+    }
+    return tuple(name for name, wanted in asked.items() if wanted and name not in card.heeds)
+
+
+def heeded(card: Card, options: Options) -> Options:
+    """Return what a method knows of what was asked, the rest left out."""
+    return Options(
+        options.terms if "term" in card.heeds else (),
+        options.hold if "hold" in card.heeds else (),
+        options.use_prior and "prior" in card.heeds,
+        options.robust and "robust" in card.heeds,
+    )
+
+
+def estimated(method: Method, recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+    """Return what a method makes of a record; InputError for an option that it does not know."""
+    for name in ignored(method.card, options):
+        known = ", ".join(f"--{choice}" for choice in method.card.heeds) or "none of these options"
+        raise InputError("method", f"--{name} with {method.card.name}, which knows {known}",
+                         "another method, such as trajectory, or no such option")  # fmt: skip
+    return method.run(recording, testbed, options)
+
+
+def origin_of(recording: Recording) -> dict[str, str]:
+    """Return what an estimate was made of, and by which version."""
+    return {"version": __version__, "source": recording.source, "sha256": recording.sha256}
+
+
+def refused(card: Card, sentence: str) -> Estimate:
+    """Return the estimate of a method that could not begin, and why."""
+    return Estimate(card.name, Outcome(False, sentence), (), np.zeros((0, 0)))

@@ -1,0 +1,1 @@
+"""Which terms, noise and events a recording supports."""

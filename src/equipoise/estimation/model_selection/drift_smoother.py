@@ -1,0 +1,215 @@
+"""Smoother: the trajectory fit of a platform whose centre of mass drifts, at every time.
+
+The whole record is fitted as in ``trajectory``; com walks meanwhile,
+
+    r(t_(k+1)) = r(t_k) + u_k,   u_k ~ N(0, w^2 dt)         t_0, t_1, ...: nodes, evenly, dt apart
+
+r changes half way between nodes, so that the r of a stretch is that of the node in its middle; the
+first and the last stretch are half as long, their nodes the ends of the record. What is most
+probable given all rows (maximum a posteriori) is, all being normal, the fixed-interval smoother
+(Rauch, Tung and Striebel 1965), here about the whole non-linear motion and solved as ``stretches``
+says; at the last node it believes what a filter believes that has seen all rows.
+
+w is one number an axis, from the record (``walk_size``), and more where com went one way for long,
+which a walk of that size would not (``torque_colour``); the jumps are not taken to tell the scale
+of J and com (``untied_scale``). Between nodes r is off by another
+w sqrt(dt/12) rms about its stretch's, which no sd counts.
+
+``com`` is that of the first moment, ``com_end`` that of the last with the masses as they stand; the
+course has r with the masses at home, drift terms included.
+
+Cannot see what ``trajectory`` cannot see; a drift along gravity without tilt; a drift from other
+slow torques. A drift at a constant rate is not a walk: where the record tells it badly, beside a
+camera that leans, com may be off by two stated sd; ask for the terms ``drift`` then.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.dynamics.regressor import DRIFT
+from equipoise.estimation.events.process_noise_spectrum import densest
+from equipoise.estimation.model_selection.initial_model import anchored
+from equipoise.estimation.model_selection.model_choice import PLUMB
+from equipoise.estimation.output_error.drift_intensity import gain, likely_steps, linear_at
+from equipoise.estimation.output_error.drift_scale import disbelieved, untied
+from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude, widening
+from equipoise.estimation.output_error.fixed_parameters import settle_pinned
+from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
+from equipoise.estimation.output_error.problem import Prior
+from equipoise.estimation.output_error.segment_jumps import Jump, walk
+from equipoise.estimation.output_error.solution import Fitted, smooth_at
+from equipoise.estimation.output_error.trajectory import Params, fit
+from equipoise.estimation.parameters.fit_parameters import FIXED, R, unknowns_of
+from equipoise.estimation.tracker import tracker
+from equipoise.model import sensor_terms
+from equipoise.model.arrays import Floats, Series, Series1, Vector3
+from equipoise.model.estimate import COM, Course, Estimate
+from equipoise.model.outcome import Outcome
+from equipoise.model.recording import Recording, arranged
+from equipoise.model.testbed import Testbed
+
+METHOD = "smoother"
+COM_WALK = tracker.Params().com_walk  # m/sqrt(s), expected
+FINEST, MOST_CUTS = 0.5, 300  # s, -; chosen: a good gyro sees 0.05 um/sqrt(s) within a second
+ROUNDS, COLOUR_ROUNDS = 2, 2  # chosen: the motion is all but linear in where com drifts
+SEEN = 9.0  # chosen: -2 ln probability that chance gains once in 700 records
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drifting:
+    """A fit in which the centre of mass walks."""
+
+    fitted: Fitted
+    nodes: Series1  # s
+    names: tuple[str, ...]  # of the axes that walk
+    sd: Floats  # m, of their steps
+    prior: Prior  # of the problem as posed
+    gained: float  # -2 ln probability, over no walk
+
+
+def node_times(recording: Recording) -> Series1:
+    """Return the nodes (s): evenly from the first row to the last."""
+    first, last = recording.span
+    count = int(np.clip(np.ceil((last - first) / FINEST), 1, MOST_CUTS))
+    return np.linspace(first, last, count + 1)
+
+
+def walking(nodes: Series1, names: tuple[str, ...], sd: Floats) -> tuple[Jump, ...]:
+    """Return a walk with steps of these sd (m) half way between nodes."""
+    return walk((nodes[1:] + nodes[:-1]) / 2, names, sd)
+
+
+def levelled(recording: Recording, testbed: Testbed, params: Params) -> Params:
+    """Return the options with the camera's vertical free, where it may lean (``model_choice``)."""
+    camera, rows = testbed.attitude, recording.attitude
+    if camera is None or rows is None or not len(rows) or camera.plumb_sd == 0:
+        return params
+    return replace(params, sensor=sensor_terms.among((*params.sensor, *PLUMB)))
+
+
+def begun(recording: Recording, testbed: Testbed, params: Params, com_walk: float) -> Drifting:
+    """Return the optimum with the walk that is expected (m/sqrt(s))."""
+    nodes = node_times(recording)
+    names = tuple(name for name in COM if name not in params.hold)
+    sd = np.full(len(names), com_walk * float(np.sqrt(nodes[1] - nodes[0])))
+    params = replace(levelled(recording, testbed, params), jumps=walking(nodes, names, sd))
+    _, fitted = anchored(recording, testbed, params, fit(recording, testbed, params))
+    return Drifting(fitted, nodes, names, sd, fitted.problem.prior, 0.0)
+
+
+def refitted(found: Drifting, sd: Floats, up: Vector3) -> Drifting:
+    """Return the fit with steps of these sd (m)."""
+    fitted = found.fitted
+    problem = replace(fitted.problem, jumps=walking(found.nodes, found.names, sd))
+    problem = untied(problem, found.prior, fitted, up)
+    return replace(found, fitted=settle_pinned(problem, fitted.point, fitted.jumps), sd=sd)
+
+
+def calibrated(found: Drifting, expected: float, up: Vector3) -> Drifting:
+    """Return the fit with the walk that the record supports; ``expected`` is the sd of a step."""
+    problem, at = linear_at(found.fitted)
+    sd = likely_steps(problem, at, expected)
+    return replace(refitted(found, sd, up), gained=gain(problem, at, sd, expected))
+
+
+def coloured(found: Drifting, up: Vector3) -> Drifting:
+    """Return the fit with a walk as dense as where it is densest (``torque_colour``)."""
+    steps = found.fitted.jumps[:, : len(found.sd)] / found.sd
+    return refitted(found, found.sd * np.sqrt(densest(steps, 1)), up)
+
+
+def drifting(
+    recording: Recording, testbed: Testbed, params: Params, com_walk: float = COM_WALK
+) -> Drifting:
+    """Return the optimum with a walk of com as the record shows it; ``com_walk`` is expected."""
+    found, up = begun(recording, testbed, params, com_walk), testbed.up
+    if not found.names or not np.isfinite(found.fitted.at.cost):
+        return found
+    expected = float(found.sd[0])
+    for _ in range(ROUNDS):
+        found = calibrated(found, expected, up)
+    for _ in range(COLOUR_ROUNDS):
+        found = coloured(found, up)
+    return replace(found, fitted=disbelieved(found.fitted, up))
+
+
+def com_rows(found: Drifting) -> Floats:
+    """Return the derivative of r at every node by the unknowns of its stretch, (K, 3, n)."""
+    layout, nodes = found.fitted.problem.layout, found.nodes
+    rows = np.zeros((len(nodes), 3, layout.size))
+    rows[:, :, R] = np.eye(3)
+    for j, axis in enumerate("xyz"):
+        if f"drift_{axis}" in layout.terms:
+            rows[:, j, FIXED + layout.terms.index(f"drift_{axis}")] = nodes - nodes[0]
+    return rows
+
+
+def com_values(found: Drifting, after: Smoothed) -> Series:
+    """Return r (m) at every node, masses at home."""
+    rate = found.fitted.point.torque[DRIFT : DRIFT + 3]
+    home = np.array([unknowns_of(point).com for point in after.points])
+    return home + np.outer(found.nodes - found.nodes[0], rate)
+
+
+def course_of(found: Drifting, after: Smoothed, concluded: Estimate) -> Course:
+    """Return r along the record; its intervals are those of the estimate where that begins."""
+    rows, factor = com_rows(found), widening_of(concluded)
+    spread = factor**2 * np.einsum("kij,kjl,kil->ki", rows, after.covariance, rows, optimize=True)
+    beside = np.diag(concluded.covariance_of(COM)) - spread[0]  # of what no fit seeks
+    sd = np.sqrt(np.maximum(spread + beside, 0.0))
+    seen = [concluded.sees((name,)) for name in COM]
+    return Course(COM, found.nodes, com_values(found, after), np.where(seen, sd, np.inf))
+
+
+def widening_of(concluded: Estimate) -> float:
+    """Return by how much the estimate's intervals are wider than rows say that err as stated."""
+    assert concluded.residual is not None
+    return widening(concluded.residual)
+
+
+def moved(found: Drifting, after: Smoothed) -> tuple[Vector3, Vector3]:
+    """Return how far r went from the first moment to the last, and its sd (m)."""
+    values, rows = com_values(found, after), com_rows(found)
+    first, last = rows[0], rows[-1]
+    across = last @ after.onward @ after.covariance[0] @ first.T
+    spread = first @ after.covariance[0] @ first.T + last @ after.covariance[-1] @ last.T
+    return values[-1] - values[0], np.sqrt(np.diag(spread - across - across.T))
+
+
+def drift_sentence(found: Drifting, after: Smoothed, concluded: Estimate) -> str:
+    """Say how far the centre of mass went."""
+    if not concluded.sees(COM):
+        return "Not all of the centre of mass is seen, nor how far it drifts."
+    way, sd = moved(found, after)
+    sizes, sds = (
+        ", ".join(f"{1e6 * x:.2g}" for x in each) for each in (way, widening_of(concluded) * sd)
+    )
+    text = f"from start to end it moves by {sizes} um (sd {sds})."
+    if found.gained < SEEN:
+        return f"No drift of the centre of mass is seen: {text}"
+    return f"The centre of mass drifts: {text} com is that of the start, com_end that of the end."
+
+
+def estimate(
+    recording: Recording, testbed: Testbed, params: Params, com_walk: float = COM_WALK
+) -> Estimate:
+    """Return the estimate of a record, with the course of com; ``com_walk`` is in m/sqrt(s)."""
+    recording = arranged(recording, testbed.mass_names)
+    found = drifting(recording, testbed, params, com_walk)
+    try:
+        concluded = conclude(found.fitted, METHOD, recording)
+        if not found.fitted.converged:
+            return concluded
+        after = smooth_at(found.fitted)
+        return told(found, after, concluded)
+    except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
+        return Estimate(METHOD, UNSETTLED, (), np.zeros((0, 0)))
+
+
+def told(found: Drifting, after: Smoothed, concluded: Estimate) -> Estimate:
+    """Return the estimate with the course of com, and with what is to be said of it."""
+    outcome = concluded.outcome
+    if outcome.usable:
+        outcome = Outcome(True, f"{outcome.sentence} {drift_sentence(found, after, concluded)}")
+    return replace(concluded, outcome=outcome, course=course_of(found, after, concluded))

@@ -1,0 +1,144 @@
+"""Which terms beside gravity and a rigid body a record supports: sensors' errors and torques.
+
+A group of terms is looked at when the record is likelier with it, all unknowns integrated out about
+the present optimum and the group's coefficients having a plausible size each (W = size^-2):
+
+    2 ln ratio = b^T (S + W)^-1 b - ln det(E + W^-1 S),     S = A_BB - A_BA A_AA^-1 A_AB
+
+(the Bayes factor in Laplace's approximation), and kept when it also predicts (``held_out_rows``): a
+term that merely bends to fit loses where it has not seen. A torque needs a lead (``SURE``; Kass and
+Raftery 1995 call 6 strong), an error of a sensor none: where it is as likely there as not, leaving
+it out moves com by several sd.
+
+Cannot tell apart terms that do the same within the record: the first that predicts is kept.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.estimation.events.record_model import Believed, refitted
+from equipoise.estimation.model_selection.cross_validation import posed_in
+from equipoise.estimation.output_error.problem import changes, evaluate
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.parameters.fit_parameters import sensor_sizes, term_sizes
+from equipoise.model import sensor_terms, torque_terms
+from equipoise.model.arrays import Floats
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+PLUMB = sensor_terms.GROUPS["plumb"]
+HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
+GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
+DELAY = sensor_terms.GROUPS["camera_delay"]
+SURE = 6.0  # 2 ln ratio
+GROUPS = (PLUMB, HEADING, DELAY, *GYRO, *torque_terms.GROUPS.values())
+
+
+def is_of_sensors(group: tuple[str, ...]) -> bool:
+    """Say whether a group is of errors of sensors, not of torques."""
+    return set(group) <= set(sensor_terms.TERMS)
+
+
+def candidates(belief: Believed) -> list[tuple[str, ...]]:
+    """Return the groups of terms that this record could show and that are not sought yet."""
+    recording, params = belief.recording, belief.params
+    camera, gyro = (c is not None and len(c) > 0 for c in (recording.attitude, recording.rate))
+    found: list[tuple[str, ...]] = [HEADING] if camera else []
+    if camera and (gyro or changes(recording)):
+        found.append(DELAY)
+    if camera and gyro:
+        found += GYRO
+    found += list(torque_terms.GROUPS.values())
+    sought = {*params.sensor, *params.terms}
+    return [group for group in found if not sought.issuperset(group)]
+
+
+def levelled(belief: Believed) -> Believed:
+    """Return the model with the camera's vertical free, as far as the testbed says it may lean.
+
+    Not a term to be chosen: no camera is level to what a record shows of it, and com is far off
+    long before the record asks for the term.
+    """
+    may_lean = is_plumb_open(belief.recording, belief.testbed)
+    return refitted(with_group(belief, PLUMB)) if may_lean else belief
+
+
+def is_plumb_open(recording: Recording, testbed: Testbed) -> bool:
+    """Say whether a recording has rows of a camera whose vertical may lean."""
+    camera, rows = testbed.attitude, recording.attitude
+    return camera is not None and rows is not None and len(rows) > 0 and camera.plumb_sd > 0
+
+
+def with_group(belief: Believed, group: tuple[str, ...]) -> Believed:
+    """Return the model with a group of terms more."""
+    params = belief.params
+    if is_of_sensors(group):
+        sensor = sensor_terms.among((*params.sensor, *group))
+        return replace(belief, params=replace(params, sensor=sensor))
+    terms = torque_terms.among((*params.terms, *group))
+    return replace(belief, params=replace(params, terms=terms))
+
+
+def added_groups(belief: Believed, asked: Params) -> list[tuple[str, ...]]:
+    """Return the groups of terms, or what of them, that were not asked for."""
+    here, told = ({*p.sensor, *p.terms} for p in (belief.params, asked))
+    groups = (tuple(t for t in group if t in here and t not in told) for group in GROUPS)
+    return [group for group in groups if group]
+
+
+def without_group(belief: Believed, group: tuple[str, ...]) -> Believed:
+    """Return the model without a group of terms, whose coefficients are zero then."""
+    params = belief.params
+    sensor, terms = (
+        tuple(term for term in terms if term not in group)
+        for terms in (params.sensor, params.terms)
+    )
+    fitted, point = belief.fitted, belief.fitted.point
+    bare = replace(
+        point,
+        torque=np.where(np.isin(torque_terms.TERMS, group), 0.0, point.torque),
+        sensor=np.where(np.isin(sensor_terms.TERMS, group), 0.0, point.sensor),
+    )
+    return replace(
+        belief,
+        params=replace(params, sensor=sensor, terms=terms),
+        fitted=replace(fitted, point=bare),
+    )
+
+
+def plausible(belief: Believed, group: tuple[str, ...]) -> Floats:
+    """Return how large the coefficients of a group may well be, one sd."""
+    if is_of_sensors(group):
+        return sensor_sizes(group, belief.testbed.attitude)
+    body = belief.testbed.body
+    moment = float(np.trace(body.inertia_P)) / 3
+    return term_sizes(group, moment, body.mass * belief.testbed.gravity)
+
+
+def surplus(belief: Believed, group: tuple[str, ...]) -> float:
+    """Return 2 ln of how much likelier the record is with a group than without."""
+    problem, jumps = posed_in(with_group(belief, group), belief.recording)
+    at = evaluate(problem, belief.fitted.point, jumps)
+    B = np.array([name in group for name in problem.layout.names])
+    unit = np.where(B, 1.0, 1 / np.sqrt(np.diag(at.normal)))
+    unit[B] = plausible(belief, group)
+    normal = at.normal - np.diag(np.where(B, problem.prior.weight, 0.0))
+    A, b = normal * np.outer(unit, unit), at.descent * unit
+    rest = np.linalg.solve(A[np.ix_(~B, ~B)], A[np.ix_(~B, B)])
+    seen = np.eye(len(group)) + A[np.ix_(B, B)] - A[np.ix_(B, ~B)] @ rest
+    b_B = b[B] - rest.T @ b[~B]
+    return float(b_B @ np.linalg.solve(seen, b_B) - np.linalg.slogdet(seen)[1])
+
+
+def lead(group: tuple[str, ...]) -> float:
+    """Return the 2 ln ratio that a group needs to be looked at."""
+    return 0.0 if is_of_sensors(group) else SURE
+
+
+def best_group(belief: Believed, refused: set[tuple[str, ...]]) -> tuple[tuple[str, ...], float]:
+    """Return the group that promises most, and by how much beyond its lead."""
+    open_to = [group for group in candidates(belief) if group not in refused]
+    found = [surplus(belief, group) - lead(group) for group in open_to]
+    most = int(np.argmax(found)) if found else 0
+    return (open_to[most], found[most]) if found else ((), -np.inf)

@@ -1,0 +1,228 @@
+"""Survey: what happened during a record, and how noisy it is, without being told.
+
+A platform that is touched, or whose parts shift, moves on by the same laws from another state. So
+the record is cut into short stretches with a little process noise between them, which keeps each
+cut's test local and lets a model that is slightly wrong pass; then
+
+1. the process noise (a torque that wanders) is set so that half of all cuts are as surprised as
+   they should be, and the sensors' noise so that half of all rows are;
+2. the greatest surprise beyond the threshold becomes an event: an unknown impulse, or a step of the
+   centre of mass, whichever explains more; go to 1 until no cut is surprised;
+3. each event is moved to the moment that explains most; those that do not earn their place when
+   all are known are taken back; process noise that explains nothing is left out.
+
+The threshold is that of one false alarm in ``FALSE_ALARM`` seconds if cuts were independent, which
+they are not: the rate is lower.
+
+Cannot see events below the threshold, nor two within one stretch; an impulse is told from a step of
+the centre of mass only when the rows behind it swing.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.estimation.events.detection_threshold import threshold
+from equipoise.estimation.events.event_search import (
+    colour_of,
+    doubted,
+    of_either_kind,
+    pruned,
+    settled,
+)
+from equipoise.estimation.events.noise_identification import (
+    calibrated,
+    excesses,
+    first_walk,
+    quiet,
+    weighed,
+)
+from equipoise.estimation.events.process_noise_spectrum import coloured
+from equipoise.estimation.events.record_model import Believed, Happening, improbability, smoothed
+from equipoise.estimation.model_selection import survey_sentences
+from equipoise.estimation.model_selection.initial_model import is_close
+from equipoise.estimation.model_selection.model_choice import best_group, levelled
+from equipoise.estimation.model_selection.term_selection import (
+    Refused,
+    bared,
+    extended,
+    is_lawful,
+    likeliest,
+)
+from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.maths.whiteness import WHITE, portmanteau
+from equipoise.model.arrays import Floats, Series1
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+FINEST, MOST_CUTS = 0.1, 2000  # s, -; chosen: shorter than a touch, and what memory holds
+ROWS, EDGE = 2, 2  # camera rows between cuts, and cuts' spacings left alone at either end
+FEWEST = 8  # cuts, chosen: below this a median says nothing
+WRONG = 1.8  # chosen: root of the median surprise over its due; by chance it is below 1.6
+MOST_EVENTS, FEW_EVENTS = 40, 8  # with and without process noise, chosen
+MANY = 4  # events, chosen: so many may be a push that comes and goes
+LEAD = 50.0  # -2 ln probability, chosen: more than seeking all once more has gained
+ROUNDS = 3
+
+
+def finest_spacing(recording: Recording) -> float:
+    """Return the least time between cuts, s, however dense the rows."""
+    start, end = recording.span
+    return max(FINEST, (end - start) / MOST_CUTS)
+
+
+def cut_times(recording: Recording) -> Series1:
+    """Return where to look for events: evenly, a few rows apart."""
+    start, end = recording.span
+    rows = recording.attitude or recording.rate
+    assert rows is not None
+    spacing = max(ROWS * rows.period, finest_spacing(recording))
+    return np.arange(start + EDGE * spacing, end - (EDGE - 0.5) * spacing, spacing)
+
+
+def touched(belief: Believed, surprise: dict[str, Floats], fit: Fitted) -> Believed | None:
+    """Return the belief with the event that surprises most, if it is beyond the threshold."""
+    kind, values = max(surprise.items(), key=lambda item: float(np.max(item[1])))
+    k = int(np.argmax(values))
+    if values[k] < threshold(belief.spacing):
+        return None
+    event = Happening(fit.problem.jumps[k].t, kind)
+    return of_either_kind(replace(belief, events=(*belief.events, event)), len(belief.events))
+
+
+def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
+    """Return the belief with all terms that the record supports and the events that surprise."""
+    refused: Refused = set()
+    while len(belief.events) < most:
+        belief, surprise, fit = calibrated(belief)
+        if is_drowned(belief):
+            break
+        group, promise = best_group(belief, refused) if terms else ((), 0.0)
+        shaken = touched(belief, surprise, fit)
+        if promise <= 0 and shaken is None:
+            break
+        richer = extended(belief, group, refused) if promise > 0 else belief
+        if shaken is None or (richer is not belief and is_lawful(richer, shaken, group)):
+            belief = richer
+        else:
+            belief = shaken
+    return belief
+
+
+def wandering(belief: Believed) -> Believed:
+    """Return the belief with some process noise to begin with."""
+    return replace(belief, walk=np.full(3, first_walk(belief)))
+
+
+def is_drowned(belief: Believed) -> bool:
+    """Say whether something drives the platform so that nothing is to be told any further."""
+    return belief.wanders and survey_sentences.driven(belief) > survey_sentences.DRIVEN
+
+
+def is_calm(belief: Believed) -> bool:
+    """Say whether what is left is white noise, and no cut has to be surprised."""
+    fit, after = smoothed(belief)
+    far = quiet(belief, np.array([jump.t for jump in fit.problem.jumps]))
+    white = min(portmanteau(left) for left in (fit.at.left_q, fit.at.left_w)) > WHITE
+    return white and bool(excesses(after, far).max() < WRONG)
+
+
+def driven(belief: Believed) -> Believed:
+    """Return the belief of a platform that something unknown drives: with process noise."""
+    belief = wandering(belief)
+    for turn in range(ROUNDS):
+        wider = searched(belief, MOST_EVENTS)
+        if turn > 0 and contents(wider) == contents(belief):
+            break
+        belief = weighed(settled(wider))
+        if not belief.wanders or is_drowned(belief):
+            break
+    return belief
+
+
+def repeated(belief: Believed, most: int, terms: bool = True) -> Believed:
+    """Return the belief searched and settled again and again, until nothing new stays."""
+    for _ in range(ROUNDS):
+        before = contents(belief)
+        belief = searched(belief, most, terms)
+        if contents(belief) == before or len(belief.events) >= most:
+            break
+        belief = settled(belief)
+        if contents(belief) == before:
+            break
+    return belief
+
+
+def contents(belief: Believed) -> tuple[object, ...]:
+    """Return what a belief believes in: terms, and how many events of each kind."""
+    kinds = sorted(event.kind for event in belief.events)
+    return (belief.params.terms, belief.params.sensor, *kinds)
+
+
+def calm(belief: Believed, greedy: Believed) -> Believed:
+    """Return the belief without process noise, from all that was found at first: ``greedy``.
+
+    An event that is not known yet may look like a term, and a term like events. So where both are
+    found, or neither is enough, all is sought once more, events first; the likelier is taken.
+    """
+    plain = (greedy.params.terms, greedy.params.sensor) == (
+        belief.params.terms,
+        belief.params.sensor,
+    )
+    if not (plain or (not greedy.events and is_calm(greedy))):
+        events_first = repeated(repeated(belief, FEW_EVENTS, terms=False), FEW_EVENTS)
+        return likeliest([bared(one, belief.params) for one in (greedy, events_first)])
+    return bared(greedy, belief.params)
+
+
+def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Believed:
+    """Return the model that the record supports, and the fit in it; unsettled if it went astray."""
+    cuts = cut_times(recording)
+    belief = Believed(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
+    if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
+        return replace(belief, cuts=np.zeros(0))
+    try:
+        return coloured(looked_into(levelled(belief)))
+    except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
+        return replace(belief, cuts=np.zeros(0))
+
+
+def looked_into(belief: Believed) -> Believed:
+    """Return the likeliest model from the plain one.
+
+    First without process noise, which could hide a term that explains all. Where ``MANY`` events
+    turn up, a torque that wanders is tried before all is sought once more, which takes long with
+    so many, and spares that only with a great ``LEAD``: touches may first be found elsewhere than
+    they were. Of a platform that is driven by far more than gravity nothing is sought.
+    """
+    if not is_close(belief.fitted):
+        wild, _, _ = calibrated(wandering(belief))
+        if is_drowned(wild):
+            return wild
+    greedy = repeated(belief, FEW_EVENTS)
+    if len(greedy.events) < MANY:
+        return doubted(compared(belief, calm(belief, greedy)))
+    pushed = driven(belief)
+    if len(greedy.events) >= FEW_EVENTS:
+        return doubted(pushed)
+    if improbability(greedy) - improbability(pushed) < LEAD:
+        greedy = calm(belief, greedy)
+    return doubted(compared(belief, greedy, pushed))
+
+
+def compared(belief: Believed, greedy: Believed, pushed: Believed | None = None) -> Believed:
+    """Return the likeliest of a model without process noise, ``greedy``, and those with it.
+
+    One that explains all needs no rival, unless with ``MANY`` events: they explain anything, such
+    as a motor's push. How much process noise there is depends on which events are believed in: it
+    is sought from none (``pushed``, where that is at hand) and from all.
+    """
+    simple = pruned(greedy, colour_of(greedy))
+    explained = is_calm(simple)
+    if explained and len(simple.events) < MANY:
+        return simple
+    models = [simple, pushed or driven(belief)]
+    if greedy.events and not explained:
+        models.append(driven(greedy))
+    return likeliest(models)

@@ -1,0 +1,118 @@
+"""What a survey found, in sentences: how noisy, how driven, what is still open."""
+
+import numpy as np
+
+from equipoise.estimation.events.record_model import Believed, slowest
+from equipoise.estimation.model_selection.cross_validation import posed_in
+from equipoise.estimation.model_selection.model_choice import PLUMB, candidates, with_group
+from equipoise.estimation.output_error.problem import evaluate
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.estimation.parameters.fit_parameters import CORE
+from equipoise.maths.linalg import inverse_spd
+from equipoise.model.arrays import Floats, Square
+from equipoise.model.estimate import Estimate
+
+NOISY = 1.3  # chosen: a noise off by more is told
+OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, untold
+LEANS = 4.0  # sd, chosen: a smaller lean is corrected untold
+DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which that tells too little
+
+
+def noise_sentences(belief: Believed) -> list[str]:
+    """Say where sensors are noisier or quieter than stated."""
+    pairs = (
+        ("attitude", "deg", belief.testbed.attitude, belief.stated.attitude),
+        ("gyro", "deg/s", belief.testbed.gyro, belief.stated.gyro),
+    )
+    text: list[str] = []
+    for name, unit, found, stated in pairs:
+        if found is None or stated is None:
+            continue
+        factor = found.noise / stated.noise
+        if not 1 / NOISY < factor < NOISY:
+            size, said = np.degrees(found.noise), np.degrees(stated.noise)
+            text.append(f"The {name} noise is {size:.2g} {unit} a row, not {said:.2g} as stated.")
+    return text
+
+
+def added(belief: Believed, asked: Params) -> tuple[str, ...]:
+    """Return the terms that the record asked for by itself."""
+    have = {*asked.sensor, *asked.terms, *PLUMB}
+    return tuple(t for t in (*belief.params.sensor, *belief.params.terms) if t not in have)
+
+
+def term_sentences(belief: Believed, asked: Params) -> list[str]:
+    """Say which terms were added."""
+    groups = dict.fromkeys(term.split("_")[0] for term in added(belief, asked))
+    if not groups:
+        return []
+    return [f"Terms that the record supports were added: {', '.join(groups)}."]
+
+
+def lean_sentences(belief: Believed, concluded: Estimate) -> list[str]:
+    """Say how far the camera's vertical leans, where the record shows that it does."""
+    if not set(PLUMB) <= set(belief.params.sensor):
+        return []
+    lean, covariance = concluded.values(PLUMB), concluded.covariance_of(PLUMB)
+    if lean @ np.linalg.solve(covariance, lean) < LEANS**2:
+        return []
+    size = float(np.degrees(np.linalg.norm(lean)))
+    return [f"The camera's vertical leans {size:.2g} deg from gravity's; that is corrected."]
+
+
+def gravity_torque(belief: Believed) -> float:
+    """Return a typical torque of gravity in the record, N m: rms over the camera's rows."""
+    seen, point = belief.fitted.problem.seen, belief.fitted.point
+    weight = belief.testbed.body.mass * belief.testbed.gravity
+    if not len(seen.attitude):
+        return weight * float(np.linalg.norm(point.com))
+    w, x, y, z = seen.attitude.T
+    down: Floats = -np.column_stack(
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
+    )
+    torque: Floats = weight * np.cross(point.com, down)
+    off: Floats = torque - np.mean(torque, axis=0)
+    return float(np.linalg.norm(off)) / len(off) ** 0.5
+
+
+def driven(belief: Believed) -> float:
+    """Return the wandering torque over a swing as a share of gravity's."""
+    size = float(np.linalg.norm(belief.walk)) / np.sqrt(slowest(belief))
+    return size / max(gravity_torque(belief), 1e-12)
+
+
+def walk_sentences(belief: Believed) -> list[str]:
+    """Say how large the torque is that nothing explains."""
+    if not belief.wanders:
+        return []
+    seconds = slowest(belief)
+    sizes = ", ".join(f"{1e6 * w / np.sqrt(seconds):.2g}" for w in belief.walk)
+    return [
+        f"A torque that no term explains wanders by {sizes} uN m about x, y, z within "
+        f"{seconds:.2g} s; intervals count it."
+    ]
+
+
+def core_sd(normal: Square) -> Floats:
+    """Return the sd of inertia and com from the information on all unknowns."""
+    return np.sqrt(np.diag(inverse_spd(normal)))[CORE]
+
+
+def open_sentences(belief: Believed) -> tuple[str, ...]:
+    """Say which absent terms the record could not tell from com or inertia.
+
+    With such a term free, an sd would be more than OPEN times what it is.
+    """
+    names, units = (x[CORE] for x in (belief.fitted.problem.layout.names,
+                                      belief.fitted.problem.layout.units))  # fmt: skip
+    firm, text = core_sd(belief.fitted.at.normal), list[str]()
+    for group in candidates(belief):
+        problem, jumps = posed_in(with_group(belief, group), belief.recording)
+        free = core_sd(evaluate(problem, belief.fitted.point, jumps).normal)
+        k = int(np.argmax(free / firm))
+        if free[k] > OPEN * firm[k]:
+            text.append(
+                f"{names[k]} is this firm only without a '{group[0].split('_')[0]}' term, which "
+                f"the record does not ask for: with one its sd would be {free[k]:.2g} {units[k]}."
+            )
+    return tuple(text)

@@ -1,0 +1,55 @@
+"""Which terms a survey takes beside its events, when either may stand for the other.
+
+An event that is not known yet may look like a term, and a term like events. So a term that promises
+as much as an event is taken before it (``is_lawful``), and every term is put to the test again when
+all else is known (``bared``).
+"""
+
+from collections.abc import Sequence
+
+from equipoise.estimation.events.detection_threshold import threshold
+from equipoise.estimation.events.event_search import CLEAR
+from equipoise.estimation.events.record_model import Believed, farther, improbability, refitted
+from equipoise.estimation.model_selection.cross_validation import predicts_better
+from equipoise.estimation.model_selection.model_choice import (
+    added_groups,
+    with_group,
+    without_group,
+)
+from equipoise.estimation.output_error.trajectory import Params
+
+Refused = set[tuple[str, ...]]
+
+
+def likeliest(models: Sequence[Believed]) -> Believed:
+    """Return the model in which the record is most probable."""
+    return min(models, key=improbability)
+
+
+def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Believed:
+    """Return the belief with a group of terms, if that predicts better; refuse it otherwise."""
+    richer = refitted(with_group(belief, group))
+    if richer.fitted.converged and predicts_better(belief, richer):
+        return richer
+    refused.add(group)
+    return belief
+
+
+def is_lawful(richer: Believed, shaken: Believed, group: tuple[str, ...]) -> bool:
+    """Say whether a term explains about as much as an event that promises, too.
+
+    Each unknown counting as much as one of an event, or by how likely the record is with either:
+    coefficients far smaller than their plausible size do badly by the latter, many by the former.
+    Where both do, the term is taken: it leaves open more than an event, which has come and gone.
+    """
+    counted = threshold(richer.spacing) * (len(group) / 3 - 1)
+    if farther(richer, shaken) + counted < CLEAR:
+        return True
+    return improbability(richer) - improbability(shaken) < CLEAR
+
+
+def bared(belief: Believed, asked: Params) -> Believed:
+    """Return the belief without the terms that what was found after them has made needless."""
+    for group in added_groups(belief, asked):
+        belief = likeliest([refitted(without_group(belief, group)), belief])
+    return belief

@@ -1,0 +1,1 @@
+"""Attitude and rate from sensors, before any fit."""

@@ -1,0 +1,1 @@
+"""The maximum-likelihood output-error fit by multiple shooting."""

@@ -1,0 +1,236 @@
+"""From an optimum to an estimate: covariance, intervals, what was not seen, and a sentence."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import com_shift
+from equipoise.dynamics.regressor import DRIFT
+from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.estimation.method_contract import origin_of
+from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
+from equipoise.estimation.output_error.servo_sag_covariance import by_sag
+from equipoise.estimation.output_error.solution import Fitted, freedom, smooth_at
+from equipoise.estimation.parameters.fit_parameters import (
+    CORE,
+    FIXED,
+    JP,
+    RATE,
+    TURN,
+    Layout,
+    R,
+    physical,
+    unknowns_of,
+)
+from equipoise.estimation.parameters.observability import (
+    OPEN,
+    Visibility,
+    examine_unheld,
+    natural_sizes,
+    scale_of,
+)
+from equipoise.estimation.parameters.scale_free_ratios import ratios_of
+from equipoise.maths.attitude import logarithm
+from equipoise.maths.linalg import inverse_where, lag_one
+from equipoise.maths.whiteness import portmanteau, spectral_peak
+from equipoise.model.arrays import Floats, Square
+from equipoise.model.estimate import COM, END, Estimate, Parameter, Residual
+from equipoise.model.outcome import Outcome
+from equipoise.model.recording import Recording
+
+SURE = 4.0  # sd of a statistic before it counts as more than chance
+EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
+UNSETTLED = Outcome(False, "The fit did not settle; its numbers mean nothing.")
+
+
+def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
+    """Return the statistics of what the model leaves; its jumps amount to ``jumped`` unknowns."""
+    at, seen = fitted.at, fitted.problem.seen
+    left = at.left_q if len(at.left_q) else at.left_w
+    square = float(np.sum(at.left_q**2) + np.sum(at.left_w**2))
+    rows = at.left_q.size + at.left_w.size
+
+    def rms(part: Floats, sd: float) -> float | None:
+        return float(np.sqrt(np.mean(part**2))) * sd if part.size else None
+
+    return Residual(
+        rms(at.left_q, seen.attitude_sd),
+        rms(at.left_w, seen.rate_sd),
+        square,
+        max(round(rows - fitted.problem.layout.size - jumped), 1),
+        lag_one(left),
+        portmanteau(left),
+        spectral_peak=spectral_peak(left),
+    )
+
+
+def widening(residual: Residual) -> float:
+    """Return the factor on every sd for a residual larger or less white than noise."""
+    excess, chance = residual.reduced_chi_square, SURE / np.sqrt(residual.degrees_of_freedom)
+    factor = excess if excess > 1 + chance * np.sqrt(2) else 1.0
+    return float(np.sqrt(factor * residual.spectral_peak))
+
+
+def selection(layout: Layout) -> list[int]:
+    """Return the order in which parameters are reported."""
+    first = [*range(R.start, R.stop), *range(JP.start, JP.stop), *range(FIXED, layout.size)]
+    return [*first, *range(RATE.start, RATE.stop), *range(TURN.start, TURN.stop)]
+
+
+def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | None:
+    """Return com at the end, and its derivative by the unknowns of the last stretch.
+
+    Masses as they stand, drift and steps included. None where that is the com with masses at home.
+    """
+    problem, layout = fitted.problem, fitted.problem.layout
+    k, line = len(problem.maps.momentum), problem.line
+    last, seconds = line.known[-1], float(line.t[-1] - line.t[0])
+    d, felt = last[KNOWN_D : KNOWN_D + k], last[KNOWN_D + k :]
+    drifts = [(j, FIXED + layout.terms.index(f"drift_{axis}")) for j, axis in enumerate("xyz")
+              if f"drift_{axis}" in layout.terms]  # fmt: skip
+    stepped = any(set(COM) & set(jump.names) for jump in problem.jumps)
+    if not (np.any(d) or drifts or stepped):
+        return None
+    com = fitted.point.com if after is None else unknowns_of(after.points[-1]).com
+    rows, actual = np.zeros((3, layout.size)), d.copy()
+    rows[:, R] = np.eye(3)
+    for j, (owner, error) in enumerate(problem.errors.owner):
+        actual[owner] += felt[j] * fitted.point.error[error]
+        column = FIXED + len(layout.terms) + error
+        rows[:, column] += felt[j] * problem.maps.first_moment[owner] / problem.mass
+    for j, column in drifts:
+        rows[j, column] = seconds
+    moved = seconds * fitted.point.torque[DRIFT : DRIFT + 3]
+    return com + moved + com_shift(problem.maps, problem.mass, actual), rows
+
+
+def sentence_of(fitted: Fitted, residual: Residual, view: Visibility, factor: float) -> Outcome:
+    """Return whether the numbers may be used, and why."""
+    if not fitted.converged:
+        return UNSETTLED
+    left = (
+        f"{np.degrees(residual.attitude_rms):.3g} deg"
+        if residual.attitude_rms is not None
+        else f"{np.degrees(residual.rate_rms or 0):.3g} deg/s"
+    )
+    if residual.reduced_chi_square > EXPLAINED:
+        return Outcome(
+            False,
+            f"The model does not explain the record: it leaves {left} rms per axis, "
+            f"{np.sqrt(residual.reduced_chi_square):.2g} times the stated noise, with a lag-one "
+            f"correlation of {residual.lag_one:.2f} where noise has 0. Something moves the "
+            "platform that the model does not know; do not trust the intervals.",
+        )
+    text = f"The model explains the record to {left} rms per axis."
+    if factor > 1:
+        text += (
+            f" What is left is not quite noise (lag-one correlation {residual.lag_one:.2f}, "
+            f"spectral peak {residual.spectral_peak:.2g} times the mean): intervals are widened "
+            f"{factor:.2g} times."
+        )
+    if view.scale_open:
+        text = "The scale is open: only ratios of inertia and centre of mass are known. " + text
+    elif bool(view.hidden[R].any() or view.hidden[JP].any()):
+        text += " Part of the mass properties is not seen; those intervals are infinite."
+    return Outcome(True, text)
+
+
+def parameters_of(
+    fitted: Fitted, view: Visibility, factor: float, after: Smoothed | None
+) -> tuple[tuple[Parameter, ...], Floats]:
+    """Return the named values with their covariance, in the order in which they are reported."""
+    problem, layout = fitted.problem, fitted.problem.layout
+    values = physical(fitted.point, problem.mass, layout)
+    values[TURN] = logarithm(fitted.point.q0)
+    order = selection(layout)
+    rows, labels = np.eye(layout.size)[order], [(layout.names[k], layout.units[k]) for k in order]
+    reported = values[order]
+    end = end_rows(fitted, after)
+    fresh = np.zeros((len(rows) + 3, len(rows) + 3))
+    if end is not None:
+        last = end[1] if after is None else end[1] @ after.onward
+        rows, reported = np.vstack([rows, last]), np.append(reported, end[0])
+        labels += [(name, "m") for name in END]
+        if after is not None:
+            fresh[-3:, -3:] = end[1] @ jumped_by_then(after) @ end[1].T
+    covariance = factor**2 * (rows @ view.covariance @ rows.T + fresh[: len(rows), : len(rows)])
+    hidden = np.any(np.abs(rows[:, view.hidden]) > 0, axis=1)
+    sd = np.where(hidden, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
+    found = [
+        Parameter(name, unit, float(reported[i]), float(sd[i]), not bool(hidden[i]))
+        for i, (name, unit) in enumerate(labels)
+    ]
+    return tuple(found), covariance
+
+
+def jumped_by_then(after: Smoothed) -> Floats:
+    """Return the covariance of the last stretch's unknowns that comes of the jumps alone."""
+    return after.covariance[-1] - after.onward @ after.covariance[0] @ after.onward.T
+
+
+def without_scale(view: Visibility, layout: Layout) -> Visibility:
+    """Return the view of a fit in which one moment of inertia was held only for the search."""
+    hidden = view.hidden.copy()
+    hidden[JP.start : FIXED + len(layout.terms)] = True
+    return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True, view.unseen)
+
+
+def without_anchor(normal: Square, fitted: Fitted) -> Square:
+    """Return information without the prior that only keeps a search from wandering."""
+    prior = fitted.problem.prior
+    return normal - np.diag(np.where(prior.held, 0.0, prior.anchor))
+
+
+def visibility_of(fitted: Fitted, values: Floats) -> Visibility:
+    """Return covariance and visibility at a fit, ``values`` being its physical coordinates."""
+    problem, layout = fitted.problem, fitted.problem.layout
+    size = natural_sizes(fitted.point, problem.mass, layout)
+    information = without_anchor(fitted.at.normal, fitted)
+    view = examine_unheld(
+        information, scale_of(values, size), size, layout.names, problem.prior.held
+    )
+    view = replace(view, covariance=view.covariance + by_sag(fitted, view.covariance))
+    return without_scale(view, layout) if problem.scale_open else view
+
+
+def spread_of(fitted: Fitted, coloured: float = 1.0) -> tuple[tuple[Parameter, ...], Floats]:
+    """Return named values and their covariance with every prior counted, and nothing hidden.
+
+    What the data do not see is as uncertain as the priors leave it: a number for whoever asks what
+    a combination of parameters may be, where ``conclude`` says that it is not seen.
+    """
+    held = fitted.problem.prior.held
+    covariance = inverse_where(fitted.at.normal, ~held)
+    covariance += by_sag(fitted, covariance)
+    view = Visibility(covariance, np.zeros_like(held), (), False, np.zeros((len(held), 0)))
+    after = smooth_at(fitted) if fitted.problem.jumps else None
+    residual = residual_of(fitted, freedom(fitted, after) if after else 0.0)
+    return parameters_of(fitted, view, max(widening(residual), coloured), after)
+
+
+def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float = 1.0) -> Estimate:
+    """Return the estimate. Units are SI; ``com_end`` is with the masses as they stand at the end.
+
+    Intervals are at least ``coloured`` times as wide as rows say that err independently. The sd of
+    the first attitude (a rotation vector) is that of a small turn in body axes.
+    """
+    problem, layout = fitted.problem, fitted.problem.layout
+    values = physical(fitted.point, problem.mass, layout)
+    view = visibility_of(fitted, values)
+    after = smooth_at(fitted) if fitted.problem.jumps else None
+    residual = residual_of(fitted, freedom(fitted, after) if after else 0.0)
+    factor = max(widening(residual), coloured)
+    parameters, covariance = parameters_of(fitted, view, factor, after)
+    return Estimate(
+        method,
+        sentence_of(fitted, residual, view, factor),
+        parameters,
+        covariance,
+        residual,
+        view.sentences,
+        ratios_of(values[CORE], view.covariance[CORE, CORE], view.unseen[CORE])
+        if view.scale_open
+        else (),
+        True,
+        provenance=origin_of(recording) | {"evaluations": str(fitted.evaluations)},
+    )

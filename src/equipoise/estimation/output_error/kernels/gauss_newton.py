@@ -1,0 +1,321 @@
+"""The descent of the trajectory fit as one compiled kernel: from a first point to the optimum.
+
+    cost = 1/2 sum |e|^2 + 1/2 sum weight (mean - x)^2,      A = S^T S + weight,
+    b = S^T e + weight (mean - x)
+
+in physical coordinates x. The propagator's columns are by first moment, m times com. A held
+coordinate has no row and no column in A but its own, and does not move.
+
+A record may be cut into stretches with jumps between them (``stretches``); the point is that of the
+first, and each further stretch begins where the one before it ends, plus its jump.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equipoise.dynamics.propagation import Columns, look
+from equipoise.dynamics.rigid_body import KNOWN_D, ROWS, Body, body_at, times
+from equipoise.dynamics.sensitivities import LANES, place
+from equipoise.estimation.output_error.kernels.normal_equations import (
+    Pass,
+    Seen,
+    accumulate,
+    pass_for,
+)
+from equipoise.estimation.output_error.kernels.segments import (
+    Chain,
+    Cuts,
+    Pieces,
+    chain_for,
+    condense,
+    count_free,
+    follow,
+    jump_cost,
+    pieces_for,
+)
+from equipoise.estimation.parameters.retraction import (
+    BEHIND,
+    ERROR,
+    SENSOR,
+    R,
+    StepWork,
+    W,
+    body_at_point,
+    coordinates_of,
+    possible_step,
+    retract,
+    step_work_for,
+)
+from equipoise.maths.compiled import kernel, part
+from equipoise.maths.levenberg_marquardt import FIRST, FREE, NEAR, judge, promise, tolerated
+from equipoise.model.arrays import Floats, Ints
+
+HELD = 1e-9  # relative sd reported of a value that the user holds
+
+
+class Posed(NamedTuple):
+    """A least-squares problem as the kernel sees it."""
+
+    mass: float
+    gravity: float
+    maps: Floats
+    t: Floats
+    known: Floats
+    owners: Ints
+    columns: Columns
+    seen: Seen
+    limit: float  # Huber's, in sd; 0: none
+    mean: Floats  # of the priors
+    weight: Floats
+    held: NDArray[np.bool_]
+    slots: Ints  # where a point keeps each coordinate
+    cuts: Cuts
+
+
+class Local(NamedTuple):
+    """A point, and the local models of all stretches there in physical coordinates."""
+
+    point: Floats  # of the first stretch
+    pieces: Pieces
+    left_q: Floats  # (n, 3) residuals in sd
+    left_w: Floats
+
+
+class Ended(NamedTuple):
+    """How a descent ended."""
+
+    cost: float
+    converged: bool  # the step promises to lower twice the cost by less than is tolerated
+    evaluations: int
+
+
+@part
+def stop_where_told(posed: Posed, point: Floats, out: Floats) -> None:
+    """Write the known inputs with the masses where they really are."""
+    first = KNOWN_D + posed.maps.shape[0]
+    for i in range(out.shape[0] if posed.owners.shape[0] else 0):
+        for c in range(KNOWN_D, first):
+            out[i, c] = posed.known[i, c]
+        for j in range(posed.owners.shape[0]):
+            mass, error = posed.owners[j, 0], posed.owners[j, 1]
+            out[i, KNOWN_D + mass] += point[ERROR + error] * posed.known[i, first + j]
+
+
+@part
+def by_com(column: int, mass: float) -> float:
+    """Return d(first moment)/d(com) for a column of com, 1 for any other."""
+    return mass if R <= column < BEHIND else 1.0
+
+
+@part
+def unpack(work: Pass, mass: float, normal: Floats, descent: Floats) -> bool:
+    """Write A and b of the data by com instead of first moment; say whether all is finite."""
+    n, finite = descent.shape[0], True
+    for a in range(n):
+        scale = by_com(a, mass)
+        descent[a] = scale * work.descent[a]
+        for b in range(a + 1):
+            value = scale * by_com(b, mass) * work.normal[a, b]
+            normal[a, b], normal[b, a] = value, value
+            finite &= bool(np.isfinite(value))
+    return finite
+
+
+@part
+def arrive(
+    posed: Posed, body: Body, known: Floats, node: int, work: Pass, onward: Floats, here: Floats
+) -> None:
+    """Write attitude and rate at a cut, as the step that leaves it sees them, and Phi to there."""
+    y, fb, regress = work.y, work.fb, work.regress
+    now = body_at(body, posed.maps, posed.t, known, node, 0.0)
+    w, _ = look(body, now, posed.maps, posed.t, known, posed.owners, posed.columns, node, 0.0, y,
+                regress, fb)  # fmt: skip
+    for j in range(4):
+        here[j] = y[j]
+    for j in range(3):
+        here[W + j] = w[j]
+    for c in range(posed.columns.kinds.shape[0]):
+        scale, i = by_com(c, posed.mass), place(c)
+        k = ROWS + i
+        dw = times(now.inverse, (y[k + 3 * LANES] - fb[i], y[k + 4 * LANES] - fb[i + LANES],
+                                 y[k + 5 * LANES] - fb[i + 2 * LANES]))  # fmt: skip
+        for j in range(3):
+            onward[j, c] = scale * y[k + j * LANES]
+            onward[3 + j, c] = scale * dw[j]
+
+
+@part
+def jump(posed: Posed, k: int, jumps: Floats, step: Floats, here: Floats, out: Floats) -> None:
+    """Write the point behind inner cut k from the one before it."""
+    step[:] = 0.0
+    for i in range(count_free(posed.cuts.free[k])):
+        step[posed.cuts.free[k, i]] = jumps[k, i]
+    retract(here, step, posed.mass, posed.slots, out)
+
+
+@kernel  # not a part: smoothing calls it too
+def look_along(
+    posed: Posed, known: Floats, at: Local, work: Pass, step: Floats, here: Floats, behind: Floats
+) -> float:
+    """Write the local models of all stretches, and return half the cost of data and jumps.
+
+    Infinite where the motion is no number. ``step``, ``here`` and ``behind`` are worked in.
+    """
+    cuts, pieces, finite = posed.cuts, at.pieces, True
+    cost, iq, iw, last = jump_cost(cuts, pieces.jumps), 0, 0, cuts.free.shape[0]
+    for j in range(here.shape[0]):
+        here[j] = at.point[j]
+    q0, w0, sensor, bias = here[:W], here[W : W + 3], here[SENSOR:ERROR], here[-3:]
+    for k in range(last + 1):
+        if k > 0:
+            jump(posed, k - 1, pieces.jumps, step, here, behind)
+            for j in range(here.shape[0]):
+                here[j] = behind[j]
+        for j in range(here.shape[0]):
+            pieces.points[k, j] = here[j]
+        body = body_at_point(here, posed.mass, posed.gravity)
+        stretch = (cuts.nodes[k], cuts.nodes[k + 1])
+        of_data, iq, iw = accumulate(
+            body, posed.maps, posed.t, known, posed.owners, posed.columns, q0, w0, sensor, bias,
+            posed.seen, posed.limit, stretch, (iq, iw), work, at.left_q, at.left_w,
+        )  # fmt: skip
+        cost += of_data
+        finite &= unpack(work, posed.mass, pieces.normal[k], pieces.descent[k])
+        if k < last:
+            arrive(posed, body, known, stretch[1], work, pieces.onward[k], here)
+    return cost if finite else np.inf
+
+
+@part
+def prior_cost(posed: Posed, x: Floats) -> float:
+    """Return the priors' part of the cost."""
+    cost = 0.0
+    for k in range(x.shape[0]):
+        off = posed.mean[k] - x[k]
+        cost += 0.5 * posed.weight[k] * off * off
+    return cost
+
+
+@part
+def add_priors(posed: Posed, x: Floats, chain: Chain) -> None:
+    """Add the priors to A and b, and keep what is held."""
+    normal, descent, n = chain.normal, chain.descent, x.shape[0]
+    for k in range(n):
+        normal[k, k] += posed.weight[k]
+        descent[k] += posed.weight[k] * (posed.mean[k] - x[k])
+    for k in range(n):
+        if posed.held[k]:
+            for j in range(n):
+                normal[k, j], normal[j, k] = 0.0, 0.0
+            descent[k] = 0.0
+            normal[k, k] = (HELD * max(abs(posed.mean[k]), 1e-9)) ** -2
+
+
+@part
+def copy_rows(source: Floats, out: Floats) -> None:
+    """Write a matrix into another."""
+    for i in range(source.shape[0]):
+        for j in range(source.shape[1]):
+            out[i, j] = source[i, j]
+
+
+@part
+def keep(trial: Local, best: Local) -> None:
+    """Make the trial the best."""
+    for k in range(best.point.shape[0]):
+        best.point[k] = trial.point[k]
+    copy_rows(trial.pieces.jumps, best.pieces.jumps)
+    copy_rows(trial.pieces.descent, best.pieces.descent)
+    for k in range(best.pieces.normal.shape[0]):
+        copy_rows(trial.pieces.normal[k], best.pieces.normal[k])
+        if k < best.pieces.onward.shape[0]:
+            copy_rows(trial.pieces.onward[k], best.pieces.onward[k])
+    copy_rows(trial.left_q, best.left_q)
+    copy_rows(trial.left_w, best.left_w)
+
+
+@kernel  # not a part: it is called three times, and need not be compiled so often
+def model_at(posed: Posed, at: Local, damping: float, x: Floats, chain: Chain) -> float:
+    """Write A and b of the first stretch's unknowns; return what the jumps alone promise."""
+    promised = condense(posed.cuts, at.pieces, damping, chain)
+    coordinates_of(at.point, posed.mass, posed.slots, x)
+    add_priors(posed, x, chain)
+    return promised
+
+
+@kernel
+def propose(
+    posed: Posed, best: Local, damping: float, chain: Chain, x: Floats, work: StepWork,
+    step: Floats, trial: Local,
+) -> float:  # fmt: skip
+    """Write the next point to look at for a damping, and return its promise."""
+    promised = model_at(posed, best, damping, x, chain)
+    possible_step(best.point, posed.mass, chain.normal, chain.descent, damping, work, step)
+    promised += promise(chain.normal, chain.descent, step)
+    retract(best.point, step, posed.mass, posed.slots, trial.point)
+    follow(posed.cuts, best.pieces, step, chain, trial.pieces.jumps)
+    return promised
+
+
+@part
+def report(
+    posed: Posed, best: Local, x: Floats, chain: Chain, normal: Floats, descent: Floats
+) -> None:
+    """Write A and b of the first stretch's unknowns, undamped."""
+    model_at(posed, best, 0.0, x, chain)
+    copy_rows(chain.normal, normal)
+    for k in range(descent.shape[0]):
+        descent[k] = chain.descent[k]
+
+
+@kernel
+def local_for(posed: Posed, point: Floats) -> Local:
+    """Return a point with room for the local models there."""
+    n_q, n_w = posed.seen.attitude.shape[0], posed.seen.rate.shape[0]
+    pieces = pieces_for(posed.cuts, posed.slots.shape[0], point.shape[0])
+    return Local(point.copy(), pieces, np.zeros((n_q, 3)), np.zeros((n_w, 3)))
+
+
+@kernel
+def descend(posed: Posed, best: Local, most: int, normal: Floats, descent: Floats) -> Ended:
+    """Go from ``best`` to the optimum, in place, in at most so many evaluations.
+
+    Write A and b of the first stretch's unknowns there, all jumps taken out. With one evaluation
+    this is the local model at a point.
+    """
+    n, rows = posed.slots.shape[0], 3 * (best.left_q.shape[0] + best.left_w.shape[0])
+    trial = local_for(posed, best.point)
+    copy_rows(best.pieces.jumps, trial.pieces.jumps)
+    known = posed.known.copy() if posed.owners.shape[0] else posed.known
+    work, step_work = pass_for(posed.columns.kinds.shape[0], n), step_work_for(n)
+    chain, step, x = chain_for(posed.cuts, n), np.empty(n), np.empty(n)
+    here, behind = np.empty_like(best.point), np.empty_like(best.point)
+    cost, damping, growth, promised = np.inf, FIRST, 2.0, np.inf
+    evaluations, converged = 0, False
+    while evaluations < most:
+        evaluations += 1
+        stop_where_told(posed, trial.point, known)
+        there = look_along(posed, known, trial, work, step, here, behind)
+        coordinates_of(trial.point, posed.mass, posed.slots, x)
+        if there < np.inf:
+            there += prior_cost(posed, x)
+        taken = True
+        if evaluations > 1:
+            taken, damping, growth = judge(2.0 * (cost - there), promised, damping, growth)
+        if taken:
+            keep(trial, best)
+            cost = there
+        if not np.isfinite(cost) or evaluations == most:
+            break
+        promised, allowed = (propose(posed, best, damping, chain, x, step_work, step, trial),
+                             tolerated(cost, rows))  # fmt: skip
+        if promised < allowed:
+            bold = min(damping, FREE)
+            promised = propose(posed, best, bold, chain, x, step_work, step, trial)
+            converged = abs(promised) < NEAR * allowed
+            break
+    if np.isfinite(cost):
+        report(posed, best, x, chain, normal, descent)
+    return Ended(cost, converged, evaluations)

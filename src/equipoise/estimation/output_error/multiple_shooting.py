@@ -1,0 +1,91 @@
+"""Multiple shooting: a start for the trajectory fit from the measured motion, whatever the body.
+
+A single trajectory from a wrong body leaves the data within a swing, and from there no local step
+leads back. So the record is cut into short stretches that each begin at the measured attitude and
+rate; what is missing between the end of one and the beginning of the next counts as a jump with an
+sd, and the sd shrinks from one search to the next until the stretches join (Bock 1983, with the
+joints softened; cost grows with the number of stretches).
+
+Needs attitudes: rates alone give no states to begin with.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.timeline import Timeline
+from equipoise.estimation.motion.sampled_motion import SampledMotion, sampled_motion
+from equipoise.estimation.output_error.kernels.segments import Cuts
+from equipoise.estimation.output_error.problem import Problem, posed
+from equipoise.estimation.output_error.segment_jumps import RATE, TURN, Jump
+from equipoise.estimation.output_error.solution import settle
+from equipoise.estimation.parameters.fit_parameters import Unknowns
+from equipoise.maths.attitude import difference, exponential, multiply
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model.arrays import Floats, Quaternion, Series1, Vector3
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+STRETCHES = 40  # chosen: each a small part of a swing that the record shows
+FIRST = (0.2, 0.2)  # rad, and of the greatest rate: sd of the first joints, chosen
+SLOWEST = 0.01  # rad/s, chosen: a platform that hardly moves
+STAGES, TIGHTER = 6, 0.2  # chosen: to a ten-thousandth of the first sd
+EACH = 30  # evaluations
+Joints = tuple[Jump, ...]
+
+
+def joint_times(recording: Recording) -> Series1:
+    """Return where the record is cut, s."""
+    return np.linspace(*recording.span, STRETCHES + 1)[1:-1]
+
+
+def state_near(motion: SampledMotion, t: float) -> tuple[Quaternion, Vector3]:
+    """Return the measured attitude and rate at a time: those of the nearest row, turned on."""
+    k = int(np.argmin(np.abs(motion.t - t)))
+    return multiply(motion.q[k], exponential((t - motion.t[k]) * motion.w[k])), motion.w[k]
+
+
+def joints(times: Series1, attitude_sd: float, rate_sd: float) -> Joints:
+    """Return jumps of attitude and rate at these times."""
+    sd = (attitude_sd,) * 3 + (rate_sd,) * 3
+    return tuple(Jump(float(t), (*TURN, *RATE), sd) for t in times)
+
+
+def section(line: Timeline, first: int, last: int) -> Timeline:
+    """Return the nodes from one to another of a timeline."""
+    return line._replace(t=line.t[first : last + 1], known=line.known[first : last + 1])
+
+
+def missing(problem: Problem, point: Unknowns, motion: SampledMotion, cuts: Cuts) -> Floats:
+    """Return the jumps from the end of each stretch to the measured beginning of the next."""
+    body = point.body(problem.mass)
+    inertia, moment = pack_symmetric(body.inertia_P), body.first_moment
+    rigid = body_of(body.mass, problem.gravity, inertia, moment, point.torque)
+    out = np.zeros((len(cuts.nodes) - 2, 6))
+    q, w = point.q0, point.w0
+    for k in range(len(out)):
+        part = section(problem.line, int(cuts.nodes[k]), int(cuts.nodes[k + 1]))
+        end = propagate(rigid, problem.maps, part, q, w)
+        q, w = state_near(motion, float(part.t[-1]))
+        out[k, :3], out[k, 3:] = difference(q, end.q[-1]), w - end.rate[-1]
+    return out
+
+
+def shot(
+    recording: Recording, testbed: Testbed, posed_with: Callable[[Joints], Problem], body: Unknowns
+) -> Unknowns:
+    """Return a point near the optimum; ``body`` gives the first one, ``posed_with`` adds joints."""
+    motion, times = sampled_motion(recording, testbed), joint_times(recording)
+    fastest = max(float(np.linalg.norm(motion.w, axis=1).max()), SLOWEST)
+    cut = posed_with(joints(times, *FIRST))
+    q0, w0 = state_near(motion, float(cut.line.t[0]))
+    point = replace(body, q0=q0, w0=w0)
+    jumps = missing(cut, point, motion, posed(cut).cuts)
+    for stage in range(STAGES):
+        tight = TIGHTER**stage
+        cut = posed_with(joints(times, tight * FIRST[0], tight * FIRST[1] * fastest))
+        found = settle(cut, point, jumps, EACH)
+        point, jumps = found.point, found.jumps
+    return point

@@ -1,0 +1,85 @@
+"""What a set of mass properties says the sensors should have seen."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.actuators.drive_errors import on_rails, rails_of
+from equipoise.actuators.mass_errors import mass_errors
+from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.dynamics.propagation import body_of, propagate
+from equipoise.dynamics.regressor import N_TORQUES
+from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.dynamics.timeline import TURN_PER_STEP, timeline
+from equipoise.estimation.motion.sampled_motion import sampled_motion
+from equipoise.estimation.output_error.trajectory import fastest_rate
+from equipoise.maths.attitude import exponential
+from equipoise.maths.linalg import pack_symmetric
+from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4, Vector3
+from equipoise.model.estimate import Estimate
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.recording import Recording, arranged
+from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import TERMS
+from equipoise.sensors.timing import seen_at
+
+RATE = ("rate_x", "rate_y", "rate_z")
+ATTITUDE = ("attitude_x", "attitude_y", "attitude_z")
+
+
+class Prediction(NamedTuple):
+    """Attitude and rate at the times of the camera's rows (or the gyro's, without a camera)."""
+
+    t: Series1
+    q: Series4
+    rate: Series3
+
+
+def run(
+    recording: Recording,
+    testbed: Testbed,
+    body: MassProperties,
+    q0: Quaternion,
+    w0: Vector3,
+    torque: Floats,
+    found: Mapping[str, float],
+) -> Prediction:
+    """Return the motion of a body through the record's moves; errors of masses are in ``found``."""
+    recording = arranged(recording, testbed.mass_names)
+    rows, sensor = recording.attitude, testbed.attitude
+    if rows is None or not len(rows):
+        rows, sensor = recording.rate, testbed.gyro
+    assert rows is not None
+    t = seen_at(rows.t, sensor)
+    errors, rails = mass_errors(recording.masses, testbed.masses), rails_of(testbed.masses)
+    line = timeline(
+        t, np.zeros(0), on_rails(recording.masses, len(rails)), len(rails),
+        min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
+        recording.momentum, recording.torque, errors.felt, errors.owner,
+    )  # fmt: skip
+    first = KNOWN_D + len(rails)
+    off = [found.get(name, 0.0) for name in errors.names]
+    for j, (owner, error) in enumerate(errors.owner):
+        line.known[:, KNOWN_D + owner] += off[error] * line.known[:, first + j]
+    rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment,
+                    torque)  # fmt: skip
+    motion = propagate(rigid, mass_maps(rails), line, q0, w0)
+    return Prediction(rows.t, motion.q[line.attitude_node], motion.rate[line.attitude_node])
+
+
+def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Prediction:
+    """Return what an estimate of the trajectory method says of its own record."""
+    recording = arranged(recording, testbed.mass_names)
+    torque = np.array([estimate.values((t,))[0] if estimate.has(t) else 0.0 for t in TERMS])
+    body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
+    q0 = exponential(estimate.values(ATTITUDE))
+    found = {p.name: p.value for p in estimate.parameters}
+    return run(recording, testbed, body, q0, estimate.values(RATE), torque, found)
+
+
+def before(recording: Recording, testbed: Testbed) -> Prediction:
+    """Return what the testbed's first guess says, from the first attitudes (paper Fig. 6a)."""
+    recording = arranged(recording, testbed.mass_names)
+    motion = sampled_motion(recording, testbed)
+    return run(recording, testbed, testbed.body, motion.q[0], motion.w[0], np.zeros(N_TORQUES), {})

@@ -1,0 +1,280 @@
+"""A recording as a least-squares problem: residuals in units of their noise, and priors."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equipoise.actuators.drive_errors import on_rails, rails_of
+from equipoise.actuators.mass_errors import MassErrors, mass_errors
+from equipoise.actuators.sliding_masses import MassMaps, mass_maps
+from equipoise.dynamics import sensitivities
+from equipoise.dynamics.propagation import Columns, stacked
+from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
+from equipoise.estimation.output_error.kernels import gauss_newton
+from equipoise.estimation.output_error.kernels.gauss_newton import Posed
+from equipoise.estimation.output_error.kernels.normal_equations import Seen
+from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump, cuts_of, inside
+from equipoise.estimation.parameters.fit_parameters import (
+    CORE,
+    FIXED,
+    JP,
+    TURN,
+    Layout,
+    R,
+    Unknowns,
+    core_of,
+    sensor_sizes,
+    term_sizes,
+    unknowns_of,
+)
+from equipoise.maths.linalg import element_sizes
+from equipoise.model.arrays import Floats, Series, Square, Vector3
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import typical
+from equipoise.sensors.timing import seen_at, spread_of
+
+COARSE = 1e-4  # rad: what a camera of 0.2 deg makes of a thousand rows
+FINEST = 0.02  # rad
+LONGEST_STEP = 1.0  # s, chosen: a thirtieth of the shortest swing worth fitting
+KNOWN, KNOWN_COM = 1e-6, 1e-9  # of J, and m, chosen: what a stated sd of 0 is taken for
+ANCHOR = 10.0  # chosen: natural sizes by which what the data leave open may stray from the guess
+MOST = 300  # evaluations, chosen: a fit that settles takes fewer than thirty
+NOTHING = Samples(np.zeros(0), np.zeros((0, 1)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Prior:
+    """Independent normal priors in physical coordinates; weight 0 means none.
+
+    The anchor is a prior so wide that it only decides what the data leave open. It keeps the
+    search from wandering, and is taken out of the information again before that is judged.
+    """
+
+    mean: Floats
+    weight: Floats  # 1 / sd^2
+    anchor: Floats  # 1 / sd^2, part of ``weight``
+    held: NDArray[np.bool_]  # coordinates that do not move
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Problem:
+    """Everything that does not change while the unknowns are sought."""
+
+    mass: float
+    gravity: float
+    maps: MassMaps
+    errors: MassErrors
+    line: Timeline
+    seen: Seen
+    layout: Layout
+    columns: Columns
+    prior: Prior
+    limit: float  # Huber's, in sd; 0: none
+    scale_open: bool  # nothing known changes: one moment of inertia is held for the search
+    jumps: tuple[Jump, ...] = UNCUT
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Evaluation:
+    """The problem at one point: the local model in physical coordinates, data and priors."""
+
+    cost: float  # half the sum of squares
+    normal: Square  # A
+    descent: Floats  # b
+    left_q: Series  # (n, 3) residuals in sd
+    left_w: Series
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution:
+    """Where a descent ended."""
+
+    point: Unknowns
+    at: Evaluation
+    converged: bool
+    evaluations: int
+    jumps: Floats  # (K - 1, a)
+
+
+def columns_of(layout: Layout) -> Columns:
+    """Return the propagator's columns for a layout (the bias has none)."""
+    fixed = [(sensitivities.TURN, 3), (sensitivities.RATE, 3), (sensitivities.INERTIA, 6)]
+    pairs = [(kind, k) for kind, n in [*fixed, (sensitivities.MOMENT, 3)] for k in range(n)]
+    pairs += [(sensitivities.TORQUE, k) for k in layout.torque_index]
+    pairs += [(sensitivities.ERROR, k) for k in range(len(layout.errors))]
+    table = np.array(pairs, dtype=np.int64)
+    return Columns(table[:, 0].copy(), table[:, 1].copy())
+
+
+def prior_of(
+    testbed: Testbed,
+    errors: MassErrors,
+    layout: Layout,
+    inertia_and_com: bool,
+    hold: tuple[str, ...],
+    torque_anchor: float = ANCHOR,
+) -> Prior:
+    """Return what is known beforehand: masses' errors and bias always, the body when asked."""
+    names = layout.names
+    mean, sd = np.zeros(layout.size), np.full(layout.size, np.inf)
+    mean[CORE] = core_of(testbed.body)
+    if inertia_and_com:
+        sd[JP] = max(testbed.inertia_sd, KNOWN) * element_sizes(testbed.body.inertia_P)
+        sd[R] = np.maximum(testbed.com_sd, KNOWN_COM)
+    for k, name in enumerate(layout.errors):
+        sd[names.index(name)] = errors.sd[k]
+    first = FIXED + len(layout.terms) + len(layout.errors)
+    sd[first : first + len(layout.sensor)] = sensor_sizes(layout.sensor, testbed.attitude)
+    if layout.bias and testbed.gyro is not None and testbed.gyro.bias_sd > 0:
+        sd[-3:] = testbed.gyro.bias_sd
+    anchor = anchors(testbed, layout, torque_anchor)
+    held = np.array([name in hold for name in names])
+    return Prior(mean, sd**-2 + anchor, anchor, held)
+
+
+def with_typical_torques(prior: Prior, layout: Layout) -> Prior:
+    """Return a prior that also knows how large torques are on benches."""
+    weight = prior.weight.copy()
+    last = FIXED + len(layout.terms)
+    weight[FIXED:last] += np.array([typical(term) for term in layout.terms]) ** -2.0
+    return replace(prior, weight=weight)
+
+
+def anchors(testbed: Testbed, layout: Layout, torque_anchor: float) -> Floats:
+    """Return weights of the anchor.
+
+    Inertia within its own size, com within ten sd, torques within ``torque_anchor`` natural sizes.
+    """
+    weight = np.zeros(layout.size)
+    inertia = float(np.trace(testbed.body.inertia_P)) / 3
+    weight[TURN] = 1.0  # a step of 1 rad: without a camera nothing else ends a turn in heading
+    weight[JP], weight[R] = inertia**-2, (ANCHOR * testbed.com_sd) ** -2
+    size = term_sizes(layout.terms, inertia, testbed.body.mass * testbed.gravity)
+    weight[FIXED : FIXED + len(size)] = (torque_anchor * size) ** -2
+    return weight
+
+
+def quickest_swing(testbed: Testbed, aside: float = 0.0) -> float:
+    """Return the fastest swing (rad/s) as a pendulum that the testbed's description allows.
+
+    With the centre of mass another ``aside`` metres off, by the masses.
+    """
+    body = testbed.body
+    lever = float(np.linalg.norm(body.com) + 2 * np.max(testbed.com_sd)) + aside
+    stiffness = body.mass * testbed.gravity * lever / float(np.linalg.eigvalsh(body.inertia_P)[0])
+    return float(np.sqrt(stiffness))
+
+
+def longest_step(testbed: Testbed, fastest: float, rows: int) -> float:
+    """Return the integration step (s).
+
+    Within it the motion turns, or swings as a pendulum of the testbed's description, by ``turn``
+    radians at most.
+    Runge-Kutta's phase error over a record grows as turn^4; a tenth of a radian makes it some
+    2e-6 rad in a swing of 0.1 rad. Sensors that together see less than COARSE get shorter steps.
+    """
+    sharpest = min(s.noise for s in (testbed.attitude, testbed.gyro) if s is not None)
+    turn = TURN_PER_STEP * (sharpest / np.sqrt(rows) / COARSE) ** 0.25
+    turn = float(np.clip(turn, FINEST, TURN_PER_STEP))
+    return min(LONGEST_STEP, turn / max(fastest, quickest_swing(testbed)))
+
+
+def forward_of(up: Vector3) -> tuple[float, float, float]:
+    """Return the body axis whose heading counts: the one of x, y, z farthest from vertical.
+
+    Of two alike the first; made level by taking out what points along ``up``.
+    """
+    axis = np.eye(3)[int(np.argmin(np.abs(up)))]
+    level = axis - float(axis @ up) * up
+    x, y, z = level / np.linalg.norm(level)
+    return float(x), float(y), float(z)
+
+
+def pose(
+    recording: Recording,
+    testbed: Testbed,
+    layout: Layout,
+    errors: MassErrors,
+    prior: Prior,
+    longest: float,
+    limit: float,
+    scale_open: bool,
+    jumps: tuple[Jump, ...] = UNCUT,
+) -> Problem:
+    """Return the problem of a recording, integrated in steps of ``longest`` seconds at most."""
+    attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
+    jumps, rails = inside(jumps, *recording.span), rails_of(testbed.masses)
+    line = timeline(
+        seen_at(attitude.t, testbed.attitude),
+        seen_at(rate.t, testbed.gyro),
+        on_rails(recording.masses, len(rails)),
+        len(rails),
+        longest,
+        recording.momentum,
+        recording.torque,
+        errors.felt,
+        errors.owner,
+        at_nodes=False,
+        cut=np.array([jump.t for jump in jumps]),
+    )
+    seen = Seen(
+        np.ascontiguousarray(attitude.values if len(attitude) else np.zeros((0, 4))),
+        line.attitude_node,
+        line.attitude_share,
+        testbed.attitude.noise if testbed.attitude else 1.0,
+        spread_of(testbed.attitude),
+        np.ascontiguousarray(rate.values if len(rate) else np.zeros((0, 3))),
+        line.rate_node,
+        line.rate_share,
+        testbed.gyro.noise if testbed.gyro else 1.0,
+        spread_of(testbed.gyro),
+        forward_of(testbed.up),
+        np.array(layout.sensor_index, dtype=np.int64),
+    )
+    maps = mass_maps(rails)
+    columns = columns_of(layout)
+    return Problem(testbed.body.mass, testbed.gravity, maps, errors, line, seen, layout, columns,
+                   prior, limit, scale_open, jumps)  # fmt: skip
+
+
+def posed(problem: Problem) -> Posed:
+    """Return the problem as the kernel sees it."""
+    line, prior = problem.line, problem.prior
+    return Posed(problem.mass, problem.gravity, stacked(problem.maps), line.t, line.known,
+                 line.owners, problem.columns, problem.seen, problem.limit, prior.mean,
+                 prior.weight, prior.held, problem.layout.slots,
+                 cuts_of(problem.jumps, line.t, problem.layout))  # fmt: skip
+
+
+def descend(
+    problem: Problem, point: Unknowns, most: int = MOST, jumps: Floats | None = None
+) -> Solution:
+    """Return the local optimum from a point; jumps count as zero unless told."""
+    size, as_posed = problem.layout.size, posed(problem)
+    best = gauss_newton.local_for(as_posed, point.flat)
+    if jumps is not None:
+        best.pieces.jumps[:] = jumps
+    normal, toward = np.eye(size), np.zeros(size)
+    ended = gauss_newton.descend(as_posed, best, most, normal, toward)
+    at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w)
+    return Solution(unknowns_of(best.point), at, ended.converged, ended.evaluations,
+                    best.pieces.jumps)  # fmt: skip
+
+
+def evaluate(problem: Problem, point: Unknowns, jumps: Floats | None = None) -> Evaluation:
+    """Return cost, information and descent in physical coordinates, data and priors together."""
+    return descend(problem, point, 1, jumps).at
+
+
+def changes(recording: Recording) -> bool:
+    """Say whether anything known changes during a record: masses, stored momentum, torque."""
+    masses, others = recording.masses, (recording.momentum, recording.torque)
+    moved = masses is not None and bool(np.any(np.ptp(masses.values, axis=0) > 0))
+    return moved or any(c is not None and bool(np.any(c.values)) for c in others)
+
+
+def errors_of(recording: Recording, testbed: Testbed) -> MassErrors:
+    """Return the errors of displacement that this recording can have."""
+    return mass_errors(recording.masses, testbed.masses)

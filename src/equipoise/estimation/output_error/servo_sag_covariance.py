@@ -1,0 +1,99 @@
+"""What masses that hang on soft drives add to the covariance of a fit.
+
+A drive that gives way by s under its mass's weight, and follows tau late, lets it stand off by
+
+    s u.n(t - tau) = s u.(n + tau w x n),        n = g_B / g,  n' = n x w
+
+A command does not tell s, and the motion hardly does: it is not sought but carried (as a
+"considered" parameter; Schmidt 1966). With A the information of the fit and b the descent of its
+cost, masses that hang by one sd move the optimum by
+
+    dx = A^-1 (b(s) - b(0)),        covariance + dx dx^T
+
+Of the first moment m s u (u.n), the part parallel to gravity makes no torque; it is all there is
+for equal masses on three orthogonal rails, and what others make is elastic sag, a torque that is
+sought by its own name. The part with tau damps the motion (it is where a damper takes its energy):
+
+    tau_B = m s tau g (u.(w x n)) u x n = -m s tau g (n x u)(n x u)^T w
+
+b(s) has the inertia and the momentum of masses that hang, and this damping; their first moment is
+taken back by rails beside theirs that have nothing else.
+
+All masses are taken to hang alike, each in proportion to its ``sag_sd``. Cannot see which part of
+a lag is the log's and not the drive's: all of it counts, and intervals are then too wide.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from equipoise.actuators.lags import LAG
+from equipoise.actuators.sliding_masses import MassMaps
+from equipoise.dynamics.rigid_body import KNOWN_D
+from equipoise.estimation.output_error.problem import Problem, evaluate
+from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.parameters.fit_parameters import FIXED
+from equipoise.maths.attitude import to_matrix
+from equipoise.model.arrays import Floats, Series1, Series3, Square, Vector3
+from equipoise.model.torque_terms import GROUPS, TERMS
+
+VISCOUS = [TERMS.index(term) for term in GROUPS["viscous"]]
+
+
+def downward(fitted: Fitted) -> Series3:
+    """Return n at the nodes: as the camera saw it, straight between rows; without one, as it began.
+
+    Behind a camera's own errors it is off by less than a degree, which is nothing here.
+    """
+    line, seen = fitted.problem.line, fitted.problem.seen
+    if not len(seen.attitude):
+        return np.tile(-to_matrix(fitted.point.q0)[2], (len(line.t), 1))
+    step = np.append(np.diff(line.t), 0.0)
+    t: Series1 = line.t[seen.attitude_node] + seen.attitude_share * step[seen.attitude_node]
+    down = -to_matrix(seen.attitude)[:, 2, :]
+    columns: list[Series1] = [np.interp(line.t, t, component) for component in down.T]
+    return np.column_stack(columns)
+
+
+def without_moment(problem: Problem, hanging: Floats) -> Problem:
+    """Return the problem of masses displaced by ``hanging`` (m, (n, k)) but for first moments."""
+    maps, line = problem.maps, problem.line
+    beside = MassMaps(maps.first_moment, *(np.zeros_like(m) for m in maps[1:]))
+    both = MassMaps(*(np.vstack(pair) for pair in zip(maps, beside, strict=True)))
+    first, d, felt = np.split(line.known, [KNOWN_D, KNOWN_D + len(maps.momentum)], axis=1)
+    known = np.hstack([first, d + hanging, -hanging, felt])
+    return replace(problem, maps=both, line=line._replace(known=known))
+
+
+def lateness(fitted: Fitted, covariance: Square) -> Floats:
+    """Return the rms of how late each mass may be, s, (k,): 0 where no lag is sought."""
+    errors, layout = fitted.problem.errors, fitted.problem.layout
+    late = np.zeros(len(errors.sag))
+    for mass, j in errors.owner:
+        if errors.names[j].startswith(LAG):
+            at = FIXED + len(layout.terms) + j
+            late[mass] = np.hypot(fitted.point.error[j], np.sqrt(covariance[at, at]))
+    return late
+
+
+def damping(problem: Problem, n: Vector3, sag: Floats, late: Floats) -> Vector3:
+    """Return the coefficients of damping about the body's axes, N m s."""
+    moment = problem.maps.first_moment
+    size = np.linalg.norm(moment, axis=1)
+    across = np.cross(n, moment / size[:, None])
+    return problem.gravity * (size * sag * late) @ across**2
+
+
+def by_sag(fitted: Fitted, covariance: Square) -> Square:
+    """Return what one sd of sag adds to a covariance in physical coordinates."""
+    problem, sag = fitted.problem, fitted.problem.errors.sag
+    if not np.any(sag):
+        return np.zeros_like(covariance)
+    n, moment = downward(fitted), problem.maps.first_moment
+    axes = moment / np.linalg.norm(moment, axis=1, keepdims=True)
+    torque = fitted.point.torque.copy()
+    torque[VISCOUS] += damping(problem, n.mean(axis=0), sag, lateness(fitted, covariance))
+    hung = without_moment(problem, n @ axes.T * sag)
+    there = evaluate(hung, replace(fitted.point, torque=torque), fitted.jumps)
+    shift = covariance @ (there.descent - fitted.at.descent)
+    return np.outer(shift, shift)

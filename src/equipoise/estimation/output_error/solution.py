@@ -1,0 +1,53 @@
+"""Where a fit ended, and what its stretches say of themselves."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed, smooth
+from equipoise.estimation.output_error.kernels.segments import count_free
+from equipoise.estimation.output_error.problem import Evaluation, Problem, descend, posed
+from equipoise.estimation.parameters.fit_parameters import Unknowns
+from equipoise.maths.linalg import inverse_spd
+from equipoise.model.arrays import Floats
+
+MOST = 300  # evaluations, chosen: a fit that settles takes fewer than thirty
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fitted:
+    """Where a fit ended."""
+
+    problem: Problem
+    point: Unknowns
+    at: Evaluation
+    converged: bool
+    evaluations: int
+    jumps: Floats  # (K - 1, a) in the order of the problem's
+
+
+def settle(
+    problem: Problem, point: Unknowns, jumps: Floats | None = None, most: int = MOST
+) -> Fitted:
+    """Return the local optimum from a point and its jumps (zero unless told)."""
+    found = descend(problem, point, most, jumps)
+    return Fitted(problem, found.point, found.at, found.converged, found.evaluations, found.jumps)
+
+
+def chi_square_share(fit: Fitted) -> float:
+    """Return twice the cost over the number of residuals."""
+    return 2 * fit.at.cost / (3 * (len(fit.at.left_q) + len(fit.at.left_w)))
+
+
+def smooth_at(fit: Fitted) -> Smoothed:
+    """Return what is known of every stretch at an optimum, with the priors of the problem."""
+    return smooth(posed(fit.problem), fit.point.flat, fit.jumps, inverse_spd(fit.at.normal))
+
+
+def freedom(fit: Fitted, after: Smoothed) -> float:
+    """Return how many unknowns the jumps amount to: sum of 1 - posterior / prior variance."""
+    cuts, total = posed(fit.problem).cuts, 0.0
+    for free, weight, spread in zip(cuts.free, cuts.weight, after.jump_covariance, strict=True):
+        a = count_free(free)
+        total += a - float(np.sum(weight[:a] * np.diag(spread)[:a]))
+    return total

@@ -1,0 +1,1 @@
+"""Parameters of a fit: retraction, observability, ratios."""

@@ -1,0 +1,125 @@
+"""What data can and cannot see, from the information matrix in physical coordinates.
+
+Each coordinate is measured in a size natural to it (a moment of inertia in its own mean size, a
+centre of mass in its own distance, ...). A direction along which one sd exceeds half of that size
+is not seen; every parameter with a part in such a direction has an infinite interval.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.actuators.mass_errors import unit_of
+from equipoise.estimation.parameters.fit_parameters import (
+    FIXED,
+    JP,
+    RATE,
+    TURN,
+    Layout,
+    R,
+    Unknowns,
+    term_sizes,
+)
+from equipoise.maths.linalg import symmetrise
+from equipoise.model.arrays import Bools, Floats, Square
+
+SEEN = 4.0  # 1 / (half a natural size)^2
+PART = 1e-3  # chosen: a smaller component of an unseen direction is rounding
+LOST = 0.1  # natural sizes, chosen: by so much an unseen direction must move what it hides
+DISTANCE = 1e-5  # m, a centre of mass that is not worth calling an offset
+ALONG = 0.9  # chosen: cosine beyond which an unseen direction is the scale
+OPEN = (
+    "the data do not see the common scale of inertia and centre of mass: motion without a known "
+    "move or stored momentum shows ratios only; move a mass, or hold one value that is known"
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Visibility:
+    """Covariance of what is seen, and which parameters have a part in what is not."""
+
+    covariance: Square  # of what is not hidden
+    hidden: Bools
+    sentences: tuple[str, ...]
+    scale_open: bool
+    unseen: Floats  # (n, u) directions of natural size, the scale not among them
+
+
+def natural_sizes(point: Unknowns, mass: float, layout: Layout) -> Floats:
+    """Return the size in which each coordinate is measured."""
+    size = np.ones(layout.size)
+    inertia = float(np.trace(point.body(mass).inertia_P)) / 3
+    distance = max(float(np.linalg.norm(point.com)), DISTANCE)
+    size[TURN], size[RATE], size[JP], size[R] = 1.0, 0.1, inertia, distance
+    n = len(layout.terms)
+    size[FIXED : FIXED + n] = term_sizes(layout.terms, inertia, 9.81 * mass)
+    size[FIXED + n : FIXED + n + len(layout.errors)] = error_sizes(layout.errors)
+    if layout.bias:
+        size[-3:] = 0.1
+    return size
+
+
+def error_sizes(names: tuple[str, ...]) -> Floats:
+    """Return a size for each error of the masses: 1 mm, 1 s of a lag, all of a gain, a radian."""
+    return np.array([1e-3 if unit_of(name) == "m" else 1.0 for name in names])
+
+
+def scale_of(values: Floats, size: Floats) -> Floats:
+    """Return the direction that stretches J and r alike, in natural sizes."""
+    stretched = np.zeros_like(values)
+    stretched[JP], stretched[R] = values[JP], values[R]
+    return stretched / size / float(np.linalg.norm(stretched / size))
+
+
+def describe(direction: Floats, names: tuple[str, ...]) -> str:
+    """Name the parameters that an unseen direction mixes."""
+    weight = np.abs(direction)
+    chosen: list[str] = [names[k] for k in np.argsort(-weight) if weight[k] > 0.3 * weight.max()]
+    if len(chosen) == 1:
+        return f"the data do not see {chosen[0]}"
+    return "the data cannot tell apart: " + ", ".join(chosen)
+
+
+def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, ...]) -> Visibility:
+    """Return covariance, visibility and the sentences about what is not seen."""
+    values, vectors = np.linalg.eigh(symmetrise(information * size[:, None] * size))
+    unseen = values < SEEN
+    good = vectors[:, ~unseen]
+    weak, told = vectors[:, unseen], np.maximum(values[unseen], 1e-30)
+    part = np.where(np.abs(weak) > PART, weak, 0.0)
+    hidden = np.any(np.abs(part) / np.sqrt(told) > LOST, axis=1)
+    slight = np.where(hidden[:, None], 0.0, part)
+    natural = (good / values[~unseen]) @ good.T + (slight / told) @ slight.T
+    covariance = natural * size[:, None] * size
+    scale_open = False
+    sentences: list[str] = []
+    others: list[Floats] = []
+    for direction in vectors[:, unseen].T:
+        if abs(float(direction @ scale)) > ALONG:
+            scale_open = True
+            sentences.append(OPEN)
+        else:
+            sentences.append(describe(direction, names))
+            others.append(direction * size)
+    lost: Floats = np.array(others).reshape(-1, len(size)).T
+    return Visibility(covariance, hidden, tuple(sentences), scale_open, lost)
+
+
+def examine_unheld(
+    information: Square, scale: Floats, size: Floats, names: tuple[str, ...], held: Bools
+) -> Visibility:
+    """Return the same of information in which some coordinates are held, and so are known.
+
+    They have no part in what is seen of the others, and left among these they would drown it: what
+    is known to a billionth of its size, or to nothing at all, rounds off all that is not.
+    """
+    free = np.flatnonzero(~held)
+    loose = examine(
+        information[np.ix_(free, free)], scale[free], size[free], tuple(names[k] for k in free)
+    )
+    covariance, hidden = np.zeros_like(information), np.zeros_like(held)
+    unseen = np.zeros((len(size), loose.unseen.shape[1]))
+    covariance[held, held] = 1.0 / np.diag(information)[held]
+    covariance[np.ix_(free, free)], hidden[free] = loose.covariance, loose.hidden
+    unseen[free] = loose.unseen
+    return Visibility(covariance, hidden, loose.sentences, loose.scale_open, unseen)

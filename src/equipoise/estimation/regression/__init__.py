@@ -1,0 +1,1 @@
+"""Linear methods: a formulation times a solver."""

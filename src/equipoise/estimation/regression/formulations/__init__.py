@@ -1,0 +1,1 @@
+"""Formulations of the momentum balance, linear in the parameters."""

@@ -1,0 +1,193 @@
+"""Equilibrium points: at rest the centre of mass hangs under the centre of rotation.
+
+    (r + dr_i) x n_i = 0,   n_i = g_B / g at rest (or the mean of a swing)
+    [n_i x] r = -[n_i x] dr_i       stacked over two or more stops with non-parallel shifts dr_i
+
+(Inertia is not needed.) Each stop of the masses in the record gives one n_i, the mean of
+gravity's direction over the later half of the stop, with an sd s_i of its direction that knows how
+long rows hang together (``long_run``). The linear rows only begin: their noise is |r + dr_i| s_i,
+which r itself scales. Minimised is
+
+    sum_i |u_i - n_i|^2 / s_i^2,        u_i = (r + dr_i) / |r + dr_i|
+    du_i/dr = (E - u_i u_i^T) / |r + dr_i|
+
+Cannot see anything from one stop but the direction of r; is no use near balance, where a swing
+takes minutes and its mean is not a rest: the outcome says so. Directions that are known roughly
+agree with a centre of mass at any distance, and the minimum runs away: where the largest sd of r
+is longer than the longest arm |r + dr_i|, r is not told.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.stats import chi2
+
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.actuators.stops import travels
+from equipoise.dynamics.timeline import straight_lines
+from equipoise.estimation.method_contract import origin_of
+from equipoise.maths.attitude import to_matrix
+from equipoise.maths.linalg import inverse_spd
+from equipoise.maths.long_run import long_run_covariance, memory
+from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
+from equipoise.model.estimate import COM, Estimate, Parameter
+from equipoise.model.outcome import Outcome
+from equipoise.model.recording import Recording, arranged
+from equipoise.model.testbed import Testbed
+from equipoise.sensors.timing import seen_at
+
+METHOD = "equilibrium"
+FEWEST = 10  # rows in a stop
+SETTLING = 0.5  # chosen: of a stop, until the platform rests
+SWING = np.radians(0.5)  # chosen: a platform that swings more does not rest
+SURE = 0.999  # of a chi-square
+SHORTEST, SIZE = 1e-9, 1e-5  # m, chosen: no lever arm; the size of a centre of mass
+WEAKEST = 1e-4  # smallest usable eigenvalue of the mean of [n x]^T [n x], two being near 1
+
+
+class Rest(NamedTuple):
+    """What one stop of the masses shows."""
+
+    down: Vector3  # unit vector of gravity, body axes
+    sd: float  # rad, of that direction
+    shift: Vector3  # m, dr
+    swing: float  # rad rms of the rows about it, an axis
+
+
+def quiet_spans(recording: Recording, testbed: Testbed) -> list[tuple[float, float]]:
+    """Return the spans (s) in which no mass travelled."""
+    (quiet, end), track = recording.span, recording.masses
+    moves = list[tuple[float, float]]()
+    for i, mass in enumerate(testbed.masses if track is not None else ()):
+        assert track is not None
+        ways = travels(track.t, track.values[:, i], mass.speed)
+        moves += [(float(track.t[first]), float(track.t[last])) for first, last in ways]
+    spans = list[tuple[float, float]]()
+    for leaves, arrives in (*sorted(moves), (end, end)):
+        if leaves > quiet:
+            spans.append((quiet, leaves))
+        quiet = max(quiet, arrives)
+    return spans
+
+
+def rest_of(n: Floats, shift: Vector3) -> Rest:
+    """Return the rest that rows of gravity's direction are of."""
+    mean = n.mean(axis=0)
+    off: Floats = n - mean
+    variance = float(np.trace(long_run_covariance(off, memory(off)))) / 2 / len(n) ** 2
+    swing = float(np.sum(off**2)) ** 0.5 / (2 * len(n)) ** 0.5
+    return Rest(mean / float(np.linalg.norm(mean)), max(variance**0.5, 1e-9), shift, swing)
+
+
+def stops(recording: Recording, testbed: Testbed) -> list[Rest]:
+    """Return the rest at every stop of the masses that is long enough to count."""
+    attitude = recording.attitude
+    if attitude is None:
+        return []
+    t: Series1 = seen_at(attitude.t, testbed.attitude)
+    down = -to_matrix(attitude.values)[:, 2, :]
+    maps, found = mass_maps(testbed.masses), list[Rest]()
+    for start, end in quiet_spans(recording, testbed):
+        rows = (t >= start + SETTLING * (end - start)) & (t <= end)
+        if rows.sum() < FEWEST:
+            continue
+        middle = np.array([0.5 * (start + end)])
+        d = straight_lines(recording.masses, middle, len(testbed.masses))[0]
+        found.append(rest_of(down[rows], com_shift(maps, testbed.body.mass, d)))
+    return found
+
+
+def across(n: Vector3) -> Matrix3:
+    """Return [n x]^T [n x] = E - n n^T of a unit vector: what is across it."""
+    return np.eye(3) - np.outer(n, n)
+
+
+def along(lever: Vector3) -> tuple[Vector3, Matrix3]:
+    """Return the direction of a lever arm and how it turns with the arm, 1/m."""
+    length = max(float(np.linalg.norm(lever)), SHORTEST)
+    u: Vector3 = lever / length
+    return u, across(u) / length
+
+
+def told(rests: list[Rest]) -> Matrix3:
+    """Return the normal matrix of the linear rows."""
+    return sum((across(rest.down) for rest in rests), np.zeros((3, 3)))
+
+
+def solve(rests: list[Rest]) -> tuple[Vector3, Matrix3, float]:
+    """Return r, its information, and twice the cost there."""
+    right = -sum((across(rest.down) @ rest.shift for rest in rests), np.zeros(3))
+
+    def left(com: Floats) -> Floats:
+        return np.concatenate([(along(com + s.shift)[0] - s.down) / s.sd for s in rests])
+
+    def slope(com: Floats) -> Floats:
+        return np.concatenate([along(com + s.shift)[1] / s.sd for s in rests])
+
+    start = np.linalg.solve(told(rests), right)
+    found = least_squares(left, start, slope, method="lm", x_scale=SIZE)
+    com = np.asarray(found.x, dtype=np.float64)
+    return com, slope(com).T @ slope(com), float(np.sum(left(com) ** 2))
+
+
+def doubts(rests: list[Rest], misfit: float) -> str:
+    """Say why the intervals may be wrong, or nothing."""
+    swing = max(rest.swing for rest in rests)
+    if swing > SWING:
+        return (
+            f" But the platform swung by {np.degrees(swing):.2g} deg rms at a stop, where it "
+            "should rest: the intervals are not trustworthy."
+        )
+    if misfit > float(chi2.ppf(SURE, 2 * len(rests) - 3)):
+        return " But the rests do not agree with one another: the intervals are not trustworthy."
+    return ""
+
+
+def lacking(rests: list[Rest]) -> str:
+    """Say why rests cannot tell the centre of mass, or nothing."""
+    if len(rests) >= 2 and np.linalg.eigvalsh(told(rests))[0] >= WEAKEST * len(rests):
+        return ""
+    return (
+        f"{len(rests)} distinct rest positions found, two are needed: "
+        "move a mass sideways and let the platform settle."
+    )
+
+
+def too_rough(rests: list[Rest], com: Vector3, information: Matrix3) -> str:
+    """Say that rests are known too roughly to tell how far com is from P, or nothing."""
+    longest = max(float(np.linalg.norm(com + rest.shift)) for rest in rests)
+    if float(np.linalg.eigvalsh(information)[0]) * longest**2 >= 1.0:
+        return ""
+    sd, swing = np.degrees([max(s.sd for s in rests), max(s.swing for s in rests)])
+    return (
+        f"The platform swung by {swing:.2g} deg rms at a stop, which tells where it would rest to "
+        f"{sd:.2g} deg only: too roughly to see how far the centre of mass is from the centre of "
+        "rotation. Let it settle after each move, or take a method that needs no rest."
+    )
+
+
+def unseeing(text: str) -> Estimate:
+    """Return that nothing was found, and why."""
+    unseen = ("the data do not see how far the centre of mass is from the centre of rotation",)
+    return Estimate(METHOD, Outcome(False, text), (), np.zeros((0, 0)), None, unseen)
+
+
+def estimate(recording: Recording, testbed: Testbed) -> Estimate:
+    """Return the centre of mass with the masses at home."""
+    recording = arranged(recording, testbed.mass_names)
+    rests = stops(recording, testbed)
+    if lack := lacking(rests):
+        return unseeing(lack)
+    com, information, misfit = solve(rests)
+    if rough := too_rough(rests, com, information):
+        return unseeing(rough)
+    covariance = inverse_spd(information)
+    sd = np.sqrt(np.diag(covariance))
+    parameters = tuple(
+        Parameter(name, "m", float(com[k]), float(sd[k])) for k, name in enumerate(COM)
+    )
+    text = f"The centre of mass from {len(rests)} rest positions; the inertia is not estimated."
+    text += doubts(rests, misfit)
+    origin = origin_of(recording)
+    return Estimate(METHOD, Outcome(True, text), parameters, covariance, provenance=origin)

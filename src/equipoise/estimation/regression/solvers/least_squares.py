@@ -1,0 +1,34 @@
+"""Ordinary least squares (da Silva 2021 Eq. 17): x = (A^T A)^-1 A^T b, each equation alike.
+
+Noise in A biases x towards zero: see ``corrected`` and ``instrumental``.
+"""
+
+import numpy as np
+
+from equipoise.estimation.regression.formulations.rows import Rows, centred
+from equipoise.estimation.regression.solvers.solver_inputs import Aid
+from equipoise.maths.scaled_solve import scaled_solve
+from equipoise.model.arrays import Floats, Square
+
+RIDGE = 1e-14  # of a scaled normal matrix: rounding
+
+
+def flat(rows: Rows) -> tuple[Floats, Floats]:
+    """Return A (n m, c) and b (n m)."""
+    return rows.A.reshape(-1, rows.A.shape[2]), rows.b.reshape(-1)
+
+
+def normal_of(rows: Rows) -> tuple[Square, Floats]:
+    """Return A^T A and A^T b."""
+    A, b = flat(rows)
+    return A.T @ A, A.T @ b
+
+
+def solved(normal: Square, right: Floats) -> Floats:
+    """Return the solution of normal equations in any units."""
+    return scaled_solve(np.ascontiguousarray(normal), np.ascontiguousarray(right), RIDGE)
+
+
+def least_squares(rows: Rows, aid: Aid) -> Floats:
+    """Return the solution."""
+    return solved(*normal_of(centred(rows)))

@@ -1,0 +1,1 @@
+"""The multiplicative extended Kalman filter with contacts."""

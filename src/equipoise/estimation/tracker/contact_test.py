@@ -1,0 +1,113 @@
+"""Was the platform touched, or did its centre of mass step? A test of the innovations, compiled.
+
+With C and d of every hypothesis (``tracker_onsets``), what it would be and what it explains:
+
+    V = (C + L)^-1,   v = V d,   l = d^T V d
+
+with 3 degrees of freedom; L is a wide prior. Once the best explains more than chance does, and it
+is clear whether the rate jumped or r stepped (or that it will not become clear), there is a
+contact: the belief becomes the mixture of all (``tracker_mixture``), each weighing
+
+    p = e^(l/4) x rows to the next older onset
+"""
+
+import numpy as np
+
+from equipoise.estimation.tracker.event_signatures import (
+    COUNT,
+    MANY,
+    ONSETS,
+    SUSPECT,
+    WAITED,
+    Room,
+    Watch,
+)
+from equipoise.maths.compiled import part
+
+YOUNGEST = 3  # rows, chosen: a contact shows in more than two
+JUMP_SD, STEP_SD = 0.1, 1e-4  # rad/s and m, wide: what a contact may do
+TEMPER = 0.25  # chosen: half of the log likelihood's, since an onset is between two that are kept
+SURE, LIKELY = 0.99, 0.9  # chosen: probability of a kind, for which to wait, and to report
+TELLING = 8  # rows, chosen: by when a jump and a step differ, whenever between rows they began
+PATIENCE = 20  # rows, chosen: to wait for all that
+JUMP, STEP, EITHER, LOST = 0, 1, 2, 3  # kinds of event
+
+
+@part
+def explain(watch: Watch, room: Room) -> None:
+    """Write V, v and l of every hypothesis."""
+    C, d, V, v = watch.C, watch.d, room.V, room.v
+    for h in range(MANY):
+        prior = JUMP_SD**-2 if h < ONSETS else STEP_SD**-2
+        xx, yy, zz = C[0, h] + prior, C[1, h] + prior, C[2, h] + prior
+        xy, xz, yz = C[3, h], C[4, h], C[5, h]
+        a, b, c = yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy
+        k = 1.0 / (xx * a + xy * b + xz * c)
+        V[0, h], V[3, h], V[4, h] = k * a, k * b, k * c
+        V[1, h], V[2, h] = k * (xx * zz - xz * xz), k * (xx * yy - xy * xy)
+        V[5, h] = k * (xy * xz - xx * yz)
+        v[0, h] = V[0, h] * d[0, h] + V[3, h] * d[1, h] + V[4, h] * d[2, h]
+        v[1, h] = V[3, h] * d[0, h] + V[1, h] * d[1, h] + V[5, h] * d[2, h]
+        v[2, h] = V[4, h] * d[0, h] + V[5, h] * d[1, h] + V[2, h] * d[2, h]
+        room.gain[h] = v[0, h] * d[0, h] + v[1, h] * d[1, h] + v[2, h] * d[2, h]
+
+
+@part
+def best_of(watch: Watch, first: int, room: Room) -> int:
+    """Return which of a kind's hypotheses, old enough, explains most; -1 if none is."""
+    best = -1
+    for k in range(watch.counts[COUNT]):
+        h = first + watch.order[k]
+        if watch.age[watch.order[k]] >= YOUNGEST and (best < 0 or room.gain[h] > room.gain[best]):
+            best = h
+    return best
+
+
+@part
+def weigh_up(watch: Watch, top: float, room: Room) -> float:
+    """Write p of every hypothesis; return that of the jumps together."""
+    total, jumps = 0.0, 0.0
+    room.p[:] = 0.0
+    for k in range(watch.counts[COUNT]):
+        onset = watch.order[k]
+        age = watch.age[onset]
+        older = watch.age[watch.order[k - 1]] if k > 0 else age + 1
+        for kind in range(2 if age >= YOUNGEST else 0):
+            h = kind * ONSETS + onset
+            p = np.exp(TEMPER * (room.gain[h] - top)) * (older - age)
+            room.p[h] = p
+            total += p
+            jumps += p * (kind == 0)
+    for h in range(MANY):
+        room.p[h] /= total
+    return float(jumps / total)
+
+
+@part
+def suspect(watch: Watch, alarm: float, room: Room) -> None:
+    """Note that a contact would explain what was seen, where the motion may not be linear."""
+    explain(watch, room)
+    jump, step = best_of(watch, 0, room), best_of(watch, ONSETS, room)
+    if jump >= 0 and max(room.gain[jump], room.gain[step]) > alarm:
+        watch.counts[SUSPECT] = 1
+
+
+@part
+def judged(watch: Watch, alarm: float, room: Room) -> tuple[int, int]:
+    """Return the kind, or -1 for nothing or not yet told, and the best hypothesis."""
+    explain(watch, room)
+    jump, step = best_of(watch, 0, room), best_of(watch, ONSETS, room)
+    if jump < 0:
+        return -1, 0
+    best = jump if room.gain[jump] > room.gain[step] else step
+    if room.gain[best] < alarm:
+        watch.counts[WAITED] = 0
+        return -1, 0
+    share = weigh_up(watch, room.gain[best], room)
+    watch.counts[WAITED] += 1
+    told = max(share, 1.0 - share) > SURE and watch.age[best % ONSETS] >= TELLING
+    if not told and watch.counts[WAITED] < PATIENCE:
+        return -1, 0
+    if max(share, 1.0 - share) < LIKELY:
+        return EITHER, best
+    return (JUMP, jump) if share > 0.5 else (STEP, step)

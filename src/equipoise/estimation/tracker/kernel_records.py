@@ -1,0 +1,101 @@
+"""What the tracker's walk goes with, as the kernels see it: records of arrays and numbers."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.dynamics.propagation import Columns
+from equipoise.dynamics.regressor import WIDTH
+from equipoise.dynamics.rigid_body import ROWS, Body
+from equipoise.dynamics.sensitivities import BLOCK
+from equipoise.estimation.tracker.event_signatures import COLUMNS, MANY, Room, Watch
+from equipoise.estimation.tracker.predict_correct import SIZE, N, Work
+from equipoise.maths.compiled import kernel
+from equipoise.model.arrays import Floats, Ints, Square
+
+CAMERA, GYRO = 0, 1  # sensors
+END, MOVED, BROKEN, ASTRAY, TOUCHED = 0, 1, 2, 3, 4  # why the walk ended
+REASON, NOTED, EVENTS = 0, 1, 2  # in Written.done
+
+
+class Model(NamedTuple):
+    """What does not change along the walk."""
+
+    body: Body  # its inertia and moment are not used
+    maps: Floats
+    columns: Columns
+    sd: Floats  # (2,) rad, rad/s: stated noise of camera and gyro
+    walks: Floats  # (18,)
+    alarm: float  # l of a contact
+
+
+class Walk(NamedTuple):
+    """From which node to which, and what is wanted of it."""
+
+    first: int
+    last: int
+    look: int  # node from which it ends where the belief has moved
+    folding: bool  # the point goes with the belief
+    again: bool  # rows that have been passed before: nothing is noted, no noise learnt
+    testing: bool  # for contacts
+
+
+class Place(NamedTuple):
+    """A belief (q, w, com, J, bias) and its covariance, written on by the walk."""
+
+    belief: Floats  # (19,)
+    covariance: Square  # (18, 18)
+
+    def copy(self) -> "Place":
+        """Return one that can be written on."""
+        return Place(self.belief.copy(), self.covariance.copy())
+
+
+class Carried(NamedTuple):
+    """What comes and goes with the walk."""
+
+    place: Place
+    levels: Floats  # (2, 2) of the noise: share of the stated variance, rows seen
+    watch: Watch
+
+
+class Written(NamedTuple):
+    """Rows and events that the walk writes, and how many."""
+
+    out: Floats
+    events: Floats
+    done: Ints  # why it ended, rows, events
+
+
+class Moving(NamedTuple):
+    """Arrays that a step of the propagator works in."""
+
+    y: Floats  # (7 + 96,) attitude, momentum, sensitivities
+    at: Floats
+    dy: Floats
+    total: Floats
+    regress: Floats  # (3, 25)
+    fb: Floats
+    phi: Floats  # (6, 15)
+
+
+class Tools(NamedTuple):
+    """Arrays to work in, made once for a walk."""
+
+    moving: Moving
+    work: Work
+    room: Room
+
+
+@kernel
+def new_tools() -> Tools:
+    """Return arrays to work in."""
+    m = ROWS + BLOCK
+    moving = Moving(np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.zeros((3, WIDTH)),
+                    np.zeros(BLOCK), np.zeros((6, N)))  # fmt: skip
+    work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
+                np.zeros((3, SIZE)), np.zeros((3, SIZE)), np.zeros((6, SIZE)))  # fmt: skip
+    room = Room(np.zeros((6, COLUMNS)), np.zeros((3, COLUMNS)), np.zeros((3, COLUMNS)),
+                np.zeros((6, MANY)), np.zeros((3, MANY)), np.zeros(MANY), np.zeros(MANY),
+                np.zeros(SIZE), np.zeros(SIZE))  # fmt: skip
+    return Tools(moving, work, room)

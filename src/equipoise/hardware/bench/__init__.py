@@ -1,0 +1,1 @@
+"""The real bench: controller, interlocks, its process."""

@@ -1,0 +1,228 @@
+"""The keeper of a bench: its ports, its interlocks, and all that they say, turn by turn.
+
+One turn looks at every port, feeds the drivers, asks the interlocks, sends what is due and hands
+on what was heard. It does not wait and knows no clock. Whoever commands can be lost at any moment:
+then ``halt`` is called for it.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Protocol
+
+import numpy as np
+
+from equipoise.hardware.bench.interlocks import LAST, Seen, Trip, silence, tripped
+from equipoise.hardware.links.device_links import Links
+from equipoise.hardware.links.health import Health
+from equipoise.hardware.links.row_buffer import Heard
+from equipoise.hardware.links.sensor_link import SensorLink
+from equipoise.model.arrays import Floats
+from equipoise.model.bench_requests import checked_targets
+from equipoise.model.bench_units import MM
+from equipoise.model.errors import BenchStopped, EquipoiseError
+from equipoise.model.hardware import Hardware
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+REMEMBERED = 0.2  # s, chosen: between the two answers from which a mass's speed is told
+
+
+class Listener(Protocol):
+    """Who is told all that happens: a recording, a live view."""
+
+    def rows(self, recording: Recording) -> None:
+        """Take rows as they arrive."""
+        ...
+
+    def event(self, t: float, kind: str, sentence: str, data: Mapping[str, object]) -> None:
+        """Take a command, an interlock or a note, at t s."""
+        ...
+
+    def turn(self, t: float) -> None:
+        """Note that time has passed."""
+        ...
+
+
+class Keeper:
+    """See above; ``hardware`` is the testbed's own."""
+
+    def __init__(self, testbed: Testbed, hardware: Hardware, links: Links) -> None:
+        self._testbed, self.links = testbed, links
+        self._limits = hardware.limits
+        self._listeners: list[Listener] = []
+        self._attitudes: list[tuple[float, Floats]] = []
+        self._rates: list[tuple[float, Floats]] = []
+        self._before: dict[str, tuple[float, float]] = {}
+        self._silent = ""
+        self._heard = Heard(testbed.masses)
+        self.t = 0.0
+        self._trip: Trip | None = None
+
+    @property
+    def testbed(self) -> Testbed:
+        """What is known of the bench beforehand."""
+        return self._testbed
+
+    @property
+    def trip(self) -> Trip | None:
+        """Why every motor is stopped; None: none is."""
+        return self._trip
+
+    def listen(self, listener: Listener) -> None:
+        """Tell someone all that happens from now on."""
+        self._listeners.append(listener)
+
+    def turn(self, t: float) -> None:
+        """Look at everything once."""
+        self.t = t
+        for link in self.links.sensors:
+            self._sensed(link, t)
+        for link in self.links.boards:
+            link.turn(t)
+        self._heard.masses(self.links.positions, self.links.wants, self.links.reported)
+        self._guard(t)
+        self.links.send(t)
+        self._tell(t)
+
+    def taken(self) -> Recording:
+        """Return the rows heard since this was last asked."""
+        return self._heard.taken()
+
+    def begin(self) -> None:
+        """Note that the platform is free from now on, and forget the rows before."""
+        self._note("start", "the platform is free from here on", {})
+        self._heard.taken()
+
+    @property
+    def positions(self) -> dict[str, float]:
+        """Where the boards say that masses are, m."""
+        return self.links.positions
+
+    @property
+    def ready(self) -> bool:
+        """Say whether every board stands and knows where."""
+        return self.links.ready
+
+    @property
+    def answered(self) -> bool:
+        """Say whether every board has said how it is."""
+        return self.links.answered
+
+    @property
+    def fresh(self) -> bool:
+        """Say whether every sensor gives rows."""
+        return silence(self._seen(self.t), self._limits) is None
+
+    @property
+    def trouble(self) -> str:
+        """What keeps masses from being moved now; empty if nothing does."""
+        quiet = silence(self._seen(self.t), self._limits)
+        silent = "" if quiet is None else quiet.sentence
+        return self.links.unreachable or silent or self.links.unsure
+
+    def health(self) -> list[Health]:
+        """Return how well each device speaks."""
+        return self.links.health
+
+    def home(self) -> None:
+        """Let every board find its position; ends a stop whose cause is gone."""
+        self._trip, self._before = None, {}
+        self._note("command", "home", {})
+        if self._trip is None:  # to note it may have filled the disk
+            self.links.home(self.t)
+
+    def go(self, targets: Mapping[str, float]) -> None:
+        """Send masses to displacements (m): all or none.
+
+        Raises InputError or MoveRefused for a target that cannot be, BenchStopped while masses
+        may not move.
+        """
+        here = np.array([self.positions.get(name, 0.0) for name in self._testbed.mass_names])
+        goals = checked_targets(self._testbed.masses, here, targets)
+        self._able()
+        by_name = {self._testbed.masses[i].name: goal for i, goal in goals.items()}
+        told = ", ".join(f"{name} to {MM * goal:.3f} mm" for name, goal in by_name.items())
+        self._note("command", f"go: {told}", by_name)
+        self._able()  # to note it may have filled the disk
+        self.links.go(by_name, self.t)
+
+    def halt(self, sentence: str = "") -> None:
+        """Stop every mass; with a sentence, masses stay until ``home``."""
+        if sentence:
+            self._stop(Trip("operator", sentence))
+            return
+        self._note("command", "halt", {})
+        self.links.halt(self.t)
+
+    def close(self) -> None:
+        """Stop every mass, note how well each device spoke, and close every port."""
+        self.links.halt(self.t)
+        self.links.send(self.t)
+        for each in self.links.health:
+            self._note("health", each.sentence, each.data)
+        self.links.close()
+
+    def _able(self) -> None:
+        """Raise BenchStopped while masses may not move."""
+        why = self._trip.sentence if self._trip is not None else self.trouble
+        if why:
+            raise BenchStopped(f"nothing was moved: {why}")
+
+    def _sensed(self, link: SensorLink, t: float) -> None:
+        for row in link.turn(t):
+            if self._heard.row(row):
+                last = self._attitudes if row.channel == "attitude" else self._rates
+                last.append((row.t, row.values))
+                del last[:-LAST]
+
+    def _guard(self, t: float) -> None:
+        """Ask the interlocks; note a sensor that falls silent or comes back while masses stand."""
+        seen = self._seen(t)
+        found = tripped(seen, self._testbed, self._limits)
+        if found is not None and (self._trip is None or self._trip.kind != found.kind):
+            self._stop(found)
+        quiet = silence(seen, self._limits)
+        said = "" if quiet is None else quiet.sentence.split(" has ")[0]
+        if said != self._silent:
+            text = f"{said} is silent" if said else f"{self._silent} gives rows again"
+            self._note("interlock", text, {})
+            self._silent = said
+        self._remember(t)
+
+    def _seen(self, t: float) -> Seen:
+        silent, states = self.links.silent(t), self.links.states
+        return Seen(t, self._attitudes, self._rates, silent, states, self._before)
+
+    def _remember(self, t: float) -> None:
+        """Keep an earlier answer of each board, from which speeds are told."""
+        for state in self.links.states.values():
+            if state.reported is None or not state.sure:
+                continue
+            for name, at in state.position.items():
+                if state.reported - self._before.get(name, (float("-inf"), 0.0))[0] > REMEMBERED:
+                    self._before[name] = (state.reported, at)
+
+    def _stop(self, trip: Trip) -> None:
+        self.links.halt(self.t)
+        self._trip = trip
+        self._note("interlock", trip.sentence, {"kind": trip.kind})
+
+    def _note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
+        self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
+
+    def _tell(self, t: float) -> None:
+        """Hand on what was heard."""
+        fresh = self._heard.fresh()
+        if fresh is not None:
+            self._hand_on(lambda listener: listener.rows(fresh))
+        self._hand_on(lambda listener: listener.turn(t))
+
+    def _hand_on(self, tell: Callable[[Listener], None]) -> None:
+        """Tell every listener; one that cannot take it any more stops the bench, and only once."""
+        for listener in list(self._listeners):
+            if listener not in self._listeners:  # it failed when the stop for another was noted
+                continue
+            try:
+                tell(listener)
+            except EquipoiseError as error:
+                self._listeners.remove(listener)
+                self._stop(Trip("fault", str(error)))

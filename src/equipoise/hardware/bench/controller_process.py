@@ -1,0 +1,251 @@
+"""The keeper in a process of its own, so that motors stop whatever becomes of who commands.
+
+The two speak through a pipe. When it breaks, because the commander has ended, been killed or
+crashed, the keeper halts every mass, closes the record and ends. Ctrl-C reaches the commander
+alone. The keeper never waits for the commander: what it has to say waits in a queue.
+
+    commander to keeper    (n, "go", targets)  (n, "home")  (n, "begin")  (n, "halt", sentence)
+                           (n, "health")       n: counts the commands
+    keeper to commander    ("news", News)      ("answer", (n, what came of it, or an error))
+"""
+
+import queue
+import signal
+import threading
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from multiprocessing import get_context
+from multiprocessing.connection import Connection as Pipe
+from typing import Any, Protocol
+
+from equipoise.hardware.bench.atomic_message import whole_message
+from equipoise.hardware.bench.bench_controller import Keeper
+from equipoise.hardware.bench.interlocks import Trip
+from equipoise.hardware.bench.wall_clock import WallClock
+from equipoise.hardware.links.health import Health
+from equipoise.model.errors import BenchStopped, EquipoiseError
+from equipoise.model.recording import Recording, joined
+from equipoise.model.testbed import Testbed
+
+BEAT = 0.05  # s, chosen: between news when nothing is new
+BEGIN = 60.0  # s, chosen: for the keeper's process to begin, on a slow computer
+ANSWER = 5.0  # s, chosen: for the keeper to carry out a command, or to say anything
+ENDED = "the keeper of the bench has ended"
+LEAVING = 2.0  # s, chosen: for the keeper to end
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class News:
+    """What a commander knows of its keeper."""
+
+    t: float  # s, on the keeper's clock
+    trip: Trip | None
+    trouble: str
+    answered: bool
+    ready: bool
+    fresh: bool
+    rows: Recording | None  # since the last news
+
+
+class Kept(Protocol):
+    """What the process keeps: a keeper, and what is to be closed with it."""
+
+    keeper: Keeper
+
+    def close(self) -> None:
+        """Stop every mass, close ports and records."""
+        ...
+
+
+def run_keeper(pipe: Pipe, make: Callable[[Any], Kept], what: Any) -> None:
+    """Keep a bench until the pipe breaks; the process's whole life."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    box: queue.SimpleQueue[tuple[str, Any] | None] = queue.SimpleQueue()
+    try:
+        kept = make(what)
+    except EquipoiseError as error:
+        pipe.send(("answer", (0, error)))
+        return
+    sender = threading.Thread(target=_send_all, args=(pipe, box), daemon=True)
+    sender.start()
+    box.put(("answer", (0, None)))
+    try:
+        _serve(pipe, kept.keeper, box)
+    finally:
+        kept.close()
+
+
+def _serve(pipe: Pipe, keeper: Keeper, box: "queue.SimpleQueue[tuple[str, Any] | None]") -> None:
+    clock, told, before = WallClock(), float("-inf"), None
+    while True:
+        keeper.turn(clock.now)
+        answers: list[tuple[str, Any]] = []
+        try:
+            while pipe.poll():
+                number, *command = pipe.recv()
+                answers.append(("answer", (number, _carried_out(keeper, *command))))
+        except (EOFError, OSError):
+            return
+        news = _news(keeper, clock.now)
+        state = (news.trip, news.trouble, news.answered, news.ready, news.fresh)
+        if answers or news.rows is not None or state != before or news.t - told > BEAT:
+            box.put(("news", news))
+            told, before = news.t, state
+        for answer in answers:  # after the news, so that a command's effect is known with it
+            box.put(answer)
+        clock.wait()
+
+
+def _news(keeper: Keeper, t: float) -> News:
+    rows = keeper.taken()
+    state = (keeper.trip, keeper.trouble, keeper.answered, keeper.ready, keeper.fresh)
+    any_rows = any(c is not None for c in (rows.attitude, rows.rate, rows.masses))
+    return News(t, *state, rows if any_rows else None)
+
+
+def _carried_out(keeper: Keeper, verb: str, *what: Any) -> Any:
+    """Carry out a command; return what it gives, or what was wrong with it."""
+    verbs: dict[str, Callable[..., Any]] = {
+        "go": keeper.go,
+        "home": keeper.home,
+        "begin": keeper.begin,
+        "halt": keeper.halt,
+        "health": keeper.health,
+    }
+    try:
+        return verbs[verb](*what)
+    except EquipoiseError as error:
+        return error
+
+
+def _send_all(pipe: Pipe, box: "queue.SimpleQueue[tuple[str, Any] | None]") -> None:
+    with suppress(OSError):
+        while (message := box.get()) is not None:
+            pipe.send(message)
+
+
+class DistantKeeper:
+    """A keeper in another process: the surface that ``RealBench`` needs, and its clock."""
+
+    def __init__(self, testbed: Testbed, make: Callable[[Any], Kept], what: Any) -> None:
+        context = get_context("spawn")
+        self._pipe, far = context.Pipe()
+        self._process = context.Process(target=run_keeper, args=(far, make, what), daemon=True)
+        self._process.start()
+        far.close()
+        self.testbed = testbed
+        self._news = News(0.0, None, "", False, False, False, None)
+        self._parts: list[Recording] = []
+        self._asked = 0  # commands so far
+        self._answer(BEGIN)
+
+    @property
+    def now(self) -> float:
+        """The keeper's time as last told, s."""
+        return self._news.t
+
+    def wait(self) -> None:
+        """Wait for news; a keeper that is well has some each ``BEAT``."""
+        if not self._pipe.poll(ANSWER):
+            raise BenchStopped(f"the keeper of the bench has not spoken for {ANSWER:g} s")
+
+    def turn(self, t: float) -> None:
+        """Take in the news; the keeper has its own clock, so ``t`` is not asked."""
+        while self._pipe.poll():
+            self._taken_in()
+
+    @property
+    def trip(self) -> Trip | None:
+        """Why every motor is stopped; None: none is."""
+        return self._news.trip
+
+    @property
+    def trouble(self) -> str:
+        """What keeps masses from being moved now; empty if nothing does."""
+        return self._news.trouble
+
+    @property
+    def answered(self) -> bool:
+        """Say whether every board has said how it is."""
+        return self._news.answered
+
+    @property
+    def ready(self) -> bool:
+        """Say whether every board stands and knows where."""
+        return self._news.ready
+
+    @property
+    def fresh(self) -> bool:
+        """Say whether every sensor gives rows."""
+        return self._news.fresh
+
+    def taken(self) -> Recording:
+        """Return the rows heard since this was last asked."""
+        parts, self._parts = self._parts, []
+        return joined([Recording(mass_names=self.testbed.mass_names), *parts])
+
+    def begin(self) -> None:
+        """Note that the platform is free from now on, and forget the rows before."""
+        self._ask("begin")
+        self._parts = []
+
+    def go(self, targets: Mapping[str, float]) -> None:
+        """Send masses to displacements (m): all or none."""
+        self._ask("go", dict(targets))
+
+    def home(self) -> None:
+        """Let every board find its position."""
+        self._ask("home")
+
+    def halt(self, sentence: str = "") -> None:
+        """Stop every mass."""
+        self._ask("halt", sentence)
+
+    def health(self) -> list[Health]:
+        """Return how well each device speaks."""
+        return self._ask("health")
+
+    def close(self) -> None:
+        """Stop every mass and end the keeper."""
+        self._pipe.close()
+        self._process.join(LEAVING)
+        if self._process.is_alive():
+            self._process.kill()
+
+    def _ask(self, *command: object) -> Any:
+        self._asked += 1
+        try:
+            with whole_message():
+                self._pipe.send((self._asked, *command))
+        except OSError as error:
+            raise BenchStopped(ENDED) from error
+        return self._answer()
+
+    def _answer(self, patience: float = ANSWER) -> Any:
+        """Wait until the keeper has carried out what it was told; return or raise what it says.
+
+        What somebody asked who was interrupted before the answer came is nobody's any more.
+        """
+        while self._pipe.poll(patience):
+            answer = self._taken_in()
+            if answer is None or answer[0] != self._asked:
+                continue
+            if isinstance(answer[1], EquipoiseError):
+                raise answer[1]
+            return answer[1]
+        raise BenchStopped(f"the keeper of the bench has not answered for {patience:g} s")
+
+    def _taken_in(self) -> tuple[int, Any] | None:
+        """Read a message; keep it if it is news, return it if it is an answer."""
+        try:
+            with whole_message():
+                kind, what = self._pipe.recv()
+                if kind == "answer":
+                    return what
+                self._news = what
+                if what.rows is not None:
+                    self._parts.append(what.rows)
+        except (EOFError, OSError) as error:
+            raise BenchStopped(ENDED) from error
+        return None

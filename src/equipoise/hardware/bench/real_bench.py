@@ -1,0 +1,196 @@
+"""The bench protocol on real devices: see ``model.bench.Bench``.
+
+Time goes on whether anybody reads or not. A read that finds no row of any sensor goes on until
+there is one; a move waits until every sensor gives rows. After ``PATIENCE`` both give up. When an
+interlock stops the motors, the read or the move under way raises BenchStopped; reads after that
+work, and masses stay until ``home``.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Protocol
+
+from equipoise.hardware.bench.interlocks import Trip
+from equipoise.hardware.links.health import Health
+from equipoise.model.bench_requests import check_duration, checked_inputs
+from equipoise.model.errors import BenchStopped, DriveRefused
+from equipoise.model.recording import Recording, join
+from equipoise.model.testbed import Testbed
+
+PATIENCE = 30.0  # s, chosen: for a sensor to come back, or a board to be ready
+HOMING = 120.0  # s, chosen: for every mass to find its switch and go home
+
+
+class Clock(Protocol):
+    """The bench's time."""
+
+    @property
+    def now(self) -> float:
+        """Now, s."""
+        ...
+
+    def wait(self) -> None:
+        """Let a little time pass: a turn."""
+        ...
+
+
+class Kept(Protocol):
+    """A keeper, here or in another process; see ``hardware.keeper.Keeper``."""
+
+    @property
+    def testbed(self) -> Testbed:
+        """What is known of it beforehand."""
+        ...
+
+    @property
+    def trip(self) -> Trip | None:
+        """Why every motor is stopped; None: none is."""
+        ...
+
+    @property
+    def trouble(self) -> str:
+        """What keeps masses from being moved now; empty if nothing does."""
+        ...
+
+    @property
+    def answered(self) -> bool:
+        """Say whether every board has said how it is."""
+        ...
+
+    @property
+    def ready(self) -> bool:
+        """Say whether every board stands and knows where."""
+        ...
+
+    @property
+    def fresh(self) -> bool:
+        """Say whether every sensor gives rows."""
+        ...
+
+    def turn(self, t: float) -> None:
+        """Look at everything once."""
+        ...
+
+    def taken(self) -> Recording:
+        """Return the rows heard since this was last asked."""
+        ...
+
+    def begin(self) -> None:
+        """Note that the platform is free from now on, and forget the rows before."""
+        ...
+
+    def go(self, targets: Mapping[str, float]) -> None:
+        """Send masses to displacements (m): all or none."""
+        ...
+
+    def home(self) -> None:
+        """Let every board find its position."""
+        ...
+
+    def halt(self, sentence: str = "") -> None:
+        """Stop every mass; with a sentence, masses stay until ``home``."""
+        ...
+
+    def health(self) -> list[Health]:
+        """Return how well each device speaks."""
+        ...
+
+
+class RealBench:
+    """Devices behind a keeper, and a clock."""
+
+    def __init__(self, keeper: Kept, clock: Clock) -> None:
+        self._keeper, self._clock = keeper, clock
+        self._told = keeper.trip  # a stop that was told already
+
+    @property
+    def testbed(self) -> Testbed:
+        """What is known of it beforehand."""
+        return self._keeper.testbed
+
+    @property
+    def time(self) -> float:
+        """Bench time, s."""
+        return self._clock.now
+
+    def start(self) -> None:
+        """Wait until every board answers, and let those that need it find their position.
+
+        Raises BenchStopped if that does not come about.
+        """
+        keeper = self._keeper
+        self._until(lambda: keeper.answered, PATIENCE, "not every board answers")
+        if not keeper.ready:
+            keeper.home()
+        self._until(lambda: keeper.ready, HOMING, "the masses do not come home")
+
+    def watch(self) -> None:
+        """Wait until every sensor gives rows, and begin there; masses may be anywhere."""
+        self._until(lambda: self._keeper.fresh, PATIENCE, "not every sensor gives rows")
+        self._keeper.begin()
+
+    def read(self, duration: float) -> Recording:
+        """Wait ``duration`` seconds and return what was recorded since the last read."""
+        check_duration(duration)
+        end = self.time + duration
+        self._turn()
+        while self.time < end:
+            self._wait()
+        found = self._keeper.taken()
+        give_up = self.time + PATIENCE
+        while duration > 0 and found.attitude is None and found.rate is None:
+            if self.time > give_up:
+                self._keeper.halt(f"no sensor has given a row for {PATIENCE:g} s")
+            self._wait()
+            found = join(found, self._keeper.taken())
+        return found
+
+    def move(self, targets: Mapping[str, float]) -> None:
+        """Set masses on their way to displacements from home (m)."""
+        keeper = self._keeper
+        self._turn()
+        if keeper.trip is None and not keeper.fresh:
+            self._until(lambda: keeper.fresh, PATIENCE, "masses cannot be moved")
+        keeper.go(targets)
+        self._turn()
+
+    def drive(self, inputs: Mapping[str, float]) -> None:
+        """Refuse: no driver of wheels, gyros, coils or jets is there yet."""
+        checked_inputs(self.testbed.devices, inputs)
+        for name, value in inputs.items():
+            if value != 0.0:
+                raise DriveRefused(name, value, 0.0, "(no driver of this kind of device)")
+
+    def stop(self) -> None:
+        """Halt every mass where it is."""
+        self._keeper.halt()
+        self._turn()
+
+    def health(self) -> list[Health]:
+        """Return how well each device speaks; nothing where the keeper has ended."""
+        try:
+            return self._keeper.health()
+        except BenchStopped:
+            return []
+
+    def _until(self, done: Callable[[], bool], patience: float, otherwise: str) -> None:
+        """Wait for something; stop the bench and say what keeps it if it does not come about."""
+        end = self.time + patience
+        while not done():
+            if self.time > end:
+                why = self._keeper.trouble or "no reason is known"
+                self._keeper.halt(f"{otherwise} after {patience:g} s: {why}")
+            self._wait()
+
+    def _wait(self) -> None:
+        self._clock.wait()
+        self._turn()
+
+    def _turn(self) -> None:
+        """Let the keeper look; raise what stopped it, once."""
+        self._keeper.turn(self._clock.now)
+        trip = self._keeper.trip
+        if trip is not None and trip is not self._told:
+            self._told = trip
+            raise BenchStopped(f"every mass was stopped: {trip.sentence}")
+        if trip is None:
+            self._told = None

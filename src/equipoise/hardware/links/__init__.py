@@ -1,0 +1,1 @@
+"""A device with its clock, rows and health."""

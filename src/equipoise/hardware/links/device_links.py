@@ -1,0 +1,102 @@
+"""The devices of a bench, each with its port, and what all of them say together."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from equipoise.hardware.links.board_link import BoardLink
+from equipoise.hardware.links.health import Health
+from equipoise.hardware.links.mass_interpolation import on_the_way
+from equipoise.hardware.links.sensor_link import SensorLink
+from equipoise.hardware.transport.driver_protocol import BoardState
+
+
+@dataclass(frozen=True, slots=True)
+class Links:
+    """Motor boards and sensors."""
+
+    boards: Sequence[BoardLink]
+    sensors: Sequence[SensorLink]
+
+    @property
+    def states(self) -> dict[str, BoardState]:
+        """How each board is, by its name."""
+        return {link.board.name: link.driver.state for link in self.boards}
+
+    @property
+    def positions(self) -> dict[str, float]:
+        """Where the boards say that masses are, m."""
+        return {k: v for state in self.states.values() for k, v in state.position.items()}
+
+    @property
+    def ready(self) -> bool:
+        """Say whether every board stands and knows where."""
+        return all(state.phase == "ready" and state.sure for state in self.states.values())
+
+    @property
+    def answered(self) -> bool:
+        """Say whether every board has said how it is."""
+        return all(state.phase != "connecting" for state in self.states.values())
+
+    @property
+    def reported(self) -> float | None:
+        """When the last of the boards told a position, s; None while one is not sure of its own."""
+        states = self.states.values()
+        known = [s.reported for s in states if s.reported is not None and s.sure]
+        return max(known) if known and len(known) == len(states) else None
+
+    @property
+    def wants(self) -> dict[str, bool]:
+        """Which masses are not yet where they were sent."""
+        parts = [on_the_way(link.driver.state, link.board.axes) for link in self.boards]
+        return {name: short for part in parts for name, short in part.items()}
+
+    @property
+    def unreachable(self) -> str:
+        """The first device whose port is closed, and why; empty if none is."""
+        told = [(f"sensor {link.unit.name}", link.why) for link in self.sensors]
+        told += [(f"board {link.board.name}", link.why) for link in self.boards]
+        return next((f"{name} cannot be reached: {why}" for name, why in told if why), "")
+
+    @property
+    def unsure(self) -> str:
+        """The first board that is at fault or has lost its position, and why; empty if none."""
+        for name, state in self.states.items():
+            if state.phase == "fault" or not state.sure:
+                return f"board {name}: {state.sentence or 'it has not found its position'}"
+        return ""
+
+    @property
+    def health(self) -> list[Health]:
+        """How well each device speaks."""
+        return [*(link.health for link in self.boards), *(link.health for link in self.sensors)]
+
+    def silent(self, t: float) -> dict[str, float]:
+        """Return how long each sensor has given no row, s."""
+        return {link.unit.name: link.silent_for(t) for link in self.sensors}
+
+    def go(self, targets: Mapping[str, float], t: float) -> None:
+        """Send masses to displacements (m), each by its board."""
+        for link in self.boards:
+            own = {a.mass: targets[a.mass] for a in link.board.axes if a.mass in targets}
+            if own:
+                link.driver.go(own, t)
+
+    def home(self, t: float) -> None:
+        """Let every board find its position."""
+        for link in self.boards:
+            link.driver.home(t)
+
+    def halt(self, t: float) -> None:
+        """Stop every mass."""
+        for link in self.boards:
+            link.driver.halt(t)
+
+    def send(self, t: float) -> None:
+        """Send what boards are to hear."""
+        for link in self.boards:
+            link.send(t)
+
+    def close(self) -> None:
+        """Close every port."""
+        for link in (*self.boards, *self.sensors):
+            link.close()

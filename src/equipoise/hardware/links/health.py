@@ -1,0 +1,64 @@
+"""How well a bench's devices speak: what arrived, what was wrong with it, how clocks stand."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from equipoise.hardware.links.arrival_statistics import Arrivals
+from equipoise.hardware.links.clock_sync import DeviceClock, drift_of, offset_of
+from equipoise.model.hardware import Gives
+from equipoise.model.reading import Counts
+
+PPM, MS = 1e6, 1e3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Health:
+    """One device so far; a board has no rows and no clock."""
+
+    device: str  # its kind and name
+    counts: Counts  # messages
+    arrivals: Arrivals | None = None  # rows
+    clocks: Mapping[Gives, DeviceClock] = field(default_factory=dict[Gives, DeviceClock])
+
+    @property
+    def wrong(self) -> dict[str, int]:
+        """How many messages or rows were wrong, by what was wrong with them; none that is 0."""
+        found = {"broken": self.counts.corrupt}
+        if self.arrivals is not None:
+            found |= {
+                "twice": self.arrivals.duplicate,
+                "late": self.arrivals.late,
+                "frozen": self.arrivals.frozen,
+                "missing": self.arrivals.missing,
+            }
+        return {what: count for what, count in found.items() if count}
+
+    @property
+    def sentence(self) -> str:
+        """All of it, for people."""
+        good = f"{self.counts.good} messages"
+        if self.counts.foreign:
+            good += f", {self.counts.foreign} of other kinds"
+        if self.arrivals is not None:
+            good += f", {self.arrivals.kept} rows"
+        wrong = ", ".join(f"{count} {what}" for what, count in self.wrong.items())
+        clocks = (f"; {self._clock(channel)}" for channel in self.clocks)
+        return f"{self.device}: {good}; {wrong or 'nothing wrong'}{''.join(clocks)}"
+
+    @property
+    def data(self) -> dict[str, object]:
+        """The same as numbers, for a recording."""
+        clocks = {
+            channel: {"offset_s": offset_of(clock), "drift": drift_of(clock), "jumps": clock.jumps}
+            for channel, clock in self.clocks.items()
+        }
+        kept = {} if self.arrivals is None else {"rows": self.arrivals.kept}
+        told = {"messages": self.counts.good, "others": self.counts.foreign, **kept, **self.wrong}
+        return {"device": self.device, **told, "clocks": clocks}
+
+    def _clock(self, channel: Gives) -> str:
+        clock = self.clocks[channel]
+        drift, offset = PPM * drift_of(clock), MS * offset_of(clock)
+        pace = f"{abs(drift):.0f} ppm {'slow' if drift > 0 else 'fast'}"
+        jumps = f", {clock.jumps} jumps" if clock.jumps else ""
+        return f"clock of {channel} set off by {offset:+.1f} ms, {pace}{jumps}"

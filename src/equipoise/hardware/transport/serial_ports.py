@@ -1,0 +1,25 @@
+"""The serial ports of this computer."""
+
+from dataclasses import dataclass
+
+from equipoise.hardware.transport.optional_libraries import needed
+
+
+@dataclass(frozen=True, slots=True)
+class SerialDevice:
+    """A serial port and what says it is there."""
+
+    path: str
+    what: str  # maker and product as the device states them; empty: it does not
+
+
+def serial_ports() -> list[SerialDevice]:
+    """Return them in alphabetical order."""
+    serialx = needed("serialx", "hardware", "serial ports")
+    found = serialx.list_serial_ports()
+    return sorted((_device(port) for port in found), key=lambda device: device.path)
+
+
+def _device(port: object) -> SerialDevice:
+    said = [getattr(port, key, None) for key in ("manufacturer", "product", "serial_number")]
+    return SerialDevice(str(getattr(port, "device", "")), ", ".join(str(s) for s in said if s))

@@ -1,0 +1,1 @@
+"""Columns of foreign tables: maps and dialects."""

@@ -1,0 +1,131 @@
+"""The native columns of a recording: names with units, to channels and back.
+
+    time_s  q_w q_x q_y q_z  omega_x_rad_s ...  mass_<name>_mm  h_x_N_m_s ...  torque_x_N_m ...
+    wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  jet_<name>_N_m  field_x_uT ...
+    temperature_degC
+
+One table for all channels; a cell is blank where its channel has no row at that time.
+"""
+
+import re
+from itertools import chain
+
+import numpy as np
+
+from equipoise.io.columns.column_map import ColumnMap, Columns, MassColumn
+from equipoise.io.columns.device_columns import column_of, device_of, wanted_column
+from equipoise.model.arrays import Floats, Series1
+from equipoise.model.errors import InputError, nearest
+from equipoise.model.recording import Recording, Samples
+
+TIME = "time_s"
+ATTITUDE = ("q_w", "q_x", "q_y", "q_z")
+RATE = ("omega_x_rad_s", "omega_y_rad_s", "omega_z_rad_s")
+MOMENTUM = ("h_x_N_m_s", "h_y_N_m_s", "h_z_N_m_s")
+TORQUE = ("torque_x_N_m", "torque_y_N_m", "torque_z_N_m")
+FIELD = ("field_x_uT", "field_y_uT", "field_z_uT")
+TEMPERATURE = ("temperature_degC",)
+GROUPS = (ATTITUDE, RATE, MOMENTUM, TORQUE, FIELD, TEMPERATURE)
+MASS = re.compile(r"mass_(.+)_mm")
+# A name that means to be one of ours.
+OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature)_.*")
+PER_MM, MM, PER_UT, UT = 1e3, 1e-3, 1e6, 1e-6
+NAMED = 5  # columns that are told by name; chosen: a screen
+
+
+def is_native(names: tuple[str, ...]) -> bool:
+    """Say whether a header is ours, perhaps with a fault in it."""
+    return TIME in names or bool({*ATTITUDE, *RATE} & set(names))
+
+
+def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
+    """Return what a native header's columns mean; InputError for a name that is nearly ours."""
+    if TIME not in names:
+        raise InputError(f"{source}, header", f"no column '{TIME}'", f"'{TIME}', {_shown(names)}")
+    masses = [match for match in map(MASS.fullmatch, names) if match]
+    devices = [device for device in map(device_of, names) if device]
+    known = [TIME, *chain(*GROUPS), *(m[0] for m in masses), *(d.column for d in devices)]
+    _check_names(names, known, source)
+    return ColumnMap(
+        name="native",
+        time=(Columns((TIME,)),),
+        quaternion=_group(names, ATTITUDE, source),
+        rate=_group(names, RATE, source),
+        masses=tuple(MassColumn(match[1], match[0], MM) for match in masses),
+        momentum=_group(names, MOMENTUM, source),
+        torque=_group(names, TORQUE, source),
+        devices=tuple(devices),
+        field=_group(names, FIELD, source, UT),
+        temperature=_group(names, TEMPERATURE, source),
+        native=True,
+        notes=_left_aside(names, known),
+    )
+
+
+def _left_aside(names: tuple[str, ...], known: list[str]) -> tuple[str, ...]:
+    """Say which columns mean nothing here, such as a motor's command that nothing accounts for."""
+    unknown = [name for name in names if name and name not in known]
+    if not unknown:
+        return ()
+    more = f" and {len(unknown) - NAMED} more" if len(unknown) > NAMED else ""
+    told = ", ".join(f"'{name}'" for name in unknown[:NAMED])
+    return (f"Columns that are not known were left aside: {told}{more}.",)
+
+
+def native_columns(recording: Recording) -> dict[str, Series1]:
+    """Return a recording as native columns over the union of its times, NaN for blank."""
+    masses = tuple(f"mass_{name}_mm" for name in recording.mass_names)
+    devices = [column_of(name) for name in recording.device_names]
+    per_unit = 1 / np.array([device.factor for device in devices])
+    channels = (
+        (recording.attitude, ATTITUDE, 1.0),
+        (recording.rate, RATE, 1.0),
+        (recording.masses, masses, PER_MM),
+        (recording.momentum, MOMENTUM, 1.0),
+        (recording.torque, TORQUE, 1.0),
+        (recording.devices, tuple(d.column for d in devices), per_unit),
+        (recording.field, FIELD, PER_UT),
+        (recording.temperature, TEMPERATURE, 1.0),
+    )
+    present = [(c, names, unit) for c, names, unit in channels if c is not None and len(c)]
+    if not present:
+        return {TIME: np.zeros(0)}
+    time = np.unique(np.concatenate([channel.t for channel, _, _ in present]))
+    columns: dict[str, Series1] = {TIME: time}
+    for channel, names, unit in present:
+        spread = _spread(channel, time, unit)
+        columns.update({name: spread[:, i] for i, name in enumerate(names)})
+    return columns
+
+
+def _spread(channel: Samples, time: Series1, unit: float | Floats) -> Floats:
+    """Return a channel's rows at their places among all times."""
+    wide = np.full((len(time), channel.values.shape[1]), np.nan)
+    wide[np.searchsorted(time, channel.t)] = channel.values * unit
+    return wide
+
+
+def _group(
+    names: tuple[str, ...], group: tuple[str, ...], source: str, unit: float = 1.0
+) -> Columns | None:
+    """Return the columns of a channel: all of them or none."""
+    missing = [name for name in group if name not in names]
+    if len(missing) == len(group):
+        return None
+    if missing:
+        found = f"{' '.join(n for n in group if n in names)} without {' '.join(missing)}"
+        raise InputError(f"{source}, header", found, f"all of {' '.join(group)}, or none")
+    return Columns(group, unit)
+
+
+def _check_names(names: tuple[str, ...], known: list[str], source: str) -> None:
+    """Refuse a column that means to be ours and is not, such as one in another unit."""
+    for name in names:
+        if OURS.fullmatch(name) and name not in known:
+            mass = "'mass_<name>_mm'" if name.startswith("mass_") else None
+            wanted = mass or wanted_column(name) or nearest(name, known)
+            raise InputError(f"{source}, header", f"column '{name}'", wanted)
+
+
+def _shown(names: tuple[str, ...]) -> str:
+    return "in s, beside " + ", ".join(names[:6])

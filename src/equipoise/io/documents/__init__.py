@@ -1,0 +1,1 @@
+"""Files that are no recordings: plans, sessions, runs, logbook."""

@@ -1,0 +1,51 @@
+"""Files that describe a board of markers or a lens, both ways: flat TOML.
+
+The same keys stand in a testbed file under [hardware.sensor.settings] of a sensor with the driver
+camera; ``hardware.camera.eye`` says what they mean.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from equipoise.io.files.atomic_file import write_whole
+from equipoise.io.toml.key_types import Positive, Table
+from equipoise.io.toml.read_toml import read_toml
+from equipoise.io.toml.write_toml import Value, table
+
+WANTED = "a TOML file with the keys of a board or a lens"
+
+
+class CameraKeys(Table):
+    """Any of the keys."""
+
+    dictionary: str | None = None
+    columns: int | None = None
+    rows: int | None = None
+    first_id: int | None = None
+    marker_mm: Positive | None = None
+    gap_mm: Positive | None = None
+    width_px: int | None = None
+    height_px: int | None = None
+    fx_px: Positive | None = None
+    fy_px: Positive | None = None
+    cx_px: float | None = None
+    cy_px: float | None = None
+    k1: float | None = None
+    k2: float | None = None
+    p1: float | None = None
+    p2: float | None = None
+    k3: float | None = None
+    rms_px: float | None = None
+    up_x: float | None = None
+    up_y: float | None = None
+    up_z: float | None = None
+
+
+def read_camera_keys(path: Path) -> dict[str, str | int | float]:
+    """Return the keys of a file."""
+    return read_toml(path, CameraKeys, WANTED).model_dump(exclude_none=True)
+
+
+def write_camera_keys(keys: Mapping[str, Value], path: Path) -> None:
+    """Write keys to a file, whole or not at all."""
+    write_whole(path, table("", keys))

@@ -1,0 +1,91 @@
+"""The file of a balancing by hand: what was asked, every recording, and what lies where since.
+
+It is written anew as a whole with every recording. A person who placed something else than was
+asked for puts it right here, under ``placed``: all that lies on the platform, not what was added.
+"""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+
+from equipoise.io.files.atomic_file import write_whole
+from equipoise.io.toml.key_types import Table, Triple
+from equipoise.io.toml.read_toml import read_toml
+from equipoise.io.toml.write_toml import Value, table
+from equipoise.model.arrays import Ints
+from equipoise.model.errors import InputError, nearest
+from equipoise.model.testbed import Testbed
+from equipoise.model.weights import places_of, unloaded
+
+WANTED = "a session of balance --manual (TOML)"
+PILE = re.compile(r"\s*(?P<count>\d+)\s*x\s*(?P<weight>\S+)\s+at\s+(?P<place>\S+)\s*")
+
+
+class Round(Table):
+    """A recording, and what lay on the platform after it."""
+
+    recording: str
+    sha256: str = ""
+    from_s: float | None = None
+    to_s: float | None = None
+    dialect: str | None = None
+    columns: str | None = None
+    placed: list[str] | None = Field(None, description="such as '3 x washer at deck:I6'")
+
+
+class Session(Table):
+    """A balancing by hand so far."""
+
+    testbed: str
+    target_um: Triple
+    tolerance_um: Triple
+    max_rounds: Annotated[int, Field(ge=1)]
+    round: list[Round] = Field([])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piles:
+    """From lines to loadings and back, for one testbed."""
+
+    testbed: Testbed
+
+    def loading(self, lines: list[str], where: str) -> Ints:
+        """Return the loading that lines describe; InputError names the line that cannot be."""
+        bed = self.testbed
+        places, kinds = [p.name for p in places_of(bed.grids)], [w.name for w in bed.weights]
+        found = unloaded(bed.grids, bed.weights)
+        for line in lines:
+            read = PILE.fullmatch(line)
+            if read is None:
+                raise InputError(where, f"'{line}'", "a line such as '3 x washer at deck:I6'")
+            for name, known in ((read["weight"], kinds), (read["place"], places)):
+                if name not in known:
+                    raise InputError(where, f"'{name}' in '{line}'", nearest(name, known))
+            found[places.index(read["place"]), kinds.index(read["weight"])] += int(read["count"])
+        return found
+
+    def lines(self, loading: Ints) -> list[str]:
+        """Return a loading as lines."""
+        bed, rows = self.testbed, zip(*loading.nonzero(), strict=True)
+        places = places_of(bed.grids)
+        return [f"{loading[p, k]} x {bed.weights[k].name} at {places[p].name}" for p, k in rows]
+
+
+def read_session(path: Path) -> Session:
+    """Return the session of a file."""
+    return read_toml(path, Session, WANTED)
+
+
+def write_session(session: Session, path: Path) -> None:
+    """Write a session, whole or not at all."""
+    write_whole(path, text_of_session(session))
+
+
+def text_of_session(session: Session) -> str:
+    """Return TOML that reads back as the same session."""
+    head: dict[str, Value] = session.model_dump(exclude={"round"})
+    rounds = [each.model_dump(exclude_none=True) for each in session.round]
+    return "\n".join([table("", head), *(table("[[round]]", each) for each in rounds)])

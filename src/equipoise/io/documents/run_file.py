@@ -1,0 +1,56 @@
+"""``run.json``: what a logbook knows of the run in whose folder it stands.
+
+It is the last file that comes into the folder of a run: where it is, the run is whole.
+"""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+from pydantic import ConfigDict, TypeAdapter, ValidationError, with_config
+
+from equipoise.io.documents.logbook import RUN
+from equipoise.io.files.source_file import read_bytes
+from equipoise.model.errors import InputError
+from equipoise.model.logged_run import LoggedRun
+
+TESTBED = "testbed.toml"
+A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
+
+
+@with_config(ConfigDict(ser_json_inf_nan="strings"))  # JSON has no infinite number
+@dataclass(frozen=True, slots=True)
+class _Document:
+    run: LoggedRun
+    schema: Literal["equipoise/run/1"] = "equipoise/run/1"
+
+
+_DOCUMENT = TypeAdapter(_Document)
+
+
+def text_of_run(run: LoggedRun) -> str:
+    """Return the file's text; what is infinite or not a number stands there as a string."""
+    return _DOCUMENT.dump_json(_Document(run), indent=1).decode()
+
+
+def read_run(folder: Path) -> LoggedRun:
+    """Return the run of a folder, by the name that the folder has now.
+
+    Raises InputError if the file is not there, or if it is not one.
+    """
+    path = folder / RUN
+    try:
+        document = _DOCUMENT.validate_json(read_bytes(path, A_RUN))
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ": ".join((str(path), *map(str, first["loc"])))
+        raise InputError(where, first["msg"], "a run, equipoise/run/1") from error
+    return replace(document.run, name=folder.name)
+
+
+def read_configuration(folder: Path) -> str:
+    """Return the text of the testbed that a run was made with; empty if it is not there."""
+    try:
+        return (folder / TESTBED).read_text(encoding="utf-8")
+    except OSError:
+        return ""

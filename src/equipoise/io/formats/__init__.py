@@ -1,0 +1,1 @@
+"""Table formats: CSV, Parquet, MAT, ULog, ROS bags."""

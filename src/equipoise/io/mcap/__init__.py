@@ -1,0 +1,1 @@
+"""MCAP recordings: live capture, repair, foreign schemas."""

@@ -1,0 +1,182 @@
+"""MCAP files to tables and back: our own, and others' with poses or inertial messages.
+
+Of another program's file attitude comes from foxglove.FrameTransform or foxglove.PoseInFrame
+(protobuf or JSON; public Foxglove schemas) or from ROS messages (``ros_messages``). The times of
+their own stamps count, not those at which they were logged, unless a stamp is zero. A cut or
+garbled file is read as far as it is sound, and that is noted.
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.files.source_file import read_bytes
+from equipoise.io.formats.clock_units import PER_S, nanoseconds
+from equipoise.io.formats.log_table import LogChannel, LogTable, log_map, log_table
+from equipoise.io.formats.log_topics import LATEST, chosen
+from equipoise.io.mcap.foreign_mcap import foreign_topics
+from equipoise.io.mcap.foxglove_messages import frame_transform
+from equipoise.io.mcap.live_recording import (
+    METADATA,
+    TESTBED_FILE,
+    ZERO_KEY,
+    LiveRecording,
+    Opening,
+)
+from equipoise.io.mcap.log_messages import (
+    CHANNEL_KEY,
+    EVENT_TOPIC,
+    NAMES_KEY,
+    START,
+    topic_of,
+    value_names,
+)
+from equipoise.io.mcap.mcap_salvage import Salvage, salvaged
+from equipoise.model.recording import CHANNELS, Recording, rows_between
+
+WANTED = "a recording (MCAP)"
+SLICE = 2.0  # s to a chunk of a file that is written in one go (chosen: what a broken byte costs)
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedEvent:
+    """What happened while it was recorded: a command, an interlock, a note."""
+
+    t: float  # s
+    kind: str
+    sentence: str
+    data: Mapping[str, Any]
+
+
+def read_mcap(content: bytes, source: str) -> tuple[LogTable, ColumnMap]:
+    """Return an MCAP file's rows and what they mean; InputError if there are none."""
+    found = salvaged(content, source)
+    notes = loss_notes(found)
+    zero = time_zero(found)
+    if zero is None:
+        topics = foreign_topics(found, source)
+        channels, told = chosen(topics, source)
+        return log_table(source, channels, None, (*notes, *told)), log_map("mcap", channels)
+    ours = _our_channels(found, source)
+    known = log_map("mcap", ours, ours=True)
+    starts = [event.t for event in _events(found) if event.kind == START]
+    return log_table(source, ours, zero, notes), replace(known, free_from=max(starts, default=None))
+
+
+def events_of(path: str | Path) -> tuple[LoggedEvent, ...]:
+    """Return the events of a recording that we wrote, in order."""
+    return _events(salvaged(read_bytes(path, WANTED), str(path)))
+
+
+def _events(found: Salvage) -> tuple[LoggedEvent, ...]:
+    zero = time_zero(found) or 0
+    ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
+    events: list[LoggedEvent] = []
+    for message in found.messages:
+        told: Any = _json(message.data) if message.channel_id in ids else {}
+        data: Any = told.get("data")
+        if _is_object(data):
+            t = (message.log_time - zero) / PER_S
+            kind, sentence = str(told.get("kind", "")), str(told.get("sentence", ""))
+            events.append(LoggedEvent(t, kind, sentence, data))
+    return tuple(events)
+
+
+def stored_testbed(path: str | Path) -> str:
+    """Return the text of the testbed file that a recording holds; empty if it holds none."""
+    found = salvaged(read_bytes(path, WANTED), str(path))
+    texts = [a.data.decode(errors="replace") for a in found.attachments if a.name == TESTBED_FILE]
+    return texts[0] if texts else ""
+
+
+def write_mcap(recording: Recording, path: str | Path) -> None:
+    """Write a recording in one go; one that bears no date ends in 1970."""
+    channels = [c for name in CHANNELS if (c := getattr(recording, name)) is not None]
+    times = np.unique(np.concatenate([np.zeros(0), *(channel.t for channel in channels)]))
+    first = float(times[0]) if len(times) else 0.0
+    ends = np.append(np.flatnonzero(np.diff(np.floor((times - first) / SLICE))), len(times) - 1)
+    with LiveRecording(path, Opening(max(-nanoseconds(first), 0)), indexed=True) as file:
+        since = -np.inf
+        for until in times[ends] if len(times) else ():
+            file.rows(rows_between(recording, since, until))
+            file.turn(float(until))
+            since = until
+
+
+def loss_notes(found: Salvage) -> tuple[str, ...]:
+    """Say what of a file is lost."""
+    if found.whole:
+        return ()
+    known = f"{found.lost_messages} messages are known to be lost"
+    places = f"{found.lost_bytes} bytes in {found.lost_places} places made no sense"
+    told = [known] * bool(found.lost_messages) + [places] * bool(found.lost_places)
+    cut = "The file has no end" if not found.ended else "The file is garbled"
+    return ("; ".join([f"{cut}: it was read as far as it is whole", *told]) + ".",)
+
+
+def time_zero(found: Salvage) -> int | None:
+    """Return the clock's reading at time zero; None if the file is another program's."""
+    for each in found.metadata:
+        zero = each.metadata.get(ZERO_KEY, "") if each.name == METADATA else ""
+        if zero.isdecimal() and int(zero) < LATEST:
+            return int(zero)
+    ours = [c for c in found.channels.values() if CHANNEL_KEY in c.metadata]
+    # Garbled where the start stood: the first row is time zero then.
+    return min((m.log_time for m in found.messages), default=0) if ours else None
+
+
+def _our_channels(found: Salvage, source: str) -> list[LogChannel]:
+    """Return the channels that we wrote, each of all its topics' messages."""
+    by_topic: dict[str, Any] = {each.topic: each for each in found.channels.values()}
+    rows: dict[int, list[Any]] = {}
+    for message in found.messages:
+        rows.setdefault(message.channel_id, []).append(message)
+    channels: list[LogChannel] = []
+    for name in CHANNELS:
+        channel = by_topic.get(topic_of(name))
+        if channel is None or channel.id not in rows:
+            continue
+        names = _names(channel)
+        keys = () if name == "attitude" else value_names(name, names)
+        told = [(m.log_time, _values(name, keys, m.data)) for m in rows[channel.id]]
+        full = [(ns, values) for ns, values in told if values is not None and ns < LATEST]
+        if full:
+            times, values = zip(*full, strict=True)
+            channels.append(LogChannel(name, np.array(times), np.array(values, float), names))
+    return channels
+
+
+def _names(channel: Any) -> tuple[str, ...]:
+    try:
+        return tuple(map(str, json.loads(channel.metadata.get(NAMES_KEY, "[]"))))
+    except ValueError:
+        return ()
+
+
+def _values(name: str, keys: tuple[str, ...], data: bytes) -> tuple[float, ...] | None:
+    """Return the numbers of a message; None if it does not hold them."""
+    try:
+        if name == "attitude":
+            return frame_transform(data)[1]
+        told = _json(data)
+        return tuple(float(told[key]) for key in keys)
+    except (KeyError, TypeError, ValueError):
+        return None
+
+
+def _json(data: bytes) -> Any:
+    """Return what JSON says if it is an object; else an empty one."""
+    try:
+        told: Any = json.loads(data)
+    except ValueError:
+        return {}
+    return told if _is_object(told) else {}
+
+
+def _is_object(told: Any) -> bool:
+    return isinstance(told, dict)

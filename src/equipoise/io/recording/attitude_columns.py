@@ -1,0 +1,121 @@
+"""Attitude columns to unit quaternions, scalar first, body to a laboratory whose Z is up."""
+
+import numpy as np
+
+from equipoise.io.columns.axis_permutation import axes_matrix, to_z_up
+from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.table_protocol import Table
+from equipoise.io.recording.channels import Channel
+from equipoise.maths.attitude import (
+    conjugate,
+    continuous,
+    exponential,
+    from_matrix,
+    multiply,
+    normalise,
+)
+from equipoise.model.arrays import Floats, Series1, Series4
+from equipoise.model.errors import InputError
+
+Notes = tuple[str, ...]
+FAR = 0.05  # from unit: no rounding does this, so it is not a unit quaternion (chosen)
+SHORTEST_MEAN = 0.5  # chosen: frames spread over more than half a turn have no mean
+ROUNDING = 1e-12  # below this nothing is touched, so that our own files come back verbatim
+WORTH_SAYING = 1e-5  # five printed digits
+SINGLE = 2e-7  # what single precision does to the length of a quaternion, twice over
+DIGITS = 12  # decimals up to which a column is taken as rounded (chosen: a double has 15)
+
+
+def lengths(channel: Channel) -> Channel | None:
+    """Return the lengths (n, 1) of quaternions as found, if they tell more than rounding.
+
+    A component rounded to d decimals is off by 10^-d / 2 at most, a length by 10^-d.
+    """
+    norm = np.linalg.norm(channel.values, axis=1)
+    if np.abs(norm - 1).max() <= max(10.0 ** -_decimals(channel.values), SINGLE):
+        return None
+    return Channel(channel.name, channel.t, norm[:, None], channel.rows)
+
+
+def _decimals(values: Floats) -> int:
+    """Return how many decimals the values were printed with."""
+    for decimals in range(DIGITS):
+        if np.abs(values - np.round(values, decimals)).max() < ROUNDING:
+            return decimals
+    return DIGITS
+
+
+def quaternions(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Channel, Notes]:
+    """Return a quaternion channel set right, with what was set right."""
+    q, notes = _unit(channel, table, columns)
+    q, flips = _continuous(_in_our_axes(q, columns))
+    return Channel(channel.name, channel.t, q, channel.rows), (*notes, *flips)
+
+
+def euler_angles(channel: Channel, columns: ColumnMap) -> tuple[Channel, Notes]:
+    """Return a channel of three angles (rad) as quaternions."""
+    assert columns.euler is not None  # the caller has read these columns
+    wraps = int((np.abs(np.diff(channel.values, axis=0)) > np.pi).sum())
+    q = _from_euler(channel.values, columns.euler.sequence)
+    q, _ = _continuous(_in_our_axes(q, columns))  # signs have no meaning in a table of angles
+    told = f"attitude: {wraps} wraps of an angle by a whole turn; taken as turning on."
+    notes = (told,) if wraps else ()
+    return Channel(channel.name, channel.t, q, channel.rows), notes
+
+
+def _from_euler(angles: Floats, sequence: str) -> Series4:
+    """Return the attitude; capitals turn about the turned axes, small letters about the fixed."""
+    turns: list[Floats] = []
+    for letter, angle in zip(sequence.lower(), angles.T, strict=True):
+        turns.append(exponential(angle[:, None] * np.eye(3)["xyz".index(letter)]))
+    first, second, third = turns if sequence.isupper() else turns[::-1]
+    return multiply(first, multiply(second, third))
+
+
+def _in_our_axes(q: Series4, columns: ColumnMap) -> Series4:
+    """Return R_ours = L R_table S^T: L turns the laboratory to Z up, S the body axes to ours."""
+    if columns.inverse:
+        q = conjugate(q)
+    if columns.lab_up != "z":
+        q = multiply(to_z_up(columns.lab_up), q)
+    if columns.body != ("x", "y", "z"):
+        q = multiply(q, conjugate(from_matrix(axes_matrix(columns.body))))
+    return q
+
+
+def _continuous(q: Series4) -> tuple[Series4, Notes]:
+    mended = continuous(q)
+    flips = int((np.sum(q[1:] * q[:-1], axis=1) < 0).sum())
+    told = f"attitude: the quaternion changed its sign {flips} times; made continuous."
+    return mended, (told,) if flips else ()
+
+
+def _unit(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Series4, Notes]:
+    """Return quaternions of unit length; InputError names the first that is far from it."""
+    norm = np.linalg.norm(channel.values, axis=1)
+    least = SHORTEST_MEAN if columns.mean_of_frames else 1 - FAR
+    bad = np.flatnonzero((norm < least) | (norm > 1 + FAR))
+    if len(bad):
+        place = f"{table.source}, {table.place(int(channel.rows[bad[0]]))}"
+        found = f"a quaternion of length {norm[bad[0]]:.4g} ({len(bad)} such rows)"
+        raise InputError(place, found, f"length 1 within {FAR:.0%}")
+    if np.abs(norm - 1).max() < ROUNDING:
+        return channel.values, ()
+    return normalise(channel.values), _norm_note(norm, channel, table)
+
+
+def _norm_note(norm: Series1, channel: Channel, table: Table) -> Notes:
+    off = np.abs(norm - 1)
+    if off.max() < WORTH_SAYING:
+        return ()
+    count, worst = int((off >= WORTH_SAYING).sum()), int(off.argmax())
+    cause = "; most are short, as means of several frames are" if _mostly_short(norm) else ""
+    return (
+        f"attitude: {count} of {len(norm)} quaternions were off unit length (median "
+        f"{np.median(norm):.6f}, worst {norm[worst]:.6f} at "
+        f"{table.place(int(channel.rows[worst]))}){cause}; normalised.",
+    )
+
+
+def _mostly_short(norm: Series1) -> bool:
+    return float(np.quantile(norm, 0.9)) < 1 - WORTH_SAYING

@@ -1,0 +1,119 @@
+"""A table of whatever origin and its column map, to a Recording with notes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.io.columns.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
+from equipoise.io.columns.table_protocol import Table
+from equipoise.io.recording.attitude_columns import euler_angles, lengths, quaternions
+from equipoise.io.recording.channels import Channel, in_body_axes, read_channel, read_time
+from equipoise.io.recording.dead_columns import without_dead
+from equipoise.io.recording.time_stamps import forward_rows, gap_notes, without_duplicates
+from equipoise.model.arrays import Ints, Series1
+from equipoise.model.errors import InputError
+from equipoise.model.recording import Recording, Samples
+
+Notes = tuple[str, ...]
+FEWEST = 3  # rows of a sensor: two say nothing of how an angle's rate changes
+EPOCH = 1e6  # s: a clock beyond twelve days counts from a date, not from the run (chosen)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rows:
+    """The rows of a table that can be used, and their clock."""
+
+    table: Table
+    columns: ColumnMap
+    time: Series1
+    rows: Ints
+
+    def channel(self, name: str, columns: Columns | None) -> tuple[Channel | None, Notes]:
+        """Return a channel without duplicates and dead columns."""
+        channel = read_channel(name, self.table, columns, self.time, self.rows)
+        if channel is None or columns is None:
+            return None, ()
+        channel, twice = without_duplicates(channel, self.table)
+        if name in ("masses", "devices", "temperature"):
+            return channel, twice  # what never changes is a fact, not a dead column
+        kept, dead = without_dead(channel, columns, self.columns.native)
+        return kept, (*twice, *dead)
+
+    def vector(self, name: str, columns: Columns | None) -> tuple[Channel | None, Notes]:
+        """Return a channel of vectors in our body axes."""
+        channel, notes = self.channel(name, columns)
+        return in_body_axes(channel, columns, self.columns.body), notes
+
+
+@np.errstate(invalid="ignore", over="ignore")  # such a number is told with its row, in words
+def recording_of(table: Table, columns: ColumnMap) -> Recording:
+    """Return what a table holds; InputError if it is too little or makes no sense."""
+    source, order = _rows(table, columns)
+    attitude, norm, of_attitude = _attitude(source)
+    rate, of_rate = source.vector("rate", columns.rate)
+    _check_enough(table, attitude, rate)
+    masses, of_masses = source.channel("masses", _together(columns.masses))
+    momentum, of_momentum = source.vector("momentum", columns.momentum)
+    torque, of_torque = source.vector("torque", columns.torque)
+    devices, of_devices = source.channel("devices", _together(columns.devices))
+    field, of_field = source.vector("field", columns.field)
+    temperature, of_warmth = source.channel("temperature", columns.temperature)
+    gaps = [note for c in (attitude, rate) if c is not None for note in gap_notes(c)]
+    notes = (*table.notes, *columns.notes, *order, *of_attitude, *of_rate, *of_masses)
+    return Recording(
+        attitude=_samples(attitude),
+        rate=_samples(rate),
+        mass_names=tuple(mass.mass for mass in columns.masses) if masses else (),
+        masses=_samples(masses),
+        momentum=_samples(momentum),
+        torque=_samples(torque),
+        device_names=tuple(each.device for each in columns.devices) if devices else (),
+        devices=_samples(devices),
+        field=_samples(field),
+        temperature=_samples(temperature),
+        attitude_norm=_samples(norm),
+        source=table.source,
+        free_from=columns.free_from,
+        notes=(*notes, *of_momentum, *of_torque, *of_devices, *of_field, *of_warmth, *gaps),
+    )
+
+
+def _rows(table: Table, columns: ColumnMap) -> tuple[Rows, Notes]:
+    """Return the usable rows, their clock started at zero if it counts from a date."""
+    time = read_time(table, columns)
+    rows, notes = forward_rows(table, columns, time)
+    start = float(time[rows[0]])
+    if columns.native or abs(start) < EPOCH:
+        return Rows(table, columns, time, rows), notes
+    told = f"The clock starts at {start:.3f} s; this is taken as zero."
+    return Rows(table, columns, time - start, rows), (*notes, told)
+
+
+def _attitude(source: Rows) -> tuple[Channel | None, Channel | None, Notes]:
+    """Return the attitude, whether it came as quaternions or as angles, and the lengths found."""
+    columns = source.columns
+    angles = None if columns.euler is None else columns.euler.columns
+    raw, notes = source.channel("attitude", angles or columns.quaternion)
+    if raw is None:
+        return None, None, notes
+    mended, told = euler_angles(raw, columns) if angles else quaternions(raw, source.table, columns)
+    return mended, None if angles else lengths(raw), (*notes, *told)
+
+
+def _together(columns: tuple[MassColumn | DeviceColumn, ...]) -> Columns | None:
+    """Return the columns of all masses, or of all devices, as one group."""
+    if not columns:
+        return None
+    return Columns(tuple(c.column for c in columns), tuple(c.factor for c in columns))
+
+
+def _check_enough(table: Table, *sensors: Channel | None) -> None:
+    most = max((len(sensor) for sensor in sensors if sensor is not None), default=0)
+    if most < FEWEST:
+        count = f"{most} row{'s' * (most > 1)}"
+        found = f"{count} of attitude or rate" if most else "neither attitude nor rate"
+        raise InputError(table.source, found, f"at least {FEWEST} rows of attitude or of rate")
+
+
+def _samples(channel: Channel | None) -> Samples | None:
+    return None if channel is None else channel.samples()

@@ -1,0 +1,121 @@
+"""Every format of a recording, in one table: how it is known, read and written.
+
+A file is known by its first bytes; by its suffix only where those say nothing, as in a text.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from equipoise.io.columns.column_map import ColumnMap, Layout
+from equipoise.io.columns.native_columns import native_columns
+from equipoise.io.columns.table_protocol import Table
+from equipoise.io.files.atomic_file import whole_file, write_whole
+from equipoise.io.files.source_file import read_bytes, text_of
+from equipoise.io.formats.csv_table import cut
+from equipoise.io.formats.csv_text import csv_text
+from equipoise.io.formats.mat_table import MAGIC as MAT
+from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
+from equipoise.io.formats.parquet_table import MAGIC as PARQUET
+from equipoise.io.formats.parquet_table import parquet_bytes, read_parquet
+from equipoise.io.formats.ros_bags import FOLDER_MARK, ROS_1, ROS_2, read_bag
+from equipoise.io.formats.ulog_file import MAGIC as ULOG
+from equipoise.io.formats.ulog_file import read_ulog
+from equipoise.io.mcap.mcap_recording import read_mcap, write_mcap
+from equipoise.io.mcap.mcap_salvage import MAGIC as MCAP
+from equipoise.model.errors import InputError
+from equipoise.model.recording import Recording
+
+WANTED = "a recording (CSV, Parquet, MCAP, MAT, a bag of ROS, or ULog)"
+Read = Callable[[Path, bytes, Layout], tuple[Table, ColumnMap | None]]  # None: by the header
+Write = Callable[[Recording, Path], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """One kind of file."""
+
+    name: str
+    suffixes: tuple[str, ...]
+    marks: tuple[bytes, ...]  # its first bytes; none: a text
+    read: Read
+    write: Write | None  # None: it is read only
+
+
+def content_of(path: Path) -> bytes:
+    """Return a file's bytes; of a bag that is a folder those of its files, in order of name."""
+    if not (path / FOLDER_MARK).is_file():
+        return read_bytes(path, WANTED)
+    return b"".join(each.read_bytes() for each in sorted(path.iterdir()) if each.is_file())
+
+
+def format_of(path: Path, content: bytes) -> Format:
+    """Return the format of a file: by its first bytes, then by its suffix; else it is a text."""
+    if path.is_dir():
+        return BAG
+    marked = [each for each in FORMATS if each.marks and content.startswith(each.marks)]
+    named = [each for each in FORMATS if path.suffix.lower() in each.suffixes]
+    return next(iter((*marked, *named)), FORMATS[0])
+
+
+def format_to_write(path: Path) -> Write:
+    """Return how a file of a suffix is written; InputError lists those that are."""
+    suffix = path.suffix.lower()
+    for each in FORMATS:
+        if suffix in each.suffixes and each.write is not None:
+            return each.write
+    written = [each.suffixes[0] for each in FORMATS if each.write is not None]
+    wanted = f"a file name ending in {', '.join(written[:-1])} or {written[-1]}"
+    raise InputError(str(path), f"suffix '{suffix}'", wanted)
+
+
+def _read_text(path: Path, content: bytes, layout: Layout) -> tuple[Table, None]:
+    return cut(text_of(content, path, WANTED), str(path), layout), None
+
+
+def _write_text(recording: Recording, path: Path) -> None:
+    write_whole(path, csv_text(native_columns(recording)))
+
+
+def _read_parquet(path: Path, content: bytes, _layout: Layout) -> tuple[Table, None]:
+    return read_parquet(content, str(path)), None
+
+
+def _write_parquet(recording: Recording, path: Path) -> None:
+    write_whole(path, parquet_bytes(native_columns(recording), str(path)))
+
+
+def _read_mcap(path: Path, content: bytes, _layout: Layout) -> tuple[Table, ColumnMap]:
+    return read_mcap(content, str(path))
+
+
+def _write_mcap(recording: Recording, path: Path) -> None:
+    with whole_file(path) as temporary:
+        write_mcap(recording, temporary)
+
+
+def _read_mat(path: Path, content: bytes, _layout: Layout) -> tuple[Table, None]:
+    return read_mat(content, str(path)), None
+
+
+def _write_mat(recording: Recording, path: Path) -> None:
+    write_whole(path, mat_bytes(native_columns(recording)))
+
+
+def _read_bag(path: Path, content: bytes, _layout: Layout) -> tuple[Table, ColumnMap]:
+    return read_bag(path, content)
+
+
+def _read_ulog(path: Path, content: bytes, _layout: Layout) -> tuple[Table, ColumnMap]:
+    return read_ulog(content, str(path))
+
+
+BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), _read_bag, None)
+FORMATS = (
+    Format("csv", (".csv", ".txt"), (), _read_text, _write_text),
+    Format("parquet", (".parquet",), (PARQUET,), _read_parquet, _write_parquet),
+    Format("mcap", (".mcap",), (MCAP,), _read_mcap, _write_mcap),
+    Format("mat", (".mat",), (MAT, MAGIC_73), _read_mat, _write_mat),
+    BAG,
+    Format("ulog", (".ulg", ".ulog"), (ULOG,), _read_ulog, None),
+)

@@ -1,0 +1,77 @@
+"""Recording files, both ways, ours and other programs'; ``recording_formats`` lists the kinds."""
+
+import hashlib
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from equipoise.io.columns.column_map import ColumnMap, Layout
+from equipoise.io.columns.dialects import detect, dialect_map
+from equipoise.io.columns.table_protocol import Table
+from equipoise.io.recording.build_recording import recording_of
+from equipoise.io.recording.format_registry import content_of, format_of, format_to_write
+from equipoise.model.errors import InputError, nearest
+from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.testbed import Testbed
+
+
+def read_recording(
+    path: str | Path, dialect: str | ColumnMap | None = None, testbed: Testbed | None = None
+) -> Recording:
+    """Return what a file holds, with notes on all that was set right.
+
+    ``dialect`` is a dialect's name or a column map; None goes by the header. With a ``testbed``
+    the recording may name no mass or device that it does not have. InputError says what cannot be
+    used.
+    """
+    content = content_of(Path(path))
+    layout = dialect.layout if isinstance(dialect, ColumnMap) else Layout()
+    table, known = format_of(Path(path), content).read(Path(path), content, layout)
+    recording = recording_of(table, _columns(table, known, dialect))
+    if testbed is not None:
+        check_names(recording, testbed)
+    return replace(recording, sha256=hashlib.sha256(content).hexdigest())
+
+
+def write_recording(recording: Recording, path: str | Path) -> None:
+    """Write a recording whole or not at all, in the format of the path's suffix."""
+    write = format_to_write(Path(path))
+    _check_finite(recording, str(path))
+    write(recording, Path(path))
+
+
+def check_names(recording: Recording, testbed: Testbed) -> None:
+    """Raise InputError if the recording names a mass or device that the testbed does not have."""
+    of = f" (of testbed {testbed.source or testbed.name})"
+    for kind, names, known in (
+        ("mass", recording.mass_names, list(testbed.mass_names)),
+        ("device", recording.device_names, list(testbed.device_names)),
+    ):
+        for name in names:
+            if name not in known:
+                none = f"no {kind}: the testbed has none"
+                wanted = nearest(name, known) if known else none
+                raise InputError(f"{recording.source}, header", f"{kind} '{name}'", wanted + of)
+
+
+def _columns(table: Table, known: ColumnMap | None, dialect: str | ColumnMap | None) -> ColumnMap:
+    """Return what a table's columns mean: as told, as its format knows, or by the header."""
+    if isinstance(dialect, ColumnMap):
+        return dialect
+    if known is not None and dialect is not None:
+        found = f"dialect '{dialect}' for a log that says itself what it holds"
+        raise InputError(table.source, found, "no dialect, or a column map (--columns)")
+    if known is not None:
+        return known
+    if dialect is None:
+        return detect(table.names, table.source)
+    return dialect_map(dialect, table.names, table.source)
+
+
+def _check_finite(recording: Recording, path: str) -> None:
+    """Refuse to write what would come back as a blank cell."""
+    for name in CHANNELS:
+        channel: Samples | None = getattr(recording, name)
+        if channel is not None and not np.isfinite(channel.values).all():
+            raise InputError(path, f"{name} values that are not finite", "finite numbers to write")

@@ -1,0 +1,64 @@
+"""Time must grow. Rows that break this are refused or left out, and that is said."""
+
+import numpy as np
+
+from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.table_protocol import Table
+from equipoise.io.recording.channels import Channel
+from equipoise.model.arrays import Ints, Series1
+from equipoise.model.errors import InputError
+
+Notes = tuple[str, ...]
+LOST = 0.5  # share of rows that may go backward before the table is refused (chosen)
+GAP = 3.0  # median intervals (chosen; one missed row is 2, two are 3)
+NAMED = 3  # gaps that are named one by one
+
+
+def forward_rows(table: Table, columns: ColumnMap, time: Series1) -> tuple[Ints, Notes]:
+    """Return the rows whose time does not go back; a native table must have no other."""
+    timed = np.flatnonzero(~np.isnan(time))
+    if not len(timed):
+        raise InputError(table.source, "no row with a time", "a time in every row")
+    t = time[timed]
+    back = np.append(False, t[1:] < np.maximum.accumulate(t)[:-1])
+    rows, first = timed[~back], timed[int(np.argmax(back))]
+    untimed = len(time) - len(timed)
+    notes = (f"{_rows(untimed)} without a time were left out.",) if untimed else ()
+    if not back.any():
+        return rows, notes
+    place = table.place(int(first))
+    if columns.native or back.mean() > LOST:
+        before = t[int(np.argmax(back)) - 1]
+        found = f"time going backwards, from {before:.9g} s to {time[first]:.9g} s"
+        raise InputError(f"{table.source}, {place}", found, "times that grow from row to row")
+    text = f"{_rows(int(back.sum()))} went back in time, first at {place}; left out."
+    return rows, (*notes, text)
+
+
+def without_duplicates(channel: Channel, table: Table) -> tuple[Channel, Notes]:
+    """Return a channel with the first row of each time stamp alone."""
+    again = np.append(False, np.diff(channel.t) == 0)
+    if not again.any():
+        return channel, ()
+    place = table.place(int(channel.rows[int(np.argmax(again))]))
+    count = _rows(int(again.sum()))
+    note = f"{channel.name}: {count} with a duplicate time stamp, first at {place}; left out."
+    return channel.keep(~again), (note,)
+
+
+def gap_notes(channel: Channel) -> Notes:
+    """Say where a sensor fell silent for more than three median intervals."""
+    steps = np.diff(channel.t)
+    if not len(steps):
+        return ()
+    where = np.flatnonzero(steps > GAP * np.median(steps))
+    if not len(where):
+        return ()
+    longest = where[np.argsort(-steps[where], kind="stable")][:NAMED]
+    told = ", ".join(f"{steps[i]:.3g} s from {channel.t[i]:.6g} s" for i in sorted(longest))
+    named = f"the longest: {told}" if len(where) > NAMED else told
+    return (f"{channel.name}: {len(where)} gap{'s' * (len(where) > 1)}: {named}.",)
+
+
+def _rows(count: int) -> str:
+    return f"{count} row{'s' * (count != 1)}"

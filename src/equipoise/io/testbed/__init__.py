@@ -1,0 +1,1 @@
+"""Testbed files: schema, records, text."""

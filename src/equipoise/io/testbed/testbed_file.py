@@ -1,0 +1,36 @@
+"""Testbed files: TOML to the noun. ``testbed_text`` is the way back."""
+
+from pathlib import Path
+from typing import Any
+
+from equipoise.io.files.atomic_file import write_whole
+from equipoise.io.testbed.testbed_build import testbed_of
+from equipoise.io.testbed.testbed_schema import TestbedFile
+from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.toml.read_toml import parse_toml, read_toml
+from equipoise.model.testbed import Testbed
+
+WANTED = "a testbed file (TOML); `equipoise new` writes one to start from"
+
+
+def read_testbed(path: str | Path) -> Testbed:
+    """Return the testbed a file describes; InputError names file, key, found and wanted."""
+    return testbed_of(read_toml(path, TestbedFile, WANTED), str(path))
+
+
+def parse_testbed(text: str, source: str) -> Testbed:
+    """Return the testbed a text describes; ``source`` names it in errors."""
+    return testbed_of(parse_toml(text, source, TestbedFile), source)
+
+
+def write_testbed(testbed: Testbed | str, path: str | Path) -> None:
+    """Write a testbed, or a text with its comments after seeing that it can be read."""
+    text = testbed if isinstance(testbed, str) else text_of_testbed(testbed)
+    parse_testbed(text, str(path))
+    write_whole(path, text)
+
+
+def json_schema() -> dict[str, Any]:
+    """Return the JSON Schema of a testbed file, for editors that complete and check keys."""
+    schema = TestbedFile.model_json_schema()
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

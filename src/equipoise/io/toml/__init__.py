@@ -1,0 +1,1 @@
+"""TOML with units in the keys."""

@@ -1,0 +1,130 @@
+"""Read a TOML file against a schema; every problem becomes one sentence with file and key."""
+
+import tomllib
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, TypeVar, get_args
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from equipoise.io.files.source_file import read_bytes, text_of
+from equipoise.io.toml.units import split_unit, spoken
+from equipoise.model.errors import InputError
+
+Model = TypeVar("Model", bound=BaseModel)
+SHOWN = 60  # characters of a found value that are repeated; chosen: one line of a terminal
+# What pydantic calls a problem: what the person should have written.
+PLAIN = {
+    "float_type": "a number without quotes",
+    "int_type": "a whole number without quotes",
+    "finite_number": "a finite number",
+    "greater_than": "a number above {gt:g}",
+    "greater_than_equal": "a number of at least {ge:g}",
+    "less_than": "a number below {lt:g}",
+    "less_than_equal": "a number of at most {le:g}",
+    "too_short": "a list of {min_length} or more",
+    "too_long": "a list of {max_length} at most",
+    "string_type": "text in quotes",
+    "list_type": "a list in square brackets",
+    "literal_error": "{expected}",
+    "string_pattern_mismatch": "a letter, then letters, digits, '_' or '-'",
+    "string_too_short": "text that is not empty",
+    "model_type": "a table",
+    "model_attributes_type": "a table",
+}
+
+
+def read_toml(path: str | Path, schema: type[Model], wanted: str) -> Model:
+    """Return the file's content as a record of ``schema``."""
+    text = text_of(read_bytes(path, wanted), path, wanted)
+    return parse_toml(text, str(path), schema)
+
+
+def parse_toml(text: str, source: str, schema: type[Model]) -> Model:
+    """Return TOML text as a record of ``schema``; ``source`` names the text in errors."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise _syntax_error(text, source, error) from error
+    try:
+        return schema.model_validate(data)
+    except ValidationError as error:
+        problems = error.errors(include_url=False)
+        # A misspelt key is reported as unknown and as missing: the first says more.
+        first = min(problems, key=lambda p: p["type"] != "extra_forbidden")
+        raise _sentence(first, source, schema) from error
+
+
+def _syntax_error(text: str, source: str, error: tomllib.TOMLDecodeError) -> InputError:
+    """Return where the text stops being TOML; the parser gives its place only in its words."""
+    message, _, place = str(error).rpartition(" (at ")
+    words = place.rstrip(")").replace(",", "").split()
+    if len(words) < 2 or words[0] != "line":
+        return InputError(f"{source}, last line", str(error), "valid TOML")
+    line = int(words[1])
+    shown = text.splitlines()[line - 1].strip() if line <= len(text.splitlines()) else ""
+    return InputError(f"{source}, line {line}", f"'{shown}' ({message})", "valid TOML")
+
+
+def _sentence(problem: ErrorDetails, source: str, schema: type[BaseModel]) -> InputError:
+    """Return one problem as found and wanted."""
+    place = problem["loc"]
+    where = f"{source}: {dotted(place)}"
+    key = str(place[-1])
+    if problem["type"] == "extra_forbidden":
+        return InputError(where, f"unknown key '{key}'", _meant(key, _table_at(schema, place)))
+    if problem["type"] == "missing":
+        return InputError(where, "no such key", f"'{key}'{_in_unit(key)}")
+    plain = PLAIN.get(problem["type"], problem["msg"]).format(**problem.get("ctx", {}))
+    unit = "" if problem["type"] == "literal_error" else _in_unit(_last_name(place))
+    return InputError(where, _shown(problem["input"]), plain + unit)
+
+
+def dotted(place: tuple[int | str, ...]) -> str:
+    """Return a key's path as people write it; rows of a list count from 1."""
+    parts = [f"[{p + 1}]" if isinstance(p, int) else f".{p}" for p in place]
+    return "".join(parts).lstrip(".")
+
+
+def _meant(key: str, known: list[str]) -> str:
+    """Say which key was meant: the same quantity in another unit, else the nearest spelling."""
+    stem = split_unit(key)[0]
+    same = [name for name in known if split_unit(name)[0] == stem]
+    if same:
+        return f"the key '{same[0]}'{_in_unit(same[0])}: the unit belongs to the key"
+    close = get_close_matches(key, known, n=1) or get_close_matches(stem, known, n=1)
+    return f"'{close[0]}'?" if close else "one of " + ", ".join(known)
+
+
+def _in_unit(key: str) -> str:
+    """Return ', in mm' and the like."""
+    unit = split_unit(key)[1]
+    return f", in {spoken(unit)}" if unit else ""
+
+
+def _last_name(place: tuple[int | str, ...]) -> str:
+    """Return the key that an entry of a list belongs to."""
+    return next((p for p in reversed(place) if isinstance(p, str)), "")
+
+
+def _shown(value: Any) -> str:
+    """Return a found value, shortened."""
+    text = repr(value)
+    return text if len(text) <= SHOWN else text[: SHOWN - 3] + "..."
+
+
+def _table_at(schema: type[BaseModel], place: tuple[int | str, ...]) -> list[str]:
+    """Return the keys of the table that holds ``place``."""
+    table = schema
+    for part in place[:-1]:
+        if isinstance(part, str) and part in table.model_fields:
+            table = _model_in(table.model_fields[part].annotation) or table
+    return list(table.model_fields)
+
+
+def _model_in(annotation: Any) -> type[BaseModel] | None:
+    """Return the record inside ``list[record]``, ``record | None`` or the record itself."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next(filter(None, map(_model_in, get_args(annotation))), None)

@@ -1,0 +1,1 @@
+"""Balance a platform: by moves, by laws, by hand."""

@@ -1,0 +1,251 @@
+"""Balance: look, move, look, until the verdict passes or there is a reason to stop.
+
+One fit runs through the whole record, moves included, so that every look adds to the last. A move
+is made when the centre of mass is known well enough for it to help, or when waiting would let the
+platform tilt too far. (Ivanov 2021 section 5 moves every 25 s; this moves when it pays.)
+"""
+
+from collections.abc import Generator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from equipoise.model.arrays import Vector3
+from equipoise.model.bench import Bench
+from equipoise.model.move import Move
+from equipoise.model.recording import Recording, join
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
+from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
+from equipoise.procedure.steps.planned_move import planned_move
+from equipoise.procedure.steps.tilt_guard import TILTED, tilted
+from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
+from equipoise.procedure.steps.verify import at, fresh_enough, is_within, verdict
+
+UM = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BalanceOptions:
+    """Where the centre of mass should go, and what may be spent on it."""
+
+    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
+    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
+    max_moves: int = 3
+    max_time: float = 120.0  # s on the bench's clock
+
+
+FIRST_LOOK = 1.6  # s, before anything is fitted
+NOTABLE = 20e-6  # m below the target, beyond what a motor step leaves
+DEEPER = 80e-6  # m, the least way down
+LOOK = 0.4  # s between fits
+KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
+INFORMED = 0.3  # of the offset: a sideways sd at which the direction of a move is known
+FIRM = 0.99  # probability of being within tolerance at which to leave a move unused
+SPENT = 0.97  # the same with no move left, or no time for one
+TRIM = 0.3  # of the tolerance: an offset that the last move, when its time comes, is spent on
+LATEST = 0.97  # of the time, less the look after: when the last move is made at the latest
+LAST = 0.25  # of the tolerance: the same for the last move
+HELPS = 0.9  # of the tilt that is ahead, chosen: what a move against tilting must bring it to
+SETTLE = 20.0  # s to keep for the look after the last move
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Progress:
+    """Where the procedure stands."""
+
+    knowledge: Knowledge
+    moves: tuple[Move, ...] = ()
+    still_since: float = 0.0  # s, when the last move ended
+    braking: bool = False
+
+
+def balance(
+    bench: Bench, options: BalanceOptions, before: Recording | None = None
+) -> Generator[Step, None, Knowledge]:
+    """Yield Steps; the last is a verification, or a stop that says why, with a verdict.
+
+    What this bench has recorded ``before`` counts with what is seen from now on. What is known in
+    the end is the generator's return value.
+    """
+    began = bench.time
+    fresh = bench.read(FIRST_LOOK)
+    if before is not None:
+        fresh = join(before, fresh)
+    progress = Progress(learn(None, fresh, bench.testbed), still_since=began)
+    yield look_step(bench, fresh)
+    while True:
+        why = reason_to_stop(bench, progress, options, began)
+        if why:
+            bench.stop()
+            yield final(bench, progress, options, why)
+            return progress.knowledge
+        option = decide(bench, progress, options, began)
+        if option is None:
+            fresh = bench.read(LOOK)
+            knowledge = learn(progress.knowledge, fresh, bench.testbed)
+            progress = replace(progress, knowledge=knowledge)
+            continue
+        yield estimate_step(bench, progress)
+        knowledge = progress.knowledge
+        reason = reason_of(knowledge, bench.testbed, option, options.target)
+        now = knowledge.displacement
+        belief = without_stops(knowledge, bench.testbed, option.targets != now)
+        move = planned_move(bench.testbed, now, option.targets, belief, reason)
+        yield Step("move", bench.time, sentence_of(move), move=move)
+        bench.move(move.targets)
+        fresh = bench.read(move.duration + LOOK)
+        knowledge = learn(progress.knowledge, fresh, bench.testbed)
+        still = bench.time - LOOK
+        progress = Progress(knowledge, (*progress.moves, move), still, option.brake)
+        yield look_step(bench, fresh)
+
+
+def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> str:
+    """Return why to stop now, or nothing."""
+    knowledge = progress.knowledge
+    if tilted(knowledge.recording, bench.testbed):
+        return TILTED
+    judged = fresh_enough(knowledge, progress.still_since) and not progress.braking
+    movable = len(progress.moves) < options.max_moves
+    early = bench.time - began < LATEST * (options.max_time - SETTLE)
+    sure = FIRM if movable and early else SPENT
+    if judged and is_within(knowledge, options.target, options.tolerance, sure):
+        return "within tolerance"
+    if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
+        return "the estimate cannot be used"
+    if bench.time - began + LOOK > options.max_time:
+        return "the time is used up"
+    spent = len(progress.moves) >= options.max_moves
+    hopeless = np.abs(knowledge.com - options.target) - 2 * knowledge.sd > options.tolerance
+    if spent and judged and bool(hopeless.any()):
+        return "the moves are used up"
+    return ""
+
+
+def decide(
+    bench: Bench, progress: Progress, options: BalanceOptions, began: float
+) -> Option | None:
+    """Return a move to make now, or None to look on."""
+    left = options.max_moves - len(progress.moves)
+    knowledge, testbed = progress.knowledge, bench.testbed
+    if left == 0 or not testbed.masses:
+        return None
+    view = Outlook(knowledge, testbed, state_now(knowledge, testbed))
+    may_brake = left > 2  # a brake costs another move to come back, and the last is for the trim
+    if left > 1 and not progress.braking and urgent(view, options.target, may_brake):
+        option = safest(view, options.target, may_brake)
+        if option.peak < HELPS * view.peak(knowledge.displacement):
+            return option
+    if not (progress.braking or ripe(bench, progress, options, began)):
+        return None
+    learning = worth_learning(knowledge, testbed, left, options)
+    aim = below(knowledge, options.target, testbed) if learning else options.target
+    option = option_for(view, aim)
+    pressed = bench.time - began > options.max_time - SETTLE
+    return option if pressed or good_moment(view, option) else None
+
+
+def worth_learning(
+    knowledge: Knowledge, testbed: Testbed, left: int, options: BalanceOptions
+) -> bool:
+    """Say whether to go below the target: at first, and again while its height is not known.
+
+    The masses stop as far off in a long move as in a short one, so long ones tell the scale best.
+    The last move is the way back: from where it is low already, a last one to trim is worth more.
+    """
+    up, first = testbed.up, left == options.max_moves
+    low = float((knowledge.com - options.target) @ up) < -NOTABLE
+    vague = float(np.sqrt(up @ knowledge.covariance @ up)) > KNOWN * float(options.tolerance @ up)
+    return left > 1 and (first or (vague and not low))
+
+
+def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:
+    """Return a place (m) well below both the target and the present centre of mass.
+
+    It makes the platform stiffer, and the known changes on the way there and back are what the
+    scale of inertia and centre of mass is learnt from.
+    """
+    depth = max(DOWN, DEEPER - float((knowledge.com - target) @ testbed.up))
+    return target - depth * testbed.up
+
+
+def urgent(view: Outlook, target: Vector3, may_brake: bool) -> bool:
+    """Say whether to move because of the tilt.
+
+    When staying would pass the guard: if so would going straight one look later; but as long as
+    little is known, only if even the safest move, one look later, would pass the limit.
+    """
+    knowledge, up = view.knowledge, view.testbed.up
+    later, hopeful = replace(view, wait=LOOK), replace(view, cautious=False)
+    if hopeful.peak(knowledge.displacement) <= view.guard:
+        return False
+    off = float(np.linalg.norm(knowledge.com - target))
+    sideways = knowledge.sd - (knowledge.sd @ up) * up
+    if float(np.linalg.norm(sideways)) < INFORMED * off:
+        return bool(option_for(later, target).peak > view.guard)
+    return bool(
+        safest(replace(hopeful, wait=LOOK), target, may_brake).peak > view.testbed.tilt_limit
+    )
+
+
+def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> bool:
+    """Say whether a move would help: the offset is known, or time presses, and is worth it."""
+    knowledge = progress.knowledge
+    left = options.max_moves - len(progress.moves)
+    off, sd = np.abs(knowledge.com - options.target), knowledge.sd
+    share = LATEST if left == 1 else 1 - left / (options.max_moves + 1)
+    late = bench.time - began > share * (options.max_time - SETTLE)
+    enough = LAST if left == 1 else KNOWN
+    known = bool(np.all((sd < enough * options.tolerance) | ((sd < 0.1 * off) & (left > 1))))
+    worth = off > TRIM * options.tolerance if late and left == 1 else off + sd > options.tolerance
+    return bool(np.any(worth)) and (known or late) and fresh_enough(knowledge, progress.still_since)
+
+
+def reason_of(knowledge: Knowledge, testbed: Testbed, option: Option, target: Vector3) -> str:
+    """Return why this move."""
+    if option.brake:
+        return "brake: the platform falls faster than it can be caught"
+    above = float((shifted(knowledge, testbed, option.targets) - target) @ testbed.up)
+    return (
+        "below the target first: stiffer, and more to learn from"
+        if above < -NOTABLE
+        else "to target"
+    )
+
+
+def sentence_of(move: Move) -> str:
+    """Return a move in words."""
+    x, y, z = 1e6 * move.predicted_com
+    return (
+        f"Move ({move.reason}): {1e3 * move.travel:.0f} mm in {move.duration:.1f} s; "
+        f"should leave ({x:.1f}, {y:.1f}, {z:.1f}) um."
+    )
+
+
+def look_step(bench: Bench, fresh: Recording) -> Step:
+    """Return the step of a look."""
+    start, end = fresh.span
+    return Step("look", bench.time, f"Looked for {end - start:.1f} s.", recording=fresh)
+
+
+def estimate_step(bench: Bench, progress: Progress) -> Step:
+    """Return the step of an estimate."""
+    knowledge = progress.knowledge
+    where = at(knowledge.com, knowledge.sd)
+    text = f"{where[0].upper()}{where[1:]}."
+    return Step("estimate", bench.time, text, knowledge.recording, knowledge.estimate)
+
+
+def final(bench: Bench, progress: Progress, options: BalanceOptions, why: str) -> Step:
+    """Return the verification, or the stop with its reason."""
+    knowledge = progress.knowledge
+    last = progress.moves[-1] if progress.moves else None
+    judged = verdict(knowledge, last, progress.still_since, options.target, options.tolerance)
+    if why == TILTED:
+        judged = Verdict(False, f"Stopped: {why}.", knowledge.com, knowledge.sd, halted=True)
+    kind = "verify" if judged.passed else "stop"
+    text = f"{why[0].upper()}{why[1:]}. {judged.sentence}"
+    return Step(kind, bench.time, text, knowledge.recording, knowledge.estimate, verdict=judged)

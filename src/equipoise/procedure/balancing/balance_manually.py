@@ -1,0 +1,188 @@
+"""Balance by hand: let go, record, place the weights that are asked for, until the verdict passes.
+
+For platforms without actuators. Every recording is a free swing of its own, from a hand that lets
+go to one that catches; what it says is added to what is believed (``hand_belief``), and the weights
+of the next placing are those that should bring the centre of mass to the target
+(``actuators.weight_choice``). The last placing is judged by a recording made after it.
+
+A recording that does not fit where the weights should have left the centre of mass counts alone:
+a weight is not where it was asked for, or something slipped.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from equipoise.actuators.placed_weights import load_of
+from equipoise.actuators.weight_choice import Wanted, chosen
+from equipoise.estimation.model_selection.single_record_information import Shown, shown_by
+from equipoise.maths.attitude import tilt
+from equipoise.model.arrays import Ints, Vector3
+from equipoise.model.errors import InputError
+from equipoise.model.hands import Hands
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.placing import Placing
+from equipoise.model.recording import Recording, window
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.model.verdict import Verdict
+from equipoise.model.weights import places_of, unloaded
+from equipoise.procedure.balancing.manual_estimate import (
+    Belief,
+    alone,
+    as_estimate,
+    first_belief,
+    reloaded,
+    taught,
+)
+from equipoise.procedure.steps.joint_fit import as_if_stiff
+from equipoise.procedure.steps.verify import CONTRADICTION, judged
+
+UM = 1e-6
+ASTRAY = "; that is not where the weights should have left it: look at the last ones placed"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HandOptions:
+    """Where the centre of mass should go, and what may be spent on it."""
+
+    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
+    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
+    max_rounds: int = 4  # placings
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Seen:
+    """What is believed after a recording."""
+
+    belief: Belief
+    shown: Shown
+    astray: bool = False  # not where the weights should have left it
+
+
+def check(testbed: Testbed) -> None:
+    """Raise InputError for a testbed without weights or without sensors."""
+    if not testbed.weights:
+        wanted = "tables [[weight]] and [[weight_grid]]; the preset weights-by-hand shows how"
+        raise InputError(testbed.source or testbed.name, "no weights to place", wanted)
+    if testbed.attitude is None and testbed.gyro is None:
+        raise InputError(testbed.source or testbed.name, "no sensor", "a camera or a gyro")
+
+
+def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
+    """Yield Steps: look, estimate, place, ... ; the last has the verdict."""
+    testbed = as_if_stiff(hands.testbed)
+    check(testbed)
+    belief, loading = first_belief(testbed), unloaded(testbed.grids, testbed.weights)
+    for left in range(options.max_rounds, -1, -1):
+        fresh = caught(hands.swing(), testbed)
+        start, end = fresh.span
+        yield Step("look", hands.time, f"Looked for {end - start:.1f} s.", recording=fresh)
+        seen = learnt(belief, fresh, loading, testbed)
+        belief, verdict = seen.belief, verdict_on(seen, options)
+        yield estimate_step(hands, seen, fresh)
+        if verdict.passed or left == 0:
+            yield final_step(hands, verdict, fresh, loading)
+            return
+        placing = planned(testbed, belief, loading, options)
+        yield Step("place", hands.time, sentence_of(placing, testbed, options), placing=placing)
+        after = hands.place(placing.after)
+        belief, loading = reloaded(belief, testbed, loading, after), after
+
+
+def caught(recording: Recording, testbed: Testbed) -> Recording:
+    """Return a recording up to where the platform first tilts beyond its limit."""
+    rows = recording.attitude
+    if rows is None or not len(rows):
+        return recording
+    beyond = np.flatnonzero(tilt(rows.values, testbed.up) > testbed.tilt_limit)
+    start, _ = recording.span
+    return window(recording, start, float(rows.t[beyond[0]])) if len(beyond) else recording
+
+
+def learnt(belief: Belief, fresh: Recording, loading: Ints, testbed: Testbed) -> Seen:
+    """Return what is believed with a recording added, or by it alone where the two disagree."""
+    added = load_of(testbed, loading)
+    drawn = testbed.body.inertia_P + added.inertia_P
+    known = replace(testbed, body=MassProperties(belief.mass, belief.com, drawn))
+    shown = shown_by(fresh, known)
+    if not shown.estimate.outcome.usable:
+        return Seen(belief, shown)
+    lone = alone(belief, shown)
+    off, spread = lone.com - belief.com, np.hypot(lone.sd, belief.sd)
+    if np.any(np.abs(off) > CONTRADICTION * spread):
+        return Seen(lone, shown, astray=True)
+    return Seen(taught(belief, shown), shown)
+
+
+def verdict_on(seen: Seen, options: HandOptions) -> Verdict:
+    """Return the verdict on what is believed after a recording."""
+    com, sd, outcome = seen.belief.com, seen.belief.sd, seen.shown.estimate.outcome
+    if not outcome.usable:
+        return Verdict(False, f"Cannot tell: {outcome.sentence}", com, sd, sure=False)
+    return judged(com, sd, options.target, options.tolerance)
+
+
+def planned(testbed: Testbed, belief: Belief, loading: Ints, options: HandOptions) -> Placing:
+    """Return the placing that should bring the centre of mass to the target."""
+    spread = np.hypot(options.tolerance, belief.sd)
+    wanted = Wanted(belief.body, loading, options.target, spread)
+    after = chosen(testbed, wanted)
+    then = reloaded(belief, testbed, loading, after)
+    return Placing(loading, after, then.com, then.com_covariance)
+
+
+def estimate_step(hands: Hands, seen: Seen, fresh: Recording) -> Step:
+    """Return the step of an estimate."""
+    latest, belief = seen.shown.estimate, seen.belief
+    if not latest.outcome.usable:
+        return Step("estimate", hands.time, latest.outcome.sentence, fresh, latest)
+    text = f"Centre of mass at {_um(belief.com, belief.sd)} um{ASTRAY if seen.astray else ''}."
+    return Step("estimate", hands.time, text, fresh, as_estimate(belief, latest))
+
+
+def sentence_of(placing: Placing, testbed: Testbed, options: HandOptions) -> str:
+    """Return a placing as what to do, what it should leave, and what it cannot reach."""
+    sd = np.sqrt(np.diag(placing.predicted_covariance))
+    leaves = f"should leave {_um(placing.predicted_com, sd)} um"
+    if not placing.handled:
+        return f"Nothing to place: {leaves}. Let go once more."
+    text = f"{'. '.join(errands(placing, testbed))}: {leaves}."
+    beyond = np.abs(placing.predicted_com - options.target) > np.hypot(options.tolerance, sd)
+    if not beyond.any():
+        return text
+    axes = ", ".join("xyz"[k] for k in np.flatnonzero(beyond))
+    return f"{text} Stock and places do not reach the target along {axes}."
+
+
+def errands(placing: Placing, testbed: Testbed) -> list[str]:
+    """Return what to move, to take off and to put on, place by place."""
+    change, places = placing.after - placing.before, places_of(testbed.grids)
+    moves, off, on = list[str](), list[str](), list[str]()
+    for k, weight in enumerate(testbed.weights):
+        givers = [p for p in range(len(places)) for _ in range(-change[p, k])]
+        takers = [p for p in range(len(places)) for _ in range(change[p, k])]
+        both = min(len(givers), len(takers))
+        ways = Counter(zip(givers[:both], takers[:both], strict=True))
+        for (a, b), n in ways.items():
+            moves.append(f"{n} x {weight.name} from {places[a].name} to {places[b].name}")
+        for rest, found in ((givers[both:], off), (takers[both:], on)):
+            found += [f"{n} x {weight.name} at {places[p].name}" for p, n in Counter(rest).items()]
+    deeds = (("Move", moves), ("Take off", off), ("Put on", on))
+    return [f"{verb} {', '.join(what)}" for verb, what in deeds if what]
+
+
+def final_step(hands: Hands, verdict: Verdict, fresh: Recording, loading: Ints) -> Step:
+    """Return the verification, or the stop with its reason."""
+    kind = "verify" if verdict.passed else "stop"
+    why = "" if verdict.passed else "The rounds are used up. "
+    lie = f" {loading.sum()} weights lie on {np.count_nonzero(loading.sum(axis=1))} places."
+    text = f"{why}{verdict.sentence}{lie}"
+    return Step(kind, hands.time, text, fresh, verdict=verdict)
+
+
+def _um(values: Vector3, sd: Vector3) -> str:
+    pairs = (f"{v / UM:.1f} +/- {s / UM:.1f}" for v, s in zip(values, sd, strict=True))
+    return f"({', '.join(pairs)})"

@@ -1,0 +1,54 @@
+"""Every way to balance, by name: the package's own procedure, and the published laws."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from equipoise.control.law import LawCard
+from equipoise.control.laws.follow import following_law
+from equipoise.control.laws.registry import LAWS
+from equipoise.model.bench import Bench
+from equipoise.model.step import Step
+from equipoise.procedure.balancing.balance import BalanceOptions, balance
+from equipoise.procedure.balancing.run_law import LawOptions, check, run_law
+
+OWN = LawCard(
+    name="look_and_move",
+    idea="Fits the whole record, moves when that pays, and proves it on what comes after.",
+    source="Equipoise; Ivanov 2021 section 5, with the trajectory fit instead of a filter",
+    needs=("masses", "attitude"),
+    leaves="what the motor steps leave; elastic sag only if the testbed considers it",
+    stable="open loop between moves: always; it brakes a platform that would pass its tilt limit",
+    period=0.0,
+)
+LEISURE = 10.0  # s, chosen: for the first sight, before the masses follow
+CARDS: dict[str, LawCard] = {OWN.name: OWN, **{name: law.card for name, law in LAWS.items()}}
+
+
+def balanced_by(
+    name: str, bench: Bench, options: BalanceOptions, max_time: float | None
+) -> Iterator[Step]:
+    """Return the steps of a law; InputError for a testbed that has not what it needs."""
+    check(CARDS[name], bench.testbed)
+    if name == OWN.name:
+        return balance(bench, options)
+    own = LawOptions(options.target, options.tolerance)
+    longest = own.max_time if max_time is None else max_time
+    return run_law(bench, LAWS[name], LawOptions(own.target, own.tolerance, longest))
+
+
+def balanced_and_followed(
+    name: str, bench: Bench, options: BalanceOptions, max_time: float | None, duration: float
+) -> Iterator[Step]:
+    """Yield the steps of a law and, if its verdict passes, of masses that follow what it found.
+
+    They follow for ``duration`` seconds; another swing proves where they leave the platform.
+    """
+    following, passed = None, False
+    for step in balanced_by(name, bench, options, max_time):
+        following = step.following or following
+        passed = step.verdict is not None and step.verdict.passed
+        yield step
+    if following is not None and passed:
+        own = LawOptions(options.target, options.tolerance)
+        law = following_law(following, bench.time + duration)
+        yield from run_law(bench, law, replace(own, max_time=duration + own.proof + LEISURE))

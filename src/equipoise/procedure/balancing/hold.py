@@ -1,0 +1,209 @@
+"""Hold: keep the centre of mass where it is, while the platform warms up and drifts.
+
+The tracker goes on from what balancing found, inertia and its uncertainty included; the masses
+follow whenever a step of theirs brings the centre of mass closer.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
+from equipoise.estimation.tracker import tracker
+from equipoise.estimation.tracker.predict_correct import COM
+from equipoise.maths.attitude import to_matrix
+from equipoise.model.arrays import Floats, Matrix3, Vector3
+from equipoise.model.bench import Bench
+from equipoise.model.estimate import INERTIA
+from equipoise.model.move import Move
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.balancing.balance import UM, BalanceOptions, balance
+from equipoise.procedure.steps.joint_fit import Knowledge
+from equipoise.procedure.steps.planned_move import planned_move, stops_covariance
+from equipoise.procedure.steps.sampler import last_row
+from equipoise.procedure.steps.tilt_guard import TILTED, tilted
+from equipoise.procedure.steps.tilt_prediction import state_now
+
+LOOK = 5.0  # s between decisions
+FINER = 1 / 3  # of the tolerance, chosen: how closely to balance first
+FIRST_MOVES, FIRST_TIME = 10, 600.0  # s, chosen: what balancing may take before a hold
+ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considered
+PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
+FAR = 0.6  # of the tilt limit: a swing that corrections should calm
+GAIN = 0.1  # of the tolerance: what a move must better the worst axis by
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HoldOptions:
+    """For how long, where, and how closely."""
+
+    duration: float  # s
+    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
+    tolerance: Vector3 = field(default_factory=lambda: np.full(3, 3 * UM))  # m
+
+    @property
+    def balancing(self) -> BalanceOptions:
+        """Return how best to balance before.
+
+        An inertia wrong by 1 % is a height wrong by 1 um at 100 um, for as long as the hold lasts:
+        so there are moves to learn it by, and tolerance is left for what the masses cannot follow.
+        """
+        return BalanceOptions(self.target, FINER * self.tolerance, FIRST_MOVES, FIRST_TIME)
+
+
+def balance_and_hold(
+    bench: Bench, balancing: BalanceOptions, holding: HoldOptions
+) -> Iterator[Step]:
+    """Yield the Steps of balancing and then of holding.
+
+    Not of holding when balancing ended in a stop for tilt or with an estimate that cannot be used;
+    a verdict missed by a little holding can mend.
+    """
+    knowledge = yield from balance(bench, balancing)
+    tilted_out = tilted(knowledge.recording, bench.testbed)
+    if knowledge.estimate.outcome.usable and not tilted_out:
+        yield from hold(bench, knowledge, holding)
+
+
+def first_belief(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
+    """Return the tracker's belief at the end of what balancing recorded."""
+    q, rate = state_now(knowledge, testbed)
+    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, knowledge.displacement)
+    t = float(knowledge.fitted.problem.line.t[-1])
+    inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
+    covariance = knowledge.estimate.covariance_of((*knowledge.standing, *INERTIA))
+    belief = tracker.Belief(knowledge.com - shift, inertia_P, covariance)
+    return replace(tracker.first_state(t, q, testbed, belief), rate=rate)
+
+
+def standing(
+    state: tracker.State, testbed: Testbed, displacement: Floats
+) -> tuple[Vector3, Vector3]:
+    """Return the centre of mass with the masses as they stand, and its sd (m)."""
+    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, displacement)
+    return state.com + shift, np.sqrt(np.diag(state.covariance)[COM])
+
+
+def before_moving(
+    state: tracker.State, testbed: Testbed, displacement: Floats, goal: Floats
+) -> tuple[Vector3, Matrix3]:
+    """Return the centre of mass (m, m^2) less the stops' errors of masses about to move to a goal.
+
+    The tracker knows no stop by itself, so nothing but their accuracy is known of them.
+    """
+    com, _ = standing(state, testbed, displacement)
+    leaving = (goal != displacement) & (displacement != 0)  # at home a mass has no error
+    return com, state.covariance[COM, COM] + stops_covariance(testbed, leaving)
+
+
+def correction(
+    com: Vector3, displacement: Floats, testbed: Testbed, options: HoldOptions
+) -> Floats | None:
+    """Return displacements (m) that bring the centre of mass closer, or None."""
+    now = np.abs(com - options.target) / options.tolerance
+    if now.max() < ACT:
+        return None
+    masses, total = testbed.masses, testbed.body.mass
+    goal = displacements_for(masses, total, displacement, options.target - com)
+    change = com_shift(mass_maps(masses), total, goal - displacement)
+    then = np.abs(com + change - options.target) / options.tolerance
+    return goal if then.max() < now.max() - GAIN else None
+
+
+def swing_amplitude(state: tracker.State, com: Vector3, testbed: Testbed) -> float:
+    """Return the tilt (rad) that the present swing reaches: all its energy as height.
+
+    1/2 w.J w (w across the vertical) + m g (R r).z = -m g |r| cos(amplitude)
+    """
+    R = to_matrix(state.q)
+    across = state.rate - (state.rate @ R[2]) * R[2]
+    weight = testbed.body.mass * testbed.gravity * float(np.linalg.norm(com))
+    height = testbed.body.mass * testbed.gravity * float((R @ com)[2])
+    energy = 0.5 * float(across @ state.inertia_P @ across) + height
+    return float(np.arccos(np.clip(-energy / weight, -1.0, 1.0)))
+
+
+def calming(state: tracker.State, shift: Vector3, testbed: Testbed) -> bool:
+    """Say whether a shift d of the centre of mass (m) takes energy out of the swing now.
+
+    At attitude R it adds m g (R d)_z, less what it moves the whole swing up or down: m g d.up.
+    """
+    return float((to_matrix(state.q) @ shift)[2]) <= float(shift @ testbed.up)
+
+
+def timely(state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed) -> bool:
+    """Say whether to make a correction now.
+
+    Corrections at any moment would pump an undamped platform; once it swings far, only those that
+    calm it are made, and soon there is one.
+    """
+    far = swing_amplitude(state, com, testbed) > FAR * testbed.tilt_limit
+    return not far or calming(state, shift, testbed)
+
+
+def pressing(com: Vector3, options: HoldOptions) -> bool:
+    """Say whether an offset is too near the tolerance to be kept waiting."""
+    return bool(np.any(np.abs(com - options.target) > PRESSING * options.tolerance))
+
+
+def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
+    """Yield a move whenever one is made, and a verdict at the end."""
+    testbed, end = bench.testbed, bench.time + options.duration
+    params = tracker.Params(torque=without_drift(knowledge.fitted.point.torque))
+    state, displacement = first_belief(knowledge, testbed), knowledge.displacement
+    worst = np.zeros(3)
+    while bench.time < end - 1e-9:
+        fresh = bench.read(min(LOOK, end - bench.time))
+        state = tracker.track(fresh, testbed, params, state).end
+        displacement = last_row(fresh.masses, displacement)
+        com, _ = standing(state, testbed, displacement)
+        worst = np.maximum(worst, np.abs(com - options.target))
+        if tilted(fresh, testbed):
+            bench.stop()
+            break
+        goal = correction(com, displacement, testbed, options)
+        if goal is None:
+            continue
+        shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - displacement)
+        if pressing(com, options) or timely(state, com, shift, testbed):
+            belief = before_moving(state, testbed, displacement, goal)
+            move = planned_move(testbed, displacement, goal, belief, "drift")
+            bench.move(move.targets)
+            yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
+    last = standing(state, testbed, displacement)
+    yield verdict_step(bench, options, last, worst, bench.time < end - 1e-9)
+
+
+def without_drift(torque: Floats) -> Floats:
+    """Return torque coefficients without the drift, which the tracker follows by itself."""
+    kept = torque.copy()
+    kept[-3:] = 0.0
+    return kept
+
+
+def sentence_of(move: Move, com: Vector3) -> str:
+    """Return a correction in words."""
+    was = ", ".join(f"{1e6 * c:.1f}" for c in com)
+    return f"Drifted to ({was}) um; moved masses by {1e3 * move.travel:.0f} mm in all."
+
+
+def verdict_step(
+    bench: Bench,
+    options: HoldOptions,
+    belief: tuple[Vector3, Vector3],
+    worst: Vector3,
+    tilted_out: bool,
+) -> Step:
+    """Return the verdict on the whole hold; the belief is a centre of mass and its sd (m)."""
+    passed = bool(np.all(worst <= options.tolerance)) and not tilted_out
+    far = ", ".join(f"{1e6 * w:.1f}" for w in worst)
+    text = f"Held for {options.duration / 60:.3g} min; at most ({far}) um from the target."
+    if tilted_out:
+        text = f"Stopped: {TILTED}."
+    verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, *belief,
+                      halted=tilted_out)  # fmt: skip
+    return Step("verify" if not tilted_out else "stop", bench.time, verdict.sentence,
+                verdict=verdict)  # fmt: skip

@@ -1,0 +1,103 @@
+"""What is believed of a platform from recording to recording, weights being placed in between.
+
+Inertia and centre of mass with their joint covariance. A recording adds its information
+(``estimation.lone_record``); weights of known first moment change both by a known step,
+
+    r <- (M r + dmu) / M',   J <- J + dJ,   cov(r) grows by cov(dmu) / M'^2
+
+and it is this known step between two free swings that tells the scale of J and r.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.actuators.placed_weights import handling_covariance, load_of
+from equipoise.estimation.model_selection.single_record_information import Shown
+from equipoise.maths.linalg import element_sizes, inverse_spd, pack_symmetric, unpack_symmetric
+from equipoise.model.arrays import Floats, Ints, Matrix3, Square, Vector3
+from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.testbed import Testbed
+
+J, R = slice(0, 6), slice(6, 9)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Belief:
+    """A platform as it is loaded."""
+
+    mass: float  # kg
+    mean: Floats  # J_P (6), com (3)
+    covariance: Square
+
+    @property
+    def com(self) -> Vector3:
+        """Centre of mass, m."""
+        return self.mean[R]
+
+    @property
+    def com_covariance(self) -> Matrix3:
+        """Covariance of ``com``, m^2."""
+        return self.covariance[R, R]
+
+    @property
+    def sd(self) -> Vector3:
+        """Standard deviations of ``com``, m."""
+        return np.sqrt(np.diag(self.com_covariance))
+
+    @property
+    def body(self) -> MassProperties:
+        """The mean as a body; nothing here says that it can exist."""
+        return MassProperties(self.mass, self.com, unpack_symmetric(self.mean[J]))
+
+
+def first_belief(testbed: Testbed) -> Belief:
+    """Return what the testbed's description says."""
+    body = testbed.body
+    sd = np.append(testbed.inertia_sd * element_sizes(body.inertia_P), testbed.com_sd)
+    mean = np.append(pack_symmetric(body.inertia_P), body.com)
+    return Belief(body.mass, mean, np.diag(sd**2))
+
+
+def reloaded(belief: Belief, testbed: Testbed, before: Ints, after: Ints) -> Belief:
+    """Return what is believed when weights have been placed."""
+    old, new = load_of(testbed, before), load_of(testbed, after)
+    mass = belief.mass + new.mass - old.mass
+    moment = belief.mass * belief.com + new.first_moment - old.first_moment
+    inertia = belief.mean[J] + pack_symmetric(new.inertia_P - old.inertia_P)
+    gain = np.append(np.ones(6), np.full(3, belief.mass / mass))
+    covariance = belief.covariance * np.outer(gain, gain)
+    covariance[R, R] += handling_covariance(testbed, before, after) / mass**2
+    return Belief(mass, np.append(inertia, moment / mass), covariance)
+
+
+def taught(belief: Belief, shown: Shown) -> Belief:
+    """Return what is believed with a recording added."""
+    return _added(belief, inverse_spd(belief.covariance), shown)
+
+
+def alone(belief: Belief, shown: Shown) -> Belief:
+    """Return what a recording says by itself of the centre of mass, the inertia as believed."""
+    information = np.zeros((9, 9))
+    information[J, J] = inverse_spd(belief.covariance[J, J])
+    return _added(belief, information, shown)
+
+
+def _added(belief: Belief, information: Square, shown: Shown) -> Belief:
+    covariance = inverse_spd(information + shown.information)
+    mean = covariance @ (information @ belief.mean + shown.pull)
+    return Belief(belief.mass, mean, covariance)
+
+
+def as_estimate(belief: Belief, latest: Estimate) -> Estimate:
+    """Return a belief as an estimate, which explains the latest recording as told there."""
+    order = [*range(R.start, R.stop), *range(J.start, J.stop)]
+    mean, covariance = belief.mean[order], belief.covariance[np.ix_(order, order)]
+    names = [*((name, "m") for name in COM), *((name, "kg m2") for name in INERTIA)]
+    found = tuple(
+        Parameter(*name, float(value), float(variance**0.5))
+        for name, value, variance in zip(names, mean, np.diag(covariance), strict=True)
+    )
+    return Estimate(latest.method, latest.outcome, found, covariance, latest.residual,
+                    provenance=latest.provenance)  # fmt: skip

@@ -1,0 +1,238 @@
+"""Run a balancing law on a bench, step by step, and prove what it reached on fresh data.
+
+Every ``card.period`` seconds the law is shown a Sample and its Command is carried out; when it asks
+for a look, masses and devices rest, the platform swings, and the law is given the Estimate. When
+it has finished, or its time is used up, the platform is left to swing once more and judged by that
+record alone. A platform that tilts beyond its limit is halted, with the reason.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from equipoise.actuators.control_moment_gyros import gyros_span
+from equipoise.actuators.jets import axes_of
+from equipoise.actuators.reaction_wheels import span, wheels_span
+from equipoise.actuators.stored_momentum import with_known_inputs
+from equipoise.control.law import NEEDS, Law, LawCard, Need
+from equipoise.control.sample import Sample
+from equipoise.estimation.method_contract import Options, estimated
+from equipoise.estimation.methods.registry import METHODS
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error.fit_estimate import conclude
+from equipoise.model.arrays import Vector3
+from equipoise.model.bench import Bench
+from equipoise.model.command import Command, Look
+from equipoise.model.errors import InputError
+from equipoise.model.estimate import Estimate
+from equipoise.model.following import Following
+from equipoise.model.recording import Recording, joined, window
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import TERMS, among
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
+from equipoise.procedure.balancing.balance import look_step
+from equipoise.procedure.steps.joint_fit import as_if_stiff, learn, without
+from equipoise.procedure.steps.sampler import Eyes, looked, opened, sample_of
+from equipoise.procedure.steps.tilt_guard import TILTED, guarded, tilted
+from equipoise.procedure.steps.verification_swing import watched_swing
+from equipoise.procedure.steps.verify import verdict
+
+UM = 1e-6
+SPENT = "the time is used up"
+SETTLE = 1.0  # s, chosen: after it the filter's rate and attitude can be used
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LawOptions:
+    """Where the centre of mass should go, and what may be spent on it."""
+
+    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
+    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
+    max_time: float = 600.0  # s on the bench's clock, the proof included
+    proof: float = 40.0  # s of swinging by which the result is judged
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Session:
+    """Where a run stands."""
+
+    eyes: Eyes
+    hands: Hands
+    parts: tuple[Recording, ...] = ()  # all that was read
+
+
+def lacking(card: LawCard, testbed: Testbed) -> list[Need]:
+    """Return what a law needs and a testbed has not."""
+    has: dict[Need, bool] = {
+        "masses": bool(testbed.masses),
+        "momentum": wheels_span(testbed.wheels) or gyros_span(testbed.cmgs),
+        "magnetorquers": bool(testbed.magnetorquers) and testbed.magnetic_field is not None,
+        "jets": span(axes_of(testbed.jets)),
+        "gyro": testbed.gyro is not None,
+        "attitude": testbed.attitude is not None,
+    }
+    return [need for need in card.needs if not has[need]]
+
+
+def check(card: LawCard, testbed: Testbed) -> None:
+    """Raise InputError for a testbed that has not what a law needs."""
+    missing = [NEEDS[need] for need in lacking(card, testbed)]
+    if missing:
+        found = f"a testbed without {' and without '.join(missing)}"
+        wanted = "them in the testbed file, or another law (equipoise laws)"
+        raise InputError(f"law {card.name}", found, wanted)
+
+
+def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[Step]:
+    """Yield Steps; the last is a verification, or a stop that says why, with a verdict.
+
+    Raises InputError when the testbed lacks a device, or the law would not be stable on it.
+    """
+    check(law.card, bench.testbed)
+    state, params = law.begin(bench.testbed, options.target)
+    end = bench.time + options.max_time - options.proof
+    session, seen = first_sight(bench)
+    why, began, following = "", bench.time, None
+    while not why:
+        state, command = law.step(state, seen, params)
+        if command.note:
+            yield Step("control", bench.time, command.note)
+        if command.finished or command.look is not None:
+            hands = carry_out(bench, command, session.eyes, session.hands, law.card.period)
+            session = replace(session, hands=hands)
+        if command.finished:
+            why, following = command.finished, command.following
+            break
+        if command.look is not None and bench.time + command.look.duration > end:
+            why = SPENT
+            break
+        if command.look is not None:
+            session, recording, estimate = look(bench, session, command.look)
+            seen = estimate
+            yield look_step(bench, recording)
+            yield estimate_step(bench, estimate)
+        else:
+            session, seen, recording = control(bench, session, command, law.card.period)
+        why = reason_to_stop(bench, recording, end)
+    yield control_step(bench, law.card, began, why, following)
+    if why == TILTED:
+        bench.stop()
+        yield stop_step(bench, why)
+    else:
+        yield proof(bench, session, options)
+
+
+def reason_to_stop(bench: Bench, recording: Recording, end: float) -> str:
+    """Return why to stop now, or nothing."""
+    if tilted(recording, bench.testbed):
+        return TILTED
+    return SPENT if bench.time >= end else ""
+
+
+def first_sight(bench: Bench) -> tuple[Session, Sample]:
+    """Return the session and the first sample, when the platform was seen for a moment."""
+    testbed, fresh = bench.testbed, bench.read(SETTLE)
+    before = opened(testbed)
+    eyes = looked(before, fresh, testbed)
+    seen = sample_of(before, eyes, fresh, testbed)
+    if seen is None:
+        found, wanted = f"no attitude in {SETTLE:g} s", "an attitude sensor that gives rows"
+        raise InputError("bench", found, wanted)
+    return Session(eyes, opened_hands(testbed, eyes.displacement), (fresh,)), seen
+
+
+def control(
+    bench: Bench, session: Session, command: Command, period: float
+) -> tuple[Session, Sample, Recording]:
+    """Carry a command out and return what is seen a period later."""
+    testbed = bench.testbed
+    hands = carry_out(bench, command, session.eyes, session.hands, period)
+    fresh = bench.read(period)
+    eyes = looked(session.eyes, fresh, testbed)
+    seen = sample_of(session.eyes, eyes, fresh, testbed)
+    assert seen is not None  # there was one before
+    return Session(eyes, hands, (*session.parts, fresh)), seen, fresh
+
+
+def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recording, Estimate]:
+    """Let everything rest, read, and return what a method makes of it."""
+    testbed = bench.testbed
+    hands, wait = let_rest(bench, session.eyes, session.hands)
+    before = guarded(bench, wait) if wait > 0 else None
+    fresh = guarded(bench, asked.duration)
+    parts = (*session.parts, *(part for part in (before, fresh) if part is not None))
+    eyes = session.eyes
+    for part in parts[len(session.parts) :]:
+        eyes = looked(eyes, part, testbed)
+    recording = fresh
+    if asked.since is not None:
+        recording = with_known_inputs(since(parts, asked.since), testbed)
+    estimate = looked_into(recording, testbed, asked)
+    return Session(eyes, hands, parts), recording, estimate
+
+
+def looked_into(recording: Recording, testbed: Testbed, asked: Look) -> Estimate:
+    """Return what a method makes of a record, within the patience of somebody at a bench.
+
+    The trajectory fit is taken without the survey that it makes of a recording from elsewhere.
+    """
+    testbed = as_if_stiff(testbed)
+    options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
+    if asked.method != trajectory.METHOD:
+        return estimated(METHODS[asked.method], recording, testbed, options)
+    # A torque that is held is none: the trajectory fit is told of it by leaving it out.
+    terms = among({*testbed.disturbances, *asked.terms} - set(asked.hold))
+    hold = tuple(name for name in asked.hold if name not in TERMS)
+    params = trajectory.Params(terms, use_prior=asked.use_prior, hold=hold)
+    fitted = trajectory.fit(recording, testbed, params)
+    return conclude(fitted, trajectory.METHOD, recording)
+
+
+def since(parts: tuple[Recording, ...], start: float) -> Recording:
+    """Return what was recorded from a time (s) on, as one."""
+    recent = [part for part in parts if part.span[1] >= start]
+    return window(joined(recent), start, np.inf)
+
+
+def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
+    """Return the verdict on a fresh swing, over which the centre of mass is taken to stand still.
+
+    A platform that turns from level at an even rate shows a drift as it shows a height.
+    """
+    wait = let_rest(bench, session.eyes, session.hands)[1]
+    if wait > 0:
+        guarded(bench, wait)
+    began = bench.time
+    fresh = watched_swing(bench, session.eyes, options.proof)
+    if tilted(fresh, bench.testbed):
+        bench.stop()
+        return stop_step(bench, TILTED)
+    knowledge = learn(None, fresh, without(bench.testbed, "drift"))
+    judged = verdict(knowledge, None, began, options.target, options.tolerance)
+    kind = "verify" if judged.passed else "stop"
+    return Step(kind, bench.time, judged.sentence, knowledge.recording, knowledge.estimate,
+                verdict=judged)  # fmt: skip
+
+
+def stop_step(bench: Bench, why: str) -> Step:
+    """Return the stop of a run that cannot go on."""
+    verdict = Verdict(False, f"Stopped: {why}.", halted=True)
+    return Step("stop", bench.time, verdict.sentence, verdict=verdict)
+
+
+def control_step(
+    bench: Bench, card: LawCard, began: float, why: str, following: Following | None
+) -> Step:
+    """Return the step that says how long a law was at work and how it ended."""
+    text = f"{card.name} for {bench.time - began:.0f} s of bench time: {why.rstrip('.')}."
+    return Step("control", bench.time, text, following=following)
+
+
+def estimate_step(bench: Bench, estimate: Estimate) -> Step:
+    """Return the step of an estimate."""
+    text = f"{estimate.method}: {estimate.outcome.sentence}"
+    return Step("estimate", bench.time, text, estimate=estimate)

@@ -1,0 +1,1 @@
+"""Identify, assess and calibrate from recordings."""

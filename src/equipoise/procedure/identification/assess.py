@@ -1,0 +1,205 @@
+"""Assess: what a record proves about a platform as its masses stand, as Steps.
+
+The trajectory fit, in the model that the record supports, says where the centre of mass is and how
+surely; the testbed's inertia is knowledge, its centre of mass is not, and torques that the testbed
+considers are as large as benches have them where the record does not show them. From that follow
+the torque of gravity over a range of tilts, with sag, and the verdict on a requirement.
+
+Simple looks stand beside it: torque, energy, periods (``look_at_swing``), each with its own sd, all
+at the inertia that the fit found. Where they disagree, something is wrong with one of them.
+
+Cannot see what happens at tilts far from those recorded; nor the part of r along gravity that no
+swing shows, whose uncertainty goes into every number.
+"""
+
+from collections.abc import Generator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from equipoise.assessment.metrics.torque_range import InRange, Pull, torque_in_range
+from equipoise.dynamics.sag_trim import SAG_TERMS
+from equipoise.estimation.model_selection import reference_fit
+from equipoise.estimation.output_error.fit_estimate import spread_of
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.maths.gaussian_length import Bounded, bounded_length
+from equipoise.maths.linalg import given
+from equipoise.model.arrays import Matrix3, Square, Vector3
+from equipoise.model.bench_units import MICRO, UM
+from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter, standing_com
+from equipoise.model.recording import Recording, arranged
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import among
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.identification.requirement import OPEN as CANNOT_TELL
+from equipoise.procedure.identification.requirement import (
+    PASSED,
+    Judged,
+    Requirement,
+    judged,
+    verdict_answer,
+)
+from equipoise.procedure.identification.swing_metrics import SwingLook, looked_at
+from equipoise.procedure.steps.clean_record import sound
+
+UNKNOWN_COM = 1e-3  # m, chosen: one sd of where a centre of mass may be that is to be proven
+RANGE = np.radians(20.0)
+DOUBTFUL = 0.02  # chosen: an inertia known no better widens every bound
+Believed = tuple[Estimate, tuple[tuple[Parameter, ...], Square]]  # and what ``spread_of`` says
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AssessOptions:
+    """What is asked."""
+
+    target: Vector3 = field(default_factory=lambda: np.zeros(3))  # m, where com is wanted
+    tilt: float = float(RANGE)  # rad, of the range over which torque counts
+    require_torque: float | None = None  # N m, rms over that range
+    require_offset: float | None = None  # m, from the target
+    terms: tuple[str, ...] = ()  # torques to consider, beside the testbed's own
+    hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Assessment:
+    """What a record proves."""
+
+    testbed: Testbed
+    recording: Recording
+    options: AssessOptions
+    estimate: Estimate
+    pull: Pull  # centre of mass as the masses stand, and sag; priors counted, nothing hidden
+    inertia_sd: float  # -, relative, of the largest moment
+    offset: Bounded  # m, of com from the target
+    torque: InRange
+    looks: SwingLook
+    judged: tuple[Judged, ...]
+
+    @property
+    def weight(self) -> float:
+        """Return m g, N."""
+        return self.testbed.body.mass * self.testbed.gravity
+
+    @property
+    def com(self) -> Vector3:
+        """Return the centre of mass as the masses stand, m."""
+        return self.pull.mean[:3]
+
+    @property
+    def com_covariance(self) -> Matrix3:
+        """Return its covariance, m^2."""
+        return self.pull.covariance[:3, :3]
+
+    @property
+    def com_unscaled(self) -> Matrix3:
+        """Return its covariance with the inertia known, m^2."""
+        return self.pull.unscaled[:3, :3]
+
+
+def assess(
+    recording: Recording, testbed: Testbed, options: AssessOptions
+) -> Generator[Step, None, Assessment]:
+    """Yield Steps; the last has the verdict if there is a requirement. Returns the Assessment."""
+    start, end = recording.span
+    yield Step("look", end, f"Read {end - start:.4g} s of recording.", recording=recording)
+    believed = believed_of(recording, testbed, options)
+    estimate = believed[0]
+    yield Step("estimate", end, f"{estimate.method}: {estimate.outcome.sentence}",
+               estimate=estimate)  # fmt: skip
+    body = testbed.body
+    if estimate.outcome.usable:
+        body = replace(body, com=estimate.com, inertia_P=estimate.inertia_P)
+    found = assessment_of(replace(testbed, body=body), recording, options, believed)
+    yield verification(found, end)
+    return found
+
+
+def believed_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Believed:
+    """Return what the trajectory fit makes of a record, the testbed's inertia being known."""
+    recording, testbed = sound(arranged(recording, testbed.mass_names), testbed)
+    params = Params(
+        among({*testbed.disturbances, *options.terms}),
+        use_prior=True,
+        hold=options.hold,
+        typical=True,
+    )
+    unbalanced = replace(testbed, com_sd=np.full(3, UNKNOWN_COM))
+    reference_fit.check_sensors(recording, unbalanced)
+    belief = reference_fit.surveyed(recording, unbalanced, params)
+    estimate = reference_fit.told_by(belief, recording, params)
+    return estimate, spread_of(belief.fitted, belief.coloured)
+
+
+def assessment_of(
+    testbed: Testbed, recording: Recording, options: AssessOptions, believed: Believed
+) -> Assessment:
+    """Return the assessment of a platform whose parameters and covariance are known."""
+    estimate, spread = believed
+    pull = pull_of(*spread)
+    weight, off = testbed.body.mass * testbed.gravity, pull.mean[:3] - options.target
+    torque = torque_in_range(pull, weight, testbed.up, options.tilt)
+    offset = bounded_length(off, pull.covariance[:3, :3], np.eye(3), pull.unscaled[:3, :3])
+    return Assessment(
+        testbed,
+        recording,
+        options,
+        estimate,
+        pull,
+        inertia_doubt(*spread),
+        offset,
+        torque,
+        looked_at(*sound(recording, testbed)),
+        answers_of(options, torque, offset) if estimate.outcome.usable else (),
+    )
+
+
+def pull_of(parameters: tuple[Parameter, ...], covariance: Square) -> Pull:
+    """Return centre of mass, as the masses stand, and sag; with the inertia unknown and known."""
+    at = {parameter.name: k for k, parameter in enumerate(parameters)}
+    sag = tuple(name for name in SAG_TERMS if name in at)
+    own = [at[name] for name in (*standing_com(at), *sag)]
+    known = given(covariance, own, [at[name] for name in INERTIA])
+    values = np.array([parameters[k].value for k in own])
+    return Pull((*COM, *sag), values, covariance[np.ix_(own, own)], known)
+
+
+def inertia_doubt(parameters: tuple[Parameter, ...], covariance: Square) -> float:
+    """Return the relative sd of the largest moment of inertia."""
+    moments = [k for k, parameter in enumerate(parameters) if parameter.name in INERTIA[:3]]
+    largest = max(moments, key=lambda k: parameters[k].value)
+    return float(np.sqrt(covariance[largest, largest])) / parameters[largest].value
+
+
+def answers_of(options: AssessOptions, torque: InRange, offset: Bounded) -> tuple[Judged, ...]:
+    """Return the answers to what is required."""
+    found = list[Judged]()
+    if options.require_torque is not None:
+        what = f"gravity's torque within {np.degrees(options.tilt):g} deg of level, rms,"
+        asked = Requirement(what, options.require_torque, "uN m", MICRO)
+        found.append(judged(asked, torque.rms))
+    if options.require_offset is not None:
+        what = "the centre of mass's distance from where it is wanted"
+        found.append(judged(Requirement(what, options.require_offset, "um", UM), offset))
+    return tuple(found)
+
+
+def verification(found: Assessment, time: float) -> Step:
+    """Return the last step: the verdict on what is required, or that nothing is."""
+    sd = np.sqrt(np.diag(found.com_covariance))
+    outcome, options = found.estimate.outcome, found.options
+    asked = options.require_torque is not None or options.require_offset is not None
+    if not outcome.usable:
+        text = f"{CANNOT_TELL}: {outcome.sentence}"
+        verdict = Verdict(False, text, found.com, sd, sure=False) if asked else None
+        return Step("verify", time, text, verdict=verdict)
+    if not asked:
+        return Step("verify", time, "Nothing is required, so there is no verdict.")
+    answer = verdict_answer([each.answer for each in found.judged])
+    text = " ".join(each.sentence for each in found.judged)
+    if answer == CANNOT_TELL and found.inertia_sd > DOUBTFUL:
+        text += (
+            f" All of it goes with the inertia, which is known to {100 * found.inertia_sd:.2g} %."
+        )
+    verdict = Verdict(answer == PASSED, text, found.com, sd, sure=answer != CANNOT_TELL)
+    return Step("verify", time, text, verdict=verdict)

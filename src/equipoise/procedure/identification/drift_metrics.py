@@ -1,0 +1,77 @@
+"""Looks at the centre of mass one after the other along a record, and how it wanders.
+
+Each look is a trajectory fit of its own stretch, as a stiff platform that does not drift within it;
+looks share no row. The inertia is what the whole record showed, or, where that could not be used,
+the testbed's with its sd; an error of it is in all looks alike, and not in their scatter.
+(``assessment.allan`` says what they come to.)
+
+Cannot see what is quicker than a look; a look whose fit is not usable is left out.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.assessment.metrics.allan import FEWEST, Wander, wander_of
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error.fit_estimate import conclude
+from equipoise.maths.linalg import given
+from equipoise.model.arrays import Series1, Series3, Vector3
+from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.recording import Recording, arranged, window
+from equipoise.model.testbed import Testbed
+from equipoise.procedure.identification.assess import UNKNOWN_COM
+from equipoise.procedure.steps.joint_fit import as_if_stiff, without
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OverHours:
+    """Looks, and what they say together."""
+
+    t: Series1  # s, the middle of each
+    com: Series3  # m, as the masses stood
+    sd: Series3  # m
+    left_out: int  # looks that were not usable
+    wander: Wander | None  # None: too few looks
+
+
+def looks_over_hours(
+    recording: Recording, testbed: Testbed, seconds: float, inertia_known: bool
+) -> OverHours:
+    """Return looks of ``seconds`` each; the testbed's inertia counts as known, or as a prior."""
+    recording = arranged(recording, testbed.mass_names)
+    bed = replace(without(as_if_stiff(testbed), "drift"), com_sd=np.full(3, UNKNOWN_COM))
+    held = INERTIA if inertia_known else ()
+    params = trajectory.Params(bed.disturbances, hold=held, use_prior=True)
+    start, end = recording.span
+    count = max(int((end - start) / seconds), 1)
+    found, times, left_out = list[Estimate](), list[float](), 0
+    for k in range(count):
+        first = start + k * seconds
+        look = looked(window(recording, first, min(first + seconds, end)), bed, params)
+        if look is None:
+            left_out += 1
+            continue
+        found.append(look)
+        times.append(first + 0.5 * seconds)
+    com = np.array([look.values(look.standing) for look in found])
+    sd = np.array([spread_of(look) for look in found])
+    t, com, sd = np.array(times, dtype=float), com.reshape(-1, 3), sd.reshape(-1, 3)
+    wander = wander_of(t, com, sd) if len(t) >= FEWEST else None
+    return OverHours(t, com, sd, left_out, wander)
+
+
+def spread_of(look: Estimate) -> Vector3:
+    """Return the sd of a look's centre of mass but for the inertia, whose error all looks share."""
+    own, J = ([look.index(name) for name in names] for names in (look.standing, INERTIA))
+    return np.sqrt(np.diag(given(look.covariance, own, J)))
+
+
+def looked(part: Recording, testbed: Testbed, params: trajectory.Params) -> Estimate | None:
+    """Return a look at a stretch; None where its fit cannot be used or does not show all."""
+    rows = max((len(c) for c in (part.attitude, part.rate) if c is not None), default=0)
+    if rows < trajectory.FEW_ROWS:
+        return None
+    fitted = trajectory.fit(part, testbed, params)
+    estimate = conclude(fitted, trajectory.METHOD, part)
+    return estimate if estimate.outcome.usable and estimate.sees(COM) else None

@@ -1,0 +1,63 @@
+"""Identify: from a recording to mass properties, coarse to fine, as Steps.
+
+What the record allows decides: rest positions, if there are any, give a first centre of mass; the
+linear momentum integral a first inertia; the trajectory fit, which does not need either, the
+answer. A single method can be asked for instead.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from equipoise.estimation.method_contract import Options, estimated, heeded
+from equipoise.estimation.methods.registry import METHODS
+from equipoise.model.errors import InputError, nearest
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.procedure.steps.clean_record import sound
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class IdentifyOptions:
+    """What is asked for."""
+
+    method: str = "auto"
+    terms: tuple[str, ...] = ()  # torques to estimate, beside the testbed's own
+    hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
+    use_prior: bool = False  # the testbed's inertia and centre of mass as priors
+    robust: bool = False
+
+    @property
+    def asked(self) -> Options:
+        """Return what is asked of the method itself."""
+        return Options(self.terms, self.hold, self.use_prior, self.robust)
+
+
+COARSE_TO_FINE = ("equilibrium", "momentum_laboratory", "trajectory")
+
+
+def step_of(recording: Recording, estimate: Estimate) -> Step:
+    """Return the step that reports an estimate."""
+    sentence = f"{estimate.method}: {estimate.outcome.sentence}"
+    return Step("estimate", recording.span[1], sentence, estimate=estimate)
+
+
+def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Iterator[Step]:
+    """Yield a look, then one estimate for each method that the record allows; the last counts.
+
+    Raises InputError for a method or a held parameter that does not exist.
+    """
+    if options.method not in ("auto", *METHODS):
+        wanted = nearest(options.method, ["auto", *METHODS])
+        raise InputError("method", f"'{options.method}'", wanted)
+    start, end = recording.span
+    yield Step("look", end, f"Read {end - start:.4g} s of recording.", recording=recording)
+    recording, testbed = sound(recording, testbed)
+    chosen = COARSE_TO_FINE if options.method == "auto" else (options.method,)
+    for name in chosen:
+        method = METHODS[name]
+        asked = options.asked if name == chosen[-1] else heeded(method.card, options.asked)
+        estimate = estimated(method, recording, testbed, asked)
+        if estimate.parameters or name == chosen[-1]:
+            yield step_of(recording, estimate)

@@ -1,0 +1,162 @@
+"""What simple looks at a free swing say of the centre of mass, each with its own uncertainty.
+
+    torque    balance of torques by a Savitzky-Golay filter as long as the swing allows
+    energy    balance of energy
+    period    h from the period of each swing; ``spectrum`` shows where they were sought
+
+All take the inertia as it is given: what it is off by is off in all of them alike. They see what
+happened after the last mass had stopped. Beside the trajectory fit they are worth what an
+independent look is worth: none of them shares its model of the sensors.
+
+Cannot see what their files say of themselves.
+"""
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from scipy.signal import savgol_coeffs
+
+from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
+from equipoise.assessment.metrics.period import swings
+from equipoise.assessment.metrics.spectrum import Spectrum, spectrum
+from equipoise.assessment.metrics.swing_height import Hanging, hanging
+from equipoise.assessment.metrics.swing_modes import across
+from equipoise.estimation.method_contract import Options
+from equipoise.estimation.methods.registry import METHODS
+from equipoise.estimation.regression.formulations.energy import energy
+from equipoise.estimation.regression.formulations.rows import Formulation, Posed
+from equipoise.estimation.regression.formulations.torque import DEGREE, savitzky_golay, torque
+from equipoise.estimation.regression.inverse_dynamics_torque import Draws, Felt, felt
+from equipoise.estimation.regression.linear_method import Linear, estimate, posed_of
+from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
+from equipoise.estimation.regression.solvers.least_squares import least_squares
+from equipoise.maths.attitude import to_matrix
+from equipoise.maths.linalg import unpack_symmetric
+from equipoise.model.estimate import INERTIA, Estimate
+from equipoise.model.recording import Recording, arranged, window
+from equipoise.model.testbed import Testbed
+
+SHARP = 0.99  # chosen: of a swing, what a filter must leave
+LONGEST = 0.25  # of the record, the longest window
+SHORTEST = 0.51  # s, the window of ``torque_savitzky_golay``
+FOR_NOISE = 8  # pairs of draws, chosen: the sd of what is felt is known to a fifth
+STANDS = 5e-4  # m, chosen: a soft drive that gives way by less stands still
+FEWEST = 12  # rows, as for every linear method
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SwingLook:
+    """What the looks found; None where the record has too little for one."""
+
+    duration: float  # s, since masses stood still
+    window: float  # s, of the filter
+    torque: Felt | None
+    torque_fit: Estimate | None
+    energy: Felt | None
+    energy_fit: Estimate | None
+    spectrum: Spectrum | None
+    hanging: tuple[Hanging, ...]
+    quiet: str  # why there is no period; empty: there is one
+
+
+def standing_part(recording: Recording) -> Recording:
+    """Return the record since the last mass stopped."""
+    masses = recording.masses
+    if masses is None or len(masses) < 2:
+        return recording
+    away = np.flatnonzero(np.any(np.abs(masses.values - masses.values[-1]) > STANDS, axis=1))
+    if not len(away):
+        return recording
+    return window(recording, float(masses.t[away[-1] + 1]), recording.span[1])
+
+
+def as_one_body(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:
+    """Return the record and the testbed of a platform whose masses belong to it where they stand.
+
+    The testbed's inertia is then that of the whole, and what is found its centre of mass.
+    """
+    body, masses = testbed.body, recording.masses
+    if masses is not None and len(masses) and testbed.masses:
+        moved = inertia_shift(mass_maps(testbed.masses), masses.values[-1])
+        body = replace(body, inertia_P=body.inertia_P + unpack_symmetric(moved))
+    whole = replace(testbed, body=body, masses=(), disturbances=())
+    return replace(recording, masses=None, mass_names=()), whole
+
+
+def is_driven(recording: Recording) -> bool:
+    """Say whether wheels or known torques act, so that no swing is a free one."""
+    inputs = (recording.momentum, recording.torque)
+    return any(c is not None and bool(np.any(np.ptp(c.values, axis=0) > 0)) for c in inputs)
+
+
+def looked_at(recording: Recording, testbed: Testbed) -> SwingLook:
+    """Return what simple looks say; the testbed's inertia counts as known."""
+    part = standing_part(arranged(recording, testbed.mass_names))
+    start, end = part.span
+    posed = posed_of(*as_one_body(part, testbed), Options())
+    if len(posed.motion.t) < FEWEST:
+        few = f"only {len(posed.motion.t)} rows since the masses stopped"
+        return SwingLook(end - start, 0.0, None, None, None, None, None, (), few)
+    found, seen, quiet = periods(posed)
+    seconds = window_for(found, end - start, posed)
+    draws = tuple(pairs(posed, Drawn()))
+    slopes, some = torque(partial(savitzky_golay, seconds=seconds)), draws[:FOR_NOISE]
+    return SwingLook(
+        end - start,
+        seconds,
+        blunted(felt(slopes, posed, some)),
+        fit("torque_savitzky_golay", slopes, posed, draws),
+        felt(energy, posed, some, about_mean=True),
+        fit("energy", energy, posed, draws),
+        seen,
+        found,
+        quiet,
+    )
+
+
+def blunted(seen: Felt) -> Felt:
+    """Return a torque with what the filter may have left out of it in its sd."""
+    return replace(seen, rms_sd=float(np.hypot(seen.rms_sd, (1 - SHARP) * seen.rms)))
+
+
+def fit(name: str, formulation: Formulation, posed: Posed, draws: Draws) -> Estimate:
+    """Return the centre of mass by a linear formulation, J held."""
+    return estimate(METHODS[name].card, Linear(formulation, least_squares), posed, INERTIA, draws)
+
+
+def periods(posed: Posed) -> tuple[tuple[Hanging, ...], Spectrum, str]:
+    """Return what the swings say, their spectrum, and why there are none."""
+    motion, inertia_P = posed.motion, posed.testbed.body.inertia_P
+    n = -to_matrix(motion.q)[:, 2, :]
+    down = n.mean(axis=0) / np.linalg.norm(n.mean(axis=0))
+    tilts = n @ across(down).T
+    seen = spectrum(motion.t, tilts)
+    if is_driven(posed.recording):
+        return (), seen, "wheels or known torques drive the platform"
+    duration = float(motion.t[-1] - motion.t[0])
+    spin = -float(motion.w.mean(axis=0) @ down)
+    found = hanging(swings(motion.t, tilts), duration, inertia_P, down, spin)
+    return found, seen, "" if found else f"no swing of {duration:.3g} s or less"
+
+
+def window_for(found: tuple[Hanging, ...], duration: float, posed: Posed) -> float:
+    """Return the longest window (s) whose cubic leaves the quickest swing as it is."""
+    period = float(np.median(np.diff(posed.motion.t)))
+    longest = max(LONGEST * duration, SHORTEST)
+    if not found:
+        return longest
+    quickest = max(each.swing.frequency for each in found)
+    seconds = longest
+    while seconds > SHORTEST and gain(seconds, period, quickest) < SHARP:
+        seconds *= 0.9
+    return max(seconds, SHORTEST)
+
+
+def gain(seconds: float, period: float, frequency: float) -> float:
+    """Return what share of a sine's slope a cubic through a window gives."""
+    rows = max(round(seconds / period) // 2 * 2 + 1, 2 * DEGREE - 1)
+    weights = savgol_coeffs(rows, DEGREE, deriv=1, delta=period, use="dot")
+    at = period * (np.arange(rows) - rows // 2)
+    omega = 2 * np.pi * frequency
+    return float(weights @ np.sin(omega * at)) / omega

@@ -1,0 +1,45 @@
+"""A recording without the rows that stand out, and the sensors as its rows show them.
+
+Rows that lie off the motion of their neighbours, or repeat the one before, say nothing about the
+platform. Rows that are means of several frames are predicted as means, when the testbed does not
+say how long they are. What is rounded is noisier than stated, and a sensor that the testbed does
+not have is as noisy as its rows.
+"""
+
+from dataclasses import replace
+
+from equipoise.assessment.record_checks.exposure_averaging import row_averaging, with_window
+from equipoise.assessment.record_checks.flagged_rows import OddRows, odd_attitudes, odd_rates
+from equipoise.assessment.record_checks.sensor_noise import shown_camera, shown_gyro
+from equipoise.model.arrays import Bools
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+
+FEWEST = 20  # rows, chosen: among fewer nothing stands out
+MOST = 0.2  # chosen: with a larger share of odd rows, it is the rest that is odd
+
+
+def kept(channel: Samples, mask: Bools) -> Samples:
+    """Return a channel without the rows of a mask, unless these are too many."""
+    if mask.mean() > MOST:
+        return channel
+    return Samples(channel.t[~mask], channel.values[~mask])
+
+
+def sound(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:
+    """Return what an estimator should be given."""
+    attitude, rate = recording.attitude, recording.rate
+    told = row_averaging(attitude, recording.attitude_norm)
+    if attitude is not None and len(attitude) >= FEWEST:
+        odd: OddRows = odd_attitudes(attitude)
+        mask = odd.mask.copy()
+        if told is not None:
+            mask[list(told.odd)] = True
+        attitude = kept(attitude, mask)
+    if rate is not None and len(rate) >= FEWEST:
+        rate = kept(rate, odd_rates(rate).mask)
+    camera, gyro = shown_camera(attitude, testbed.attitude), shown_gyro(rate, testbed.gyro)
+    if told is not None and camera is not None and camera.averaging == 0:
+        camera = with_window(camera, told)
+    seen = replace(testbed, attitude=camera, gyro=gyro)
+    return replace(recording, attitude=attitude, rate=rate), seen

@@ -1,0 +1,113 @@
+"""What a procedure knows so far: everything recorded, and the one fit through all of it."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.estimation.output_error import trajectory
+from equipoise.estimation.output_error.fit_estimate import conclude
+from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns
+from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
+from equipoise.model.estimate import Estimate
+from equipoise.model.recording import Recording, join
+from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import GROUPS
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Knowledge:
+    """The record so far and what it says."""
+
+    recording: Recording
+    fitted: Fitted
+    estimate: Estimate
+
+    @property
+    def com(self) -> Vector3:
+        """Centre of mass with the masses as they stand, m."""
+        return self.estimate.values(self.standing)
+
+    @property
+    def covariance(self) -> Matrix3:
+        """Covariance of ``com``, m^2."""
+        return self.estimate.covariance_of(self.standing)
+
+    @property
+    def sd(self) -> Vector3:
+        """Standard deviations of ``com``, m."""
+        return np.sqrt(np.diag(self.covariance))
+
+    @property
+    def standing(self) -> tuple[str, ...]:
+        """Names of the centre of mass with the masses as they stand."""
+        return self.estimate.standing
+
+    @property
+    def displacement(self) -> Floats:
+        """Reported displacements at the end, m."""
+        masses = self.recording.masses
+        return np.zeros(0) if masses is None else masses.values[-1]
+
+
+def carried(point: Unknowns, old: Layout, new: Layout) -> Unknowns:
+    """Return a point with the displacement errors of another layout, matched by name."""
+    known = dict(zip(old.errors, point.error, strict=True))
+    return replace(point, error=np.array([known.get(name, 0.0) for name in new.errors]))
+
+
+def as_if_stiff(testbed: Testbed) -> Testbed:
+    """Return the testbed without elastic sag among what is estimated.
+
+    At small tilts nothing tells it from the centre of mass, which then is that of a stiff platform
+    that behaves alike.
+    """
+    return without(testbed, "sag")
+
+
+def without(testbed: Testbed, group: str) -> Testbed:
+    """Return the testbed without a group of torques among what is estimated."""
+    terms = tuple(term for term in testbed.disturbances if term not in GROUPS[group])
+    return replace(testbed, disturbances=terms)
+
+
+def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowledge:
+    """Return what is known with a fresh record added; the testbed's values are the prior."""
+    testbed = as_if_stiff(testbed)
+    params = trajectory.Params(testbed.disturbances, use_prior=True)
+    if before is None:
+        recording, guess = fresh, None
+    else:
+        recording = join(before.recording, fresh)
+        layout = trajectory.layout_of(recording, testbed, params)
+        guess = carried(before.fitted.point, before.fitted.problem.layout, layout)
+    fitted = trajectory.fit(recording, testbed, params, guess)
+    return Knowledge(recording, fitted, conclude(fitted, trajectory.METHOD, recording))
+
+
+def shifted(knowledge: Knowledge, testbed: Testbed, targets: Floats) -> Vector3:
+    """Return where the centre of mass should be with the masses at ``targets`` (m)."""
+    change = targets - knowledge.displacement
+    return knowledge.com + com_shift(mass_maps(testbed.masses), testbed.body.mass, change)
+
+
+def without_stops(knowledge: Knowledge, testbed: Testbed, moving: Bools) -> tuple[Vector3, Matrix3]:
+    """Return ``com`` and its covariance (m, m^2) less the stops' errors of masses about to move.
+
+    They leave with the masses. The fit knows something of them, and they are part of ``com``.
+    """
+    estimate = knowledge.estimate
+    gain = mass_maps(testbed.masses).first_moment / testbed.body.mass
+    rows = np.eye(len(estimate.parameters))[[estimate.index(name) for name in knowledge.standing]]
+    for i in np.flatnonzero(moving):
+        for error in stops_of(estimate, testbed.masses[i].name)[-1:]:
+            rows[:, error] -= gain[i]
+    values = np.array([parameter.value for parameter in estimate.parameters])
+    return rows @ values, rows @ estimate.covariance @ rows.T
+
+
+def stops_of(estimate: Estimate, mass: str) -> list[int]:
+    """Return where the errors of a mass's stops are among the parameters, the last one last."""
+    names = [parameter.name for parameter in estimate.parameters]
+    return [k for k, name in enumerate(names) if name.rpartition("_")[0] == f"error_{mass}"]

@@ -1,0 +1,100 @@
+"""From what a bench recorded to what a law looks at."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.actuators.jets import on_platform
+from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.control.sample import Sample
+from equipoise.estimation.motion.attitude_filter import AttitudeState, followed
+from equipoise.maths.attitude import to_matrix
+from equipoise.model.arrays import Floats, Vector3
+from equipoise.model.recording import Recording, Samples
+from equipoise.model.testbed import Testbed
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Eyes:
+    """What is remembered from one sample to the next."""
+
+    attitude: AttitudeState | None
+    displacement: Floats  # m, (k,) as last reported
+    states: Floats  # (n,) what the devices last reported
+    momentum: Vector3  # N m s, stored
+    t: float  # s, of that momentum
+    field: Vector3 | None  # T, magnetic, body axes; None: not known
+
+
+def opened(testbed: Testbed) -> Eyes:
+    """Return eyes that have seen nothing."""
+    masses, devices = len(testbed.masses), len(testbed.devices)
+    return Eyes(None, np.zeros(masses), np.zeros(devices), np.zeros(3), 0.0, None)
+
+
+def last_row(channel: Samples | None, before: Floats) -> Floats:
+    """Return a channel's last row, or what was known before."""
+    return before if channel is None or not len(channel) else channel.values[-1]
+
+
+def looked(eyes: Eyes, fresh: Recording, testbed: Testbed) -> Eyes:
+    """Return the eyes after a fresh record."""
+    stored, attitude = fresh.momentum, followed(eyes.attitude, fresh, testbed)
+    return Eyes(
+        attitude,
+        last_row(fresh.masses, eyes.displacement),
+        last_row(fresh.devices, eyes.states),
+        last_row(stored, eyes.momentum),
+        eyes.t if stored is None or not len(stored) else float(stored.t[-1]),
+        field_of(attitude, fresh, testbed),
+    )
+
+
+def sample_of(before: Eyes, now: Eyes, fresh: Recording, testbed: Testbed) -> Sample | None:
+    """Return what a law sees after a fresh record; None until an attitude was seen."""
+    if now.attitude is None:
+        return None
+    vertical = to_matrix(now.attitude.q).T @ np.array([0.0, 0.0, 1.0])
+    gap = now.t - before.t
+    torque = -(now.momentum - before.momentum) / gap if gap > 0 else np.zeros(3)
+    return Sample(
+        t=now.attitude.t,
+        q=now.attitude.q,
+        rate=now.attitude.rate,
+        gravity=-testbed.gravity * vertical,
+        shift=com_shift(mass_maps(testbed.masses), testbed.body.mass, now.displacement),
+        momentum=now.momentum,
+        torque=torque,
+        impulse=impulse_of(fresh, testbed),
+        field=now.field,
+    )
+
+
+def impulse_of(fresh: Recording, testbed: Testbed) -> Vector3:
+    """Return the impulse of the jets over a record, N m s, body axes."""
+    devices, count = fresh.devices, len(testbed.jets)
+    if devices is None or not count or len(devices) < 1:
+        return np.zeros(3)
+    pulses: Floats = _over(devices)[-count:]
+    return on_platform(testbed.jets, pulses)
+
+
+def _over(channel: Samples) -> Floats:
+    """Return the sum of means since the row before, times how long that is ago."""
+    t, values = channel.t, channel.values
+    if len(t) < 2:
+        return np.zeros(int(values.shape[1]))
+    since: Floats = np.diff(t, prepend=2 * t[0] - t[1])
+    whole: Floats = np.sum(since[:, None] * values, axis=0)
+    return whole
+
+
+def field_of(attitude: AttitudeState | None, fresh: Recording, testbed: Testbed) -> Vector3 | None:
+    """Return the magnetic field in body axes (T): measured, else the laboratory's, turned."""
+    if fresh.field is not None and len(fresh.field):
+        return fresh.field.values.mean(axis=0)
+    known = testbed.magnetic_field
+    if known is None or attitude is None:
+        return None
+    turned: Vector3 = to_matrix(attitude.q).T @ known.field_N
+    return turned

@@ -1,0 +1,96 @@
+"""Verify that the centre of mass is where it was wanted, on data since the last move."""
+
+import numpy as np
+from scipy.special import ndtr
+
+from equipoise.model.arrays import Vector3
+from equipoise.model.estimate import NORMAL_95
+from equipoise.model.move import Move
+from equipoise.model.verdict import Verdict
+from equipoise.procedure.steps.joint_fit import Knowledge
+
+SURE = 0.95  # probability that each axis is within its tolerance
+CONTRADICTION = 4.0  # sd between what a move predicted and what was found
+FRESH = 8.0  # s, chosen: least record since the last move for a verdict
+
+
+def probability_within(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Vector3:
+    """Return for each axis the probability that the truth is within the tolerance of the target."""
+    low, high = target - tolerance, target + tolerance
+    return np.asarray(ndtr((high - com) / sd) - ndtr((low - com) / sd))
+
+
+def is_within(
+    knowledge: Knowledge, target: Vector3, tolerance: Vector3, sure: float = SURE
+) -> bool:
+    """Say whether every axis is within its tolerance with a probability of ``sure``."""
+    found = probability_within(knowledge.com, knowledge.sd, target, tolerance)
+    return bool(np.all(found >= sure))
+
+
+def fresh_misfit(knowledge: Knowledge, since: float) -> float:
+    """Return by how many of its sd the chi-square of the rows after ``since`` (s) is too large."""
+    attitude, at = knowledge.recording.attitude, knowledge.fitted.at
+    left = at.left_w
+    if attitude is not None and len(at.left_q):
+        left = at.left_q[attitude.t > since]
+    if not left.size:
+        return 0.0
+    return (float(np.mean(left**2)) - 1.0) / float(np.sqrt(2.0 / left.size))
+
+
+def drift_since(knowledge: Knowledge, since: float) -> Vector3:
+    """Return how far the centre of mass has drifted (m) since a time (s), as far as is known."""
+    names = ("drift_x", "drift_y", "drift_z")
+    rate = [knowledge.estimate.values((n,))[0] if knowledge.estimate.has(n) else 0.0 for n in names]
+    return (knowledge.recording.span[1] - since) * np.array(rate)
+
+
+def verdict(
+    knowledge: Knowledge, move: Move | None, since: float, target: Vector3, tolerance: Vector3
+) -> Verdict:
+    """Return the verdict on the record since the last move (ended at ``since``, s)."""
+    com, sd = knowledge.com, knowledge.sd
+    if not knowledge.estimate.outcome.usable:
+        return Verdict(False, f"Cannot tell: {knowledge.estimate.outcome.sentence}", com, sd,
+                       sure=False)  # fmt: skip
+    if fresh_misfit(knowledge, since) > CONTRADICTION:
+        text = "Failed: the record since the last move does not fit what was found before it."
+        return Verdict(False, text, com, sd)
+    if move is not None:
+        off = com - move.predicted_com - drift_since(knowledge, since)
+        spread = np.sqrt(np.diag(move.predicted_covariance))
+        if np.any(np.abs(off) > CONTRADICTION * np.hypot(spread, sd)):
+            text = f"Failed: {at(com, sd)}, which is not where the last move should have left it."
+            return Verdict(False, text, com, sd)
+    return judged(com, sd, target, tolerance)
+
+
+def at(com: Vector3, sd: Vector3) -> str:
+    """Return where a centre of mass is, in words."""
+    where = ", ".join(f"{1e6 * c:.2f} +/- {1e6 * s:.2f}" for c, s in zip(com, sd, strict=True))
+    return f"the centre of mass is at ({where}) um"
+
+
+def judged(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Verdict:
+    """Return the verdict on a centre of mass.
+
+    Passed where each axis is within its tolerance for sure, failed where the 95 % interval of one
+    lies outside. Between them nobody can tell, however far off the value found is.
+    """
+    found = at(com, sd)
+    sure = probability_within(com, sd, target, tolerance)
+    if np.all(sure >= SURE):
+        return Verdict(True, f"Passed: {found}, within tolerance on every axis.", com, sd)
+    beyond = np.abs(com - target) - NORMAL_95 * sd > tolerance
+    if np.any(beyond):
+        axes = ", ".join("xyz"[k] for k in np.flatnonzero(beyond))
+        return Verdict(False, f"Failed: {found}; {axes} outside the tolerance.", com, sd)
+    axes = ", ".join("xyz"[k] for k in np.flatnonzero(sure < SURE))
+    text = f"Cannot tell: {found}; {axes} not known well enough to be sure."
+    return Verdict(False, text, com, sd, sure=False)
+
+
+def fresh_enough(knowledge: Knowledge, since: float) -> bool:
+    """Say whether enough was recorded since the last move to judge by."""
+    return knowledge.recording.span[1] - since >= FRESH
