@@ -26,7 +26,7 @@ demo: $(RUN) $(VENDORED)  ## identify and balance a simulated microsatellite moc
 	@$(BIN)/equipoise demo
 
 test: $(TEST) $(VENDORED)  ## run every test, and the examples of README and docs, on two cores
-	@$(BIN)/python -m tests.warm
+	@$(BIN)/python -m tests.support.warm_cache
 	@$(BIN)/pytest -q -n 2 --dist worksteal
 
 bench: $(TEST)  ## time the fit, the tracker and the simulator beside other tools

@@ -31,9 +31,9 @@ from equipoise.estimation.regression.solvers.recursion import (
     some,
     unfiltered,
 )
-from tests.methods import plain_filters
-from tests.methods.plain_recursive import plain_rls
-from tests.methods.walking import guessed, square_waves, walked
+from tests.estimation.filters import plain_filters
+from tests.estimation.regression.solvers.plain_recursive import plain_rls
+from tests.support.random_walk_records import guessed, square_waves, walked
 
 KINDS = {
     "kf_simplified": KF, "ekf_6": EKF_6, "ekf_9": EKF_9, "ekf_12": EKF_12,

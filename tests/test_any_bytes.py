@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.hardware.fuzz_targets import TARGETS as DEVICES
-from tests.io.fuzz_targets import TARGETS as FILES
+from tests.support.driver_fuzz_targets import TARGETS as DEVICES
+from tests.support.file_fuzz_targets import TARGETS as FILES
 
 EXAMPLES, FEWEST = int(os.environ.get("EQUIPOISE_FUZZ", "150")), 10
 

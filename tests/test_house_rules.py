@@ -133,7 +133,7 @@ def test_pins_name_no_address():
     assert not re.search(r"://|index-url|find-links|trusted-host|file:| @ ", constraints())
 
 
-def test_pins_cover_what_the_project_asks_for():
+def test_pins_cover_the_project_requirements():
     """Running needs the first part of the file alone; testing needs the whole."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     groups = project["dependency-groups"]

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.fuzz_target import Target
-from tests.hardware.fuzz_targets import TARGETS as DEVICES
-from tests.io.fuzz_targets import TARGETS as FILES
-from tests.mutated_bytes import mutated
+from tests.support.driver_fuzz_targets import TARGETS as DEVICES
+from tests.support.file_fuzz_targets import TARGETS as FILES
+from tests.support.fuzz_target import Target
+from tests.support.mutated_bytes import mutated
 from verification.result import Result, Row, Spread, at_most, in_turn
 
 TARGETS = (*DEVICES, *FILES)

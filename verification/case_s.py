@@ -18,7 +18,7 @@ from equipoise.model.arrays import Floats, Vector6
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import SlidingMass, Testbed
-from tests import builders
+from tests.support import builders
 
 SECONDS, MOVED_AT, CAMERA = 120.0, 60.0, 5.0
 MASS, COM = 14.0, np.array([2.0, -3.0, -80.0]) * 1e-6

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from equipoise.io.testbed.presets import read_preset
 from equipoise.io.testbed.testbed_file import write_testbed
 from equipoise.model.testbed import Testbed
-from tests.app.dashboard.driven import Dashboard, browser, dashboard
+from tests.support.dashboard_program import Dashboard, browser, dashboard
 from verification.processes import resident, spent
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 

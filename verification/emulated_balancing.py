@@ -10,7 +10,7 @@ from functools import partial
 from equipoise.app.runs.balancing import until_stopped
 from equipoise.io.testbed.presets import read_preset
 from equipoise.procedure.balancing.balance import balance
-from tests.emulated_lab import lab, over_tcp
+from tests.support.emulated_lab import lab, over_tcp
 from verification.balanced import OPTIONS, Run, notes_of, rows_of
 from verification.result import Result, Spread, in_turn
 

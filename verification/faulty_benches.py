@@ -17,8 +17,8 @@ from equipoise.app.runs.balancing import until_stopped
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
-from tests.emulated_lab import Lab, lab, over_tcp
-from tests.hardware.faulty_wire import covered, garbage, half, noisy, repeated, silent
+from tests.support.emulated_lab import Lab, lab, over_tcp
+from tests.support.faulty_wire import covered, garbage, half, noisy, repeated, silent
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
 OPTIONS = BalanceOptions()

@@ -17,7 +17,7 @@ import numpy as np
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.testbed import Testbed
-from tests.emulated_lab import Lab, lab, over_tcp
+from tests.support.emulated_lab import Lab, lab, over_tcp
 from verification.processes import resident
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 

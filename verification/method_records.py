@@ -17,9 +17,9 @@ from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
-from tests.builders import move_at
-from tests.methods import walking
 from tests.oracle import mujoco_bench as oracle
+from tests.support import random_walk_records
+from tests.support.builders import move_at
 
 Array = NDArray[np.float64]
 Condition = Literal["slow", "quick", "driven", "noisy"]
@@ -154,16 +154,16 @@ def rests(rng: np.random.Generator) -> Record:
 
 def wandering(seed: int, name: Regime) -> Record:
     """Return a swing whose centre of mass walks, com being where it is at the end."""
-    push = walking.square_waves(DURATION) if name == "played" else None
+    push = random_walk_records.square_waves(DURATION) if name == "played" else None
     end, track = (120.0, move_at(60.0, 120.0)) if name == "drifting" else (DURATION, None)
-    recording, com = walking.walked(seed, end, push, track)
-    testbed = walking.guessed(seed, 0.05)
+    recording, com = random_walk_records.walked(seed, end, push, track)
+    testbed = random_walk_records.guessed(seed, 0.05)
     body = testbed.body
     if name == "levelled":
         off = 1e-6 * np.random.default_rng(seed).normal(size=2)
         guess = replace(body, com=np.append(com[:2] + off, body.com[2]))
         testbed = replace(testbed, body=guess, com_sd=np.array([1e-6, 1e-6, 1e-4]))
-    return Record(recording, testbed, com, unpack_symmetric(walking.INERTIA))
+    return Record(recording, testbed, com, unpack_symmetric(random_walk_records.INERTIA))
 
 
 def regime(name: Regime, seed: int) -> Record:

@@ -19,7 +19,7 @@ from equipoise.model.arrays import Floats, Vector6
 from equipoise.model.mass_properties import MassProperties, parallel_axis
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
-from tests import builders
+from tests.support import builders
 
 SECONDS, MOVED_AT = 120.0, 60.0
 TRACK = builders.move_at(MOVED_AT, SECONDS)  # to (-10, -10, -50) mm at 10 mm/s

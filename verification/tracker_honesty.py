@@ -12,7 +12,7 @@ from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.parameters.fit_parameters import JP, R
 from equipoise.estimation.tracker import tracker
 from equipoise.maths.linalg import unpack_symmetric
-from tests import builders
+from tests.support import builders
 from verification import paper_runs
 from verification.chance import FULL, RARE, nees_band, ratio_limits, share_band
 from verification.efficiency import COVER, GREATEST, MEAN

@@ -45,7 +45,7 @@ def felt_at(name, t):
         ("play_x1", 0, [0.0, 0.5, 1.0, 1.0, 1.0, 1.0]),
     ],
 )
-def test_each_unknown_is_felt_as_derived(name, owner, expected):
+def test_each_drive_error_has_the_derived_signature(name, owner, expected):
     """At home, crossing half of 4 mm of play, half way out, out, crossing all of it, and back."""
     values, where = felt_at(name, [5.0, 10.1, 11.0, 15.0, 20.2, 25.0])
     assert where == owner

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import sliding_masses
 
 from equipoise.actuators.lags import is_command, slowness, told
 from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.stops import is_travelling
 from equipoise.model.recording import Samples
+from tests.support.builders import sliding_masses
 
 LAG, SAG = 0.1, 2e-3  # s, m
 X, Y, Z = (replace(mass, lag_sd=LAG, sag_sd=SAG) for mass in sliding_masses())
@@ -28,7 +28,7 @@ def smooth(t, start, duration):
     return 10 * s**3 - 15 * s**4 + 6 * s**5
 
 
-def test_a_lag_is_felt_as_minus_the_speed_by_hand():
+def test_the_sensitivity_to_a_lag_is_minus_the_speed_by_hand():
     """10 mm/s from 10 to 11 s, over 0.2 s: half of it at the corners, all of it 0.1 s inside."""
     found = mass_errors(track(ONCE), (X,))
     assert found.names == ("mass_lag_1",)
@@ -103,7 +103,7 @@ def test_measured_and_standing_masses_have_no_lag():
 
 
 @pytest.mark.parametrize("record", [None, track(HOME), Samples(np.zeros(0), np.zeros((0, 1)))])
-def test_nothing_told_nothing_late(record):
+def test_a_record_without_mass_travel_yields_no_lag(record):
     """No record, no travel, no row: no lag; home is where the mass hangs."""
     found = mass_errors(record, (X,))
     assert found.names == ()

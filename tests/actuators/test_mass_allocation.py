@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import sliding_masses
 from hypothesis import given
 from hypothesis import strategies as st
 
 from equipoise.actuators.mass_allocation import allocate, rails_of, tiers_of
 from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
 from equipoise.model.testbed import SlidingMass
+from tests.support.builders import sliding_masses
 
 MASS = 14.0
 ROUND = np.arange(4) * np.pi / 2
@@ -85,7 +85,7 @@ def test_within_reach_the_error_is_of_rounding(name, now, there, off):
 
 @every_layout
 @given(now=shares, there=shares)
-def test_steps_are_whole_and_within_travel_whatever_is_asked(name, now, there):
+def test_allocated_steps_are_whole_and_within_travel_for_any_request(name, now, there):
     """Ten times what can be reached, too."""
     masses = LAYOUTS[name]
     shift = com_shift(mass_maps(masses), MASS, places(masses, there, 10.0))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.mass_allocation import allocate, rails_of, without_delay
-from tests.control.simple_loop import MASS, masses
+from tests.support.simple_loop import MASS, masses
 
 RAILS = rails_of(masses(), MASS)
 COARSE, FINE = 0.2 * 1e-4 / MASS, 0.02 * 1e-5 / MASS  # m, what a step does
@@ -38,7 +38,7 @@ def test_what_is_near_depends_on_where_the_masses_are():
     np.testing.assert_allclose(reached(there), 0.0, atol=FINE / 2)
 
 
-def test_at_the_end_of_the_coarse_rails_the_fine_ones_go_as_far_as_they_must():
+def test_fine_masses_complete_the_shift_when_coarse_rails_are_at_their_end():
     farthest = np.array([0.2 * 0.07 + 0.02 * 0.02, 0.0, 0.0]) / MASS
     there = without_delay(RAILS, HOME, HOME, farthest)
     np.testing.assert_allclose(reached(there), farthest, atol=FINE)

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import platform
 
 from equipoise.actuators.placed_weights import handling_covariance, load_of, refusal
 from equipoise.actuators.weight_choice import (
@@ -19,6 +18,7 @@ from equipoise.actuators.weight_choice import (
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
 from equipoise.model.weights import Weight, WeightGrid, places_of, unloaded
+from tests.support.builders import platform
 
 UM, X, Y, Z = 1e-6, *np.eye(3)
 
@@ -139,7 +139,7 @@ def test_the_choice_is_the_best_of_all_loadings_of_a_small_stock(seed):
     assert price(testbed, wanted, chosen(testbed, wanted)) == pytest.approx(best, rel=1e-9)
 
 
-def test_the_choice_never_asks_for_more_than_there_is():
+def test_the_choice_of_weights_never_exceeds_the_stock():
     """So far off that the whole stock does not bring it back: all of it goes to one side."""
     testbed = corners(bed())
     body = MassProperties(14.0, np.array([-2e-3, 0.0, 0.0]), testbed.body.inertia_P)
@@ -160,7 +160,7 @@ def test_nothing_is_moved_where_nothing_helps():
     assert not chosen(testbed, Wanted(body, now, target, np.full(3, 3 * UM))).any()
 
 
-def test_every_single_step_does_what_is_told_of_it():
+def test_every_single_placement_has_its_stated_effect():
     """On or off, of either kind: against the loading with and without it, to the added mass."""
     testbed = bed()
     now = loading_of(testbed, A1=(2, 1), B3=(1, 0))

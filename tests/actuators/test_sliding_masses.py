@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import MASS, maps, sliding_masses
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -20,6 +19,7 @@ from equipoise.actuators.sliding_masses import (
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.mass_properties import MassProperties, combine, parallel_axis
 from equipoise.model.testbed import SlidingMass
+from tests.support.builders import MASS, maps, sliding_masses
 
 THREE = sliding_masses()
 HALF_STEP = 0.5e-3 * 0.0156 / MASS * (1 + 1e-6)  # m, what half a motor step does to the centre

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import sliding_masses
 
 from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.stops import felt, travels
 from equipoise.model.recording import Samples
+from tests.support.builders import sliding_masses
 
 SPEED, SD = 0.01, 3e-4
 X, Y, Z = sliding_masses(accuracy=SD)
@@ -44,13 +44,13 @@ def test_standing_still_has_no_travel():
     assert travels(t, 0.01 * t, SPEED) == [(0, 4)]
 
 
-def test_felt_up_on_down_by_hand():
+def test_the_stop_error_ramps_up_holds_and_ramps_down_by_hand():
     """Arriving from 10 to 11 s, leaving from 20 to 22 s: 0, then 1, then half-way gone at 21 s."""
     t = np.array([0.0, 10, 10.5, 11, 20, 21, 22, 30])
     assert felt(t, (1, 3), (4, 6)).tolist() == [0, 0, 0.5, 1, 1, 0.5, 0, 0]
 
 
-def test_felt_from_the_first_row_and_to_the_last():
+def test_a_stop_error_at_a_record_edge_acts_from_the_first_row_or_to_the_last():
     """A stop that the record begins with is felt at once; one that it ends with, to the end."""
     t = np.arange(5.0)
     assert felt(t, (0, 0), (2, 3)).tolist() == [1, 1, 1, 0, 0]

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import platform
 
 from equipoise.actuators.stored_momentum import known_torque, stored_momentum
 from equipoise.maths.attitude import exponential, to_matrix
@@ -17,6 +16,7 @@ from equipoise.model.devices import (
 )
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples
+from tests.support.builders import platform
 
 X, Y, Z = np.eye(3)
 TESTBED = replace(
@@ -94,7 +94,7 @@ def test_a_device_that_does_not_report_is_named():
         stored_momentum(short, TESTBED)
 
 
-def test_a_coil_without_a_field_is_told():
+def test_a_coil_without_a_magnetic_field_is_refused():
     with pytest.raises(InputError, match="no magnetic field"):
         known_torque(recording(), replace(TESTBED, magnetic_field=None))
 

@@ -42,7 +42,7 @@ def is_one_sentence(text: str) -> bool:
 
 
 @pytest.mark.parametrize("words", WRONG_USE.values(), ids=WRONG_USE.keys())
-def test_wrong_use_is_told_in_one_sentence(equipoise, tmp_path, words):
+def test_wrong_usage_is_reported_in_one_sentence(equipoise, tmp_path, words):
     done = equipoise(*words)
     assert done.code == 2
     assert is_one_sentence(done.err)
@@ -150,7 +150,7 @@ def test_ctrl_c_halts_the_bench_and_says_so(equipoise, monkeypatch):
     assert "every mass was halted" in done.err
 
 
-def test_unwritable_outputs_are_told_before_any_work(equipoise, tmp_path, record_file):
+def test_unwritable_outputs_are_reported_before_any_work(equipoise, tmp_path, record_file):
     (tmp_path / "file").write_text("")
     for words in (
         ["simulate", "sputnix", "--out", tmp_path / "no" / "x.csv"],

@@ -88,7 +88,7 @@ def test_every_option_is_explained(command):
         assert argument.parameter.help, f"{command} {argument.name} has no help"
 
 
-def test_version_is_told(equipoise):
+def test_version_is_printed(equipoise):
     from equipoise import __version__
 
     assert equipoise("--version").out.strip() == __version__

@@ -26,7 +26,9 @@ def test_an_estimate(equipoise, record_file, strict_json):
     assert "identifying" in done.err
 
 
-def test_what_was_not_seen_is_null_and_ratios_stand_beside_it(equipoise, record_file, strict_json):
+def test_an_unobservable_parameter_is_null_and_ratios_are_given_beside_it(
+    equipoise, record_file, strict_json
+):
     """Before the move the scale is open."""
     words = ["--testbed", "sputnix", "--to-s", "60", "--json"]
     document = strict_json(equipoise("identify", record_file, *words).out)

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from builders import ATTITUDE, body, line_of, travel
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -10,6 +9,7 @@ from numpy.polynomial import Polynomial
 
 from equipoise.dynamics.propagation import hermite, interpolate
 from equipoise.maths.attitude import difference, multiply, normalise
+from tests.support.builders import ATTITUDE, body, line_of, travel
 
 FAST = np.array([0.3, -0.2, 0.5])  # rad/s
 

@@ -4,19 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import (
-    ATTITUDE,
-    COM,
-    EVERY_TORQUE,
-    GRAVITY,
-    INERTIA,
-    MASS,
-    RATE,
-    body,
-    line_of,
-    move_at,
-    sliding_masses,
-)
 
 from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.sliding_masses import mass_maps
@@ -31,6 +18,19 @@ from equipoise.maths.attitude import difference, exponential, multiply, normalis
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.mass_properties import parallel_axis
 from equipoise.model.recording import Samples
+from tests.support.builders import (
+    ATTITUDE,
+    COM,
+    EVERY_TORQUE,
+    GRAVITY,
+    INERTIA,
+    MASS,
+    RATE,
+    body,
+    line_of,
+    move_at,
+    sliding_masses,
+)
 
 FAST = np.array([0.3, -0.2, 0.5])  # rad/s: RK4 errors stand far above rounding
 SKEWED = tuple(  # rails at odd angles, so that every entry of J changes
@@ -178,7 +178,7 @@ def test_sensitivity_is_the_finite_difference(sensed, column):
 
 
 @pytest.mark.parametrize("axis", range(3))
-def test_drift_is_felt_where_nothing_else_changes(axis):
+def test_drift_sensitivity_is_right_where_nothing_else_changes(axis):
     """The platform is then looked up once a step, the time is not: central differences as above."""
     line, column = line_of(TIMES), Columns(np.array([TORQUE]), np.array([DRIFT + axis]))
     motion = travel(line, body(np.zeros(16)), column, w0=RATE + FAST)
@@ -198,7 +198,7 @@ def test_no_columns_and_all_columns_give_one_motion(sensed):
     np.testing.assert_allclose(plain.rate, motion.rate, rtol=0, atol=1e-13)
 
 
-def test_columns_come_in_the_order_asked_for(sensed):
+def test_columns_come_in_the_requested_order(sensed):
     """Any subset in any order."""
     line, torque, motion = sensed
     chosen = np.array([30, 2, 33, 8])

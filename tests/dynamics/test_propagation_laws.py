@@ -8,7 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from builders import (
+from scipy.integrate import simpson
+
+from equipoise.actuators.sliding_masses import com_shift, inertia_shift
+from equipoise.dynamics.propagation import body_of
+from equipoise.dynamics.timeline import timeline
+from equipoise.maths.attitude import difference, exponential, logarithm, multiply, to_matrix
+from equipoise.maths.linalg import unpack_symmetric
+from equipoise.model.recording import Samples
+from tests.support.builders import (
     ATTITUDE,
     COM,
     GRAVITY,
@@ -21,14 +29,6 @@ from builders import (
     move_at,
     travel,
 )
-from scipy.integrate import simpson
-
-from equipoise.actuators.sliding_masses import com_shift, inertia_shift
-from equipoise.dynamics.propagation import body_of
-from equipoise.dynamics.timeline import timeline
-from equipoise.maths.attitude import difference, exponential, logarithm, multiply, to_matrix
-from equipoise.maths.linalg import unpack_symmetric
-from equipoise.model.recording import Samples
 
 LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
 TEN_MINUTES = np.linspace(0, 600, 601)

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from builders import GRAVITY, MASS
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -12,6 +11,7 @@ from equipoise.estimation.regression.formulations.columns import regressor_rows
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.torque_terms import TERMS
+from tests.support.builders import GRAVITY, MASS
 
 vectors = arrays(np.float64, 3, elements=st.floats(-2.0, 2.0))
 sixes = arrays(np.float64, 6, elements=st.floats(-2.0, 2.0))
@@ -108,7 +108,7 @@ def test_isotropic_sag_gives_no_torque(any_matrix, stretch, lean):
     np.testing.assert_allclose(found, explicit, atol=1e-11)
 
 
-def test_level_platform_feels_no_sag_in_the_plane():
+def test_in_plane_sag_exerts_no_torque_on_a_level_platform():
     """n = -Z: C_xx, C_yy and C_xy push nothing off the vertical."""
     level = columns(SPIN, LEVEL)[:, TORQUE + SAG : TORQUE + SAG + 5]
     assert (level[:, :3] == 0).all()

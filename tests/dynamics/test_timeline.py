@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from builders import move_at
 from hypothesis import given
 from hypothesis import strategies as st
 
 from equipoise.dynamics.timeline import corners, distinct, fill, straight_lines, timeline
 from equipoise.model.recording import Samples
+from tests.support.builders import move_at
 
 NONE = np.zeros(0)
 gaps = st.lists(st.floats(1e-3, 5.0), min_size=1, max_size=20)
@@ -91,7 +91,7 @@ def test_constant_channel_has_no_corners(absent):
     assert corners(absent, 0.0, 10.0).tolist() == []
 
 
-def test_every_look_is_a_node():
+def test_every_sensor_row_is_a_node():
     """Camera and gyro at unrelated times; each is found at its own node to the bit."""
     camera, gyro = np.arange(0.03, 10, 0.2), np.arange(0, 10, 0.047)
     line = timeline(camera, gyro, move_at(4.0, 10.0), 3, 0.05)
@@ -101,7 +101,7 @@ def test_every_look_is_a_node():
     assert np.isin([4.0, 5.0, 9.0], line.t).all()
 
 
-def test_looks_at_one_moment_share_a_node():
+def test_simultaneous_sensor_rows_share_a_node():
     """Camera and gyro rows with the same stamp."""
     t = np.arange(5.0)
     line = timeline(t, t[1:3], None, 0, 10.0)

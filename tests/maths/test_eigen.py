@@ -13,7 +13,7 @@ sixes = arrays(np.float64, 6, elements=st.floats(-2.0, 2.0))
 
 
 @given(sixes, st.sampled_from([1e-6, 1.0, 1e6]))
-def test_any_matrix_is_taken_apart_and_put_together(six, size):
+def test_any_matrix_is_reconstructed_from_its_eigendecomposition(six, size):
     """V diag(values) V^T is the matrix, V^T V the unit matrix, to rounding of its size."""
     values, vectors = eigen(tuple(size * six))
     V = np.array(vectors).T

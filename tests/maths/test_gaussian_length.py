@@ -15,7 +15,7 @@ def random_metric(rng, size=3):
     return A @ A.T
 
 
-def test_far_from_zero_the_bounds_are_those_of_one_normal_number():
+def test_well_above_zero_the_bounds_are_those_of_a_scalar_normal_variable():
     """1 +/- 0.1: 0.804 to 1.196 by hand."""
     found = bounded_length(np.array([1.0]), np.array([[0.01]]), np.eye(1))
     assert found.value == pytest.approx(1.0)

@@ -169,7 +169,7 @@ def test_a_cost_that_is_no_number_is_refused(lost):
 @pytest.mark.parametrize(
     ("gained", "factor"), [(2.0, 0.1), (1.0, 1.0), (1.5, 0.875), (0.5, 1.125), (0.0, 2.0)]
 )
-def test_a_fall_is_taken_and_trusted_as_far_as_it_was_promised(gained, factor):
+def test_an_accepted_step_adapts_damping_to_the_gain_ratio(gained, factor):
     """1 - (2 r - 1)^3 with r = gained / promised, at least a tenth."""
     taken, damping, growth = judge(gained, 2.0, 1e-3, 8.0)
     assert (taken, growth) == (True, 2.0)

@@ -47,7 +47,7 @@ def test_white_noise_gives_an_even_probability():
     assert kstest(values, "uniform").pvalue > 0.01
 
 
-def test_neighbours_alike_are_seen():
+def test_autocorrelation_is_detected():
     """x_k = 0.3 x_(k-1) + e: of 500 rows every one of 50 series is rejected at 1e-4.
 
     Q is about 500 rho^2 (1 + rho^2) = 49 for each of three columns, on thirty degrees of freedom.
@@ -59,7 +59,7 @@ def test_neighbours_alike_are_seen():
     assert max(values) < 1e-4
 
 
-def test_likeness_is_seen_as_far_as_it_looks():
+def test_autocorrelation_is_detected_up_to_the_largest_lag():
     """An echo after ``LAGS`` rows is seen, one a row later is not."""
     rng = np.random.default_rng(3)
     noise = rng.normal(size=(2000, 1))

@@ -45,7 +45,7 @@ def test_com_and_inertia_are_put_together_in_order():
     )
 
 
-def test_covariance_follows_the_names_asked_for():
+def test_covariance_follows_the_requested_names():
     """Entry (i, j) is 10 i + 10 j + i j: com_z is 2, inertia_P_xx is 3."""
     np.testing.assert_array_equal(
         nine().covariance_of(("inertia_P_xx", "com_z")), [[69.0, 56.0], [56.0, 44.0]]

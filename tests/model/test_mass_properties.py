@@ -88,7 +88,7 @@ def test_second_moments_of_a_cube_by_hand():
         (np.array([[1.0, 0.9, 0.0], [0.9, 1.0, 0.0], [0.0, 0.0, 1.0]]), -0.4),  # 0.5 - 0.9
     ],
 )
-def test_impossible_inertia_is_seen(inertia, least):
+def test_impossible_inertia_is_detected(inertia, least):
     assert smallest_second_moment(inertia) == pytest.approx(least, abs=1e-15)
     assert not is_possible(MassProperties(1.0, np.zeros(3), inertia - 1e-12 * np.eye(3)))
 

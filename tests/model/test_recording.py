@@ -118,7 +118,7 @@ def test_join_after_an_empty_channel():
     assert join(full, empty).attitude.t.tolist() == [0.0, 1.0]
 
 
-def test_join_lets_rows_seen_twice_go():
+def test_join_drops_duplicate_rows():
     a = Recording(rate=ramp(np.array([0.0, 1.0, 2.0]), 3))
     b = Recording(rate=ramp(np.array([1.0, 2.0, 3.0]), 3))
     assert join(a, b).rate.t.tolist() == [0.0, 1.0, 2.0, 3.0]

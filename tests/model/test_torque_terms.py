@@ -12,12 +12,12 @@ def test_order_is_the_packages_not_the_askers():
     assert expand(("swirl", "constant_y", "viscous_z")) == ("viscous_z", "constant_y", "swirl")
 
 
-def test_asking_twice_is_asking_once():
+def test_duplicate_terms_expand_once():
     assert expand(("swirl", "swirl")) == ("swirl",)
     assert expand(("sag", "sag_xx")) == GROUPS["sag"]
 
 
-def test_nothing_asked_nothing_given():
+def test_no_terms_expand_to_none():
     assert expand(()) == ()
 
 

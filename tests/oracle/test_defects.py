@@ -105,7 +105,7 @@ def test_a_slip_moves_the_centre_of_mass_by_what_is_stated():
     assert run.displacement.shape == (3001, 3)
 
 
-def test_the_part_that_slips_is_not_felt_before():
+def test_the_slipping_part_has_no_effect_before_it_slips():
     """Its sag is along gravity and its points are at P: 60 s of motion agree to 1e-6 rad."""
     case = cases.case_s(1).case
     late = Defects(com_steps=(ComStep(60.0, 0.05, np.full(3, 1e-6)),))
@@ -324,7 +324,7 @@ def test_other_defects_leave_platform_and_noise_alone():
     np.testing.assert_allclose(error, np.tile([*plumbed.defects.plumb, 0.0], (601, 1)), atol=1e-6)
 
 
-def test_bad_rows_are_told():
+def test_bad_rows_are_marked():
     logged = cases.case_s(2, (flaws.BAD_ROWS, flaws.LAST_ROW))
     assert np.count_nonzero(logged.bad_row) == 7
     assert logged.bad_row[-1]

@@ -33,7 +33,7 @@ def test_a_tilt_is_that_large() -> None:
     assert np.degrees(tilt(q[:5], UP)).mean() == pytest.approx(28, abs=1.5)
 
 
-def test_a_gyro_tells_sixteenths() -> None:
+def test_a_gyro_is_quantised_in_sixteenths() -> None:
     whole = labs.tumbling(0, 20.0).recording.rate.values / SIXTEENTH
     np.testing.assert_allclose(whole, np.round(whole), atol=1e-9)
 

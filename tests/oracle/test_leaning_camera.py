@@ -20,7 +20,7 @@ def estimated(seed: int, kinds: tuple[str, ...] = (PLUMB,), level: bool = False)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_a_lean_is_found_and_told_and_is_no_event(seed):
+def test_a_camera_lean_is_estimated_and_reported_and_is_no_event(seed):
     logged, found = estimated(seed)
     assert found.events == ()
     assert np.abs(stated_errors(found, logged.truth)).max() < 4.0

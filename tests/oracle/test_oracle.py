@@ -210,7 +210,7 @@ def test_a_log_without_a_gyro_has_none_and_odd_rates_are_refused(moved):
 
 
 @pytest.mark.parametrize("error", [0.02, 0.10])
-def test_what_is_known_beforehand_is_wrong_as_stated(error):
+def test_a_priori_knowledge_errs_as_stated(error):
     for seed in SEEDS:
         rng = np.random.default_rng(seed)
         platform = oracle.random_platform(rng)

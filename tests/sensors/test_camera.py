@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from builders import camera_says
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -21,6 +20,7 @@ from equipoise.sensors.camera import (
     said,
     seeing,
 )
+from tests.support.builders import camera_says
 
 X = (1.0, 0.0, 0.0)
 HALF = np.sqrt(0.5)

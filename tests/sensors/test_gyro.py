@@ -17,7 +17,7 @@ def test_entries_by_hand():
     np.testing.assert_allclose(np.reshape(gyro_matrix(sensor), (3, 3)), expected, atol=1e-15)
 
 
-def test_a_misaligned_axis_feels_another():
+def test_a_misaligned_axis_measures_another_axis_rate():
     """gyro_xy = 0.02: what turns about y is felt about x, not the other way round."""
     sensor = 0.02 * (np.array(TERMS) == "gyro_xy")
     said = dot(gyro_matrix(sensor), (0.0, 3.0, 0.0))

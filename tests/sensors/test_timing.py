@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from builders import platform
 
 from equipoise.sensors.timing import seen_at, spread_of
+from tests.support.builders import platform
 
 LATE = replace(platform().attitude, delay=0.3, averaging=0.2)
 
@@ -22,6 +22,6 @@ def test_spread_is_the_variance_of_the_moments():
     assert spread_of(LATE) == pytest.approx(moments.var(), rel=1e-4)
 
 
-def test_no_sensor_looks_when_it_says():
+def test_without_a_sensor_stamps_are_taken_as_measurement_times():
     assert seen_at(np.array([10.0]), None)[0] == 10.0
     assert spread_of(None) == 0.0

@@ -146,7 +146,7 @@ def test_end_of_the_rail_can_be_reached_whatever_the_rounding(rail):
     np.testing.assert_allclose(motors.at(99.0), -50)
 
 
-def test_wrong_name_and_nonsense_are_told(rail):
+def test_wrong_mass_names_and_invalid_values_are_refused(rail):
     motors = Motors(rail("left"), rail("right"))
     with pytest.raises(InputError, match=r"'lefft'.*did you mean 'left'"):
         motors.move(0.0, lefft=1)

@@ -199,7 +199,7 @@ def test_masses_are_reported_from_read_to_read():
     np.testing.assert_allclose(bench.read(3.0).masses.t, [6.0, 7.0, 9.0])
 
 
-def test_mass_rows_reach_back_as_far_as_sensors_look(testbed, rail):
+def test_mass_rows_reach_back_over_the_sensor_delay(testbed, rail):
     late = AttitudeSensor(5.0, 0.0, delay=0.4)
     bench = SimulatedBench(testbed(masses=(rail(),), attitude=late), 0)
     bench.read(5.0)

@@ -58,7 +58,7 @@ def test_a_slip_is_in_the_truth(testbed):
     assert bench.platform.com_steps == steps
 
 
-def test_reads_that_end_at_a_contact_do_not_feel_it_twice(testbed):
+def test_reads_that_end_at_a_contact_apply_it_once(testbed):
     setup = testbed(truth={"contacts": (Contact(1.0, IMPULSE),)})
     bench, twin = SimulatedBench(setup, 0), SimulatedBench(setup, 0)
     for duration in (1.0, 0.0, 0.0, 1e-4, 1.0):
@@ -68,7 +68,7 @@ def test_reads_that_end_at_a_contact_do_not_feel_it_twice(testbed):
     np.testing.assert_allclose(momentum_N(whole)[-1], IMPULSE, atol=1e-12)
 
 
-def test_what_happens_between_nodes_is_asked_for_as_a_node(testbed):
+def test_an_event_between_nodes_becomes_a_node(testbed):
     """An event that is no node would be lost: the bench makes every one a node."""
     bench = SimulatedBench(testbed(truth={"contacts": (Contact(1.23456, IMPULSE),)}), 0)
     np.testing.assert_allclose(momentum_N(bench.read(2.0))[-1], IMPULSE, atol=1e-12)

@@ -99,7 +99,7 @@ def test_rate_jumps_when_a_mass_starts_and_stops(testbed, rail):
     np.testing.assert_allclose(w.values[~moving], 0.0, atol=1e-12)
 
 
-def test_the_platform_feels_the_masses_and_not_their_report(testbed, rail):
+def test_the_platform_responds_to_actual_and_not_reported_masses(testbed, rail):
     """A stuck mass does nothing; one that slips by half does half as much."""
     masses = (rail("x"), rail("y", (0.0, 1.0, 0.0), (0.2, 0.0, 0.0)))
     rates: list[float] = []
@@ -148,7 +148,7 @@ def test_drifting_centre_of_mass_pushes_more_and_more(testbed):
     np.testing.assert_allclose(w.values[:, 1], by_hand, rtol=1e-6)
 
 
-def test_noise_torque_is_felt(testbed):
+def test_noise_torque_drives_the_platform(testbed):
     """Balanced and all but at rest: J w is the integral of the torque."""
     noisy = {"noise_torque": 1e-9, "noise_correlation": 4.0}
     bench = SimulatedBench(testbed(truth=noisy, gyro=Gyro(5.0, 0.0, 0.0)), 0)
@@ -173,7 +173,7 @@ def noise_again(until, sd):
     return np.array(values)
 
 
-def test_rows_look_back_to_before_the_start(testbed):
+def test_delayed_rows_show_the_motion_before_the_start(testbed):
     """A row stamped 0 with a delay of 0.5 s shows a body that came from there."""
     late = {"attitude": AttitudeSensor(5.0, 0.0, delay=0.5), "gyro": Gyro(5.0, 0.0, 0.0, 0.2, 0.1)}
     start = {"rate": np.array([0.1, 0.0, 0.0])}

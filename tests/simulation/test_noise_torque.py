@@ -38,7 +38,7 @@ def test_drawing_in_parts_and_forgetting_change_nothing():
     np.testing.assert_array_equal(torque_at(noise, t), torque_at(drawn(100.0, 3), t))
 
 
-def test_it_covers_what_was_asked_and_no_more_than_a_step():
+def test_it_covers_the_requested_time_and_at_most_one_step_more():
     noise = drawn(7.3)
     assert 7.3 <= noise.t[-1] < 7.3 + noise.step + 1e-9
     assert noise.step == CORRELATION / STEPS

@@ -139,7 +139,7 @@ def test_rows_in_a_gap_are_missing_and_the_others_as_without(testbed):
         np.testing.assert_array_equal(a.values[kept], b.values)
 
 
-def test_an_outlier_that_is_missing_is_not_told(testbed):
+def test_an_outlier_within_a_gap_is_not_listed(testbed):
     truth = {"camera": CameraErrors(bad_share=1.0, bad_turn=0.2), "gaps": (Gap(1.0, 2.0),)}
     bench = SimulatedBench(testbed(truth=truth), 0)
     rows = bench.read(3.0).attitude

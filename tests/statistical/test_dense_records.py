@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import numpy as np
-from builders import CAMERA_SD, COM, INERTIA, guessed_wrong, move_at, noisy, platform, recording
 from scipy.signal import lfilter
 
 from equipoise.estimation.model_selection import dense_record, reference_fit
@@ -16,6 +15,16 @@ from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, Samples
+from tests.support.builders import (
+    CAMERA_SD,
+    COM,
+    INERTIA,
+    guessed_wrong,
+    move_at,
+    noisy,
+    platform,
+    recording,
+)
 
 NAMES = COM_NAMES + INERTIA_NAMES
 TRUE = np.concatenate([COM, INERTIA])

@@ -19,6 +19,6 @@ def test_moves_as_balance_makes_them():
     assert [row for row in rows if not row.ok] == []
 
 
-def test_what_looks_tell():
+def test_predicted_measurement_sds_agree_with_monte_carlo():
     errors = [check.look_error("unb", seed) for seed in range(10)]
     assert [row for row in check.look_rows("unb", errors) if not row.ok] == []

@@ -73,7 +73,7 @@ def test_the_sd_that_identify_states_is_the_one_predicted_of_that_platform():
         np.testing.assert_allclose(runs[seed].sd, said.sd_of(BODY), rtol=0.12)
 
 
-def test_platforms_tilt_as_far_as_those_imagined():
+def test_simulated_platforms_tilt_as_predicted():
     """300 were imagined: the greatest of six is not beyond theirs, nor below a third of it."""
     promised, runs = both()
     greatest = max(run.tilt for run in runs)

@@ -31,7 +31,7 @@ def test_the_middle_of_0_to_20_is_10_and_19_of_20_stay_below_19():
     assert middle(np.arange(21.0)) == (10.0, 19.0)
 
 
-def test_an_offset_is_told_along_up_and_across_it():
+def test_an_offset_is_split_into_height_and_lateral_parts():
     """(3, 4, -12) um: 5 um aside and 12 um of height; with x up 4, 12 and 3 um."""
     run = made_up(offset=(3e-6, 4e-6, -12e-6))
     told = summary([run], UP, 1e-5, NEAR)
@@ -104,7 +104,7 @@ def test_a_platform_counts_once_before_balancing_however_many_laws_balanced_it()
     assert compared_as(found, ["pid", "underactuated"]).before.median == pytest.approx(2.5e-3)
 
 
-def test_a_law_that_is_refused_is_told_once_and_has_no_numbers():
+def test_a_refused_law_is_listed_once_and_has_no_numbers():
     found = [made_up("pid", 1), Refusal("fully_actuated", "no"), made_up("pid", 2),
              Refusal("fully_actuated", "no")]  # fmt: skip
     told = compared_as(found, ["pid", "fully_actuated"])

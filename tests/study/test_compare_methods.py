@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from study.made_up_runs import UM, made_up
 
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.study.compare_methods import Share, compared_methods, summary
 from equipoise.study.method_families import FAMILY
 from equipoise.study.method_run import Cost, MethodTask
+from tests.support.synthetic_runs import UM, made_up
 
 
 def test_bias_sd_and_rmse_of_errors_of_1_and_3_um():
@@ -110,13 +110,13 @@ def test_time_is_the_middle_and_memory_the_greatest_that_was_measured():
     assert (told.time, told.memory) == (2.0, 300)
 
 
-def test_settling_is_told_of_methods_that_go_along():
+def test_settling_time_is_given_only_for_methods_with_a_course():
     assert summary([made_up()]).settled is None
     runs = [made_up(method="tracker", settled=s) for s in (3.0, 5.0, np.inf)]
     assert summary(runs).settled == 5.0
 
 
-def test_every_method_has_its_own_runs_in_the_order_asked():
+def test_every_method_has_its_own_runs_in_the_requested_order():
     names, seeds = ("tracker", "trajectory"), (4, 5)
     tasks = [MethodTask(None, names, seed, None, False) for seed in seeds]
 

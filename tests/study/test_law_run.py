@@ -86,7 +86,7 @@ def test_travel_is_the_sum_of_all_ways():
     assert gone(None) == 0.0
 
 
-def test_no_way_is_lost_between_two_reads_nor_told_twice():
+def test_travel_between_reads_is_counted_exactly_once():
     bench = bench_of([0, 0, 0])
     bench.move({"x": 5e-3})
     for _ in range(4):
@@ -115,7 +115,7 @@ def test_a_run_is_repeatable_and_judged_by_the_truth(run):
     assert (again.torque, again.time, again.travel) == (run.torque, run.time, run.travel)
 
 
-def test_a_run_tells_what_it_cost_and_what_it_claims(run):
+def test_a_run_records_its_cost_and_its_claims(run):
     assert (run.law, run.seed) == ("underactuated", 3)
     assert 55.0 < run.time < 90.0
     assert run.travel > 1e-3

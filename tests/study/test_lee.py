@@ -83,7 +83,7 @@ def test_the_singularity_is_met_when_the_paper_meets_it(slew):
     assert lost.max() > 0.02
 
 
-def test_what_is_told_of_the_torque_is_what_the_gyros_stored(slew):
+def test_the_reported_torque_is_the_rate_of_stored_gyro_momentum(slew):
     """-h' of the recorded momentum, between two steps of the loop, body axes."""
     told = slew.recording.momentum
     assert told is not None
@@ -99,7 +99,7 @@ def test_the_shorter_way_is_turned_whatever_the_sign_of_the_target(slew):
     np.testing.assert_array_equal(other.required, slew.required[: len(other.t)])
 
 
-def test_away_from_the_singularity_none_is_told(slew):
+def test_no_singularity_is_reported_outside_it(slew):
     early = slew.t < 8.0
     part = slew._replace(t=slew.t[early], measure=slew.measure[early])
     assert singular_times(part) is None

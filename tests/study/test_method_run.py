@@ -64,7 +64,7 @@ def test_nees_of_correlated_errors_by_hand():
     assert judged("tracker", 1, found, record(), NOTHING).nees == pytest.approx(1 / 3)
 
 
-def test_what_is_held_or_not_seen_is_not_stated():
+def test_fixed_or_unobservable_parameters_have_no_error():
     found = estimate({"com_x": 1.0, "com_y": 1.0, "com_z": 2.0}, np.diag([0.0, np.inf, 1.0]))
     run = judged("tracker", 1, found, record(), NOTHING)
     assert np.isnan(run.error[:2]).all()
@@ -93,7 +93,7 @@ def test_endings(usable, sentence, ending, warned):
     assert (run.ending, run.warned, run.stated) == (ending, warned, ending == "done" and not warned)
 
 
-def test_a_failure_tells_why_and_has_no_numbers():
+def test_a_failure_states_its_reason_and_has_no_numbers():
     run = judged("tracker", 1, Failure("broke", "ValueError: no"), record(), NOTHING)
     assert (run.ending, run.sentence, run.stated) == ("broke", "ValueError: no", False)
     assert np.isnan(run.error).all()
@@ -118,7 +118,7 @@ def test_com_has_settled_when_it_stays_within_a_tenth_of_the_first_error(far, wh
     assert settled(replace(found, method="smoother"), record(recording=swing)) is None
 
 
-def test_misuse_is_a_refusal_and_a_fault_is_told():
+def test_misuse_is_a_refusal_and_an_exception_is_reported_as_broken():
     def raising(error):
         def run(*_):
             raise error

@@ -4,15 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from study.made_up_runs import made_up
-from study.test_compare_laws import NEAR, UP
-from study.test_compare_laws import made_up as made_up_law
 
 from equipoise.io.testbed.presets import read_preset
 from equipoise.study.compare_laws import Comparison, middle
 from equipoise.study.compare_laws import summary as law_summary
 from equipoise.study.compare_methods import Ratios, Share, summary
 from equipoise.study.recommend import advised_law, advised_method, least_share
+from tests.study.test_compare_laws import NEAR, UP
+from tests.study.test_compare_laws import made_up as made_up_law
+from tests.support.synthetic_runs import made_up
 
 GOOD = {"refused": 0, "unusable": 0, "broke": 0, "warned": 0, "confident_wrong": 0,
         "believed": 40, "runs": 40, "coverage": Share(342, 360)}  # fmt: skip
@@ -102,7 +102,7 @@ def test_nobody_who_states_it_is_no_recommendation():
 
 
 @pytest.mark.parametrize(("runs", "few"), [(6, True), (19, True), (20, False)])
-def test_few_runs_are_told(runs, few):
+def test_too_few_runs_are_reported(runs, few):
     method = told("tracker", 1.0, runs=runs, believed=runs)
     assert (f"{runs} runs are few" in advised_method([method], "com").sentence) is few
     assert "few" not in advised_method([told("tracker", 1.0)], "com").sentence
@@ -148,7 +148,7 @@ def test_a_law_whose_verdict_passed_what_is_wrong_is_never_taken():
     assert advised_law(compared(("pid", 4e-6, 0, 1), ("l1_adaptive", 8e-6, 3, 0))).name is not None
 
 
-def test_when_no_law_reaches_the_torque_the_nearest_is_told():
+def test_when_no_law_reaches_the_torque_the_nearest_is_named():
     found = compared(("pid", 4e-5, 0, 0), ("l1_adaptive", 2e-5, 0, 0))
     said = advised_law(found)
     assert said.name is None

@@ -28,7 +28,7 @@ def test_a_frame_comes_back_as_it_was():
     assert parts["b"].tobytes() == rows[:1].tobytes()
 
 
-def test_rows_are_told_together_and_before_the_step_that_follows_them():
+def test_rows_are_sent_together_and_before_the_step_that_follows_them():
     told = []
     post = Post(lambda kind, what: told.append((kind, what)))
     post.rows(1.0, [("com", np.ones((2, 2)))])
@@ -40,7 +40,7 @@ def test_rows_are_told_together_and_before_the_step_that_follows_them():
     assert parts["com"].tolist() == [[1, 1], [1, 1], [2, 2]]
 
 
-def test_rows_of_what_was_shown_before_are_not_told_any_more():
+def test_pending_rows_of_the_previous_view_are_dropped():
     told = []
     post = Post(lambda kind, what: told.append(kind))
     post.rows(1.0, [("com", np.ones((2, 2)))])
@@ -49,7 +49,7 @@ def test_rows_of_what_was_shown_before_are_not_told_any_more():
     assert told == ["about"]
 
 
-def test_how_things_stand_is_told_when_it_is_new():
+def test_the_state_is_sent_only_when_it_changes():
     told = []
     post = Post(lambda kind, what: told.append(what))
     for phase in ("idle", "idle", "balancing"):
@@ -98,7 +98,7 @@ def test_another_platform_begins_anew():
     assert [json.loads(m)["kind"] for m in drained(watch.join())] == ["about"]
 
 
-def test_a_step_told_again_replaces():
+def test_a_step_sent_again_replaces_the_earlier_one():
     watch = Watch()
     for sentence in ("a", "b"):
         watch.take("step", {"kind": "step", "index": 0, "sentence": sentence})
@@ -115,7 +115,7 @@ def test_a_page_that_does_not_keep_up_is_let_go():
     assert len(found) < 2 * BEHIND
 
 
-def test_the_runners_end_is_told():
+def test_the_end_of_the_runner_is_reported_to_pages():
     watch = Watch()
     page = watch.join()
     watch.end("over")

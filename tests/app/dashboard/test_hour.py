@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.app.dashboard.driven import CHROMIUM
+from tests.support.dashboard_program import CHROMIUM
 from verification.dashboard_hour import SHARE, growth, share, soaked
 from verification.dashboard_hour import Seen as At
 
@@ -17,7 +17,7 @@ def test_a_quarter_of_a_minute_at_100_hz_costs_little():
     assert bench > 0.85 * clock
 
 
-def test_growth_is_the_share_from_the_first_look_to_the_last():
+def test_growth_is_the_relative_change_from_the_first_sample_to_the_last():
     """100, 105, 110 MB: ten of 105; a look that is high in the middle alone is none."""
     assert growth([at(100.0), at(105.0), at(110.0)], "server") == pytest.approx(10 / 105)
     assert growth([at(100.0), at(130.0), at(100.0)], "server") == pytest.approx(0.0)

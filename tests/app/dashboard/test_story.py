@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import tilt
-from tests.app.dashboard.driven import CHROMIUM, Heard, browser, started
+from tests.support.dashboard_program import CHROMIUM, Heard, browser, started
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
 SOON, LATER = 15_000, 120_000  # ms: a busy computer

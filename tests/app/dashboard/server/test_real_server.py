@@ -1,0 +1,108 @@
+"""The server as it runs, open to a network: what its own sockets refuse, and who gets in."""
+
+import urllib.error
+import urllib.request
+
+import pytest
+from playwright.sync_api import expect
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
+
+from equipoise.app.dashboard.server.gate import LARGEST
+from tests.support.dashboard_program import CHROMIUM, Heard, browser, dashboard, started
+
+SOCKETS = ("/live", "/_nicegui_ws/socket.io/?EIO=4&transport=websocket")
+LATER = 120_000  # ms
+
+
+@pytest.fixture(scope="module")
+def running(tmp_path_factory):
+    """An address that others may open, as with --expose; here it is this computer's own."""
+    folder = tmp_path_factory.mktemp("exposed")
+    with dashboard(folder, "nanosat", "--expose", "127.0.0.1") as there:
+        yield there
+
+
+def test_ctrl_c_ends_it_without_a_fault(tmp_path):
+    assert started(tmp_path, "nanosat").end() == 0
+
+
+def here(running):
+    return f"http://127.0.0.1:{running.port}"
+
+
+def opened(running, path, origin=None, token=None):
+    headers = {} if token is None else {"Cookie": f"equipoise_token={token}"}
+    address = f"ws://127.0.0.1:{running.port}{path}"
+    return connect(address, origin=origin, additional_headers=headers, open_timeout=60)
+
+
+def status_of(address):
+    try:
+        with urllib.request.urlopen(address, timeout=60) as answer:
+            return answer.status
+    except urllib.error.HTTPError as error:
+        return error.code
+
+
+@pytest.mark.parametrize("path", SOCKETS)
+def test_sockets_open_to_our_page_with_the_token(running, path):
+    with opened(running, path, here(running), running.token) as socket:
+        assert socket.recv(timeout=60)
+
+
+@pytest.mark.parametrize("path", SOCKETS)
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", None])
+def test_sockets_are_closed_to_other_origins(running, path, origin):
+    with pytest.raises(InvalidStatus) as refused:
+        opened(running, path, origin, running.token)
+    assert refused.value.response.status_code == 403
+
+
+@pytest.mark.parametrize("path", SOCKETS)
+@pytest.mark.parametrize("token", [None, "wrong"])
+def test_sockets_are_closed_without_the_token(running, path, token):
+    with pytest.raises(InvalidStatus) as refused:
+        opened(running, path, here(running), token)
+    assert refused.value.response.status_code == 403
+
+
+def heard_after(socket, message):
+    socket.send(message)
+    for _ in range(1000):
+        socket.recv(timeout=60)
+
+
+@pytest.mark.parametrize("path", SOCKETS)
+def test_an_oversized_message_ends_its_connection_alone(running, path):
+    with opened(running, path, here(running), running.token) as other:
+        with opened(running, path, here(running), running.token) as socket:
+            socket.recv(timeout=60)
+            with pytest.raises(ConnectionClosed) as closed:
+                heard_after(socket, "4" * (LARGEST + 1))
+            assert closed.value.rcvd.code == 1009  # too big
+        assert other.recv(timeout=60)
+    assert running.process.poll() is None
+
+
+def test_pages_and_files_need_the_token(running):
+    for path in ("/", "/?token=wrong", "/static/page.js", "/runs/any.mcap"):
+        assert status_of(here(running) + path) == 401
+    assert status_of(f"{here(running)}/static/page.js?token={running.token}") == 200
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
+def test_the_address_that_was_printed_opens_the_page(running):
+    """The token of the address lets look on; to command it is asked for once more."""
+    with browser() as chromium:
+        page = chromium.new_page()
+        heard = Heard(page)
+        page.goto(running.url)
+        expect(page.locator("#eq-link")).to_contain_text("connected", timeout=LATER)
+        page.wait_for_function("window.equipoise?.state().link === 'open'", timeout=LATER)
+        start = page.get_by_role("button", name="Start balancing", exact=True)
+        expect(start).to_be_disabled()
+        page.get_by_label("Token").fill(running.token)
+        page.keyboard.press("Enter")
+        expect(start).to_be_enabled(timeout=LATER)
+        assert heard.wrong == []

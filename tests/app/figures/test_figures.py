@@ -1,0 +1,146 @@
+"""Every figure draws what it is given, names its units, and needs no window.
+
+Warnings (a layout that collapses, a missing glyph) are errors in this project.
+"""
+
+import subprocess
+import sys
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+from equipoise.app.figures.balancing.balanced_com import Story
+from equipoise.app.figures.base.files import rendered
+from equipoise.app.figures.base.style import MOST, STYLE, thinned
+from equipoise.app.figures.catalogue import of_balancing, of_fit, of_move, of_tracking
+from equipoise.app.figures.recording import record
+from equipoise.app.runs.demonstration import looked
+from equipoise.estimation.model_selection import reference_fit
+from equipoise.estimation.output_error import trajectory
+from equipoise.io.testbed.presets import read_preset
+from equipoise.maths.attitude import exponential
+from equipoise.model.finding import Finding
+from equipoise.model.recording import Recording, Samples, window
+from equipoise.simulation.bench import SimulatedBench
+
+BED = read_preset("sputnix")
+PNG = b"\x89PNG"
+
+
+@pytest.fixture(scope="module")
+def pictures():
+    bench = SimulatedBench(BED, seed=1)
+    recording, truth = looked(bench)
+    estimate = reference_fit.estimate(recording, BED, trajectory.Params())
+    looks = [(30.0, truth[1][0], np.full(3, 1e-6)), (90.0, truth[1][-1], np.full(3, np.inf))]
+    story = Story(looks, np.array([0, 0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]), truth)
+    found = [
+        *of_fit(recording, BED, estimate),
+        *of_tracking(window(recording, 0.0, 60.0), BED, estimate, truth[1][0]),
+        *of_move(recording, BED, estimate, truth),
+        *of_balancing(recording, BED, estimate, story),
+    ]
+    return {picture.name: picture for picture in found}
+
+
+NAMES = {
+    "figure06_attitude": "quaternion",
+    "figure07_residual": "deg",
+    "figure08_rate": "deg/s",
+    "figure11_tracked_rate": "deg/s",
+    "figure12_tracked_com": "um",
+    "figure13_move": "um",
+    "figure14_balancing": "um",
+    "figure15_displacements": "mm",
+}
+
+
+@pytest.mark.parametrize(("name", "unit"), NAMES.items())
+def test_a_figure_has_units_and_ink(pictures, name, unit):
+    figure, caption = pictures[name].figure, pictures[name].caption
+    assert all(axes.lines or axes.collections for axes in figure.axes)
+    assert unit in " ".join(axes.get_ylabel() for axes in figure.axes)
+    assert "s" in figure.axes[-1].get_xlabel()
+    assert caption.endswith(".")
+    assert rendered(figure).startswith(PNG)
+
+
+def test_no_figure_is_missing(pictures):
+    assert set(pictures) == set(NAMES)
+
+
+def test_the_same_figure_gives_the_same_bytes(pictures):
+    figure = pictures["figure08_rate"].figure
+    for kind in ("png", "svg", "pdf"):
+        assert rendered(figure, kind) == rendered(figure, kind)
+
+
+def test_drawing_leaves_matplotlib_as_it_was(pictures):
+    """The caller may be drawing, too."""
+    assert pictures
+    assert mpl.rcParams["axes.grid"] != STYLE["axes.grid"]
+
+
+def test_no_window_is_ever_thought_of():
+    code = (
+        "import sys, equipoise.app.runs.demonstration; "
+        "assert 'matplotlib.pyplot' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_the_model_leaves_noise_in_figure_7(pictures):
+    """The prediction knows where masses really stopped: nine dots in ten lie in the 2 sd band."""
+    for axes in pictures["figure07_residual"].figure.axes:
+        dots = next(line.get_ydata() for line in axes.lines if len(line.get_ydata()) > 100)
+        assert np.mean(np.abs(dots) < 0.4) > 0.9
+
+
+def labels(page) -> str:
+    return " ".join(axes.get_ylabel() for axes in page.axes)
+
+
+def words(page) -> list[str]:
+    """All that is written on a page, outside its axes and as marks above them."""
+    page.draw_without_rendering()
+    return [text.get_text() for text in (*page.texts, *page.axes[0].texts)]
+
+
+def test_a_recording_has_a_panel_for_each_thing_that_it_holds():
+    """Tilt, heading rate, masses, roughness, spacing: no gyro, no panel for one."""
+    whole = SimulatedBench(BED, seed=1).read(20.0)
+    assert len(record.draw(whole).axes) == 5
+    t = np.arange(100) * 0.05
+    gyro = Recording(rate=Samples(t, 0.1 * np.sin(np.outer(t, [1, 2, 3]))))
+    assert "gyro" in labels(record.draw(gyro))
+    assert "tilt" not in labels(record.draw(gyro))
+    short = Recording(rate=Samples(t[:3], np.ones((3, 3))))
+    assert rendered(record.draw(short)).startswith(PNG)
+
+
+def test_findings_are_marked_where_they_are_and_listed():
+    """The gap is shaded from 20 to 48 s in every panel; each has its number, its word, its line."""
+    t = np.r_[0:20:0.1, 48:60:0.1]
+    q = exponential(np.outer(t, [0, 0, 0.3]))
+    gap = Finding("problem", "a gap of 28 s.", (20.0, 48.0), "gap")
+    touch = Finding("problem", "a touch.", (10.0, 10.0), "touch")
+    rest = Finding("content", "a record.", (0.0, 60.0))
+    page = record.draw(Recording(attitude=Samples(t, q)), (rest, gap, touch))
+    for axes in page.axes:
+        shades = [p.get_extents().transformed(axes.transData.inverted()) for p in axes.patches]
+        assert [(round(s.x0), round(s.x1)) for s in shades] == [(10, 10), (20, 48)]
+    assert {"1 touch", "2 gap", "a gap of 28 s.", "a touch.", "a record."} <= set(words(page))
+
+
+def test_a_long_list_leaves_room_for_the_panels_and_says_what_it_leaves_out():
+    t = np.arange(100) * 0.1
+    many = [Finding("problem", f"problem {k}.", (0.05 * k, 0.05 * k)) for k in range(150)]
+    page = record.draw(Recording(attitude=Samples(t, exponential(np.outer(t, [0, 0, 1])))), many)
+    assert any("more lines" in text for text in words(page))
+    assert min(axes.get_position().height for axes in page.axes) * page.get_figheight() > 0.6
+
+
+@pytest.mark.parametrize("n", [1, MOST, 10 * MOST, 10**6])
+def test_long_records_are_thinned(n):
+    assert len(range(n)[thinned(n)]) <= 2 * MOST

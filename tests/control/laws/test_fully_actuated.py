@@ -1,0 +1,278 @@
+"""Balancing with wheels that hold a momentum trajectory and masses that learn from it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from equipoise.control.elements.sweep import wanted
+from equipoise.control.laws import fully_actuated
+from equipoise.control.laws.fully_actuated import LAW, State, step
+from equipoise.maths.attitude import exponential
+from equipoise.model.devices import ControlMomentGyro
+from equipoise.model.errors import InputError
+from tests.support.ideal_bench import (
+    GRAVITY,
+    INERTIA,
+    LEVEL,
+    MASS,
+    Bench,
+    closed_loop,
+    gravity_at,
+    platform,
+    rails,
+    sample,
+    started,
+    tilts,
+    total,
+    wheels,
+    with_params,
+)
+
+COM = np.array([2e-4, -1.5e-4, -4e-4])
+TARGET = np.zeros(3)
+TILTED = (exponential(np.array([0.05, 0.02, 0.0])), np.array([0.01, -0.02, 0.005]))
+ROUND = np.diag([0.3, 0.3, 0.3])
+
+
+def bed(**changes):
+    """The platform, with wheels."""
+    return platform(**({"com_sd": 1e-4, "wheels": wheels()} | changes))
+
+
+def still(begun, **changes):
+    """H_d = 0."""
+    sweep = begun[1].sweep._replace(angle=0.0, hold=0.0)
+    return with_params(begun, sweep=sweep, **changes)
+
+
+def error_of(row, params, inertia, start=0.0):
+    """E = J w - H_d."""
+    down = row.gravity / GRAVITY
+    return inertia @ (row.rate - wanted(params.sweep, row.t - start, down, row.rate).rate)
+
+
+def with_momentum(bench):
+    """Wheels that already turn: [w x] h matters."""
+    return replace(bench, momentum=np.array([0.3, -0.5, 0.4]))
+
+
+@pytest.mark.parametrize("target", [np.zeros(3), np.array([5e-5, -8e-5, -2e-4])])
+def test_the_error_obeys_the_printed_equation(target):
+    """e' = -K e - m [g_b x] (r + s - r*), over one short step from any motion, wheels turning.
+
+    H_s of all momentum would not do: wheels cannot change it.
+    """
+    bench, rng = with_momentum(Bench(bed(), COM, period=1e-4)), np.random.default_rng(5)
+    state, params = with_params(LAW.begin(bench.testbed, target), period=1e-4)
+    for _ in range(5):
+        first = (exponential(0.1 * rng.normal(size=3)), 0.1 * rng.normal(size=3))
+        # In the first step the masses jump, which changes J a little.
+        a, b = closed_loop(bench, LAW.step, (state, params), 1.5e-4, first)[1:]
+        rise = (error_of(b, params, INERTIA) - error_of(a, params, INERTIA)) / 1e-4
+        middle = (error_of(b, params, INERTIA) + error_of(a, params, INERTIA)) / 2
+        off = b.shift + COM - target
+        fall = -params.gain * middle - MASS * np.cross((a.gravity + b.gravity) / 2, off)
+        np.testing.assert_allclose(rise, fall, rtol=2e-3, atol=3e-5)
+        assert np.linalg.norm(MASS * np.cross(a.gravity, off)) > 0.02
+
+
+def test_masses_move_as_printed():
+    """s' = Gamma m [g_b x]^T e, over short steps."""
+    bench = with_momentum(Bench(bed(), COM, period=1e-3))
+    begun = with_params(LAW.begin(bench.testbed, TARGET), period=1e-3)
+    params = begun[1]
+    rows = closed_loop(bench, LAW.step, begun, 3e-3, (LEVEL, np.array([0.1, -0.2, 0.3])))
+    a, b = rows[0], rows[1]
+    middle = (error_of(a, params, INERTIA) + error_of(b, params, INERTIA)) / 2
+    skew = np.cross((a.gravity + b.gravity) / 2, np.eye(3)).T  # skew v = g x v
+    slope = (b.state.shift - a.state.shift) / 1e-3
+    expected = params.adaption * MASS * skew.T @ middle
+    np.testing.assert_allclose(slope, expected, rtol=1e-3, atol=1e-9)
+
+
+def test_energy_falls_as_printed():
+    """V' = -e^T K e with a momentum trajectory, wheels turning, and masses at once."""
+    bench = with_momentum(Bench(bed(), COM, period=2e-3))
+    begun = with_params(LAW.begin(bench.testbed, TARGET), period=2e-3)
+    params = begun[1]
+    rows = closed_loop(bench, LAW.step, begun, 8.0, TILTED)[:-1]
+    e = np.array([error_of(r, params, INERTIA) for r in rows])
+    off = np.array([r.state.shift for r in rows]) + COM
+    V = 0.5 * np.sum(e**2, axis=1) + np.sum(off**2, axis=1) / (2 * params.adaption)
+    taken = params.gain * np.sum(e**2, axis=1)
+    spent = np.concatenate([[0.0], np.cumsum((taken[1:] + taken[:-1]) / 2 * 2e-3)])
+    np.testing.assert_allclose(V + spent, V[0], rtol=5e-3)
+    assert spent[-1] > 0.2 * V[0]
+    assert np.all(np.diff(V) < 1e-9 * V[0])
+
+
+def test_without_a_trajectory_a_round_platform_moves_masses_by_its_tilt_alone():
+    """J = jE, H_d = 0: s = s(0) - Gamma m j (g_b - g_b(0)), at every sample: no convergence."""
+    bench = Bench(bed(inertia=ROUND), COM)
+    begun = still(LAW.begin(bench.testbed, TARGET))
+    rows = closed_loop(bench, LAW.step, begun, 14.0, TILTED)
+    turned = np.array([r.gravity - rows[0].gravity for r in rows[:-1]])
+    moved = np.array([r.state.shift - rows[0].state.shift for r in rows[:-1]])
+    expected = -begun[1].adaption * MASS * 0.3 * turned
+    np.testing.assert_allclose(moved, expected, atol=1e-15)
+    assert np.abs(moved).max() > 1e-4
+    settled = total(rows, bench)[-1]
+    np.testing.assert_allclose(np.cross(settled, rows[-1].gravity), 0, atol=1e-8)
+    assert np.linalg.norm(settled) > 2e-4
+
+
+def test_the_null_vector_is_not_balanced_and_the_law_says_so():
+    """H_d = 0 from r along g_b: nothing moves, for ever, with 0.4 mm left."""
+    q = exponential(np.array([0.1, -0.05, 0.0]))
+    bench = Bench(bed(), np.zeros(3))
+    down = gravity_at(q, bench) / GRAVITY
+    bench = replace(bench, com=4e-4 * down)
+    begun = still(LAW.begin(bench.testbed, TARGET))
+    rows = closed_loop(bench, LAW.step, begun, 100.0, (q, np.zeros(3)))
+    assert np.linalg.norm(total(rows, bench)[-1]) == pytest.approx(4e-4, rel=1e-6)
+    assert np.abs([r.rate for r in rows]).max() < 1e-9
+    said = rows[-1].command.finished
+    assert "not balanced" in said
+    worst = np.linalg.eigh(rows[-1].state.seen)[1][:, 0]
+    assert abs(worst @ down) == pytest.approx(1.0)
+    assert f"{worst[0]:.2f}, {worst[1]:.2f}, {worst[2]:.2f}" in said
+
+
+def test_a_moving_trajectory_balances_from_the_null_vector_too():
+    q = exponential(np.array([0.1, -0.05, 0.0]))
+    bench = Bench(bed(), np.zeros(3))
+    bench = replace(bench, com=4e-4 * gravity_at(q, bench) / GRAVITY)
+    rows = closed_loop(bench, LAW.step, LAW.begin(bench.testbed, TARGET), 150.0, (q, np.zeros(3)))
+    assert np.linalg.norm(total(rows, bench)[-1]) < 1.5e-4
+
+
+def test_it_balances_to_the_target():
+    """450 um off, anywhere: a thousandth is left, as said, and what samples of 0.1 s add."""
+    bench, target = Bench(bed(), COM), np.array([2e-5, -1e-5, -1e-4])
+    rows = closed_loop(bench, LAW.step, LAW.begin(bench.testbed, target), 900.0, TILTED)
+    assert rows[-1].command.finished
+    np.testing.assert_allclose(total(rows, bench)[-1], target, atol=2e-6)
+    assert tilts(rows).max() < np.radians(30)
+
+
+def test_it_balances_to_a_few_motor_steps_with_slow_masses_and_noise():
+    """Motor steps of 3.6 um, masses of 5 mm/s, noise of a good attitude filter; 250 s."""
+    bench = Bench(bed(masses=rails(speed=0.005, resolution=1e-5)), COM / 4, instant=False,
+                  noise=(1e-4, 1e-5), seed=2)  # fmt: skip
+    target = np.array([0.0, 0.0, -1e-4])
+    rows = closed_loop(bench, LAW.step, LAW.begin(bench.testbed, target), 250.0, TILTED)
+    np.testing.assert_allclose(total(rows, bench)[-1], target, atol=9e-6)
+
+
+def test_a_wrong_inertia_is_left_along_up_as_foretold():
+    """-dJ W^2 / (m g), here at 0.5 rad/s; W is chosen so that one inertia_sd is 20 um."""
+    slow = LAW.begin(replace(bed(), inertia_sd=0.1), TARGET)[1].sweep.speed
+    assert 0.1 * 0.29 * slow**2 / (MASS * GRAVITY) == pytest.approx(2e-5)
+    bench = Bench(bed(), np.array([2e-5, 0, -2e-5]), inertia=1.1 * INERTIA)
+    begun = LAW.begin(bench.testbed, TARGET)
+    rows = closed_loop(bench, LAW.step, begun, 320.0)
+    foretold = -0.1 * 0.29 * 0.5**2 / (MASS * GRAVITY)
+    np.testing.assert_allclose(total(rows, bench)[-1], [0, 0, foretold], atol=2e-6)
+
+
+def test_an_offset_along_up_fades_as_fast_as_foretold():
+    """A^2 w_a^2 K W^2 / (...): the height after 150 and 300 s, the cone open."""
+    bench = Bench(bed(), np.array([0, 0, -2e-4]))
+    begun = LAW.begin(bench.testbed, TARGET)
+    rows = closed_loop(bench, LAW.step, begun, 301.0)
+    height = total(rows, bench)[:, 2]
+    angle = begun[1].sweep.angle
+    foretold = np.exp(-150 * np.sin(angle) ** 2 * fully_actuated.fading(begun[1]))
+    assert height[3000] / height[1500] == pytest.approx(foretold, rel=0.15)
+
+
+def test_what_the_masses_cannot_follow_does_not_wind_up():
+    """s leads what is reported by ``lead`` at most."""
+    _, params = LAW.begin(bed(), TARGET)
+    bench = Bench(bed(), COM)
+    seen = sample(started(bench, LEVEL, np.zeros(3)), bench, np.random.default_rng(0))
+    far = State(np.array([1e-2, 0, 0]), np.zeros((3, 3)))
+    after, command = step(far, seen, params)
+    np.testing.assert_allclose(after.shift, [params.lead, 0, 0])
+    np.testing.assert_array_equal(command.shift, after.shift)
+
+
+def test_it_does_not_learn_from_torque_that_was_not_given():
+    """Saturated wheels: e is then theirs, not gravity's."""
+    bench = Bench(bed(), COM)
+    _, params = LAW.begin(bench.testbed, TARGET)
+    seen = sample(
+        started(bench, LEVEL, np.array([0.0, 0.05, 0.0])), bench, np.random.default_rng(0)
+    )
+    asked, before = np.array([0.0, -0.1, 0.0]), np.array([0.5, 0.0, -9.7])
+    state = State(np.zeros(3), np.zeros((3, 3)), 0.0, before, np.zeros(3), asked)
+    starved = step(state, replace(seen, t=0.1), params)[0]
+    np.testing.assert_array_equal(starved.shift, np.zeros(3))
+    given = step(state, replace(seen, t=0.1, torque=asked), params)[0]
+    assert np.linalg.norm(given.shift) > 1e-5
+
+
+def test_the_cone_is_what_momentum_torque_and_tilt_leave():
+    """By hand: likely 283 um aside, 200 um high; w_a 1, W 0.5 rad/s; 137.34 N, 0.29 kg m^2.
+
+    Momentum: 0.8 h - 137.34 * 283e-6 * 2 = 0.8 h - 0.0777; round the cone 0.145 + 0.0549 = 0.1999.
+    """
+    rich = LAW.begin(bed(), TARGET)[1]
+    assert rich.sweep.speed == pytest.approx(0.5)
+    assert rich.sweep.angle == pytest.approx(0.4 * np.radians(30))
+    few = bed(wheels=wheels(momentum=0.12))
+    have = fully_actuated.spare(few).momentum
+    assert have == pytest.approx(0.8 * 0.12, rel=0.03)
+    assert LAW.begin(few, TARGET)[1].sweep.angle == pytest.approx(
+        (have - 0.0777) / 0.1999, rel=5e-3
+    )
+    weak = bed(com_sd=2e-5, wheels=wheels(torque=0.0125))
+    have = fully_actuated.spare(weak).torque
+    angle = have / (0.0725 + 0.00549)  # 40 um high
+    assert LAW.begin(weak, TARGET)[1].sweep.angle == pytest.approx(angle, rel=5e-3)
+    turning = tuple(replace(w, speed=w.max_speed / 3) for w in wheels(momentum=0.2))
+    with pytest.raises(InputError, match="cone of 0 deg"):
+        LAW.begin(bed(wheels=turning), TARGET)
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({"wheels": wheels()[:2]}, "wheels or gyros"),
+        ({"wheels": wheels(torque=0.04)}, "cone"),
+        ({"masses": rails(speed=2e-5)}, "um/s"),
+        ({"masses": rails(travel=1e-4)}, "reach"),
+        ({"com_sd": 1e-3}, "tilt limit"),
+    ],
+)
+def test_what_cannot_be_stable_is_refused(changes, named):
+    with pytest.raises(InputError, match=named):
+        LAW.begin(bed(**changes), TARGET)
+
+
+def test_masses_begin_at_the_prior_centre_of_mass():
+    begun = LAW.begin(bed(com=(1e-5, 2e-5, -3e-5)), np.array([0.0, 0.0, -1e-4]))
+    np.testing.assert_allclose(begun[0].shift, [-1e-5, -2e-5, -7e-5], atol=1e-18)
+
+
+def test_gyros_count_for_half():
+    """Four on a pyramid have momentum in every direction; singular directions take some."""
+    gyros = tuple(
+        ControlMomentGyro(
+            f"g{k}", np.array([0.8 * c, 0.8 * s, 0.6]), np.array([-s, c, 0.0]), 0.5, 1.0
+        )
+        for k, (c, s) in enumerate([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
+    )
+    have = fully_actuated.spare(bed(wheels=(), cmgs=gyros))
+    most = fully_actuated.capacity(bed(wheels=(), cmgs=gyros))
+    assert have.momentum == pytest.approx(0.4 * most.momentum)
+    assert have.torque == pytest.approx(0.4 * most.torque)
+    assert LAW.begin(bed(wheels=(), cmgs=gyros), TARGET)
+
+
+def test_it_stops_beyond_the_tilt_limit():
+    bench = Bench(bed(), COM)
+    first = (exponential(np.array([0.6, 0, 0])), np.zeros(3))
+    rows = closed_loop(bench, LAW.step, LAW.begin(bench.testbed, TARGET), 5.0, first)
+    assert "tilts beyond" in rows[0].command.finished

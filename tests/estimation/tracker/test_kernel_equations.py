@@ -1,0 +1,223 @@
+"""Each equation of the tracker's step beside plain NumPy, or a number worked out by hand."""
+
+import numpy as np
+import pytest
+
+from equipoise.estimation.tracker import contact_test as contacts
+from equipoise.estimation.tracker import event_signatures as onsets
+from equipoise.estimation.tracker import mixture
+from equipoise.estimation.tracker import predict_correct as steps
+from equipoise.estimation.tracker.event_signatures import MANY, ONSETS, new_watch
+from equipoise.estimation.tracker.kernel_records import Place, new_tools
+from equipoise.estimation.tracker.measurement_update import take_anew
+from equipoise.estimation.tracker.measurements import Rows
+from equipoise.estimation.tracker.noise_level import learn_noise
+from equipoise.maths.attitude import exponential
+
+sensors = pytest.mark.parametrize(("first", "second"), [(0, -1), (3, 15)], ids=["camera", "gyro"])
+
+
+def covariance(seed: int, size: int = 18) -> np.ndarray:
+    root = np.random.default_rng(seed).normal(size=(size, size))
+    return root @ root.T
+
+
+def pick(first: int, second: int) -> np.ndarray:
+    H = np.zeros((3, 18))
+    H[range(3), range(first, first + 3)] = 1.0
+    if second >= 0:
+        H[range(3), range(second, second + 3)] = 1.0
+    return H
+
+
+def transition(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """The (6, 15) block, and the (18, 18) matrix that it stands for."""
+    phi, full = np.random.default_rng(seed).normal(size=(6, 15)) / 4, np.eye(18)
+    full[:6, :15] = phi
+    return phi, full
+
+
+def packed(six: np.ndarray) -> np.ndarray:
+    xx, yy, zz, xy, xz, yz = six
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def test_covariance_is_predicted_as_phi_p_phi_transposed_and_noise():
+    """Torque noise of 2 N m sqrt(s) on 4 kg m^2 for 0.1 s: (2 / 4)^2 0.1 = 0.025 on a rate."""
+    phi, full = transition(1)
+    P, noise = covariance(2), np.zeros(18)
+    noise[3:6] = 2.0
+    expected = full @ P @ full.T + np.diag([0.0] * 3 + [0.025] * 3 + [0.0] * 12)
+    steps.predict_covariance((4.0, 4.0, 4.0, 0.0, 0.0, 0.0), phi, noise, 0.1, P, np.zeros((6, 18)))
+    np.testing.assert_allclose(P, expected, rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(P, P.T)
+
+
+@sensors
+def test_a_row_corrects_as_kalman_says(first, second):
+    """K = P H^T S^-1, x = K z, P+ = (E - K H) P, symmetric to the last digit."""
+    P, H, z, work = covariance(3), pick(first, second), (0.3, -0.2, 0.5), new_tools().work
+    S = H @ P @ H.T + 0.7 * np.eye(3)
+    K = P @ H.T @ np.linalg.inv(S)
+    expected = P - K @ H @ P
+    steps.expect(P, first, second, 0.7, work)
+    surprise = steps.weigh(z, work)
+    steps.shrink(P, first, second, 0.7, work)
+    assert surprise == pytest.approx(np.array(z) @ np.linalg.solve(S, z))
+    np.testing.assert_allclose(work.x, K @ z, atol=1e-12)
+    np.testing.assert_allclose(P, expected, rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(P, P.T)
+
+
+def test_a_gain_that_is_a_little_wrong_costs_the_second_order():
+    """What Joseph's form is for: with K + D, P+ = (E - K H) P + D S D^T, D being 1e-3 of K."""
+    P, H, work = covariance(4), pick(0, -1), new_tools().work
+    S = H @ P @ H.T + 0.7 * np.eye(3)
+    best = P - P @ H.T @ np.linalg.solve(S, H @ P)
+    steps.expect(P, 0, -1, 0.7, work)
+    steps.weigh((0.0, 0.0, 0.0), work)
+    off = 1e-3 * work.K.copy()
+    work.K[:] += off
+    steps.shrink(P, 0, -1, 0.7, work)
+    np.testing.assert_allclose(P - best, off.T @ S @ off, rtol=0, atol=1e-13 * np.abs(best).max())
+
+
+@sensors
+def test_signature_is_what_two_filters_differ_by(first, second):
+    """One of the two has a rate that jumped by v, the other an r that stepped: linear, so exact."""
+    rng, watch, tools = np.random.default_rng(5), new_watch(), new_tools()
+    P, H, v = covariance(6), pick(first, second), np.array([0.3, -0.2, 0.1])
+    onsets.take_up(watch, 7.0)
+    off = {0: np.zeros(18), ONSETS: np.zeros(18)}  # truth minus filter, by the hypothesis
+    off[0][3:6], off[ONSETS][6:9] = v, v
+    C, d = ({h: np.zeros(s) for h in off} for s in ((3, 3), 3))
+    for k in range(4):
+        phi, full = transition(10 + k)
+        z = rng.normal(size=3)
+        steps.expect(P, first, second, 0.7, tools.work)
+        steps.weigh(tuple(z), tools.work)
+        onsets.follow(watch, phi, tools.room)
+        onsets.felt(watch, first, second, tools.room)
+        onsets.gather(watch, tuple(z), tools.work, tools.room)
+        onsets.respond(watch, tools.work, tools.room)
+        S, K = tools.work.S.copy(), tools.work.K.T.copy()
+        for h in off:
+            off[h] = full @ off[h]
+            G = tools.room.G[:, [h, MANY + h, 2 * MANY + h]]
+            np.testing.assert_allclose(G @ v, H @ off[h], atol=1e-12)
+            off[h] -= K @ H @ off[h]
+            C[h] += G.T @ np.linalg.solve(S, G)
+            d[h] += G.T @ np.linalg.solve(S, z)
+    for h in off:
+        X = watch.X[:, [h, MANY + h, 2 * MANY + h]]
+        np.testing.assert_allclose(X @ v, off[h], atol=1e-12)
+        np.testing.assert_allclose(packed(watch.C[:, h]), C[h], atol=1e-12)
+        np.testing.assert_allclose(watch.d[:, h], d[h], atol=1e-12)
+    assert watch.since[0] == 7.0
+
+
+def some_watch():
+    """Onsets 30, 12 and 5 rows old, all their sums and signatures at random."""
+    rng, watch, room = np.random.default_rng(8), new_watch(), new_tools().room
+    for h in range(MANY):
+        C = covariance(20 + h, 3)
+        watch.C[:, h] = 1e3 * np.array([C[0, 0], C[1, 1], C[2, 2], C[0, 1], C[0, 2], C[1, 2]])
+    watch.d[:] = 30.0 * rng.normal(size=watch.d.shape)
+    watch.X[:] = rng.normal(size=watch.X.shape)
+    watch.counts[onsets.COUNT] = 3
+    watch.order[:3], watch.age[:3] = [0, 1, 2], [30, 12, 5]
+    contacts.explain(watch, room)
+    return watch, room
+
+
+def columns(watch, h: int) -> np.ndarray:
+    return watch.X[:, [h, MANY + h, 2 * MANY + h]]
+
+
+def test_a_hypothesis_explains_what_least_squares_says():
+    """V = (C + L)^-1, v = V d, l = d^T V d; L is 1 / 0.1^2 for jumps, 1 / 1e-4^2 for steps."""
+    watch, room = some_watch()
+    for h, prior in ((1, 1e2), (ONSETS + 2, 1e8)):
+        V, d = np.linalg.inv(packed(watch.C[:, h]) + prior * np.eye(3)), watch.d[:, h]
+        np.testing.assert_allclose(packed(room.V[:, h]), V, rtol=1e-6)
+        np.testing.assert_allclose(room.v[:, h], V @ d, rtol=1e-6)
+        assert room.gain[h] == pytest.approx(d @ V @ d)
+
+
+def test_hypotheses_weigh_by_what_they_explain_and_by_the_rows_they_stand_for():
+    """l = 20, 24, 16 and rows 1, 18, 7 for jumps, nothing for steps: e^((l - 24) / 4) x rows."""
+    watch, room = some_watch()
+    room.gain[:] = -1e3
+    room.gain[:3] = [20.0, 24.0, 16.0]
+    weights = np.array([np.exp(-1.0), 18.0, 7.0 * np.exp(-2.0)])
+    assert contacts.weigh_up(watch, 24.0, room) == pytest.approx(1.0)
+    np.testing.assert_allclose(room.p[:3], weights / weights.sum())
+
+
+def test_a_contact_leaves_the_mixture_of_its_hypotheses():
+    """Mean sum p X v; spread of X v about it, X V X^T, half a gap between onsets, a tenth of it."""
+    watch, room = some_watch()
+    room.p[:] = 0.0
+    weights = {0: 0.1, 1: 0.4, 2: 0.2, ONSETS: 0.1, ONSETS + 1: 0.15, ONSETS + 2: 0.05}
+    for h, p in weights.items():
+        room.p[h] = p
+    effects = {h: columns(watch, h) @ room.v[:, h] for h in weights}
+    mean = sum(p * effects[h] for h, p in weights.items())
+    P, x = covariance(9), np.zeros(18)
+    expected = P + 0.01 * np.outer(mean, mean)
+    for h, p in weights.items():
+        X = columns(watch, h)
+        expected += p * (X @ packed(room.V[:, h]) @ X.T)
+        expected += p * np.outer(effects[h] - mean, effects[h] - mean)
+        if h not in (0, ONSETS):  # the oldest has none older
+            apart = columns(watch, h - 1) @ room.v[:, h] - effects[h]
+            expected += p / 12 * np.outer(apart, apart)
+    mixture.mend(watch, P, x, room)
+    np.testing.assert_allclose(x, mean, rtol=1e-9)
+    np.testing.assert_allclose(P, expected, rtol=1e-9)
+
+
+def test_an_event_reports_mean_and_spread_of_its_hypotheses():
+    """v = 1 and 3, each p = 1/2, V = 0.04: mean 2, variance 0.04 + 1.01 x 5 - 4 = 1.09."""
+    watch, room = some_watch()
+    room.p[:], room.v[:], room.V[:] = 0.0, 0.0, 0.04
+    room.p[1], room.p[2] = 0.5, 0.5
+    room.v[:, 1], room.v[:, 2] = 1.0, 3.0
+    out = np.ones(mixture.EVENT)
+    mixture.report(watch, contacts.JUMP, 1, room, out)
+    np.testing.assert_allclose(out[3:6], 2.0)
+    np.testing.assert_allclose(out[6:9], np.sqrt(1.09))
+    np.testing.assert_array_equal(out[9:], 0.0)
+
+
+def test_an_attitude_taken_anew_brings_its_rate():
+    """0.02 rad about y in 0.2 s: 0.1 rad/s; sd 2 x 1e-3 / 0.2 + 0.1 x 0.1 = 0.02."""
+    q = exponential(np.array([[0.0, 0.0, 0.0], [0.0, 0.02, 0.0]]))
+    rows = Rows(
+        np.array([0.0, 0.2, 0.4]), np.zeros((3, 6)), np.zeros(0, np.int64), q, np.array([1, 2]),
+        np.zeros((0, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3, 3)),
+    )  # fmt: skip
+    P = covariance(11)
+    place, body = Place(np.arange(19.0), P.copy()), np.s_[6:, 6:]
+    take_anew(rows, 1, 1e-3, place)
+    np.testing.assert_allclose(place.belief[:4], q[1])
+    np.testing.assert_allclose(place.belief[4:7], [0.0, 0.1, 0.0], atol=1e-12)
+    np.testing.assert_array_equal(place.belief[7:], np.arange(7.0, 19.0))
+    np.testing.assert_array_equal(place.covariance[body], P[body])
+    left = np.zeros((18, 18))
+    left[body] = P[body]
+    left[np.diag_indices(6)] = [1e-6] * 3 + [4e-4] * 3
+    np.testing.assert_allclose(place.covariance, left, rtol=1e-9, atol=1e-15)
+
+
+def test_noise_is_learnt_from_rows_that_are_mostly_noise():
+    """First row, gain 2/40: d2 = 6 makes k = 1 + 0.05 (2 - 0.9788) = 1.05106; d2 = 0: 0.95106."""
+    for surprise, share, expected in ((6.0, 0.9, 1.05106), (0.0, 0.9, 0.95106), (6.0, 0.4, 1.0)):
+        level = np.array([1.0, 0.0])
+        learn_noise(level, surprise, share)
+        assert level[0] == pytest.approx(expected, abs=1e-5)
+        assert level[1] == (1.0 if share > 0.5 else 0.0)
+    odd, odder = np.array([1.0, 0.0]), np.array([1.0, 0.0])
+    learn_noise(odd, 9.0, 1.0)
+    learn_noise(odder, 900.0, 1.0)
+    np.testing.assert_array_equal(odd, odder)

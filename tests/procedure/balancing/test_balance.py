@@ -1,0 +1,103 @@
+"""Balancing a simulated mock-up: it passes when it may, and says why when it does not."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from equipoise.io.testbed.presets import read_preset
+from equipoise.model.testbed import Fault
+from equipoise.procedure.balancing.balance import BalanceOptions, balance
+from equipoise.simulation.bench import SimulatedBench
+
+SPUTNIX = read_preset("sputnix")
+UM = 1e-6
+
+
+def run(testbed, options, seed=3):
+    bench = SimulatedBench(testbed, seed)
+    return bench, list(balance(bench, options))
+
+
+@cache
+def plain():
+    return run(SPUTNIX, BalanceOptions())
+
+
+def moves_of(steps):
+    return [step.move for step in steps if step.move is not None]
+
+
+def test_it_passes_in_at_most_three_moves():
+    """By its own verdict and by the truth: 2 um sideways and 3 um along gravity, in 120 s."""
+    bench, steps = plain()
+    options = BalanceOptions()
+    assert steps[-1].kind == "verify"
+    assert steps[-1].verdict.passed
+    assert 1 <= len(moves_of(steps)) <= 3
+    assert bench.time <= options.max_time
+    assert np.all(np.abs(bench.truth().com - options.target) < options.tolerance)
+
+
+def test_every_move_is_followed_by_a_measurement():
+    """A move's prediction is tested on data that had no part in making it."""
+    kinds = [step.kind for step in plain()[1]]
+    assert kinds[0] == "look"
+    assert all(kinds[k + 1] == "look" for k, kind in enumerate(kinds) if kind == "move")
+    assert [step.time for step in plain()[1]] == sorted(step.time for step in plain()[1])
+
+
+def test_the_same_seed_gives_the_same_steps():
+    again = run(SPUTNIX, BalanceOptions())[1]
+    assert [step.sentence for step in again] == [step.sentence for step in plain()[1]]
+
+
+def test_it_never_commands_beyond_the_rails():
+    """Half a millimetre down is out of reach: no move is refused, and the verdict fails."""
+    target = np.array([0.0, 0.0, -500 * UM])
+    _, steps = run(SPUTNIX, BalanceOptions(target=target))
+    travel = {mass.name: mass.travel for mass in SPUTNIX.masses}
+    for move in moves_of(steps):
+        for name, d in move.targets.items():
+            assert travel[name][0] - 1e-12 <= d <= travel[name][1] + 1e-12
+    assert steps[-1].kind == "stop"
+    assert not steps[-1].verdict.passed
+
+
+def test_stuck_masses_end_in_a_failed_verdict():
+    """Both masses along z stuck at home: what moves predict does not come true."""
+    stuck = replace(SPUTNIX.truth, faults=(Fault("z1", 0.0), Fault("z2", 0.0)))
+    _, steps = run(replace(SPUTNIX, truth=stuck), BalanceOptions())
+    judged = steps[-1].verdict
+    assert not judged.passed
+    assert judged.sentence.endswith(".")
+    assert judged.sentence.startswith(("Failed", "Cannot tell", "Stopped"))
+
+
+def test_it_stops_on_tilt():
+    """A limit of 1 deg, which this platform passes before it is caught: masses are halted."""
+    bench, steps = run(replace(SPUTNIX, tilt_limit=float(np.radians(1.0))), BalanceOptions())
+    assert steps[-1].kind == "stop"
+    assert "tilts beyond its limit" in steps[-1].sentence
+    assert not steps[-1].verdict.passed
+    before = bench.displacements
+    bench.read(10.0)
+    np.testing.assert_array_equal(bench.displacements, before)
+
+
+@pytest.mark.parametrize("moves", [0, 1])
+def test_the_number_of_moves_is_kept(moves):
+    _, steps = run(SPUTNIX, BalanceOptions(max_moves=moves, max_time=60.0))
+    assert len(moves_of(steps)) <= moves
+    assert steps[-1].verdict is not None
+
+
+def test_with_moves_to_spare_it_goes_below_again_to_learn_the_height():
+    """For half a micrometre: more than one move below, and the height better known for it."""
+    fine = BalanceOptions(tolerance=np.full(3, 0.5e-6), max_moves=8, max_time=240.0)
+    _, steps = run(SPUTNIX, fine)
+    below = [move for move in moves_of(steps) if move.reason.startswith("below")]
+    assert len(below) > 1
+    _, usual = plain()
+    assert steps[-1].verdict.sd[2] < 0.7 * usual[-1].verdict.sd[2]

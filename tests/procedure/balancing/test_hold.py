@@ -1,0 +1,37 @@
+"""Hold: two minutes after balancing the centre of mass is still where it was wanted."""
+
+import numpy as np
+import pytest
+
+from equipoise.io.testbed.presets import read_preset
+from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold, without_drift
+from equipoise.simulation.bench import SimulatedBench
+
+HOLDING = HoldOptions(120.0)
+
+
+@pytest.fixture(scope="module")
+def held():
+    bench = SimulatedBench(read_preset("sputnix"), 3)
+    return bench, list(balance_and_hold(bench, HOLDING.balancing, HOLDING))
+
+
+def test_a_short_hold_passes(held):
+    """By the verdict, and by the truth at the end (3 um on every axis)."""
+    bench, steps = held
+    assert steps[-1].kind == "verify"
+    assert steps[-1].verdict.passed, steps[-1].sentence
+    assert "Held for 2 min" in steps[-1].sentence
+    assert np.all(np.abs(bench.truth().com - HOLDING.target) < HOLDING.tolerance)
+
+
+def test_the_hold_lasts_for_the_requested_time(held):
+    """120 s after the verdict on balancing."""
+    _, steps = held
+    balanced = [step for step in steps[:-1] if step.verdict is not None][-1]
+    assert steps[-1].time - balanced.time == pytest.approx(120.0, abs=1e-6)
+
+
+def test_drift_is_left_to_the_tracker():
+    kept = without_drift(np.arange(1.0, 17.0))
+    np.testing.assert_array_equal(kept, [*np.arange(1.0, 14.0), 0.0, 0.0, 0.0])

@@ -1,0 +1,116 @@
+"""Verdicts: probabilities worked by hand, and evidence against them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from equipoise.model.estimate import Parameter
+from equipoise.model.move import Move
+from equipoise.model.outcome import Outcome
+from equipoise.procedure.steps.joint_fit import learn
+from equipoise.procedure.steps.verify import (
+    FRESH,
+    drift_since,
+    fresh_enough,
+    probability_within,
+    verdict,
+)
+from tests.support.builders import noisy, platform, recording
+
+UM = 1e-6
+
+
+@pytest.fixture(scope="module")
+def known():
+    """A minute of camera, nothing moved."""
+    return learn(None, noisy(recording(60.0), 1), platform())
+
+
+def wide(known) -> np.ndarray:
+    """A tolerance beyond doubt, 10 sd."""
+    return 10 * known.sd
+
+
+def test_probability_by_hand():
+    """On target with 2 sd of tolerance 0.9545; at the edge 0.5; 1 sd beyond a wide one 0.1587."""
+    com, sd = np.array([0.0, 10.0, 11.0]) * UM, np.array([5.0, 1e-3, 1.0]) * UM
+    found = probability_within(com, sd, np.zeros(3), np.full(3, 10 * UM))
+    np.testing.assert_allclose(found, [0.9545, 0.5, 0.1587], atol=5e-5)
+
+
+def test_on_target_passes(known):
+    judged = verdict(known, None, 0.0, known.com, wide(known))
+    assert judged.passed
+    assert judged.sentence.startswith("Passed")
+
+
+def test_outside_fails_and_names_the_axis(known):
+    target = known.com + np.array([0.0, 20.0, 0.0]) * known.sd
+    judged = verdict(known, None, 0.0, target, wide(known))
+    assert not judged.passed
+    assert judged.sure
+    assert judged.sentence.endswith("y outside the tolerance.")
+
+
+def test_too_uncertain_an_estimate_gives_an_inconclusive_verdict(known):
+    """A tolerance of one sd holds with probability 0.68 at best."""
+    judged = verdict(known, None, 0.0, known.com, known.sd)
+    assert not judged.passed
+    assert not judged.sure
+    assert judged.sentence.startswith("Cannot tell")
+    assert "not known well enough" in judged.sentence
+
+
+@pytest.mark.parametrize(("off", "answer"), [(1.9, "Cannot tell"), (2.1, "Failed")])
+def test_outside_by_less_than_is_known_is_not_outside_for_sure(known, off, answer):
+    """Two sd beyond a tolerance: 1.96 of them leave 2.5 % for a truth within it."""
+    tolerance = wide(known)
+    target = known.com + np.array([0.0, 0.0, 1.0]) * (tolerance + off * known.sd)
+    judged = verdict(known, None, 0.0, target, tolerance)
+    assert judged.sentence.startswith(answer)
+    assert judged.sure == (answer == "Failed")
+
+
+def test_what_is_hardly_known_has_not_failed(known):
+    """An sd of ten tolerances about the very target: 8 % within, and no failure."""
+    judged = verdict(known, None, 0.0, known.com, 0.1 * known.sd)
+    assert judged.sentence.startswith("Cannot tell")
+
+
+@pytest.mark.parametrize(("off", "passes"), [(2.0, True), (20.0, False)])
+def test_a_move_that_led_elsewhere_fails(known, off, passes):
+    """The look after a move tests its prediction: 2 sd may be chance, 20 are not."""
+    there = known.com + off * np.sqrt(2) * known.sd
+    move = Move({}, 0.0, 1.0, there, known.covariance, "test")
+    judged = verdict(known, move, 0.0, known.com, wide(known))
+    assert judged.passed == passes
+    assert ("not where the last move should have left it" in judged.sentence) != passes
+
+
+def test_an_estimate_that_cannot_be_used_is_no_verdict(known):
+    bad = replace(known, estimate=replace(known.estimate, outcome=Outcome(False, "No use.")))
+    judged = verdict(bad, None, 0.0, known.com, wide(known))
+    assert not judged.passed
+    assert judged.sentence == "Cannot tell: No use."
+
+
+def test_a_verdict_needs_fresh_data(known):
+    assert fresh_enough(known, 60.0 - FRESH)
+    assert not fresh_enough(known, 60.0 - FRESH + 0.1)
+
+
+def test_drift_since_the_move_is_no_contradiction(known):
+    """A drift of 1 um/min over 30 s moves the centre of mass 0.5 um beyond the prediction."""
+    drift = (1 / 60) * UM * np.array([1.0, -2.0, 0.0])
+    extra = tuple(
+        Parameter(f"drift_{axis}", "m/s", float(rate), 1e-9)
+        for axis, rate in zip("xyz", drift, strict=True)
+    )
+    estimate = replace(known.estimate, parameters=(*known.estimate.parameters, *extra))
+    drifting = replace(known, estimate=estimate)
+    np.testing.assert_allclose(drift_since(drifting, 30.0), [0.5 * UM, -1.0 * UM, 0.0], rtol=1e-12)
+    np.testing.assert_array_equal(drift_since(known, 30.0), np.zeros(3))
+    before = known.com - drift_since(drifting, 30.0)
+    move = Move({}, 0.0, 1.0, before, 1e-18 * np.eye(3), "test")
+    assert verdict(drifting, move, 30.0, known.com, wide(known)).passed

@@ -1,0 +1,146 @@
+"""An emulated bench with faulty wires and faulty motors, and the real bench at its ports."""
+
+import contextlib
+from dataclasses import replace
+
+from equipoise.app.bench.emulation import Station, emulate
+from equipoise.app.bench.held_platform import later
+from equipoise.app.bench.lockstep import TICK, LockstepClock
+from equipoise.app.bench.open_bench import keeper_of
+from equipoise.hardware.bench.real_bench import RealBench
+from equipoise.model.hardware import Port
+from tests.support.faulty_wire import FaultyWire
+
+
+def over_tcp(bed):
+    """Return a testbed whose serial devices are behind network bridges.
+
+    What is sent over the loopback is there at once; a pseudo terminal may take as long as the
+    system likes, which is a pause on a clock that goes twenty times too fast.
+    """
+    hardware = bed.hardware
+
+    def bridged(devices, what):
+        return tuple(
+            replace(device, port=Port(f"tcp:{what}:{k}"))
+            if device.port.address.startswith("serial:")
+            else device
+            for k, device in enumerate(devices)
+        )
+
+    boards, sensors = bridged(hardware.boards, "board"), bridged(hardware.sensors, "unit")
+    return replace(bed, hardware=replace(hardware, boards=boards, sensors=sensors))
+
+
+class FaultyMotors:
+    """Stands between an emulated board and the platform: what a motor does, not what it was told.
+
+    ``done`` is the share of each way that a mass named in it really goes: 0 for one that is stuck.
+    """
+
+    def __init__(self, device):
+        self._device = device
+        self.done = {}
+        self._told, self._at = {}, {}
+
+    def __getattr__(self, name):
+        return getattr(self._device, name)
+
+    def run(self, t):
+        said, legs = self._device.run(t)
+        return said, [self._really(leg) for leg in legs]
+
+    def _really(self, leg):
+        told, at = self._told.get(leg.mass, 0.0), self._at.get(leg.mass, 0.0)
+        at += self.done.get(leg.mass, 1.0) * (leg.displacement - told)
+        self._told[leg.mass], self._at[leg.mass] = leg.displacement, at
+        return replace(leg, displacement=at)
+
+
+class PlannedClock(LockstepClock):
+    """A clock at whose moments things happen to the bench."""
+
+    def __init__(self, emulated, tick):
+        super().__init__(emulated, tick)
+        self._plan = []
+
+    def at(self, t, action):
+        """Let something happen at t s."""
+        self._plan.append((t, action))
+
+    def wait(self):
+        due = [action for t, action in self._plan if t <= self.now]
+        self._plan = [(t, action) for t, action in self._plan if t > self.now]
+        for action in due:
+            action()
+        super().wait()
+
+
+class JumpingClock:
+    """Stands before an emulated sensor whose clock may jump by ``by`` s."""
+
+    def __init__(self, device):
+        self._device, self.by = device, 0.0
+
+    def __getattr__(self, name):
+        return getattr(self._device, name)
+
+    def tell(self, rows):
+        return self._device.tell(later(rows, self.by))
+
+
+class Lab:
+    """Both sides of the wires on one clock, and all that the keeper says."""
+
+    def __init__(self, bed, seed, tick=TICK):
+        self.emulated = emulate(bed, seed)
+        self.emulated.boards[:] = [
+            Station(FaultyMotors(each.device), FaultyWire(each.wire, seed))
+            for each in self.emulated.boards
+        ]
+        self.emulated.sensors[:] = [
+            Station(JumpingClock(each.device), FaultyWire(each.wire, seed))
+            for each in self.emulated.sensors
+        ]
+        self.keeper = keeper_of(self.emulated.testbed())
+        self.clock = PlannedClock(self.emulated, tick)
+        self.bench = RealBench(self.keeper, self.clock)
+        self.events = []
+        self.keeper.listen(self)
+
+    @property
+    def board(self):
+        return self.emulated.boards[0]
+
+    @property
+    def imu(self):
+        return self.emulated.sensors[0]
+
+    def wait(self, seconds):
+        """Let time pass, whether sensors give rows or not."""
+        end = self.emulated.time + seconds
+        while self.emulated.time < end:
+            self.clock.wait()
+            self.keeper.turn(self.clock.now)
+
+    def rows(self, recording):
+        pass
+
+    def event(self, t, kind, sentence, data):
+        self.events.append((t, kind, sentence))
+
+    def turn(self, t):
+        pass
+
+
+@contextlib.contextmanager
+def lab(bed, seed=1, tick=TICK):
+    """Return a lab whose platform has just been let go."""
+    found = Lab(bed, seed, tick)
+    try:
+        found.bench.start()
+        found.bench.watch()
+        yield found
+    finally:
+        found.keeper.close()
+        found.emulated.close()
