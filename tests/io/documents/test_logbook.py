@@ -183,7 +183,10 @@ def test_two_that_write_at_once_lose_nothing(tmp_path):
             listed(tmp_path)
 
     listed(tmp_path)
-    script = f"from tests.io.documents.test_logbook import *\nwrite_from_outside(Path({str(tmp_path)!r}))"
+    script = (
+        "from tests.io.documents.test_logbook import *\n"
+        f"write_from_outside(Path({str(tmp_path)!r}))"
+    )
     other = subprocess.Popen([sys.executable, "-c", script], cwd=Path(__file__).parents[3])
     with ThreadPoolExecutor(1) as pool:
         pool.submit(write, "here").result()
