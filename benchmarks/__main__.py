@@ -26,7 +26,7 @@ def show_fits(quick: bool) -> None:
     for row in rows:
         times = f"{row.seconds / ours:.1f}"
         fit = (row.name, f"{1e3 * row.seconds:.2f}", f"{row.setup:.2f}", str(row.evaluations))
-        table.add_row(*fit, times, f"{row.apart:.4f}")
+        table.add_row(*fit, times, f"{row.separation:.4f}")
     console.print(table)
     for text in missing:
         console.print(text, markup=False)  # extras stand in brackets, as markup does
@@ -54,10 +54,10 @@ def show_others() -> None:
     table = Table(title="One pass over a record: residuals and normal equations")
     for title in ("rows", "cut every", "ms", "us a row", "peak MB of the process"):
         table.add_column(title, justify="right")
-    for apart in (None, CUT):
+    for separation in (None, CUT):
         for rows in (1_000, 10_000, 100_000, 1_000_000):
-            n, seconds, memory = others.length_row(rows, apart)
-            cut = "never" if apart is None else f"{apart:g} s"
+            n, seconds, memory = others.length_row(rows, separation)
+            cut = "never" if separation is None else f"{separation:g} s"
             cost = (f"{1e3 * seconds:.2f}", f"{1e6 * seconds / n:.3f}", f"{memory:.0f}")
             table.add_row(f"{n:,}", cut, *cost)
     console.print(table)

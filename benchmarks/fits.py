@@ -18,7 +18,7 @@ class Row:
     seconds: float
     setup: float
     evaluations: int
-    apart: float  # greatest distance from our optimum, in sd
+    separation: float  # greatest distance from our optimum, in sd
 
 
 def distance(problem: Problem, a: Point, b: Point, sd_x: np.ndarray) -> float:

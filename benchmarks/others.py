@@ -57,13 +57,17 @@ def record_of(rows: int) -> tuple[Recording, ours.Testbed]:
     return join(first, simulated.read(seconds / 2)), bench
 
 
-def length_row(rows: int, apart: float | None = None) -> tuple[int, float, float]:
+def length_row(rows: int, separation: float | None = None) -> tuple[int, float, float]:
     """Return rows, seconds of one pass (residuals and normal equations), and peak memory (MB).
 
-    ``apart``: time between cuts at which the rate may jump, s; None: an uncut trajectory.
+    ``separation``: time between cuts at which the rate may jump, s; None: an uncut trajectory.
     """
     recording, testbed = record_of(rows)
-    cuts = np.zeros(0) if apart is None else np.arange(apart, recording.span[1] - apart, apart)
+    cuts = (
+        np.zeros(0)
+        if separation is None
+        else np.arange(separation, recording.span[1] - separation, separation)
+    )
     params = trajectory.Params(jumps=walk(cuts, RATE, np.full(3, 1e-5)))
     problem = trajectory.problem_of(recording, testbed, params)
     assert recording.attitude is not None

@@ -113,7 +113,7 @@ def _build(problem: Problem) -> Any:
     grid = bench.grid_of(problem)
     n, rows = len(grid.d), grid.rows
     start, chain = _start(problem, grid.d[0], grid.v[0]), _chain(problem, n)
-    seen = _residual_function(len(rows))
+    observed = _residual_function(len(rows))
     inputs = ca.DM(np.column_stack([np.diff(grid.edges), grid.d, grid.v]).T)
     measured = ca.DM(problem.q_meas.T)
 
@@ -123,7 +123,7 @@ def _build(problem: Problem) -> Any:
         later = chain(first, p, P, inputs)
         states = np.hstack([np.asarray(first), np.asarray(later)]).reshape(7, n + 1, 16)[:4, rows]
         Q = ca.DM(states[:, :, 1:].reshape(4, -1))
-        r, A = seen(ca.DM(states[:, :, 0]), Q, measured)
+        r, A = observed(ca.DM(states[:, :, 0]), Q, measured)
         A = np.asarray(A).reshape(3, len(rows), 15).transpose(1, 0, 2).reshape(-1, 15)
         return np.asarray(r).T.ravel() / problem.sigma, A / problem.sigma
 

@@ -151,8 +151,10 @@ def grid_of(problem: Problem, with_rows: bool = True) -> Grid:
     """Return the intervals from the first to the last row, cut at knots and (or not) at rows."""
     t, knots = problem.t, problem.knot_t
     known = t if with_rows else t[[0, -1]]
-    apart = np.min(np.abs(knots[:, None] - known), axis=1) > 1e-9  # s, else they are the same edge
-    edges = np.union1d(known, knots[apart & (knots > t[0]) & (knots < t[-1])])
+    separation = (
+        np.min(np.abs(knots[:, None] - known), axis=1) > 1e-9
+    )  # s, else they are the same edge
+    edges = np.union1d(known, knots[separation & (knots > t[0]) & (knots < t[-1])])
     d = np.stack([np.interp(edges, knots, column) for column in problem.knot_d.T], axis=-1)
     v = np.diff(d, axis=0) / np.diff(edges)[:, None]
     return Grid(edges, d[:-1], v, np.searchsorted(edges, known))

@@ -114,13 +114,13 @@ def arguments(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--workers", type=int, default=2, help="processes (2)")
     parser.add_argument("--date", default=None, help="to write into the page (today)")
     parser.add_argument("--output", type=Path, default=None, help=f"page to write ({PAGE.name})")
-    asked = parser.parse_args(words)
-    unknown = [name for name in asked.names if name not in CHECKS]
+    requested = parser.parse_args(words)
+    unknown = [name for name in requested.names if name not in CHECKS]
     if unknown:
         parser.error(f"no check is called {unknown[0]}; there are {', '.join(CHECKS)}")
-    if asked.workers < 1 or (asked.seeds is not None and asked.seeds < 1):
+    if requested.workers < 1 or (requested.seeds is not None and requested.seeds < 1):
         parser.error("--workers and --seeds must be 1 or more")
-    return asked
+    return requested
 
 
 def command_of(name: str, seeds: int) -> str:
@@ -136,32 +136,32 @@ def measured(name: str, seeds: int, workers: int, console: Console) -> tuple[Res
     with Progress(*columns, console=console, transient=True) as progress:
         bar = progress.add_task(name, total=None)
 
-        def tell(done: int, total: int) -> None:
+        def report(done: int, total: int) -> None:
             progress.update(bar, completed=done, total=total)
 
-        result = CHECKS[name].measure(range(seeds), spread_over(workers, tell))
+        result = CHECKS[name].measure(range(seeds), spread_over(workers, report))
     return result, time.perf_counter() - began
 
 
 def main(words: Sequence[str]) -> int:
     """Measure what was asked for; the page is written when everything was, or at --output."""
-    asked = arguments(words)
+    requested = arguments(words)
     console = Console()
-    names = asked.names or list(CHECKS)
-    whole = not asked.names and asked.seeds is None
-    target = asked.output or (PAGE if whole else None)
+    names = requested.names or list(CHECKS)
+    whole = not requested.names and requested.seeds is None
+    target = requested.output or (PAGE if whole else None)
     if target is not None:
         check_writable(target)
     results: list[Result] = []
     sections: list[str] = []
     for name in names:
-        seeds = asked.seeds or CHECKS[name].seeds
-        result, seconds = measured(name, seeds, asked.workers, console)
+        seeds = requested.seeds or CHECKS[name].seeds
+        result, seconds = measured(name, seeds, requested.workers, console)
         console.print(table_of(result))
         results.append(result)
         sections.append(section(result, command_of(name, seeds), seconds))
     if target is not None:
-        date = asked.date or datetime.datetime.now(tz=datetime.UTC).date().isoformat()
+        date = requested.date or datetime.datetime.now(tz=datetime.UTC).date().isoformat()
         write_whole(target, page(sections, date, results))
         console.print(f"Wrote {target}.")
     return 1 if any(result.missed for result in results) else 0

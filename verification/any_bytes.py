@@ -16,7 +16,7 @@ from verification.result import Result, Row, Spread, at_most, in_turn
 TARGETS = (*DEVICES, *FILES)
 BATCH = 1000  # inputs to a seed
 SLOWEST = 5.0  # s, what one input may take; chosen: nobody waits longer for a sentence
-SHOWN, TOLD = 400, 20  # bytes of an input that is told; errors that are
+SHOWN, REPORTED = 400, 20  # bytes of an input that is told; errors that are
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,4 +77,4 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     )
     tries = ", ".join(f"{name} {counts[name]} ({slowest[name] * 1e3:.0f})" for name in names())
     note = f"Inputs to each, and the slowest of them in ms: {tries}."
-    return Result("any_bytes", claim, rows, (note, *raised[:TOLD]))
+    return Result("any_bytes", claim, rows, (note, *raised[:REPORTED]))

@@ -190,15 +190,15 @@ def moved_by_mujoco(
         for step, column in zip(STEPS, command.T, strict=True)
     ])  # fmt: skip
     run = oracle.driven(platform, wanted, np.zeros((len(t), 3)))
-    seen = oracle.sensor_log(run, rng, CAMERA.rate, CAMERA.noise, GYRO.rate, GYRO.noise)
-    assert seen.attitude is not None
-    assert seen.rate is not None
-    turned = oracle.product(oracle.rotation(PLUMB)[None], seen.attitude.values)
+    observed = oracle.sensor_log(run, rng, CAMERA.rate, CAMERA.noise, GYRO.rate, GYRO.noise)
+    assert observed.attitude is not None
+    assert observed.rate is not None
+    turned = oracle.product(oracle.rotation(PLUMB)[None], observed.attitude.values)
     rows = np.arange(0, len(t), 20)
     return replace(
-        seen,
-        attitude=Samples(seen.attitude.t, turned),
-        rate=Samples(seen.rate.t, seen.rate.values @ oracle.matrix(oracle.rotation(TURN))),
+        observed,
+        attitude=Samples(observed.attitude.t, turned),
+        rate=Samples(observed.rate.t, observed.rate.values @ oracle.matrix(oracle.rotation(TURN))),
         masses=Samples(rows * 1e-3, oracle.command(platform, tuple(ramps), rows * 1e-3)),
     )
 

@@ -17,31 +17,31 @@ from equipoise.hardware.camera.pose import Pose
 from equipoise.hardware.camera.sight import Sight
 from equipoise.hardware.camera.tag_board import TagBoard
 from equipoise.hardware.emulated.camera import QUALITY, renderer_of
-from equipoise.hardware.emulated.rendering import Look
+from equipoise.hardware.emulated.rendering import Appearance
 from equipoise.maths.attitude import difference, exponential, from_matrix, to_matrix
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn
 
 LEANING, AWAY = 30.0, 0.7  # deg, m
 MEDIAN = 0.05  # deg, what is asked for
 NEES = (0.7, 1.4)  # chosen: mean of e^T C^-1 e / 3; stated errors true within a fifth
-SEEN = 0.97  # of pictures, chosen; what covers half of a board may cover all but one marker
+OBSERVED = 0.97  # of pictures, chosen; what covers half of a board may cover all but one marker
 PICTURES = 20  # of each look, for a seed
 EYE = Eye(
     TagBoard("4X4_50", 6, 5, 0.040, 0.010),
     Lens(1200.0, 1195.0, 645.3, 471.9, 1280, 960, (-0.12, 0.05, 0.001, -0.0007, 0.0)),
     np.eye(3),
 )
-LOOKS = {
-    "sharp": Look(finer=2),
-    "out of focus": Look(blur=1.5, finer=2),
-    "moved by 4 px": Look(smear=4.0, finer=2),
-    "noisy": Look(noise=6.0, finer=2),
-    "partly covered": Look(blur=1.2, noise=4.0, covered=0.4, finer=2),
+MEASUREMENTS = {
+    "sharp": Appearance(finer=2),
+    "out of focus": Appearance(blur=1.5, finer=2),
+    "moved by 4 px": Appearance(smear=4.0, finer=2),
+    "noisy": Appearance(noise=6.0, finer=2),
+    "partly covered": Appearance(blur=1.2, noise=4.0, covered=0.4, finer=2),
 }
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Seen:
+class Observed:
     """What pictures of one look gave."""
 
     errors: NDArray[np.float64]  # deg, angles
@@ -58,10 +58,10 @@ def leaning(rng: np.random.Generator) -> NDArray[np.float64]:
     return over @ np.diag([1.0, -1.0, -1.0]) @ spun
 
 
-def seen(look: Look, count: int, seed: int) -> Seen:
+def observed(measurement: Appearance, count: int, seed: int) -> Observed:
     """Return errors on pictures of one look."""
     rng = np.random.default_rng(seed)
-    renderer, sight = renderer_of(EYE, look, seed), Sight(EYE.board, EYE.lens, "camera")
+    renderer, sight = renderer_of(EYE, measurement, seed), Sight(EYE.board, EYE.lens, "camera")
     errors: list[float] = []
     nees: list[float] = []
     for _ in range(count):
@@ -69,20 +69,20 @@ def seen(look: Look, count: int, seed: int) -> Seen:
         position = np.array([*rng.uniform(-0.05, 0.05, 2), AWAY])
         picture = decoded(encoded(renderer.picture(turn, position), QUALITY))
         assert picture is not None
-        pose = sight.looked(picture)
+        pose = sight.observe(picture)
         if isinstance(pose, Pose):
             off = difference(pose.attitude, from_matrix(turn))
             errors.append(float(np.degrees(np.linalg.norm(off))))
             nees.append(float(off @ np.linalg.solve(pose.covariance, off)))
-    return Seen(np.array(errors), np.array(nees), count)
+    return Observed(np.array(errors), np.array(nees), count)
 
 
-def of_seed(seed: int) -> list[Seen]:
+def of_seed(seed: int) -> list[Observed]:
     """Return all looks of one seed."""
-    return [seen(look, PICTURES, seed) for look in LOOKS.values()]
+    return [observed(measurement, PICTURES, seed) for measurement in MEASUREMENTS.values()]
 
 
-def rows_of(name: str, all_seeds: Sequence[Seen]) -> tuple[Row, ...]:
+def rows_of(name: str, all_seeds: Sequence[Observed]) -> tuple[Row, ...]:
     """Return the rows of one look."""
     errors = np.concatenate([each.errors for each in all_seeds])
     nees = np.concatenate([each.nees for each in all_seeds])
@@ -90,7 +90,7 @@ def rows_of(name: str, all_seeds: Sequence[Seen]) -> tuple[Row, ...]:
     return (
         at_most(f"{name}: median error, deg", float(np.median(errors)), MEDIAN, ".4f"),
         between(f"{name}: mean NEES / 3", float(nees.mean() / 3), NEES, ".2f"),
-        at_least(f"{name}: pictures in which the board is seen", share, SEEN, ".1%"),
+        at_least(f"{name}: pictures in which the board is seen", share, OBSERVED, ".1%"),
     )
 
 
@@ -98,7 +98,9 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Return the result for seeds."""
     found = spread(of_seed, seeds)
     rows = [
-        row for k, name in enumerate(LOOKS) for row in rows_of(name, [each[k] for each in found])
+        row
+        for k, name in enumerate(MEASUREMENTS)
+        for row in rows_of(name, [each[k] for each in found])
     ]
     claim = (
         f"Attitudes from drawn pictures of 6 x 5 markers of 40 mm, {AWAY:g} m away, 1280 x 960 px, "

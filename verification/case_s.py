@@ -98,7 +98,7 @@ def way(seed: int) -> Floats:
     return vector / np.linalg.norm(vector)
 
 
-def believed(true: Vector6, doubt: float, rng: np.random.Generator) -> MassProperties:
+def estimated(true: Vector6, doubt: float, rng: np.random.Generator) -> MassProperties:
     """Return what is believed of a body, wrong by ``doubt`` (one sd of J).
 
     The truth is normal about what is believed, element by element of J, with an sd that is a share
@@ -116,7 +116,7 @@ def believed(true: Vector6, doubt: float, rng: np.random.Generator) -> MassPrope
 
 def testbed(seed: int, doubt: float) -> Testbed:
     """Return what is known beforehand; its inertia is wrong by ``doubt``."""
-    guess = believed(case(seed).inertia, doubt, np.random.default_rng([seed, 5]))
+    guess = estimated(case(seed).inertia, doubt, np.random.default_rng([seed, 5]))
     return replace(builders.platform(), body=guess, masses=MASSES, inertia_sd=doubt)
 
 

@@ -1,7 +1,7 @@
 """Case S made by MuJoCo, which shares no code with what is judged: bodies of the same size.
 
 Platform, move and noise are drawn by ``tests.oracle.cases``; what is believed beforehand is drawn
-about its truth as ``case_s.believed`` says, so that sd and error agree.
+about its truth as ``case_s.trusted`` says, so that sd and error agree.
 """
 
 from dataclasses import replace
@@ -55,7 +55,7 @@ def strong(one: Sample, size: float, until: float) -> list[float]:
 
 def testbed(one: Sample, seed: int, doubt: float) -> Testbed:
     """Return what is known beforehand; its inertia is wrong by ``doubt``."""
-    guess = case_s.believed(one.inertia, doubt, np.random.default_rng([seed, 6]))
+    guess = case_s.estimated(one.inertia, doubt, np.random.default_rng([seed, 6]))
     return replace(one.logged.testbed, body=guess, inertia_sd=doubt)
 
 

@@ -30,7 +30,7 @@ LAST = "window.equipoise.state().series.pose?.last?.[0] ?? 0"  # s
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class Observed:
     """How far all have come at one time: each process's seconds and MB, by name."""
 
     clock: float  # s, on the wall
@@ -89,12 +89,12 @@ class Watched:
         page.get_by_role("option", name=speed, exact=True).click()
         page.get_by_role("button", name="Let go", exact=True).click()
 
-    def seen(self) -> Seen:
+    def observed(self) -> Observed:
         """Return how far all have come."""
         self._tab.send("HeapProfiler.collectGarbage")
         heap = self._tab.send("Runtime.getHeapUsage")["usedSize"] / 1e6
         pose = self.page.evaluate(LAST)
-        return Seen(
+        return Observed(
             time.monotonic(),
             float(pose),
             {name: sum(map(spent, each)) for name, each in self.processes.items()},
@@ -103,7 +103,7 @@ class Watched:
         )
 
 
-def soaked(looks: int, every: float = MINUTE, speed: str = "real time") -> list[Seen]:
+def soaked(measurements: int, every: float = MINUTE, speed: str = "real time") -> list[Observed]:
     """Let a dashboard run, and look so many times, so long (s) apart, after a first look."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -112,48 +112,49 @@ def soaked(looks: int, every: float = MINUTE, speed: str = "real time") -> list[
             watched = Watched(chromium, running)
             watched.let_go(running.token, speed)
             watched.page.wait_for_timeout(2000)
-            seen = [watched.seen()]
-            for _ in range(looks):
+            observed = [watched.observed()]
+            for _ in range(measurements):
                 watched.page.wait_for_timeout(1000 * every)
-                seen.append(watched.seen())
-    return seen
+                observed.append(watched.observed())
+    return observed
 
 
-def share(seen: Sequence[Seen], name: str) -> float:
+def share(observed: Sequence[Observed], name: str) -> float:
     """Return a process's share of one core, from the first look to the last."""
-    first, last = seen[0], seen[-1]
+    first, last = observed[0], observed[-1]
     return (last.seconds[name] - first.seconds[name]) / (last.clock - first.clock)
 
 
-def growth(seen: Sequence[Seen], name: str) -> float:
+def growth(observed: Sequence[Observed], name: str) -> float:
     """Return the growth of memory over the looks, as a share, by the straight line through them."""
-    held = np.array([each.megabytes[name] for each in seen])
+    held = np.array([each.megabytes[name] for each in observed])
     t: NDArray[np.float64] = np.linspace(-0.5, 0.5, len(held))
     return float(t @ held / (t @ t) / held.mean())
 
 
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Measure one run of as many minutes as there are seeds."""
-    (seen,) = spread(soaked, [len(seeds)])
-    bench, clock = seen[-1].bench - seen[0].bench, seen[-1].clock - seen[0].clock
-    later = seen[min(BEGUN, len(seen) // 2) :]
+    (observed,) = spread(soaked, [len(seeds)])
+    bench, clock = observed[-1].bench - observed[0].bench, observed[-1].clock - observed[0].clock
+    later = observed[min(BEGUN, len(observed) // 2) :]
     claim = (
         f"A simulated platform with attitude and rate at {RATE:g} Hz, shown live for "
         f"{clock / 60:.0f} minutes to one page of 1280 x 720 in Chromium."
     )
     rows: tuple[Row, ...] = (
         at_least("bench time on the page over real time", bench / clock, 0.995, ".4f"),
-        at_most("server: share of one core", share(seen, "server"), SHARE, ".1%"),
-        at_most("page: share of one core", share(seen, "page"), SHARE, ".1%"),
+        at_most("server: share of one core", share(observed, "server"), SHARE, ".1%"),
+        at_most("page: share of one core", share(observed, "page"), SHARE, ".1%"),
         at_most("server: growth of memory", growth(later, "server"), GROWN, ".1%"),
         at_most("page: growth of its heap", growth(later, "heap"), GROWN, ".1%"),
         at_most("page: growth of its process", growth(later, "page"), GROWN, ".1%"),
         at_most("runner: growth of memory", growth(later, "runner"), GROWN, ".1%"),
     )
-    last = seen[-1].megabytes
+    last = observed[-1].megabytes
     note = (
         f"The runner, with the simulated bench and the live estimate, takes "
-        f"{share(seen, 'runner'):.1%} of a core; drawing in software {share(seen, 'drawing'):.1%}. "
+        f"{share(observed, 'runner'):.1%} of a core; drawing in software "
+        f"{share(observed, 'drawing'):.1%}. "
         f"At the end the server holds {last['server']:.0f} MB, the runner {last['runner']:.0f} MB, "
         f"the page {last['page']:.0f} MB, {last['heap']:.1f} MB of them its heap."
     )

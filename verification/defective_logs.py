@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from equipoise.estimation.events.detection_threshold import threshold
 from equipoise.estimation.events.event_search import without
-from equipoise.estimation.events.record_model import Believed, Happening, farther, refitted
+from equipoise.estimation.events.record_model import Happening, RecordModel, farther, refitted
 from equipoise.estimation.model_selection import reference_fit
 from equipoise.estimation.model_selection.survey import cut_times
 from equipoise.estimation.output_error.trajectory import Params, fit
@@ -112,10 +112,10 @@ def sizes(logged: cases.Logged) -> list[tuple[Happened, float]]:
     params, cuts = Params(sensor=sensor_terms_of(logged.defects)), cut_times(recording)
     known = replace(params, jumps=tuple(event.jump for event in events))
     first = fit(recording, testbed, known)
-    belief = refitted(
-        Believed(recording, testbed, params, cuts, np.zeros(3), events, first, testbed)
+    posterior = refitted(
+        RecordModel(recording, testbed, params, cuts, np.zeros(3), events, first, testbed)
     )
-    rises = [max(farther(without(belief, k), belief), 0.0) for k in range(len(events))]
+    rises = [max(farther(without(posterior, k), posterior), 0.0) for k in range(len(events))]
     return list(zip(true, np.sqrt(rises).tolist(), strict=True))
 
 

@@ -21,7 +21,7 @@ from equipoise.design.sizing.budget import SOME, budget_of, mean_square, platfor
 from equipoise.design.sizing.case import Case
 from equipoise.design.sizing.expected_torque import expected_torque
 from equipoise.design.sizing.likely_offsets import even_normals
-from equipoise.design.sizing.measurement_bound import first_look
+from equipoise.design.sizing.measurement_bound import first_bound
 from equipoise.design.sizing.move_error import at_home, move
 from equipoise.design.sizing.reachable_set import contains, reach_of
 from equipoise.estimation.model_selection.model_choice import PLUMB
@@ -40,7 +40,7 @@ AGREE = 0.15  # what predictions may be off by
 CHANCE = 3.5  # sd of a root mean square over few runs, 1 / sqrt(2 n) of it
 SECONDS = 120.0  # s: so long that what is known beforehand does not matter
 TILT = np.radians(20.0)
-LOOK = 60.0  # s
+MEASUREMENT = 60.0  # s
 Array = NDArray[np.float64]
 
 
@@ -149,11 +149,11 @@ def moved(
     return actuator.sent(travel, later, targets, testbed.masses, (), rng)
 
 
-def chain(testbed: Testbed, looks: tuple[Array, Array, Array], seed: int) -> Chain:
+def chain(testbed: Testbed, measurements: tuple[Array, Array, Array], seed: int) -> Chain:
     """Balance one platform by two moves.
 
-    ``looks`` are covariances (m^2): of the first look, of what is left after the first move, and of
-    the second look.
+    ``measurements`` are covariances (m^2): of the first measurement, of what is left after the
+    first move, and of the second measurement.
     """
     rng = np.random.default_rng([seed, 5])
     maps, total = mass_maps(testbed.masses), testbed.body.mass
@@ -165,7 +165,7 @@ def chain(testbed: Testbed, looks: tuple[Array, Array, Array], seed: int) -> Cha
     com = testbed.body.com + testbed.com_sd * rng.normal(size=3)
     while not contains(reach, -com[None])[0]:
         com = testbed.body.com + testbed.com_sd * rng.normal(size=3)
-    home, (first, before, last) = actuator.at_home(testbed.masses), looks
+    home, (first, before, last) = actuator.at_home(testbed.masses), measurements
     exact = stands(moved(testbed, home, -com, rng))
     travel = moved(testbed, home, -com - rng.multivariate_normal(np.zeros(3), first), rng)
     noise = np.linalg.inv(np.linalg.inv(last) - np.linalg.inv(before))
@@ -176,7 +176,7 @@ def chain(testbed: Testbed, looks: tuple[Array, Array, Array], seed: int) -> Cha
 
 def case_of(testbed: Testbed) -> Case:
     """Return the case that is tried: two moves to the centre of rotation."""
-    return Case(testbed, np.zeros(3), TILT, LOOK, 2)
+    return Case(testbed, np.zeros(3), TILT, MEASUREMENT, 2)
 
 
 def left_by_first(testbed: Testbed) -> Array:
@@ -193,19 +193,19 @@ def left_by_first(testbed: Testbed) -> Array:
 def move_rows(testbed: Testbed, seeds: Sequence[int]) -> tuple[Row, ...]:
     """Return what moves leave, found over predicted."""
     one, two = budget_of(replace(case_of(testbed), moves=1)), budget_of(case_of(testbed))
-    looks = (one.last.com, mean_square(one.standing.error), two.last.com)
-    runs, n = [chain(testbed, looks, seed) for seed in seeds], len(seeds)
+    measurements = (one.last.com, mean_square(one.standing.error), two.last.com)
+    runs, n = [chain(testbed, measurements, seed) for seed in seeds], len(seeds)
     first = mean_square(np.array([run.first for run in runs]))
     axes = np.sqrt(np.diag(first) / np.diag(left_by_first(testbed)))
     torque = expected_torque(testbed, mean_square(np.array([run.last for run in runs])), TILT)
-    told = expected_torque(testbed, mean_square(two.standing.error), TILT)
+    reported = expected_torque(testbed, mean_square(two.standing.error), TILT)
     name = f"{testbed.name}, {n} runs"
     return (
         between(f"{name}: rms of com after one move by an exact look, found / predicted, least "
                 "axis", float(axes.min()), band(n), ".3f"),
         between(f"{name}: the same, greatest axis", float(axes.max()), band(n), ".3f"),
         between(f"{name}: rms torque after two looks and moves, found / predicted "
-                f"({1e6 * told:.3g} uN m)", torque / told, band(n), ".3f"),
+                f"({1e6 * reported:.3g} uN m)", torque / reported, band(n), ".3f"),
     )  # fmt: skip
 
 
@@ -228,7 +228,7 @@ def bench_bed(testbed: Testbed, seed: int) -> Testbed:
     return replace(testbed, truth=replace(truth, camera=CameraErrors(plumb=lean), gyro_bias=bias))
 
 
-def look_error(name: str, seed: int) -> Array:
+def measurement_error(name: str, seed: int) -> Array:
     """Return how far a fit of one record is off in com at its end and in the moments of inertia."""
     testbed = stiff(name)
     manoeuvre = replace(usual_swing(testbed, SECONDS).manoeuvre, tilt_sd=0.0, rate_sd=0.0)
@@ -236,15 +236,15 @@ def look_error(name: str, seed: int) -> Array:
     recording = carried_out(bench, manoeuvre)
     params = trajectory.Params((), sensor=PLUMB, use_prior=True)
     fitted = trajectory.fit(recording, testbed, params)
-    told = conclude(fitted, trajectory.METHOD, recording).values((*END, *INERTIA[:3]))
-    return told - np.append(bench.com, np.diag(testbed.body.inertia_P))
+    reported = conclude(fitted, trajectory.METHOD, recording).values((*END, *INERTIA[:3]))
+    return reported - np.append(bench.com, np.diag(testbed.body.inertia_P))
 
 
-def look_rows(name: str, errors: Sequence[Array]) -> tuple[Row, ...]:
+def measurement_rows(name: str, errors: Sequence[Array]) -> tuple[Row, ...]:
     """Return errors of fits over what was predicted."""
-    told = first_look(stiff(name), SECONDS)
+    reported = first_bound(stiff(name), SECONDS)
     ratio = np.sqrt(np.mean(np.square(errors), axis=0)) / np.append(
-        told.com_sd, told.inertia_sd[:3]
+        reported.com_sd, reported.inertia_sd[:3]
     )
     n, text = len(errors), "RMSE of a fit / predicted sd"
     com, inertia = ratio[:3], ratio[3:]
@@ -266,7 +266,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn, every: int = 1) -> R
     for found in spread(partial(move_rows, seeds=seeds), beds()):
         rows += found
     for name in ("sputnix", "unb"):
-        rows += look_rows(name, spread(partial(look_error, name), seeds[::every]))
+        rows += measurement_rows(name, spread(partial(measurement_error, name), seeds[::every]))
     claim = (
         "What `equipoise design` predicts of reach, of the centre of mass after a move, of the "
         "torque after two, and of what records tell agrees with Monte Carlo within 15 %."

@@ -75,7 +75,7 @@ def drifting(seed: int) -> Testbed:
     return replace(testbed, disturbances=TERMS, truth=replace(testbed.truth, torque=drift))
 
 
-def beliefs(steps: Iterator[Step], bench: Watched) -> Iterator[tuple[Step, Array, Array]]:
+def posteriors(steps: Iterator[Step], bench: Watched) -> Iterator[tuple[Step, Array, Array]]:
     """Yield each step with the tracker's error in m and in its own sd, NaN when it says nothing."""
     maps, mass = mass_maps(bench.testbed.masses), bench.testbed.body.mass
     nothing = np.full(3, np.nan)
@@ -102,7 +102,7 @@ def held(hold: float, seed: int) -> Run:
     bench = Watched(SimulatedBench(drifting(seed), seed))
     began, moves, last = np.inf, 0, None
     errors, zs = [np.full(3, np.nan)], [np.full(3, np.nan)]
-    for step, error, z in beliefs(balance_and_hold(bench, holding.balancing, holding), bench):
+    for step, error, z in posteriors(balance_and_hold(bench, holding.balancing, holding), bench):
         if np.isfinite(began):
             moves += step.kind == "move"
             errors.append(error)

@@ -164,7 +164,7 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         f"belong to the fault; a second later no mass moves. {len(runs)} seeds."
     )
     endings = Counter(run.ending for run in runs)
-    told = ", ".join(f"{count} {ending}" for ending, count in sorted(endings.items()))
+    reported = ", ".join(f"{count} {ending}" for ending, count in sorted(endings.items()))
     by_fault = (
         f"{fault.name}: "
         + ", ".join(
@@ -183,4 +183,4 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         at_most("passed and truly out of tolerance",
                 sum(r.ending == "balanced" and not r.good for r in runs), 0, "d"),
     )  # fmt: skip
-    return Result("faulty_benches", claim, rows, (f"Endings: {told}.", *by_fault, *odd))
+    return Result("faulty_benches", claim, rows, (f"Endings: {reported}.", *by_fault, *odd))

@@ -25,10 +25,10 @@ def greatest_angle(seed: int) -> tuple[float, float]:
     rng = np.random.default_rng(seed)
     platform = oracle.random_platform(rng)
     run = oracle.simulate(platform, oracle.random_schedule(rng, platform, SECONDS), SECONDS)
-    seen = run.t[::200]
+    observed = run.t[::200]
 
     def ours(track: Samples | None) -> float:
-        line = timeline(seen, np.zeros(0), track, len(platform.slides), 0.01)
+        line = timeline(observed, np.zeros(0), track, len(platform.slides), 0.01)
         moment = platform.mass * platform.com
         inertia = pack_symmetric(platform.inertia_P)
         body = body_of(platform.mass, platform.gravity, inertia, moment)

@@ -50,7 +50,7 @@ def killed(seed: int, folder: str | None = None) -> Killed:
 
 def _left(path: Path, said: Sequence[str]) -> Killed:
     last = max(int(line.split()[1]) for line in said if line.startswith("row"))
-    told = [int(line.split()[1]) for line in said if line.startswith("event")]
+    reported = [int(line.split()[1]) for line in said if line.startswith("event")]
     recording = read_recording(path)
     kept = [event.data["row"] for event in events_of(path)]
     attitude, rate = recording.attitude, recording.rate
@@ -61,7 +61,7 @@ def _left(path: Path, said: Sequence[str]) -> Killed:
     return Killed(
         lost=last / RATE - float(end),
         missing=missing,
-        events_lost=sum(event not in kept for event in told),
+        events_lost=sum(event not in kept for event in reported),
         rows=len(rate),
     )
 

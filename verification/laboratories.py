@@ -47,7 +47,7 @@ KINDS: dict[str, Kind] = {
         partial(labs.tumbling, duration=600.0, noise=QUIET, stated=QUIET, spin=1.0, moved=True)
     ),
     "quiet gyro, noise said a tenth": Kind(
-        partial(labs.tumbling, noise=QUIET, stated=0.1 * QUIET, told=False, moved=True)
+        partial(labs.tumbling, noise=QUIET, stated=0.1 * QUIET, reported=False, moved=True)
     ),
     "gyro that the testbed lacks": Kind(lambda seed: labs.tumbling(seed).unstated()),
     "pendulum in one plane": Kind(labs.in_a_plane),
@@ -85,8 +85,8 @@ def stated(estimate: Estimate, record: labs.Record, held: tuple[str, ...]) -> tu
     for ratio in estimate.ratios:
         above, below = ratio.name.split("/")
         true[ratio.name] = true[above] / true[below]
-    told = [p for p in (*estimate.parameters, *estimate.ratios) if p.name in true]
-    firm = [p for p in told if np.isfinite(p.sd) and p.name not in held]
+    reported = [p for p in (*estimate.parameters, *estimate.ratios) if p.name in true]
+    firm = [p for p in reported if np.isfinite(p.sd) and p.name not in held]
     return tuple(float((p.value - true[p.name]) / p.sd) for p in firm)
 
 

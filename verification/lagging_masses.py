@@ -39,7 +39,7 @@ class Found(NamedTuple):
     usable: bool
 
 
-def believed(logged: cases.Logged) -> cases.Logged:
+def estimated(logged: cases.Logged) -> cases.Logged:
     """Return a record whose masses are taken to be where they were told, at once."""
     masses = tuple(replace(m, lag_sd=0.0, sag_sd=0.0) for m in logged.testbed.masses)
     testbed = replace(logged.testbed, masses=masses)
@@ -48,9 +48,9 @@ def believed(logged: cases.Logged) -> cases.Logged:
 
 def stamped_early(logged: cases.Logged) -> cases.Logged:
     """Return a record whose commands are stamped ``EARLY`` before they were given."""
-    told = logged.commanded.masses
-    assert told is not None
-    masses = Samples(told.t - EARLY, told.values)
+    reported = logged.commanded.masses
+    assert reported is not None
+    masses = Samples(reported.t - EARLY, reported.values)
     return replace(logged, commanded=replace(logged.commanded, masses=masses))
 
 
@@ -65,7 +65,7 @@ def identified(logged: cases.Logged, recording: Recording) -> Found:
                  found.outcome.usable)  # fmt: skip
 
 
-def told(case: str, seed: int) -> Found:
+def reported(case: str, seed: int) -> Found:
     """Identify a record by its commands."""
     logged = cases.level(CASES[case](seed))
     return identified(logged, logged.commanded)
@@ -77,7 +77,7 @@ def measured(case: str, seed: int) -> Found:
     return identified(logged, logged.recording)
 
 
-def told_early(seed: int) -> Found:
+def reported_early(seed: int) -> Found:
     """Identify a record of Case G by commands that are stamped early."""
     logged = stamped_early(cases.level(cases.case_g(seed)))
     return identified(logged, logged.commanded)
@@ -85,7 +85,7 @@ def told_early(seed: int) -> Found:
 
 def taken_at_their_word(seed: int) -> Found:
     """Identify a record of Case G by commands that are believed."""
-    logged = believed(cases.level(cases.case_g(seed)))
+    logged = estimated(cases.level(cases.case_g(seed)))
     return identified(logged, logged.commanded)
 
 
@@ -135,11 +135,11 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Identify cases S and G by measured masses and by commands."""
     rows: list[Row] = []
     for case in CASES:
-        known, found = (spread(partial(way, case), seeds) for way in (measured, told))
+        known, found = (spread(partial(way, case), seeds) for way in (measured, reported))
         label = f"Case {case}, told"
         rows += [*honest_rows(f"Case {case}, measured", known), *honest_rows(label, found)]
         rows += [*lag_rows(label, found, LATE), cost_row(case, label, found, known)]
-    early = spread(told_early, seeds)
+    early = spread(reported_early, seeds)
     label = f"Case G, told {1e3 * EARLY:.0f} ms early"
     rows += [*honest_rows(label, early, cautious=True), *lag_rows(label, early, LATE + EARLY)]
     naive = spread(taken_at_their_word, seeds)

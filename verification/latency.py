@@ -71,18 +71,18 @@ def speak(pipe: Pipe, messages: Sequence[bytes]) -> None:
 def latencies(seed: int) -> tuple[Floats, int]:
     """Return the latency of each row, ms, and how many rows never came."""
     bed = testbed()
-    seen = SimulatedBench(bed, seed).read(SECONDS)
+    observed = SimulatedBench(bed, seed).read(SECONDS)
     assert bed.hardware is not None
     (unit,) = bed.hardware.sensors
     here, there = multiprocessing.get_context("spawn").Pipe()
-    messages = EmulatedVectorNav(unit).tell(seen)
+    messages = EmulatedVectorNav(unit).messages(observed)
     speaker = multiprocessing.get_context("spawn").Process(target=speak, args=(there, messages))
     speaker.start()
     try:
         port = replace(unit.port, address=here.recv())
         wired = replace(bed, hardware=replace(bed.hardware, sensors=(replace(unit, port=port),)))
         with tempfile.TemporaryDirectory() as folder:
-            known = _followed(wired, seen, here, Path(folder) / "run.mcap")
+            known = _followed(wired, observed, here, Path(folder) / "run.mcap")
         here.send("end")
         sent = np.array(here.recv())
     finally:
@@ -92,10 +92,10 @@ def latencies(seed: int) -> tuple[Floats, int]:
     return 1e3 * (known - sent)[came][SETTLED:], int((~came[first:]).sum())
 
 
-def _followed(bed: Testbed, seen: Recording, speaker: Pipe, record: Path) -> Floats:
+def _followed(bed: Testbed, observed: Recording, speaker: Pipe, record: Path) -> Floats:
     """Return when the tracker knew each row (s); NaN for one that it never saw."""
-    assert seen.rate is not None
-    known, state = np.full(len(seen.rate), np.nan), _warm(bed, seen)
+    assert observed.rate is not None
+    known, state = np.full(len(observed.rate), np.nan), _warm(bed, observed)
     keeper = DistantKeeper(bed, KeptBench, Wanted(bed, record))
     try:
         speaker.send("begin")
@@ -109,23 +109,23 @@ def _followed(bed: Testbed, seen: Recording, speaker: Pipe, record: Path) -> Flo
             begin = rows.attitude.values[0]
             state = state or first_state(float(rows.attitude.t[0]) - 1e-3, begin, bed)
             state = track(rows, bed, Params(), state).end
-            known[_numbers(seen, rows.rate.values)] = time.monotonic()
+            known[_numbers(observed, rows.rate.values)] = time.monotonic()
     finally:
         keeper.close()
     return known
 
 
-def _warm(bed: Testbed, seen: Recording) -> State | None:
+def _warm(bed: Testbed, observed: Recording) -> State | None:
     """Compile what tracking needs; return that nothing is known yet."""
-    assert seen.attitude is not None
-    track(seen, bed, Params(), first_state(-1e-3, seen.attitude.values[0], bed))
+    assert observed.attitude is not None
+    track(observed, bed, Params(), first_state(-1e-3, observed.attitude.values[0], bed))
     return None
 
 
-def _numbers(seen: Recording, rates: Floats) -> NDArray[np.intp]:
+def _numbers(observed: Recording, rates: Floats) -> NDArray[np.intp]:
     """Return which rows these are: a gyro with noise never says the same twice."""
-    assert seen.rate is not None
-    return np.array([int(np.argmin(np.abs(seen.rate.values - w).sum(axis=1))) for w in rates])
+    assert observed.rate is not None
+    return np.array([int(np.argmin(np.abs(observed.rate.values - w).sum(axis=1))) for w in rates])
 
 
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:

@@ -62,10 +62,10 @@ def run(task: tuple[str, int]) -> Run:
     law, seed = task
     bench = bench_of(seed)
     *_, last = balanced_by(law, bench, BalanceOptions(LEVEL, NEAR), LONGEST.get(law, 600.0))
-    told, wanted = last.verdict, np.array([0.0, 0.0, -SAFE if law == "coarse_fine" else 0.0])
-    if told is None or told.com is None or told.sd is None:
+    reported, wanted = last.verdict, np.array([0.0, 0.0, -SAFE if law == "coarse_fine" else 0.0])
+    if reported is None or reported.com is None or reported.sd is None:
         return Run(law, bench.com - wanted, np.full(3, np.inf), np.zeros(3), passed=False)
-    return Run(law, bench.com - wanted, told.com - bench.com, told.sd, told.passed)
+    return Run(law, bench.com - wanted, reported.com - bench.com, reported.sd, reported.passed)
 
 
 def row_of(law: str, runs: Sequence[Run]) -> Row:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.information.fisher_information import seen_by
+from equipoise.estimation.information.fisher_information import information_by
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.linalg import element_sizes
@@ -70,7 +70,7 @@ def run(name: str, seed: int) -> Run:
     per = np.append(100 / element_sizes(bed.body.inertia_P), np.full(3, bed.body.mass * KG_CM))
     estimates = estimates_of(slew.recording, bed)
     found = {key: judged(estimate, truth, per) for key, estimate in estimates.items()}
-    bound = seen_by(coarser(slew.recording, own), own, Params())
+    bound = information_by(coarser(slew.recording, own), own, Params())
     least = np.array([bound.sd[bound.names.index(key)] for key in INERTIA[:3]]) * per[:3]
     return Run(singular_times(slew), found, least)
 

@@ -63,19 +63,19 @@ def _watched(found: Lab, hours: float) -> Soaked:
     bed, bench = found.bench.testbed, found.bench
     assert bed.attitude is not None
     assert bed.gyro is not None
-    stretches, seen, memory = round(hours * 3600 / STRETCH), [0, 0], 0.0
+    stretches, observed, memory = round(hours * 3600 / STRETCH), [0, 0], 0.0
     begun, start = time.perf_counter(), found.emulated.time
     for k in range(stretches):
         if k % OFTEN == 0:
             bench.move({"x": AWAY if k // OFTEN % 2 else 0.0})
         rows = bench.read(STRETCH)
-        seen[0] += 0 if rows.attitude is None else len(rows.attitude)
-        seen[1] += 0 if rows.rate is None else len(rows.rate)
+        observed[0] += 0 if rows.attitude is None else len(rows.attitude)
+        observed[1] += 0 if rows.rate is None else len(rows.rate)
         if k == round(min(BEGUN, hours / 2) * 3600 / STRETCH):
             memory = resident(os.getpid())
     passed = found.emulated.time - start
     wanted = [round(passed * bed.attitude.rate), round(passed * bed.gyro.rate)]
-    missing = [w - s for w, s in zip(wanted, seen, strict=True)]
+    missing = [w - s for w, s in zip(wanted, observed, strict=True)]
     return Soaked(
         passed / 3600, passed / (time.perf_counter() - begun),
         sum(max(n - 1, 0) for n in missing), sum(max(-n - 1, 0) for n in missing),

@@ -94,5 +94,5 @@ def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
         "intervals hold the truth in 90 to 99 % of cases, or its outcome says that they are not "
         "to be trusted there, and why. Coverage is that of records without such a warning."
     )
-    told = tuple(f"{name}: {text}." for name, text in REGIMES.items())
-    return Result("method_intervals", claim, tuple(rows), told)
+    reported = tuple(f"{name}: {text}." for name, text in REGIMES.items())
+    return Result("method_intervals", claim, tuple(rows), reported)

@@ -78,7 +78,7 @@ def square_waves(t: Array) -> Array:
     return PUSH * np.where(phase % 1.0 < 0.5, 1.0, -1.0)
 
 
-def told_torque(duration: float) -> Samples:
+def reported_torque(duration: float) -> Samples:
     """Return the same torques as they are told: a row on both sides of every jump."""
     jumps = [p * (0.25 + 0.5 * k) for p in PERIODS for k in range(round(2 * duration / p) + 1)]
     inner = np.unique([j for j in jumps if 0 < j < duration])
@@ -91,7 +91,7 @@ def free_swing(
 ) -> Record:
     """Return a free swing."""
     run = oracle.simulate(unb(rate), (), DURATION, locked=True)
-    return seen(run, rng, FINE, hz)
+    return observed(run, rng, FINE, hz)
 
 
 def pushed(rng: np.random.Generator, density: float, hz: float = HZ) -> Record:
@@ -99,9 +99,9 @@ def pushed(rng: np.random.Generator, density: float, hz: float = HZ) -> Record:
     t = oracle.middles(DURATION, 1e-3)
     still = unb((0.0, 0.0, 0.0))
     run = oracle.driven(still, np.zeros((len(t), 0)), square_waves(t), in_body=True)
-    record = seen(run, rng, density, hz)
-    told = replace(record.recording, torque=told_torque(DURATION))
-    return replace(record, recording=told, testbed=vaguely(record.testbed, rng))
+    record = observed(run, rng, density, hz)
+    reported = replace(record.recording, torque=reported_torque(DURATION))
+    return replace(record, recording=reported, testbed=vaguely(record.testbed, rng))
 
 
 def vaguely(testbed: Testbed, rng: np.random.Generator) -> Testbed:
@@ -111,7 +111,7 @@ def vaguely(testbed: Testbed, rng: np.random.Generator) -> Testbed:
     return replace(testbed, body=body, inertia_sd=VAGUE)
 
 
-def seen(run: oracle.OracleRun, rng: np.random.Generator, density: float, hz: float) -> Record:
+def observed(run: oracle.OracleRun, rng: np.random.Generator, density: float, hz: float) -> Record:
     """Return what camera and gyro record of a run, both at ``hz``."""
     noise = np.radians(density) * hz**0.5
     recording = oracle.sensor_log(run, rng, hz, CAMERA_SD, hz, noise)

@@ -26,7 +26,10 @@ from verification.result import Result, Row, Spread, in_turn, triple
 Array = NDArray[np.float64]
 KNOWN_INERTIA = ("slow", "quick")
 Triple = tuple[float, float, float]
-LONG_WINDOW, FIRST_BELIEVED = "torque_savitzky_golay of 2.01 s", "momentum_body from the first rate"
+LONG_WINDOW, FIRST_ESTIMATED = (
+    "torque_savitzky_golay of 2.01 s",
+    "momentum_body from the first rate",
+)
 # Bias and sd of com (um) as published, of 20 runs.
 PUBLISHED: dict[tuple[str, str], tuple[Triple, Triple | None]] = {
     ("slow", "simplified_increments"): ((-0.48, -0.23, 5.38), (0.046, 0.044, 0.199)),
@@ -34,7 +37,7 @@ PUBLISHED: dict[tuple[str, str], tuple[Triple, Triple | None]] = {
     ("slow", "torque_savitzky_golay"): ((0.0, 0.0, 0.0), (0.009, 0.008, 0.041)),
     ("slow", LONG_WINDOW): ((0.0, 0.0, 0.0), (0.005, 0.005, 0.038)),
     ("slow", "momentum_body"): ((0.0, 0.0, 0.0), (0.0032, 0.0034, 0.026)),
-    ("slow", FIRST_BELIEVED): ((0.0, 0.0, -0.03), (0.070, 0.066, 0.346)),
+    ("slow", FIRST_ESTIMATED): ((0.0, 0.0, -0.03), (0.070, 0.066, 0.346)),
     ("slow", "energy"): ((0.0, 0.0, 0.0), (0.030, 0.027, 0.175)),
     ("quick", "simplified_increments"): ((26.0, 12.0, -132.0), None),
 }
@@ -44,7 +47,7 @@ QUICK_SHARE = 0.30  # of a bias at 20 deg/s, where it depends on the first attit
 LIMITS = {("noisy", "momentum_corrected"): 1.0, ("noisy", "trajectory"): 0.3}  # % of J
 
 
-def first_believed(posed: Posed) -> Rows:
+def first_estimated(posed: Posed) -> Rows:
     """Return the momentum integral without free constants: the first row is free of noise."""
     rows = body_axes(posed)
     return replace(rows, A=rows.A - rows.A[0], b=rows.b - rows.b[0], piece=None)
@@ -63,7 +66,7 @@ def compared() -> dict[str, Method]:
         LONG_WINDOW: variant(
             "torque_savitzky_golay", torque(partial(savitzky_golay, seconds=2.01))
         ),
-        FIRST_BELIEVED: variant("momentum_body", first_believed),
+        FIRST_ESTIMATED: variant("momentum_body", first_estimated),
     }
 
 
@@ -117,8 +120,8 @@ def as_published(name: str, key: str, errors: Array) -> tuple[str, bool]:
     share = QUICK_SHARE if name == "quick" else SHARE
     chance = 4 * errors.std(axis=0) * np.sqrt(1 / len(errors) + 1 / 20)
     off = np.abs(errors.mean(axis=0) - bias)
-    told = triple(bias, ".3g") + (f", sd {triple(sd, '.2g')}" if sd else "") + " as published"
-    return told, bool(np.all(off <= chance + share * np.abs(bias) + ROUNDED))
+    reported = triple(bias, ".3g") + (f", sd {triple(sd, '.2g')}" if sd else "") + " as published"
+    return reported, bool(np.all(off <= chance + share * np.abs(bias) + ROUNDED))
 
 
 def rows_of(name: Condition, runs: Sequence[dict[str, dict[str, float]]]) -> list[Row]:
@@ -126,10 +129,12 @@ def rows_of(name: Condition, runs: Sequence[dict[str, dict[str, float]]]) -> lis
     made = list[Row]()
     for key in runs[0]:
         com = table(runs, key, COM)
-        seen = ~np.isnan(com).any(axis=0)
-        if seen.any():
-            told, ok = ("", True) if (name, key) not in PUBLISHED else as_published(name, key, com)
-            made.append(Row(f"{name}: {key}, com (um)", spread_text(com), told, ok))
+        observed = ~np.isnan(com).any(axis=0)
+        if observed.any():
+            reported, ok = (
+                ("", True) if (name, key) not in PUBLISHED else as_published(name, key, com)
+            )
+            made.append(Row(f"{name}: {key}, com (um)", spread_text(com), reported, ok))
         moments = table(runs, key, INERTIA)
         if name not in KNOWN_INERTIA and not np.isnan(moments).any() and np.any(moments):
             made.append(inertia_row(name, key, moments))
@@ -141,8 +146,8 @@ def inertia_row(name: str, key: str, errors: Array) -> Row:
     bias, worst = errors.mean(axis=0), np.abs(errors.mean(axis=0)).max()
     limit = LIMITS.get((name, key))
     text = f"{spread_text(errors[:, :3])}; products at most {np.abs(bias[3:]).max():.2g}"
-    told = "" if limit is None else f"every bias at most {limit:g}"
-    return Row(f"{name}: {key}, J (%)", text, told, limit is None or bool(worst <= limit))
+    reported = "" if limit is None else f"every bias at most {limit:g}"
+    return Row(f"{name}: {key}, J (%)", text, reported, limit is None or bool(worst <= limit))
 
 
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:

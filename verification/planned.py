@@ -32,7 +32,7 @@ from equipoise.design.manoeuvre.manoeuvre_space import Space
 from equipoise.design.manoeuvre.plan import TRIALS, Wish, planned
 from equipoise.design.manoeuvre.predicted_sd import Promise, promise
 from equipoise.design.manoeuvre.reference_manoeuvre import usual
-from equipoise.design.manoeuvre.scenario import beforehand
+from equipoise.design.manoeuvre.scenario import stated_prior
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.trajectory import params_of
 from equipoise.io.testbed.presets import read_preset
@@ -73,7 +73,7 @@ def drawn_about(truth: Truth | None, com: Array, sd: Array) -> Truth:
 
 def wish_of(testbed: Testbed) -> Wish:
     """Return that inertia and centre of mass are asked for, of what is known beforehand."""
-    return Wish("both", "A", params_of(testbed, Options()), beforehand(testbed))
+    return Wish("both", "A", params_of(testbed, Options()), stated_prior(testbed))
 
 
 def plan_of(testbed: Testbed, seconds: float, trials: int = TRIALS) -> Manoeuvre:
@@ -199,12 +199,13 @@ def words(manoeuvre: Manoeuvre) -> str:
 def scale_note(who: str, promised: Promise, runs: Sequence[Run]) -> str:
     """Return predicted sd and RMSE in plain units."""
 
-    def told(values: Array) -> str:
+    def reported(values: Array) -> str:
         inertia, com = values[:6], 1e6 * values[6:]
         return (", ".join(f"{v:.3f}" for v in com) + " um; "
                 + ", ".join(f"{v:.5f}" for v in inertia) + " kg m2")  # fmt: skip
 
-    return f"{who}: predicted r; J {told(promised.sd_of(BODY))}; RMSE of all {told(rmse(runs))}."
+    predicted, found = reported(promised.sd_of(BODY)), reported(rmse(runs))
+    return f"{who}: predicted r; J {predicted}; RMSE of all {found}."
 
 
 def camera_alone(
@@ -254,11 +255,11 @@ def gyro_and_wheels(
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Carry out both manoeuvres for each seed."""
     rows, notes = camera_alone(seeds, spread)
-    more, told = gyro_and_wheels(seeds, spread)
+    more, reported = gyro_and_wheels(seeds, spread)
     claim = (
         "Camera alone, two minutes, the same limits: the planned manoeuvre tells the worst "
         "parameter at least three times better than the paper's move, by prediction and by the "
         "errors of `identify` on MuJoCo's records; predicted sd and these errors agree within "
         "15 %, averaged over nine parameters, and each within that and chance."
     )
-    return Result("planned", claim, (*rows, *more), (*notes, *told))
+    return Result("planned", claim, (*rows, *more), (*notes, *reported))

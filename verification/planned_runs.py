@@ -104,13 +104,13 @@ def by_mujoco(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Run:
     soft = np.sqrt(testbed.gravity / max(abs(rng.normal(0.0, testbed.masses[0].sag_sd)), 1e-9))
     platform = built(testbed, truth, min(float(soft), STIFF))
     t = oracle.middles(manoeuvre.duration, STEP)
-    told, real = sent(testbed, manoeuvre, rng)
+    reported, real = sent(testbed, manoeuvre, rng)
     run = oracle.driven(
         platform, actuator.lines(t, real.t, real.values), np.zeros((len(t), 3)), STEP
     )
     assert testbed.attitude is not None
     log = oracle.sensor_log(run, rng, testbed.attitude.rate, testbed.attitude.noise)
-    found = estimated(replace(log, masses=told), testbed)
+    found = estimated(replace(log, masses=reported), testbed)
     return judged(found, testbed, truth.body, float(tilt(run.q, testbed.up).max()))
 
 
@@ -124,8 +124,8 @@ def sent(
         goals = actuator.checked(travel, t, targets, masses)
         travel = actuator.sent(travel, t, goals, masses, (), rng)
         track = actuator.retracked(track, travel, t)
-    told = actuator.reported_rows(track, 0.0, manoeuvre.duration)
-    return told, Samples(track.t, track.real)
+    reported = actuator.reported_rows(track, 0.0, manoeuvre.duration)
+    return reported, Samples(track.t, track.real)
 
 
 def by_bench(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Run:

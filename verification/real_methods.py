@@ -44,10 +44,10 @@ def estimated(name: str) -> Estimate:
 
 def left_by(testbed: Testbed, body: MassProperties) -> float:
     """Return what a body leaves of the second half, deg rms per axis."""
-    recording, seen = sound(read_recording(RECORD), replace(testbed, body=body))
+    recording, observed = sound(read_recording(RECORD), replace(testbed, body=body))
     part = window(recording, CALM_FROM, WHOLE[1])
     params = Params(GROUPS["viscous"], hold=(*INERTIA, *COM))
-    fitted = fit(part, seen, params)
+    fitted = fit(part, observed, params)
     return float(np.degrees(misfit_at(fitted.problem, fitted.at)) / np.sqrt(3))
 
 

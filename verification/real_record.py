@@ -21,7 +21,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.recording import window
 from equipoise.model.torque_terms import GROUPS
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
-from equipoise.procedure.identification.swing_metrics import looked_at
+from equipoise.procedure.identification.swing_metrics import swing_metrics
 from equipoise.procedure.steps.clean_record import sound
 from verification.result import Result, Row, Spread, at_most, in_turn, triple
 
@@ -33,7 +33,7 @@ WINDOWS = ((0.0, 15.0), (15.0, 30.0), (30.0, 45.0), (45.0, 60.0))
 HELD = ("com_y",)
 TOUCHES = (3.46, 3.90, 10.9, 11.3, 18.4, 25.8)  # s, as read before by other means
 NEAR_TOUCH, CALM_FROM = 0.3, 30.0  # s
-RMS, AHEAD, APART, CONTRADICT = 0.12, 1.5, 0.005, 3.0  # deg per axis, deg, -, sd
+RMS, AHEAD, SEPARATION, CONTRADICT = 0.12, 1.5, 0.005, 3.0  # deg per axis, deg, -, sd
 NEAR_CAD = 0.08
 MOMENTS = ("inertia_P_xx", "inertia_P_yy", "inertia_P_zz")
 MODES = {0: "the slow swing", 1: "the quick swing", None: "both swings"}
@@ -59,11 +59,11 @@ def predicted() -> float:
     recording, testbed = sound(read_recording(RECORD), read_testbed(TESTBED))
     part = window(recording, WHOLE[0], CALM_FROM)
     params = Params(GROUPS["viscous"], hold=HELD)
-    belief = reference_fit.steady(reference_fit.surveyed(part, testbed, params))
-    known = replace(belief.params, jumps=belief.fitted.problem.jumps)
-    problem = problem_of(recording, belief.testbed, known)
-    jumps = carried(belief.fitted.problem.jumps, belief.fitted.jumps, problem.jumps)
-    left = evaluate(problem, belief.fitted.point, jumps).left_q * problem.seen.attitude_sd
+    posterior = reference_fit.steady(reference_fit.surveyed(part, testbed, params))
+    known = replace(posterior.params, jumps=posterior.fitted.problem.jumps)
+    problem = problem_of(recording, posterior.testbed, known)
+    jumps = carried(posterior.fitted.problem.jumps, posterior.fitted.jumps, problem.jumps)
+    left = evaluate(problem, posterior.fitted.point, jumps).left_q * problem.observed.attitude_sd
     assert recording.attitude is not None
     fresh = left[recording.attitude.t > CALM_FROM]
     return float(np.degrees(np.sqrt(np.mean(fresh**2))))
@@ -111,15 +111,15 @@ def window_rows(parts: Sequence[Estimate]) -> tuple[Row, ...]:
     """Return the rows about what four parts of the record say by themselves."""
     J = np.array([part.values(MOMENTS) for part in parts])
     sd = np.array([[part.parameters[part.index(n)].sd for n in MOMENTS] for part in parts])
-    apart = float((J.std(axis=0, ddof=1) / J.mean(axis=0)).max())
+    separation = float((J.std(axis=0, ddof=1) / J.mean(axis=0)).max())
     off = max(
         float((np.abs(J[a] - J[b]) / np.hypot(sd[a], sd[b])).max())
         for a, b in combinations(range(len(parts)), 2)
     )
     shown = "; ".join(triple(1e3 * moments) for moments in J)
     return (
-        at_most(f"four 15 s parts: J {shown} g m2; sd of any moment among them", apart, APART,
-                ".2%"),
+        at_most(f"four 15 s parts: J {shown} g m2; sd of any moment among them", separation,
+                SEPARATION, ".2%"),
         at_most("the same: greatest difference of two, in its sd", off, CONTRADICT),
     )  # fmt: skip
 
@@ -135,18 +135,20 @@ def quiet_rows(quiet: Estimate) -> tuple[Row, ...]:
     )  # fmt: skip
 
 
-def look_rows(quiet: Estimate) -> tuple[Row, ...]:
+def measurement_rows(quiet: Estimate) -> tuple[Row, ...]:
     """Return how simple looks at the same part agree on how far the centre of mass hangs from P.
 
     J is that of the fit; the distance of the fit is CAD's, which is held.
     """
     recording, testbed = sound(window(read_recording(RECORD), *QUIET), read_testbed(TESTBED))
     body = replace(testbed.body, com=quiet.com, inertia_P=quiet.inertia_P)
-    seen = looked_at(recording, replace(testbed, body=body))
-    assert seen.torque_fit is not None
+    observed = swing_metrics(recording, replace(testbed, body=body))
+    assert observed.torque_fit is not None
     held, weight = float(np.linalg.norm(quiet.com)), testbed.body.mass * testbed.gravity
-    torque = seen.torque_fit
-    found = {MODES[each.mode]: (each.moment / weight, each.sd / weight) for each in seen.hanging}
+    torque = observed.torque_fit
+    found = {
+        MODES[each.mode]: (each.moment / weight, each.sd / weight) for each in observed.hanging
+    }
     y = torque.parameters[torque.index("com_y")]
     found["balance of torques"] = (abs(y.value), y.sd)
     return tuple(
@@ -181,6 +183,6 @@ def measure(seeds: Sequence[int] = (), spread: Spread = in_turn) -> Result:
     rows = (
         *finding_rows(), *touch_rows(whole), *whole_rows(whole),
         at_most("0-30 s alone: deg rms per axis predicted for 30-60 s", predicted(), AHEAD),
-        *window_rows(parts), *quiet_rows(quiet), *look_rows(quiet), open_row(free),
+        *window_rows(parts), *quiet_rows(quiet), *measurement_rows(quiet), open_row(free),
     )  # fmt: skip
     return Result("real_record", claim, rows, ())

@@ -48,9 +48,9 @@ def tracked(moves: tracker.Moves, seed: int) -> Run:
     recording, q0 = paper_runs.run(seed)
     testbed, attitude = paper_runs.testbed(), recording.attitude
     walk = STILL if moves == "fed" else ALERT
-    params, belief = tracker.Params(moves, walk, STILL), tracker.belief_of(testbed)
-    belief.covariance[3:, 3:] = 0.0  # J known
-    known = replace(belief, inertia_P=unpack_symmetric(paper_runs.PUBLISHED))
+    params, posterior = tracker.Params(moves, walk, STILL), tracker.posterior_of(testbed)
+    posterior.covariance[3:, 3:] = 0.0  # J known
+    known = replace(posterior, inertia_P=unpack_symmetric(paper_runs.PUBLISHED))
     first = tracker.first_state(0.0, attitude.values[0], testbed, known)
     track = tracker.track(recording, testbed, params, first)
     true = builders.COM if moves == "fed" else builders.COM + paper_runs.SHIFT
@@ -68,14 +68,14 @@ def learnt(seed: int) -> Learnt:
     """Track one record from an inertia drawn around the true one."""
     recording, _ = paper_runs.run(seed)
     testbed, attitude = replace(paper_runs.testbed(), inertia_sd=ROUGH), recording.attitude
-    belief, true = tracker.belief_of(testbed), paper_runs.PUBLISHED
-    spread = np.sqrt(np.diag(belief.covariance)[3:])
+    posterior, true = tracker.posterior_of(testbed), paper_runs.PUBLISHED
+    spread = np.sqrt(np.diag(posterior.covariance)[3:])
     drawn = true + np.random.default_rng([seed, 5]).normal(size=6) * spread
-    known = replace(belief, inertia_P=unpack_symmetric(drawn))
+    known = replace(posterior, inertia_P=unpack_symmetric(drawn))
     first = tracker.first_state(0.0, attitude.values[0], testbed, known)
     track = tracker.track(recording, testbed, tracker.Params("fed", STILL, STILL), first)
     error = np.concatenate([track.com[-1] - builders.COM, track.inertia[-1] - true])
-    covariance = track.end.belief.covariance
+    covariance = track.end.posterior.covariance
     nees = float(error @ np.linalg.solve(covariance, error))
     return Learnt(error / np.sqrt(np.diag(covariance)), nees)
 

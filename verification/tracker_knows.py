@@ -55,7 +55,7 @@ def tracked_by(recording: Recording, testbed: Testbed, true: Array) -> Run:
     first = tracker.first_state(0.0, recording.attitude.values[0], testbed)
     track = tracker.track(recording, testbed, tracker.Params("fed", STILL, STILL), first)
     error = np.concatenate([track.com[-1], track.inertia[-1]]) - true
-    covariance = track.end.belief.covariance
+    covariance = track.end.posterior.covariance
     nees = float(error @ np.linalg.solve(covariance, error))
     noise = float(track.end.noise_levels[0])
     return Run(error, np.sqrt(np.diag(covariance)), nees, track.contacts, noise)
@@ -205,10 +205,11 @@ def mujoco_rows(seeds: Sequence[int], spread: Spread) -> tuple[Row, ...]:
         rows += honest_rows(f"MuJoCo, J wrong by {doubt:.0%}, at the end", runs)
     hit = spread(touched_once, seeds)
     rows += event_rows(f"MuJoCo, impulse of {1e3 * HIT:g} mN m s", "impulse", hit)
-    seen = np.concatenate(spread(touched, seeds))
+    observed = np.concatenate(spread(touched, seeds))
     rows.append(at_least(f"MuJoCo, 1 to 4 contacts at any time, J wrong by 2 %: noticed, of "
-                         f"{len(seen)} beyond {1e3 * STRONG:g} mN m s", float(np.mean(seen)),
-                         fewest(CAUGHT, len(seen)), ".1%"))  # fmt: skip
+                         f"{len(observed)} beyond {1e3 * STRONG:g} mN m s",
+                         float(np.mean(observed)), fewest(CAUGHT, len(observed)),
+                         ".1%"))  # fmt: skip
     return tuple(rows)
 
 

@@ -27,11 +27,11 @@ from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from equipoise.procedure.identification.assess import (
     AssessOptions,
     answers_of,
-    believed_of,
+    fit_of,
     pull_of,
 )
 from equipoise.procedure.identification.requirement import FAILED, OPEN, PASSED
-from equipoise.procedure.identification.swing_metrics import looked_at
+from equipoise.procedure.identification.swing_metrics import swing_metrics
 from equipoise.procedure.steps.tilt_guard import guarded
 from equipoise.simulation.bench import SimulatedBench
 from tests.oracle import mujoco_bench as oracle
@@ -45,7 +45,7 @@ MULTIPLES = (0.2, 5.0)
 BEYOND = 1.001
 ABOVE = 1 / 3  # of platforms with the centre of mass above P
 WRONG = 0.025
-MOST_OFF, FAR = 1.15, 4.0  # sd, chosen: stated sd may be too wide, not too narrow
+MOST_OFF, OUTLYING = 1.15, 4.0  # sd, chosen: stated sd may be too wide, not too narrow
 
 
 class Answer(NamedTuple):
@@ -76,21 +76,21 @@ def judged(job: tuple[int, float | None]) -> Answer:
     bed, torque, distance = platform(*job)
     bench = SimulatedBench(bed, job[0])
     record = guarded(bench, SECONDS)
-    asked = AssessOptions(require_torque=torque, require_offset=distance)
-    believed = believed_of(record, bed, asked)
-    pull = pull_of(*believed[1])
+    requested = AssessOptions(require_torque=torque, require_offset=distance)
+    estimated = fit_of(record, bed, requested)
+    pull = pull_of(*estimated[1])
     weight = bed.body.mass * bed.gravity
     found = answers_of(
-        asked,
-        torque_in_range(pull, weight, bed.up, asked.tilt),
+        requested,
+        torque_in_range(pull, weight, bed.up, requested.tilt),
         bounded_length(pull.mean, pull.covariance, np.eye(3), pull.unscaled),
     )
     true = bench.truth().com
-    beyond = weight * residual_torque(true, np.zeros((3, 3)), bed.up, asked.tilt) > torque
-    if not believed[0].outcome.usable:
+    beyond = weight * residual_torque(true, np.zeros((3, 3)), bed.up, requested.tilt) > torque
+    if not estimated[0].outcome.usable:
         return Answer((beyond, beyond), (OPEN, OPEN))
-    far = bool(np.linalg.norm(true) > distance)
-    return Answer((beyond, far), (found[0].answer, found[1].answer))
+    outlying = bool(np.linalg.norm(true) > distance)
+    return Answer((beyond, outlying), (found[0].answer, found[1].answer))
 
 
 def rates(name: str, found: Sequence[Answer], k: int) -> list[Row]:
@@ -128,26 +128,26 @@ def swing(seed: int) -> tuple[oracle.OracleRun, Recording, Testbed]:
     return run, recording, oracle.testbed_for(run.platform, rng, 0.0, camera, gyro)
 
 
-def looks(seed: int) -> dict[str, list[float]]:
+def measurements(seed: int) -> dict[str, list[float]]:
     """Return the errors of the simple looks at a free swing, in their own sd; J known."""
     run, recording, testbed = swing(seed)
     platform = run.platform
     body = MassProperties(platform.mass, platform.com, platform.inertia_P)
-    seen = looked_at(recording, replace(testbed, body=body))
+    observed = swing_metrics(recording, replace(testbed, body=body))
     weight, com = platform.mass * testbed.gravity, platform.com
-    assert seen.torque is not None
-    assert seen.energy is not None
+    assert observed.torque is not None
+    assert observed.energy is not None
     n = -np.array([to_matrix(q)[2] for q in run.q])
     off = {"height by the period": [
-        (each.moment - weight * np.linalg.norm(com)) / each.sd for each in seen.hanging
+        (each.moment - weight * np.linalg.norm(com)) / each.sd for each in observed.hanging
     ]}  # fmt: skip
-    at = [np.interp(seen.torque.t, run.t, column) for column in n.T]
-    felt = weight * np.linalg.norm(np.cross(com, np.column_stack(at)), axis=1)
-    off["torque felt, rms"] = [(seen.torque.rms - rms(felt)) / seen.torque.rms_sd]
-    at = [np.interp(seen.energy.t, run.t, column) for column in n.T]
+    at = [np.interp(observed.torque.t, run.t, column) for column in n.T]
+    response = weight * np.linalg.norm(np.cross(com, np.column_stack(at)), axis=1)
+    off["torque felt, rms"] = [(observed.torque.rms - rms(response)) / observed.torque.rms_sd]
+    at = [np.interp(observed.energy.t, run.t, column) for column in n.T]
     work = weight * (np.column_stack(at) @ com)
-    off["energy, rms"] = [(seen.energy.rms - rms(work - work.mean())) / seen.energy.rms_sd]
-    for name, fit in (("torque", seen.torque_fit), ("energy", seen.energy_fit)):
+    off["energy, rms"] = [(observed.energy.rms - rms(work - work.mean())) / observed.energy.rms_sd]
+    for name, fit in (("torque", observed.torque_fit), ("energy", observed.energy_fit)):
         assert fit is not None
         if fit.outcome.usable:
             sd = np.sqrt(np.diag(fit.covariance_of(COM)))
@@ -160,7 +160,7 @@ def rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def look_rows(found: Sequence[dict[str, list[float]]]) -> list[Row]:
+def measurement_rows(found: Sequence[dict[str, list[float]]]) -> list[Row]:
     """Return how far the looks are off, in their own sd."""
     rows = list[Row]()
     for name in found[0]:
@@ -168,7 +168,7 @@ def look_rows(found: Sequence[dict[str, list[float]]]) -> list[Row]:
         what = f"MuJoCo, {name}: rms error in its own sd, of {len(off)}"
         rows.append(at_most(what, rms(off), MOST_OFF * (1 + 2 / np.sqrt(len(off))), ".2f"))
         rows.append(
-            at_most(f"MuJoCo, {name}: greatest error", float(np.abs(off).max()), FAR, ".1f")
+            at_most(f"MuJoCo, {name}: greatest error", float(np.abs(off).max()), OUTLYING, ".1f")
         )
     return rows
 
@@ -188,7 +188,11 @@ def edge_rows(seeds: Sequence[int], spread: Spread = in_turn) -> list[Row]:
 def measure(seeds: Sequence[int], spread: Spread = in_turn) -> Result:
     """Judge platforms, and look at records."""
     edge, few = list(seeds)[: max(len(seeds) * 2 // 5, 1)], list(seeds)[: max(len(seeds) // 20, 3)]
-    rows = drawn_rows(seeds, spread) + edge_rows(edge, spread) + look_rows(spread(looks, few))
+    rows = (
+        drawn_rows(seeds, spread)
+        + edge_rows(edge, spread)
+        + measurement_rows(spread(measurements, few))
+    )
     claim = (
         f"Verdicts of `assess` on {len(seeds)} simulated platforms of the preset sputnix, each "
         f"recorded for a minute or until it tilts beyond its limit, inertia known to 10 %; "

@@ -9,7 +9,7 @@ from verification.result import Spread
 
 
 def spread_over(
-    workers: int, tell: Callable[[int, int], None] = lambda done, total: None
+    workers: int, report: Callable[[int, int], None] = lambda done, total: None
 ) -> Spread:
     """Return a way to spread work over processes that tells how far it has come."""
 
@@ -19,7 +19,7 @@ def spread_over(
         with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
             for answer in pool.map(work, everything):
                 found.append(answer)
-                tell(len(found), len(everything))
+                report(len(found), len(everything))
         return found
 
     return spread

@@ -28,11 +28,13 @@ TRACK = Samples(
 )
 
 
-def felt_at(name, t):
+def response_at(name, t):
     errors = mass_errors(TRACK, (rail([1.0, 0.0, 0.0]),))
     index = list(errors.names).index(name)
     (column,) = np.flatnonzero(errors.owner[:, 1] == index)
-    return np.interp(t, errors.felt.t, errors.felt.values[:, column]), errors.owner[column, 0]
+    return np.interp(t, errors.response.t, errors.response.values[:, column]), errors.owner[
+        column, 0
+    ]
 
 
 @pytest.mark.parametrize(
@@ -47,7 +49,7 @@ def felt_at(name, t):
 )
 def test_each_drive_error_has_the_derived_signature(name, owner, expected):
     """At home, crossing half of 4 mm of play, half way out, out, crossing all of it, and back."""
-    values, where = felt_at(name, [5.0, 10.1, 11.0, 15.0, 20.2, 25.0])
+    values, where = response_at(name, [5.0, 10.1, 11.0, 15.0, 20.2, 25.0])
     assert where == owner
     np.testing.assert_allclose(values, expected, atol=1e-12)
 
@@ -59,13 +61,13 @@ def test_the_error_of_a_stop_passes_over_while_the_mass_is_taken_along():
     at = [10.0, 10.2, 11.1, 12.0, 20.0, 20.4, 20.7, 21.0, 30.0]
     first, second = (errors.names.index(f"error_x1_{k}") for k in (1, 2))
 
-    def felt(index):
+    def response(index):
         (column,) = np.flatnonzero(errors.owner[:, 1] == index)
-        return np.interp(at, errors.felt.t, errors.felt.values[:, column])
+        return np.interp(at, errors.response.t, errors.response.values[:, column])
 
     expected = [0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 0.5, 0.0, 0.0]
-    np.testing.assert_allclose(felt(first), expected, atol=1e-12)
-    np.testing.assert_allclose(felt(second), [*[0.0] * 6, 0.5, 1.0, 1.0], atol=1e-12)
+    np.testing.assert_allclose(response(first), expected, atol=1e-12)
+    np.testing.assert_allclose(response(second), [*[0.0] * 6, 0.5, 1.0, 1.0], atol=1e-12)
 
 
 def test_rails_across_are_square_and_right_handed():
@@ -92,9 +94,9 @@ def test_the_side_is_that_of_a_nut_followed_in_small_steps():
     d = np.cumsum(rng.choice([-1.0, 1.0], len(t)) * 5e-3 * rng.uniform(0.2, 1.0, len(t)))
     fine = np.linspace(t[0], t[-1], 79 * 500 + 1)  # turns among them
     x, side = d[0], []
-    for told in np.interp(fine, t, d):
-        x = min(max(x, told - 2e-3), told + 2e-3)
-        side.append((told - x) / 2e-3)
+    for reported in np.interp(fine, t, d):
+        x = min(max(x, reported - 2e-3), reported + 2e-3)
+        side.append((reported - x) / 2e-3)
     play = play_of(t, d, directions(t, d, 0.01), 4e-3)
     np.testing.assert_allclose(np.interp(fine, play.t, play.side), side, atol=1e-3)
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.actuators.lags import is_command, slowness, told
+from equipoise.actuators.lags import command_columns, is_command, slowness
 from equipoise.actuators.mass_errors import mass_errors
 from equipoise.actuators.stops import is_travelling
 from equipoise.model.recording import Samples
@@ -34,12 +34,12 @@ def test_the_sensitivity_to_a_lag_is_minus_the_speed_by_hand():
     assert found.names == ("mass_lag_1",)
     assert found.sd.tolist() == [LAG]
     assert found.owner.tolist() == [[0, 0]]
-    assert found.felt is not None
-    inside = (found.felt.t > 9.8) & (found.felt.t < 11.2)
-    assert found.felt.t[inside] == pytest.approx([9.9, 10, 10.1, 10.9, 11, 11.1])
+    assert found.response is not None
+    inside = (found.response.t > 9.8) & (found.response.t < 11.2)
+    assert found.response.t[inside] == pytest.approx([9.9, 10, 10.1, 10.9, 11, 11.1])
     wanted = [0, -0.005, -0.01, -0.01, -0.005, 0]
-    assert found.felt.values[inside, 0] == pytest.approx(wanted, abs=1e-15)
-    assert not np.any(found.felt.values[~inside])
+    assert found.response.values[inside, 0] == pytest.approx(wanted, abs=1e-15)
+    assert not np.any(found.response.values[~inside])
 
 
 def test_masses_of_one_kind_share_a_lag_and_others_do_not():
@@ -68,17 +68,17 @@ def test_a_shifted_ramp_is_the_ramp_and_its_lag(shift):
     t = np.arange(0, 12, 0.02)
     d = 0.016 * smooth(t, 5, 2)
     late = 0.016 * smooth(t - shift, 5, 2)
-    felt = slowness(t, Samples(t, d[:, None]), 0, LAG)
+    response = slowness(t, Samples(t, d[:, None]), 0, LAG)
     assert np.abs(late - d).max() > 0.6 * 0.015 * abs(shift)
-    assert d + felt * shift == pytest.approx(late, abs=1.5e-4)
+    assert d + response * shift == pytest.approx(late, abs=1.5e-4)
 
 
 def test_a_lag_moves_the_whole_way():
     """Felt over time is minus the way: 10 mm, slow ends of the ramp included."""
     t = np.arange(0, 12, 0.02)
     d = 0.010 * smooth(t, 2, 9)
-    felt = slowness(t, Samples(t, d[:, None]), 0, LAG)
-    assert np.trapezoid(felt, t) == pytest.approx(-0.010, rel=1e-6)
+    response = slowness(t, Samples(t, d[:, None]), 0, LAG)
+    assert np.trapezoid(response, t) == pytest.approx(-0.010, rel=1e-6)
 
 
 def test_a_column_that_creeps_at_rest_is_a_measurement():
@@ -96,7 +96,7 @@ def test_measured_and_standing_masses_have_no_lag():
     d = 0.010 * smooth(t, 5, 2)
     read = d + 1e-6 * np.random.default_rng(0).normal(size=len(t))
     record = Samples(t, np.column_stack([read, 0 * d, d]))
-    assert told(record, (X, Y, Z)) == ([1], [2])
+    assert command_columns(record, (X, Y, Z)) == ([1], [2])
     found = mass_errors(record, (X, Y, Z))
     assert found.owner.tolist() == [[2, 0]]
     assert found.sag.tolist() == [0, SAG, SAG]
@@ -107,7 +107,7 @@ def test_a_record_without_mass_travel_yields_no_lag(record):
     """No record, no travel, no row: no lag; home is where the mass hangs."""
     found = mass_errors(record, (X,))
     assert found.names == ()
-    assert found.felt is None
+    assert found.response is None
     assert not np.any(found.sag)
 
 

@@ -44,8 +44,8 @@ def test_skew_coils_do_all_that_can_be_done(field, wanted):
     assume(np.linalg.norm(field) > 1e-6)
     found = dipoles_for(coils(SKEW), wanted, field)
     np.testing.assert_allclose(np.cross(wanted - found.torque, field), 0.0, atol=1e-18)
-    told = magnetic_torque(coils(SKEW), found.inputs, field)
-    np.testing.assert_allclose(found.torque, told, atol=1e-18)
+    reported = magnetic_torque(coils(SKEW), found.inputs, field)
+    np.testing.assert_allclose(found.torque, reported, atol=1e-18)
 
 
 def test_torque_along_the_field_cannot_be_made():

@@ -127,7 +127,7 @@ def momentum(given, shown, cmgs):
     return h
 
 
-def told(given, shown, cmgs, h):
+def reported(given, shown, cmgs, h):
     """The known inputs of the propagator, and what their coordinates do."""
     maps = mass_maps(our_masses(given.platform.slides))
     coordinates = shown.displacement
@@ -141,7 +141,7 @@ def miss(given, shown, cmgs, h=None):
     """How far our attitude goes from MuJoCo's (rad), given what the devices did."""
     body = given.platform
     h = momentum(given, shown, cmgs) if h is None else h
-    maps, known = told(given, shown, cmgs, h)
+    maps, known = reported(given, shown, cmgs, h)
     J = body.inertia_P + unpack_symmetric(inertia_shift(maps, known[0, 6:]))
     y = np.concatenate([body.q, J @ body.rate + known[0, :3]])
     rigid = body_of(body.mass, body.gravity, pack_symmetric(body.inertia_P), body.mass * body.com)

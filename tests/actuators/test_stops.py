@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.mass_errors import mass_errors
-from equipoise.actuators.stops import felt, travels
+from equipoise.actuators.stops import response, travels
 from equipoise.model.recording import Samples
 from tests.support.builders import sliding_masses
 
@@ -47,14 +47,14 @@ def test_standing_still_has_no_travel():
 def test_the_stop_error_ramps_up_holds_and_ramps_down_by_hand():
     """Arriving from 10 to 11 s, leaving from 20 to 22 s: 0, then 1, then half-way gone at 21 s."""
     t = np.array([0.0, 10, 10.5, 11, 20, 21, 22, 30])
-    assert felt(t, (1, 3), (4, 6)).tolist() == [0, 0, 0.5, 1, 1, 0.5, 0, 0]
+    assert response(t, (1, 3), (4, 6)).tolist() == [0, 0, 0.5, 1, 1, 0.5, 0, 0]
 
 
 def test_a_stop_error_at_a_record_edge_acts_from_the_first_row_or_to_the_last():
     """A stop that the record begins with is felt at once; one that it ends with, to the end."""
     t = np.arange(5.0)
-    assert felt(t, (0, 0), (2, 3)).tolist() == [1, 1, 1, 0, 0]
-    assert felt(t, (1, 2), (4, 4)).tolist() == [0, 0, 1, 1, 1]
+    assert response(t, (0, 0), (2, 3)).tolist() == [1, 1, 1, 0, 0]
+    assert response(t, (1, 2), (4, 4)).tolist() == [0, 0, 1, 1, 1]
 
 
 def test_home_has_no_error():
@@ -63,16 +63,16 @@ def test_home_has_no_error():
     assert found.names == ("error_x_1",)
     assert found.owner.tolist() == [[0, 0]]
     assert found.sd.tolist() == [SD]
-    assert found.felt is not None
-    assert found.felt.values[:, 0].tolist() == [0, 0, 1, 1, 1, 1]
+    assert found.response is not None
+    assert found.response.values[:, 0].tolist() == [0, 0, 1, 1, 1, 1]
 
 
 def test_off_home_start_has_an_error_of_its_own():
     """A mass already 20 mm out stands there with an error, until it leaves."""
     found = mass_errors(track([20, 20, 30, 30, 30, 30]), (X,))
     assert found.names == ("error_x_1", "error_x_2")
-    assert found.felt is not None
-    assert found.felt.values.T.tolist() == [[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 1, 1]]
+    assert found.response is not None
+    assert found.response.values.T.tolist() == [[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 1, 1]]
 
 
 def test_two_moves_hand_the_error_over():
@@ -80,8 +80,8 @@ def test_two_moves_hand_the_error_over():
     found = mass_errors(track(TWICE, HOME, ONCE), (X, Y, Z))
     assert found.names == ("error_x_1", "error_x_2", "error_z_1")
     assert found.owner.tolist() == [[0, 0], [0, 1], [2, 2]]
-    assert found.felt is not None
-    first, second, _ = found.felt.values.T
+    assert found.response is not None
+    first, second, _ = found.response.values.T
     assert first.tolist() == [0, 0, 1, 1, 0, 0]
     assert second.tolist() == [0, 0, 0, 0, 1, 1]
 
@@ -89,15 +89,15 @@ def test_two_moves_hand_the_error_over():
 def test_off_home_and_never_moved():
     """Standing 20 mm out for the whole record: one error, always felt."""
     found = mass_errors(track([20] * 6), (X,))
-    assert found.felt is not None
-    assert found.felt.values[:, 0].tolist() == [1] * 6
+    assert found.response is not None
+    assert found.response.values[:, 0].tolist() == [1] * 6
 
 
 @pytest.mark.parametrize("masses", [(replace(X, accuracy=0.0),), ()])
 def test_exact_masses_have_no_errors(masses):
     """Accuracy 0, or no masses: nothing unknown."""
     found = mass_errors(track(TWICE) if masses else None, masses)
-    assert found.felt is None
+    assert found.response is None
     assert found.names == ()
     assert found.owner.shape == (0, 2)
     assert found.sd.shape == (0,)

@@ -27,8 +27,8 @@ def equipoise(capsys, monkeypatch, tmp_path):
     def call(*words: object) -> Outcome:
         capsys.readouterr()
         code = run([str(word) for word in words])
-        seen = capsys.readouterr()
-        return Outcome(code, seen.out, seen.err)
+        observed = capsys.readouterr()
+        return Outcome(code, observed.out, observed.err)
 
     return call
 

@@ -139,7 +139,7 @@ def test_ctrl_c_halts_the_bench_and_says_so(equipoise, monkeypatch):
     halted = []
 
     def interrupted(law, bench, options, longest):
-        yield Step("look", bench.time, "Looked.", recording=bench.read(1.0))
+        yield Step("measurement", bench.time, "Looked.", recording=bench.read(1.0))
         raise KeyboardInterrupt
 
     monkeypatch.setattr(balancing, "balanced_by", interrupted)

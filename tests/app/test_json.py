@@ -47,7 +47,7 @@ def test_a_balancing_run(equipoise, strict_json):
     assert len(document["verdict"]["com_um"]) == len(document["verdict"]["sd_um"]) == 3
     assert len(document["truth"]["com_um"]) == 3
     assert np.shape(document["truth"]["inertia_P_kg_m2"]) == (3, 3)
-    assert document["steps"][0]["kind"] == "look"
+    assert document["steps"][0]["kind"] == "measurement"
     assert document["steps"][-1]["verdict"] == document["verdict"]
     times = [step["time_s"] for step in document["steps"]]
     assert times == sorted(times)
@@ -64,8 +64,8 @@ def test_a_recording(equipoise, record_file, strict_json):
 def test_a_part_of_a_recording(equipoise, record_file, strict_json):
     """Every command that reads a record can leave its ends out: 10 to 40 s are 151 rows at 5 Hz."""
     part = ("--from-s", "10", "--to-s", "40", "--json")
-    looked = strict_json(equipoise("inspect", record_file, *part).out)
-    assert (looked["rows"]["attitude"], looked["span_s"]) == (151, [10, 40])
+    measured = strict_json(equipoise("inspect", record_file, *part).out)
+    assert (measured["rows"]["attitude"], measured["span_s"]) == (151, [10, 40])
     observed = strict_json(equipoise("observe", record_file, "--testbed", "sputnix", *part).out)
     assert any("scale" in sentence for sentence in observed["unobservable"])  # the move is at 60 s
 

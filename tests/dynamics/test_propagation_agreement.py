@@ -133,10 +133,10 @@ COLUMNS = Columns(PAIRS[:, 0].copy(), PAIRS[:, 1].copy())
 TIMES = np.linspace(0, 20, 41)
 
 
-def felt_line():
+def response_line():
     """A timeline whose four stops have an unknown error each, the first from the start; a lag."""
     errors = mass_errors(MOVE, SKEWED)
-    return timeline(TIMES, np.zeros(0), MOVE, 3, 0.05, WHEEL, PUSH, errors.felt, errors.owner)
+    return timeline(TIMES, np.zeros(0), MOVE, 3, 0.05, WHEEL, PUSH, errors.response, errors.owner)
 
 
 def moved_by(line, torque, kind, k, change):
@@ -156,7 +156,7 @@ def moved_by(line, torque, kind, k, change):
     scope="module", params=[np.zeros(16), EVERY_TORQUE], ids=["gravity", "every torque"]
 )
 def sensed(request):
-    line, torque = felt_line(), request.param
+    line, torque = response_line(), request.param
     return line, torque, travel(line, body(torque), COLUMNS, w0=RATE + FAST)
 
 

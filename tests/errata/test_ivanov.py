@@ -110,9 +110,9 @@ def half_angle_slopes():
 
     def later(errors):
         half, dw = errors[:3], errors[3:]
-        seen = product(q, np.array([np.sqrt(1 - half @ half), *half]))
-        seen = product(seen, rotation((W + dw) * dt))
-        return product(forward * [1, -1, -1, -1], seen)[1:]
+        observed = product(q, np.array([np.sqrt(1 - half @ half), *half]))
+        observed = product(observed, rotation((W + dw) * dt))
+        return product(forward * [1, -1, -1, -1], observed)[1:]
 
     matrix = slopes(later, np.zeros(6))
     return (matrix[:, :3] - E) / dt, matrix[:, 3:] / dt
@@ -166,7 +166,7 @@ def test_i11_a_quaternions_vector_part_errs_by_half_the_angle():
 
 def test_i14_and_i15_numbers_in_the_text():
     """Filter's and fit's com, um; the shift by one load on each axis that goes 10, 10 and 50 mm."""
-    apart = np.array([-4.0, -0.1, -81.0]) - [-0.92, -0.1, -79.0]
-    assert abs(apart[0]) == pytest.approx(3.1, abs=0.03)
+    separation = np.array([-4.0, -0.1, -81.0]) - [-0.92, -0.1, -79.0]
+    assert abs(separation[0]) == pytest.approx(3.1, abs=0.03)
     shift = 15.6e-3 / 14.24 * np.array([10, 10, 50]) * 1e-3
     np.testing.assert_allclose(shift, [1.10e-5, 1.10e-5, 5.48e-5], rtol=5e-3)

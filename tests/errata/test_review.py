@@ -107,9 +107,9 @@ def test_r21_the_gain_of_the_adaptation_belongs_into_v():
 def test_r22_masses_give_the_torque_by_the_square_of_gravity():
     """m_p r x g_b is what was asked for, if that is across gravity; as printed, 9.8 times that."""
     g, m = -G * UP, 0.7
-    asked = np.cross(W, g)
-    np.testing.assert_allclose(np.cross(m * np.cross(g, asked) / (G**2 * m), g), asked)
-    np.testing.assert_allclose(np.cross(m * np.cross(g, asked) / (G * m), g), G * asked)
+    requested = np.cross(W, g)
+    np.testing.assert_allclose(np.cross(m * np.cross(g, requested) / (G**2 * m), g), requested)
+    np.testing.assert_allclose(np.cross(m * np.cross(g, requested) / (G * m), g), G * requested)
 
 
 def followed(r, w_a, seconds=40.0, dt=2e-3):

@@ -187,6 +187,8 @@ def test_spread_of_roll_pitch_and_yaw_is_that_of_drawn_attitudes():
     """200 000 errors of 1e-3 rad about each axis, at a pitch of 50 deg: the spread to 1 %."""
     rng, sd = np.random.default_rng(4), 1e-3
     q = from_euler321(*np.radians([20.0, 50.0, -70.0]))
-    seen = multiply(np.tile(q, (200_000, 1)), exponential(sd * rng.standard_normal((200_000, 3))))
-    found = [float(np.std(angle)) for angle in to_euler321(seen)]
+    observed = multiply(
+        np.tile(q, (200_000, 1)), exponential(sd * rng.standard_normal((200_000, 3)))
+    )
+    found = [float(np.std(angle)) for angle in to_euler321(observed)]
     assert found == pytest.approx([float(s) for s in euler321_sd(np.radians(50.0), sd)], rel=0.01)

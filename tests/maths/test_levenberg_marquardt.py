@@ -107,10 +107,10 @@ def test_rosenbrock_does_not_mind_units():
 
 def test_cost_never_rises():
     """What is accepted is never worse than what was before."""
-    seen = []
-    minimise(quadratic(rosenbrock), np.array([-1.2, 1.0]), watch=seen.append)
-    assert len(seen) > 5
-    assert (np.diff(seen) <= 0).all()
+    observed = []
+    minimise(quadratic(rosenbrock), np.array([-1.2, 1.0]), watch=observed.append)
+    assert len(observed) > 5
+    assert (np.diff(observed) <= 0).all()
 
 
 @given(pairs, pairs)

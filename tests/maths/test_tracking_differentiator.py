@@ -107,8 +107,8 @@ def test_integral_of_a_sine_is_as_late_as_the_value_of_its_integral():
 
     That is what a momentum row needs. A forward step would be half a step late: 5e-4.
     """
-    apart = (filtered(np.sin(3 * T)).integral - filtered(-np.cos(3 * T) / 3).value)[:, 0]
-    np.testing.assert_allclose(apart[2500:], apart[2500], atol=2e-6)
+    separation = (filtered(np.sin(3 * T)).integral - filtered(-np.cos(3 * T) / 3).value)[:, 0]
+    np.testing.assert_allclose(separation[2500:], separation[2500], atol=2e-6)
 
 
 def test_row_by_row_is_all_at_once():

@@ -195,12 +195,12 @@ def logged(case: Case, seed: int, kinds: tuple[str, ...], defects: Defects | Non
     if defects is None:
         defects = drawn(faulty, kinds, case.duration, camera.rate, case.ranges)
     run = defective_run.simulate(case.platform, case.schedule, defects, case.duration)
-    seen = sensors.camera(run, camera_rng, camera.rate, camera.noise, defects)
+    observed = sensors.camera(run, camera_rng, camera.rate, camera.noise, defects)
     rate = None if gyro is None else sensors.gyro(run, gyro_rng, gyro.rate, gyro.noise, defects)
     names = case.testbed.mass_names
-    recording = Recording(seen.attitude, rate, names, source=f"MuJoCo, seed {seed}")
+    recording = Recording(observed.attitude, rate, names, source=f"MuJoCo, seed {seed}")
     if not names:
-        return Logged(case, defects, run, recording, recording, seen.length)
+        return Logged(case, defects, run, recording, recording, observed.length)
     are = replace(recording, masses=sensors.where_masses_are(run, MASS_RATE))
     sent = sensors.where_masses_were_sent(run, case.schedule, MASS_RATE)
-    return Logged(case, defects, run, are, replace(recording, masses=sent), seen.length)
+    return Logged(case, defects, run, are, replace(recording, masses=sent), observed.length)

@@ -61,5 +61,5 @@ def simulate(
     slip = slipped(defects.com_steps, t) / LOOSE
     run = oracle.driven(with_loose_part(platform), np.hstack([wanted, slip]), push, dt)
     k = len(platform.slides)
-    seen = run.displacement[:, :k], run.velocity[:, :k]
-    return replace(run, platform=platform, displacement=seen[0], velocity=seen[1])
+    observed = run.displacement[:, :k], run.velocity[:, :k]
+    return replace(run, platform=platform, displacement=observed[0], velocity=observed[1])

@@ -70,7 +70,7 @@ def _let_go(
     return replace(platform, q=q, rate=oracle.matrix(q).T @ np.deg2rad(rate_deg_s))
 
 
-def _seen(
+def _observed(
     run: oracle.OracleRun,
     rng: np.random.Generator,
     camera: AttitudeSensor | None,
@@ -103,7 +103,7 @@ def spun(
     bed = oracle.testbed_for(platform, guess, DOUBT, FAST)
     rough = replace(bed.body, com=np.array([0.0, 0.0, -depth * guess.uniform(0.8, 1.2)]))
     bed = replace(bed, body=rough, com_sd=np.full(3, 0.3 * depth))
-    return Record(platform, _seen(run, noise, FAST), bed)
+    return Record(platform, _observed(run, noise, FAST), bed)
 
 
 def _swinging(  # noqa: PLR0913, PLR0917 - each is a choice of a laboratory
@@ -125,7 +125,7 @@ def _swinging(  # noqa: PLR0913, PLR0917 - each is a choice of a laboratory
     moves = oracle.random_schedule(body, platform, duration, 1) if moved else ()
     run = _driven(platform, moves, duration, torque)
     bed = oracle.testbed_for(platform, guess, DOUBT, camera, gyro)
-    return Record(platform, _seen(run, noise, camera, gyro), bed)
+    return Record(platform, _observed(run, noise, camera, gyro), bed)
 
 
 def tilted(seed: int, tilt_deg: float = 20.0, **how: object) -> Record:
@@ -139,11 +139,11 @@ def tumbling(  # noqa: PLR0913, PLR0917 - each is a number of the gyro or of the
     noise: float = NOISE,
     stated: float = NOISE,
     quantum: float = SIXTEENTH,
-    told: bool = True,
+    reported: bool = True,
     moved: bool = False,
     spin: float = 3.0,
 ) -> Record:
-    """Return slow tumbling seen by a gyro alone, 20 Hz in steps; ``told`` whether they are known.
+    """Return slow tumbling measured by a gyro alone, 20 Hz in steps; ``reported``: they are known.
 
     ``noise`` is what the gyro has before rounding, ``stated`` what the testbed says (rad/s).
     """
@@ -151,7 +151,7 @@ def tumbling(  # noqa: PLR0913, PLR0917 - each is a number of the gyro or of the
     start = _streams(seed)[3]
     rates = np.array([*start.uniform(-2.0, 2.0, 2), spin * start.uniform(0.7, 1.3)])
     made = _swinging(seed, float(start.uniform(5.0, 10.0)), rates, duration, moved, None, gyro)
-    known = replace(gyro, noise=stated, quantum=quantum if told else 0.0)
+    known = replace(gyro, noise=stated, quantum=quantum if reported else 0.0)
     return replace(made, testbed=replace(made.testbed, gyro=known))
 
 
@@ -172,7 +172,7 @@ def at_rest(seed: int, moved: bool = False, rate_deg_s: float = 0.0) -> Record:
     moves = oracle.random_schedule(body, platform, 120.0, 1) if moved else ()
     run = oracle.simulate(platform, moves, 120.0)
     bed = oracle.testbed_for(platform, guess, DOUBT, CAMERA)
-    return Record(platform, _seen(run, noise, CAMERA), bed)
+    return Record(platform, _observed(run, noise, CAMERA), bed)
 
 
 def silent(record: Record, *gaps: tuple[float, float]) -> Record:

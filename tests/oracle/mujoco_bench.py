@@ -401,8 +401,8 @@ def sensor_log(  # noqa: PLR0913, PLR0917 - each is a number of a sensor
     if gyro_rate is not None:
         rows = every(run, gyro_rate)
         bias = np.zeros(3) if gyro_bias is None else gyro_bias
-        seen = run.rate[rows] + bias + rng.normal(0.0, gyro_noise, run.rate[rows].shape)
-        rate = Samples(run.t[rows].copy(), seen)
+        observed = run.rate[rows] + bias + rng.normal(0.0, gyro_noise, run.rate[rows].shape)
+        rate = Samples(run.t[rows].copy(), observed)
     return Recording(
         attitude=attitude,
         rate=rate,

@@ -62,7 +62,7 @@ class MujocoBench:
         self._stiffen()
         self._data.qpos[:4], self._data.qvel[:3] = platform.q, platform.rate
         self._steps, self._goal = 0, np.zeros(len(testbed.masses))
-        self._told = self._goal.copy()
+        self._reported = self._goal.copy()
         self._dipole = np.zeros(len(testbed.magnetorquers))
         self._pulse = np.zeros(len(testbed.jets))  # N m s that is left of the last pulses
         self._given = np.zeros(len(testbed.jets))  # N m s since the last row of devices
@@ -72,7 +72,7 @@ class MujocoBench:
         self._nothing = np.zeros(3)
         self._bias = np.deg2rad([0.02, -0.01, 0.015])
         self._rows = self._empty()
-        self._look()
+        self._measurement()
 
     def _stiffen(self) -> None:
         """Give the masses' servos their frequency."""
@@ -98,7 +98,7 @@ class MujocoBench:
     @property
     def com(self) -> Array:
         """The total centre of mass, m, with the masses where their motors are."""
-        return self._platform.com_at(self._told)
+        return self._platform.com_at(self._reported)
 
     @property
     def tilt(self) -> float:
@@ -115,13 +115,13 @@ class MujocoBench:
         bed = self._testbed
         kinds = ((bed.wheels, self._data.ctrl), (bed.magnetorquers, self._dipole),
                  (bed.jets, self._pulse))  # fmt: skip
-        for devices, told in kinds:
+        for devices, reported in kinds:
             for k, device in enumerate(devices):
-                told[k] = inputs.get(device.name, told[k])
+                reported[k] = inputs.get(device.name, reported[k])
 
     def stop(self) -> None:
         """Halt everything."""
-        self._goal = self._told.copy()
+        self._goal = self._reported.copy()
         self._data.ctrl[: len(self._testbed.wheels)] = 0.0
         self._dipole[:], self._pulse[:] = 0.0, 0.0
 
@@ -129,13 +129,13 @@ class MujocoBench:
         """Let time pass and return what was seen since the last read."""
         speed = np.array([m.speed for m in self._testbed.masses])
         for _ in range(round(duration / STEP)):
-            way = self._goal - self._told
-            self._told += np.clip(way, -speed * STEP, speed * STEP)
-            self._data.ctrl[self._slides] = self._told
+            way = self._goal - self._reported
+            self._reported += np.clip(way, -speed * STEP, speed * STEP)
+            self._data.ctrl[self._slides] = self._reported
             self._data.qfrc_applied[:3] = self._from_coils() + self._from_jets()
             mujoco.mj_step(self._model, self._data)
             self._steps += 1
-            self._look()
+            self._measurement()
         return self._recording()
 
     def _from_coils(self) -> Array:
@@ -157,7 +157,7 @@ class MujocoBench:
         self._given += now
         return self._jet_axes @ now / STEP
 
-    def _look(self) -> None:
+    def _measurement(self) -> None:
         """Add the rows that are due."""
         camera, gyro = self._testbed.attitude, self._testbed.gyro
         assert camera is not None
@@ -168,7 +168,7 @@ class MujocoBench:
         if self._steps % round(1 / (gyro.rate * STEP)) == 0:
             noise = gyro.noise * self._rng.normal(size=3)
             self._add("rate", self._data.qvel[:3] + self._bias + noise)
-            self._add("masses", self._told.copy())
+            self._add("masses", self._reported.copy())
             speeds = [self._data.joint(w.name).qvel[0] for w in self._testbed.wheels]
             thrust = self._given * gyro.rate
             self._given = np.zeros_like(self._given)
@@ -182,11 +182,11 @@ class MujocoBench:
         rows, self._rows = self._rows, self._empty()
         found = {name: self._samples(rows[name]) for name in rows}
         bed = self._testbed
-        seen = Recording(
+        observed = Recording(
             found["attitude"], found["rate"], bed.mass_names, found["masses"],
             device_names=bed.device_names, devices=found["devices"], source="MuJoCo",
         )  # fmt: skip
-        return replace(seen, momentum=stored_momentum(seen, bed))
+        return replace(observed, momentum=stored_momentum(observed, bed))
 
     @staticmethod
     def _samples(rows: list[tuple[float, Array]]) -> Samples | None:

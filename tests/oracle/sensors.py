@@ -11,7 +11,7 @@ from tests.oracle.defects import Array, Defects, Harmonic
 HAIR = 1e-9  # s, chosen: a frame may lie outside the run by so much
 
 
-class Seen(NamedTuple):
+class Observed(NamedTuple):
     """The rows of a camera."""
 
     attitude: Samples
@@ -67,7 +67,7 @@ def frame_times(span: float, rate: float, defects: Defects) -> tuple[Array, Arra
 
 def camera(
     run: oracle.OracleRun, rng: np.random.Generator, rate: float, noise: float, defects: Defects
-) -> Seen:
+) -> Observed:
     """Return the rows of a camera at ``rate`` (Hz); a mean has the noise (rad), a frame more."""
     t, frames = frame_times(float(run.t[-1]), rate, defects)
     if defects.last_row_single:
@@ -82,7 +82,7 @@ def camera(
     for bad in defects.bad_rows:
         row = int(np.argmin(np.abs(t - bad.time)))
         values[row] = oracle.product(values[row], oracle.rotation(bad.turn))
-    return Seen(Samples(t, values), length)
+    return Observed(Samples(t, values), length)
 
 
 def gyro(

@@ -30,7 +30,7 @@ def spinning(duration=2.0, w=2.0):
     return oracle.simulate(body((0.0, 0.0, w)), (), duration, locked=True)
 
 
-def seen(run, defects, rate=10.0):
+def observed(run, defects, rate=10.0):
     """Return the camera's rows without noise."""
     return sensors.camera(run, np.random.default_rng(0), rate, 0.0, defects)
 
@@ -158,7 +158,7 @@ def test_attitudes_between_steps_are_those_of_a_finer_run():
 def test_a_mean_of_frames_is_stamped_in_the_middle_and_is_short():
     """4 frames 25 ms apart: var = 0.78125e-3 s^2, so 1 - 4 0.78125e-3 / 8 at 2 rad/s."""
     run = spinning()
-    rows = seen(run, Defects(frames=4, frame_gap=0.025))
+    rows = observed(run, Defects(frames=4, frame_gap=0.025))
     assert rows.length == pytest.approx(np.full(19, 1 - 0.390625e-3), abs=5e-8)
     assert rows.attitude.t[[0, -1]] == pytest.approx([0.1, 1.9])
     assert oracle.angle_between(rows.attitude.values, run.q[100:1901:100]).max() < 1e-9
@@ -167,7 +167,7 @@ def test_a_mean_of_frames_is_stamped_in_the_middle_and_is_short():
 def test_a_single_last_row_is_the_first_frame_of_its_mean():
     """37.5 ms early, so 0.075 rad back at 2 rad/s, and of full length."""
     run = spinning()
-    rows = seen(run, Defects(frames=4, last_row_single=True))
+    rows = observed(run, Defects(frames=4, last_row_single=True))
     assert rows.attitude.t[-1] == pytest.approx(2.0)
     assert rows.length[-1] == pytest.approx(1.0, abs=1e-14)
     assert turn_N(rows.attitude.values[-1], run.q[-1])[2] == pytest.approx(-0.075, rel=1e-3)
@@ -187,10 +187,10 @@ def test_a_mean_has_the_stated_noise(frames):
 def test_a_plumb_error_leans_the_laboratory():
     """exp((a, 0, 0)) on the left: body z of a level platform shows at (0, -a, 1)."""
     run = spinning()
-    rows = seen(run, Defects(plumb=np.array([0.005, 0.0])))
+    rows = observed(run, Defects(plumb=np.array([0.005, 0.0])))
     for q in rows.attitude.values:
         assert oracle.matrix(q)[:, 2] == pytest.approx([0, -0.005, 1], abs=2e-5)
-    both = seen(run, Defects(plumb=np.array([0.003, -0.004])))
+    both = observed(run, Defects(plumb=np.array([0.003, -0.004])))
     error = turn_N(both.attitude.values, run.q[::100])
     np.testing.assert_allclose(error, np.tile([0.003, -0.004, 0.0], (21, 1)), atol=1e-7)
 
@@ -221,7 +221,7 @@ def test_heading_errors_of_order_3_come_round_three_times():
 def test_a_delayed_camera_shows_what_was():
     """30 ms at 2 rad/s: 0.06 rad back. Before the first frame there is no row."""
     run = spinning()
-    rows = seen(run, Defects(camera_delay=0.030))
+    rows = observed(run, Defects(camera_delay=0.030))
     assert rows.attitude.t[0] == pytest.approx(0.1)
     error = turn_N(rows.attitude.values, run.q[100::100])
     np.testing.assert_allclose(error[:, 2], -0.06, rtol=1e-3)
@@ -230,7 +230,7 @@ def test_a_delayed_camera_shows_what_was():
 def test_bad_rows_are_turned_and_no_others():
     run = spinning()
     turn = np.array([0.0, 0.2, 0.0])
-    rows = seen(run, Defects(bad_rows=(BadRow(0.7, turn),)))
+    rows = observed(run, Defects(bad_rows=(BadRow(0.7, turn),)))
     off = oracle.angle_between(rows.attitude.values, run.q[::100])
     assert off[7] == pytest.approx(0.2)
     assert np.delete(off, 7).max() < 1e-9

@@ -106,8 +106,8 @@ def test_a_file_with_a_command_column(tmp_path, capsys, monkeypatch) -> None:
     csv, toml = tmp_path / "run.csv", tmp_path / "bed.toml"
     write_recording(replace(record.recording, mass_names=(), masses=None), csv)
     head, *rows = csv.read_text().splitlines()
-    told = [f"{row},{0.5 * (k % 2)}" for k, row in enumerate(rows)]
-    csv.write_text("\n".join([f"{head},motor_command", *told]) + "\n")
+    reported = [f"{row},{0.5 * (k % 2)}" for k, row in enumerate(rows)]
+    csv.write_text("\n".join([f"{head},motor_command", *reported]) + "\n")
     toml.write_text(text_of_testbed(record.testbed))
     assert run(["inspect", str(csv)]) == 0
     assert "left aside: 'motor_command'" in " ".join(capsys.readouterr().out.split())

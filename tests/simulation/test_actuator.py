@@ -89,8 +89,8 @@ def test_a_mass_stands_until_its_play_is_taken_up(rail):
     """2 mm of play at 10 mm/s: from its middle 0.1 s, to the other side 0.2 s, onwards at once."""
     motors = Motors(rail(backlash=2 * MM))
     motors.move(0.0, x=10)
-    for now, told, real in ((0.1, 1.0, 0.0), (0.55, 5.5, 4.5), (1.0, 10.0, 9.0)):
-        np.testing.assert_allclose(motors.at(now, REPORTED), told)
+    for now, reported, real in ((0.1, 1.0, 0.0), (0.55, 5.5, 4.5), (1.0, 10.0, 9.0)):
+        np.testing.assert_allclose(motors.at(now, REPORTED), reported)
         np.testing.assert_allclose(motors.at(now), real, atol=1e-12)
     motors.move(2.0, x=5)
     for now, real in ((2.2, 9.0), (2.35, 7.5), (2.5, 6.0)):
@@ -102,13 +102,15 @@ def test_a_mass_stands_until_its_play_is_taken_up(rail):
     np.testing.assert_allclose(motors.track.t, [0, 0.1, 1, 2, 2.2, 2.5, 3, 3.5, 3.65])
 
 
-@pytest.mark.parametrize(("asked", "whole"), [(3.4, 3.5), (-3.4, -3.5), (3.2, 3.0), (50.0, 50.0)])
-def test_targets_are_rounded_to_whole_steps(rail, asked, whole):
+@pytest.mark.parametrize(
+    ("requested", "whole"), [(3.4, 3.5), (-3.4, -3.5), (3.2, 3.0), (50.0, 50.0)]
+)
+def test_targets_are_rounded_to_whole_steps(rail, requested, whole):
     mass = rail(resolution=0.5 * MM)
-    assert in_steps(mass, asked * MM) == pytest.approx(whole * MM)
-    assert in_steps(rail(), asked * MM) == asked * MM
+    assert in_steps(mass, requested * MM) == pytest.approx(whole * MM)
+    assert in_steps(rail(), requested * MM) == requested * MM
     motors = Motors(mass)
-    motors.move(0.0, x=asked)
+    motors.move(0.0, x=requested)
     np.testing.assert_allclose(motors.at(9.0, REPORTED), whole)
     np.testing.assert_allclose(motors.at(9.0, REAL), whole)
 
@@ -121,12 +123,12 @@ def test_a_move_to_where_it_is_moves_nothing(rail):
     np.testing.assert_array_equal(motors.at(9.0), there)
 
 
-@pytest.mark.parametrize("asked", [50.01, -50.01, 1e9])
-def test_beyond_the_rail_is_refused_and_says_why(rail, asked):
+@pytest.mark.parametrize("requested", [50.01, -50.01, 1e9])
+def test_beyond_the_rail_is_refused_and_says_why(rail, requested):
     motors = Motors(rail("x"), rail("y"))
     motors.move(0.0, x=20)
     with pytest.raises(MoveRefused, match=r"mass x: at 10 mm, .*-50 to 50 mm; nothing was moved"):
-        motors.move(1.0, y=1, x=asked)
+        motors.move(1.0, y=1, x=requested)
 
 
 def test_rounding_does_not_take_a_mass_off_its_rail(rail):
@@ -179,8 +181,8 @@ def test_stuck_mass_is_reported_to_move(rail):
 def test_slipping_mass_goes_its_share_of_the_distance_from_home(rail):
     """Gain 0.5: told 40, then -20, then 0; it goes to 20, -10, 0."""
     motors = Motors(rail(), faults=(Fault("x", 0.5),))
-    for i, (told, goes) in enumerate(((40, 20), (-20, -10), (0, 0))):
-        motors.move(20.0 * i, x=told)
+    for i, (reported, goes) in enumerate(((40, 20), (-20, -10), (0, 0))):
+        motors.move(20.0 * i, x=reported)
         np.testing.assert_allclose(motors.at(20.0 * i + 10), goes, atol=1e-12)
 
 
@@ -207,10 +209,10 @@ def test_the_latest_fault_of_a_mass_holds(rail):
 def test_play_is_lost_when_the_direction_changes(rail):
     """2 mm of play, centred at home: 10 -> 9; on to 20 -> 19; back to 15 -> 16; 14.5 -> 15.5."""
     motors = Motors(rail(backlash=2 * MM))
-    for i, (told, goes) in enumerate(((10, 9), (20, 19), (15, 16), (14.5, 15.5))):
-        motors.move(20.0 * i, x=told)
+    for i, (reported, goes) in enumerate(((10, 9), (20, 19), (15, 16), (14.5, 15.5))):
+        motors.move(20.0 * i, x=reported)
         np.testing.assert_allclose(motors.at(20.0 * i + 10), goes, atol=1e-12)
-        np.testing.assert_allclose(motors.at(20.0 * i + 10, CARRIAGE), told)
+        np.testing.assert_allclose(motors.at(20.0 * i + 10, CARRIAGE), reported)
 
 
 def test_within_its_play_a_mass_stays_error_and_all(rail):

@@ -110,11 +110,11 @@ def test_a_coil_turns_the_platform_as_dipole_cross_field(testbed):
     bench = SimulatedBench(with_devices(testbed((0.0, 0.0, 0.0), truth=start, **SENSORS)), 0)
     bench.read(1.0)
     bench.drive({"mx": 0.3, "my": -0.2, "mz": 0.4})
-    seen = bench.read(20.0)
-    L = momentum_N(bench, seen)
-    R = to_matrix(seen.attitude.values)
+    observed = bench.read(20.0)
+    L = momentum_N(bench, observed)
+    R = to_matrix(observed.attitude.values)
     torque_N = np.cross(np.einsum("nij,j->ni", R, [0.3, -0.2, 0.4]), FIELD)
-    t = seen.attitude.t
+    t = observed.attitude.t
     steps = 0.5 * (torque_N[1:] + torque_N[:-1]) * np.diff(t)[:, None]
     found = (L - L[0])[10:] - (np.cumsum(steps, axis=0))[9:]
     assert np.ptp(found, axis=0).max() < 1e-5 * np.abs(L - L[0]).max()

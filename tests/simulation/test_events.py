@@ -49,12 +49,12 @@ def test_a_slip_makes_a_torque_from_its_moment_on(testbed):
 def test_a_slip_is_in_the_truth(testbed):
     steps = (ComStep(3.0, np.array([2e-5, 0, 0])), ComStep(5.0, np.array([0, 1e-5, -1e-5])))
     bench = SimulatedBench(testbed((0, 0, -1e-4), truth={"com_steps": steps}), 0)
-    seen = []
+    observed = []
     for _ in range(3):
         bench.read(2.0)
-        seen.append(bench.truth().com)
+        observed.append(bench.truth().com)
     by_hand = [[0, 0, -1e-4], [2e-5, 0, -1e-4], [2e-5, 1e-5, -1.1e-4]]
-    np.testing.assert_allclose(seen, by_hand, atol=1e-15)
+    np.testing.assert_allclose(observed, by_hand, atol=1e-15)
     assert bench.platform.com_steps == steps
 
 

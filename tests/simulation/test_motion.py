@@ -157,9 +157,9 @@ def test_noise_torque_drives_the_platform(testbed):
     by_hand = np.concatenate(
         [np.zeros((1, 3)), np.cumsum(0.5 * (noise[1:] + noise[:-1]) * 0.2, axis=0)]
     )
-    felt = w.values * np.array([1.0, 2.0, 2.5])
-    np.testing.assert_allclose(felt, by_hand, atol=1e-14)
-    assert np.abs(felt).max() > 1e-9
+    response = w.values * np.array([1.0, 2.0, 2.5])
+    np.testing.assert_allclose(response, by_hand, atol=1e-14)
+    assert np.abs(response).max() > 1e-9
 
 
 def noise_again(until, sd):

@@ -60,20 +60,20 @@ def test_heading_errors_stand_in_body_axes():
     """c cos 2 psi + s sin 2 psi: c at 0 deg, s at 45, -c at 90, -s at 135."""
     c, s = np.array([1e-3, 0.0, 2e-3]), np.array([0.0, -2e-3, 1e-3])
     true = yawed([0, 45, 90, 135])
-    seen = misread(true, CameraErrors(heading_cos=c, heading_sin=s), UP_Z)
-    np.testing.assert_allclose(difference(seen, true), [c, s, -c, -s], atol=1e-15)
+    observed = misread(true, CameraErrors(heading_cos=c, heading_sin=s), UP_Z)
+    np.testing.assert_allclose(difference(observed, true), [c, s, -c, -s], atol=1e-15)
 
 
 def test_the_bench_shows_its_camera_errors(testbed):
     errors = CameraErrors(
         np.array([3e-3, -1e-3, 0]), np.array([0, 1e-3, 0]), np.array([0, 0, 2e-3])
     )
-    true, seen = (
+    true, observed = (
         SimulatedBench(testbed(truth={**SPIN, "camera": e}), 0).read(30.0).attitude.values
         for e in (CameraErrors(), errors)
     )
-    np.testing.assert_allclose(seen, misread(true, errors, UP_Z), atol=1e-14)
-    assert np.abs(left(seen, true)).max() > 2e-3
+    np.testing.assert_allclose(observed, misread(true, errors, UP_Z), atol=1e-14)
+    assert np.abs(left(observed, true)).max() > 2e-3
 
 
 def test_bad_rows_are_as_many_and_as_wrong_as_stated(testbed):

@@ -71,8 +71,8 @@ def test_means_lose_less_than_a_fifth_of_an_sd() -> None:
         record = logged(seed)
         few = condensed(record, BED)
         assert few is not None
-        belief = dense_record.surveyed_condensed(few, PARAMS)
-        of_means = conclude(belief.fitted, "trajectory", few.recording)
+        posterior = dense_record.surveyed_condensed(few, PARAMS)
+        of_means = conclude(posterior.fitted, "trajectory", few.recording)
         of_rows = reference_fit.estimate(record, BED, PARAMS)
         off = (of_means.values(NAMES) - of_rows.values(NAMES)) / sds(of_rows)
         assert np.abs(off).max() < 0.2

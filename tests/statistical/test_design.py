@@ -20,5 +20,5 @@ def test_moves_as_balance_makes_them():
 
 
 def test_predicted_measurement_sds_agree_with_monte_carlo():
-    errors = [check.look_error("unb", seed) for seed in range(10)]
-    assert [row for row in check.look_rows("unb", errors) if not row.ok] == []
+    errors = [check.measurement_error("unb", seed) for seed in range(10)]
+    assert [row for row in check.measurement_rows("unb", errors) if not row.ok] == []

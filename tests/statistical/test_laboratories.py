@@ -40,6 +40,6 @@ def test_behind_a_long_gap_a_spin_is_followed_with_damping(seed: int) -> None:
 def test_of_a_platform_that_a_motor_drives_nothing_is_sought() -> None:
     """The torque that wanders is found to be twice what gravity does."""
     record = laboratories.KINDS["motor 50 mN m, bang-bang"].make(4)
-    belief = surveyed(*sound(record.recording, record.testbed), Params())
-    assert is_drowned(belief)
-    assert belief.events == () == belief.params.terms
+    posterior = surveyed(*sound(record.recording, record.testbed), Params())
+    assert is_drowned(posterior)
+    assert posterior.events == () == posterior.params.terms

@@ -34,9 +34,9 @@ def test_the_middle_of_0_to_20_is_10_and_19_of_20_stay_below_19():
 def test_an_offset_is_split_into_height_and_lateral_parts():
     """(3, 4, -12) um: 5 um aside and 12 um of height; with x up 4, 12 and 3 um."""
     run = made_up(offset=(3e-6, 4e-6, -12e-6))
-    told = summary([run], UP, 1e-5, NEAR)
-    assert told.aside.median == pytest.approx(5e-6)
-    assert told.height.median == pytest.approx(12e-6)
+    reported = summary([run], UP, 1e-5, NEAR)
+    assert reported.aside.median == pytest.approx(5e-6)
+    assert reported.height.median == pytest.approx(12e-6)
     sideways = summary([run], np.array([1.0, 0.0, 0.0]), 1e-5, NEAR)
     assert sideways.aside.median == pytest.approx(np.hypot(4e-6, 12e-6))
     assert sideways.height.median == pytest.approx(3e-6)
@@ -44,18 +44,18 @@ def test_an_offset_is_split_into_height_and_lateral_parts():
 
 def test_runs_count_that_leave_no_more_than_the_required_torque():
     runs = [made_up(torque=t) for t in (0.5e-5, 1e-5, 1.1e-5, 3e-5)]
-    told = summary(runs, UP, 1e-5, NEAR)
-    assert (told.runs, told.within) == (4, 2)
-    assert told.torque.median == pytest.approx(1.05e-5)
+    reported = summary(runs, UP, 1e-5, NEAR)
+    assert (reported.runs, reported.within) == (4, 2)
+    assert reported.torque.median == pytest.approx(1.05e-5)
 
 
 def test_masses_that_follow_count_as_they_follow():
     """12 and 13 uN m standing are 9 and 11 following: one of two within 10."""
     runs = [made_up(torque=12e-6, followed=9e-6), made_up(torque=13e-6, followed=11e-6)]
-    told = summary(runs, UP, 1e-5, NEAR)
-    assert told.within == 1
-    assert told.torque.median == pytest.approx(12.5e-6)
-    assert told.followed.median == pytest.approx(10e-6)
+    reported = summary(runs, UP, 1e-5, NEAR)
+    assert reported.within == 1
+    assert reported.torque.median == pytest.approx(12.5e-6)
+    assert reported.followed.median == pytest.approx(10e-6)
     assert summary([made_up()], UP, 1e-5, NEAR).followed is None
 
 
@@ -72,15 +72,15 @@ def test_a_pass_is_false_when_the_truth_is_beyond_twice_the_tolerance_on_any_axi
 def test_halted_and_late_runs_are_counted_once():
     halted = Verdict(False, "Stopped.", halted=True)
     runs = [made_up(verdict=halted), made_up(late=True), made_up(verdict=halted, late=True)]
-    told = summary(runs, UP, 1.0, NEAR)
-    assert (told.halted, told.late) == (2, 1)
+    reported = summary(runs, UP, 1.0, NEAR)
+    assert (reported.halted, reported.late) == (2, 1)
 
 
 def test_time_and_travel_are_those_of_the_runs():
     runs = [made_up(time=t, travel=t / 1e4) for t in (10.0, 20.0, 60.0)]
-    told = summary(runs, UP, 1.0, NEAR)
-    assert told.time.median == 20.0
-    assert told.travel.median == pytest.approx(2e-3)
+    reported = summary(runs, UP, 1.0, NEAR)
+    assert reported.time.median == 20.0
+    assert reported.travel.median == pytest.approx(2e-3)
 
 
 def compared_as(found, laws):
@@ -91,11 +91,11 @@ def compared_as(found, laws):
 
 def test_every_law_has_its_own_runs_in_the_order_of_its_cards():
     found = [made_up(law, seed) for seed in (1, 2, 3) for law in ("pid", "underactuated")]
-    told = compared_as(found, ["underactuated", "pid"])
-    assert [law.law for law in told.laws] == ["underactuated", "pid"]
-    assert [law.runs for law in told.laws] == [3, 3]
-    assert list(told.seeds) == [1, 2, 3]
-    assert len(told.runs) == 6
+    reported = compared_as(found, ["underactuated", "pid"])
+    assert [law.law for law in reported.laws] == ["underactuated", "pid"]
+    assert [law.runs for law in reported.laws] == [3, 3]
+    assert list(reported.seeds) == [1, 2, 3]
+    assert len(reported.runs) == 6
 
 
 def test_a_platform_counts_once_before_balancing_however_many_laws_balanced_it():
@@ -107,9 +107,9 @@ def test_a_platform_counts_once_before_balancing_however_many_laws_balanced_it()
 def test_a_refused_law_is_listed_once_and_has_no_numbers():
     found = [made_up("pid", 1), Refusal("fully_actuated", "no"), made_up("pid", 2),
              Refusal("fully_actuated", "no")]  # fmt: skip
-    told = compared_as(found, ["pid", "fully_actuated"])
-    assert [law.law for law in told.laws] == ["pid"]
-    assert told.refusals == (Refusal("fully_actuated", "no"),)
+    reported = compared_as(found, ["pid", "fully_actuated"])
+    assert [law.law for law in reported.laws] == ["pid"]
+    assert reported.refusals == (Refusal("fully_actuated", "no"),)
 
 
 def test_a_refusal_is_the_sentence_of_the_law(monkeypatch):

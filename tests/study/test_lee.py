@@ -35,7 +35,7 @@ from equipoise.study.lee import (
     warns,
     with_printed_errors,
 )
-from equipoise.study.lee_course import rows_until, told_along, turning_from
+from equipoise.study.lee_course import course_of, rows_until, turning_from
 
 BED = read_preset("kau")
 
@@ -85,9 +85,9 @@ def test_the_singularity_is_met_when_the_paper_meets_it(slew):
 
 def test_the_reported_torque_is_the_rate_of_stored_gyro_momentum(slew):
     """-h' of the recorded momentum, between two steps of the loop, body axes."""
-    told = slew.recording.momentum
-    assert told is not None
-    stored = np.array([np.interp(slew.t, told.t, h) for h in told.values.T]).T
+    reported = slew.recording.momentum
+    assert reported is not None
+    stored = np.array([np.interp(slew.t, reported.t, h) for h in reported.values.T]).T
     given = -np.diff(stored, axis=0) / np.diff(slew.t)[:, None]
     np.testing.assert_allclose(given[2:], slew.output[2:-1], atol=8e-3)  # the gimbals turn on
     assert np.abs(slew.output).max() > 0.2
@@ -128,27 +128,27 @@ def recursive_least_squares(rows, first):
 def test_the_course_is_that_of_recursive_least_squares(slew):
     """The paper's recursion, written out, ends where all rows at once do."""
     bed = with_printed_errors(BED)
-    told = told_along(as_printed, slew.recording, bed)
+    reported = course_of(as_printed, slew.recording, bed)
     part = window(slew.recording, turning_from(slew.recording), slew.recording.span[1])
-    rows = rows_until(as_printed(posed_of(part, bed, Options())), told.t[-1])
-    plain = recursive_least_squares(rows, told.t[0])
-    assert rows.names == told.names
-    np.testing.assert_allclose(told.values[-1], plain, rtol=1e-4)
+    rows = rows_until(as_printed(posed_of(part, bed, Options())), reported.t[-1])
+    plain = recursive_least_squares(rows, reported.t[0])
+    assert rows.names == reported.names
+    np.testing.assert_allclose(reported.values[-1], plain, rtol=1e-4)
 
 
 def test_indices_are_equations_9_and_10(slew):
     """Of the rows up to each time, written out; free constants go first."""
     bed = with_printed_errors(BED)
-    told = told_along(centred_means, slew.recording, bed)
+    reported = course_of(centred_means, slew.recording, bed)
     part = window(slew.recording, turning_from(slew.recording), slew.recording.span[1])
-    rows = centred(rows_until(centred_means(posed_of(part, bed, Options())), told.t[10]))
+    rows = centred(rows_until(centred_means(posed_of(part, bed, Options())), reported.t[10]))
     H, y = rows.A.reshape(-1, 9), rows.b.reshape(-1)
     left = y - H @ np.linalg.lstsq(H, y, rcond=None)[0]
-    assert told.total[10] == pytest.approx(np.linalg.norm(left) / np.linalg.norm(y), rel=1e-6)
+    assert reported.total[10] == pytest.approx(np.linalg.norm(left) / np.linalg.norm(y), rel=1e-6)
     scale = np.linalg.norm(H, axis=0)
     inverse = np.linalg.inv((H / scale).T @ (H / scale)) / np.outer(scale, scale)
     printed = np.linalg.norm(left) * np.sqrt(np.diag(inverse))
-    np.testing.assert_allclose(told.parameter[10], printed, rtol=1e-5)
+    np.testing.assert_allclose(reported.parameter[10], printed, rtol=1e-5)
 
 
 def test_a_coarser_record_has_the_rows_of_the_platforms_own_sensor(slew):

@@ -99,21 +99,21 @@ def test_a_failure_states_its_reason_and_has_no_numbers():
     assert np.isnan(run.error).all()
 
 
-def course(*far):
+def course(*outlying):
     """A course whose centre of mass is so far off, um, a row a second."""
-    values = np.zeros((len(far), 3))
-    values[:, 2] = np.array(far) * UM
-    return Course(COM, np.arange(len(far), dtype=float), values, np.ones((len(far), 3)))
+    values = np.zeros((len(outlying), 3))
+    values[:, 2] = np.array(outlying) * UM
+    return Course(COM, np.arange(len(outlying), dtype=float), values, np.ones((len(outlying), 3)))
 
 
 @pytest.mark.parametrize(
-    ("far", "when"),
+    ("outlying", "when"),
     [((90, 50, 8, 20, 8, 7), 4.0), ((90, 50, 30), np.inf), ((8, 8), 0.0), ((50, np.nan, 1), 2.0)],
 )
-def test_com_has_settled_when_it_stays_within_a_tenth_of_the_first_error(far, when):
+def test_com_has_settled_when_it_stays_within_a_tenth_of_the_first_error(outlying, when):
     """The testbed's guess is 90 um off: 9 um count as settled."""
     swing = judged_record(Scene(BED, 2.0, [], Options()), 1).recording
-    found = estimate({"com_x": 1.0}, [[1.0]], course=course(*far))
+    found = estimate({"com_x": 1.0}, [[1.0]], course=course(*outlying))
     assert settled(found, record(recording=swing)) == when
     assert settled(replace(found, method="smoother"), record(recording=swing)) is None
 
@@ -140,15 +140,15 @@ def test_misuse_is_a_refusal_and_an_exception_is_reported_as_broken():
 
 def test_the_truth_is_the_benchs_at_the_beginning_and_at_the_end():
     """A bench of the same seed, by hand."""
-    told = judged_record(Scene(BED, 30.0, MOVES, Options()), 5)
+    reported = judged_record(Scene(BED, 30.0, MOVES, Options()), 5)
     bench = SimulatedBench(BED, 5)
-    assert [told.truth[n] for n in COM] == pytest.approx(bench.truth().com)
-    assert told.truth["inertia_P_xy"] == bench.truth().inertia_P[0, 1]
+    assert [reported.truth[n] for n in COM] == pytest.approx(bench.truth().com)
+    assert reported.truth["inertia_P_xy"] == bench.truth().inertia_P[0, 1]
     bench.read(15.0)
     bench.move(MOVES[0][1])
     bench.read(15.0)
-    assert [told.truth[n] for n in END] == pytest.approx(bench.truth().com)
-    assert told.truth["com_end_z"] - told.truth["com_z"] == pytest.approx(
+    assert [reported.truth[n] for n in END] == pytest.approx(bench.truth().com)
+    assert reported.truth["com_end_z"] - reported.truth["com_z"] == pytest.approx(
         -0.05 * 15.6e-3 / 14.24, rel=0.05
     )
 
@@ -159,20 +159,20 @@ def test_sag_is_part_of_com_unless_it_is_sought():
     bench = SimulatedBench(bed, 1)
     assert np.linalg.norm(bench.truth().com - bench.com) > UM
     for options, com in ((Options(), bench.truth().com), (Options(("sag_xx",)), bench.com)):
-        told = judged_record(Scene(bed, 5.0, [], options), 1)
-        assert [told.truth[n] for n in COM] == pytest.approx(com)
+        reported = judged_record(Scene(bed, 5.0, [], options), 1)
+        assert [reported.truth[n] for n in COM] == pytest.approx(com)
 
 
 def test_errors_of_the_trajectory_fit_are_as_large_as_the_bound():
     """Eight records. RMSE / bound of eight numbers or more (0.1 % on both sides): 0.33 to 1.81."""
     scene = Scene(BED, 60.0, [(30.0, {"x1": 0.05, "z1": -0.05, "z2": -0.05})], Options())
     tasks = [MethodTask(scene, ("trajectory",), seed, metered, False) for seed in range(8)]
-    (told,) = compared_methods(tasks, map).methods
-    assert told.failed == 0
-    assert 0.33 < told.com.rmse < 1.81
-    assert 0.33 < told.inertia.rmse < 1.81
-    assert told.coverage.of == 8 * len(JUDGED)
-    assert told.coverage.value > 0.8
+    (reported,) = compared_methods(tasks, map).methods
+    assert reported.failed == 0
+    assert 0.33 < reported.com.rmse < 1.81
+    assert 0.33 < reported.inertia.rmse < 1.81
+    assert reported.coverage.of == 8 * len(JUDGED)
+    assert reported.coverage.value > 0.8
 
 
 def slow(bed):

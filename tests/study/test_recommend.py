@@ -18,7 +18,7 @@ GOOD = {"refused": 0, "unusable": 0, "broke": 0, "warned": 0, "confident_wrong":
         "believed": 40, "runs": 40, "coverage": Share(342, 360)}  # fmt: skip
 
 
-def told(method, ratio, time=1.0, stated=(120, 120), **more):
+def reported(method, ratio, time=1.0, stated=(120, 120), **more):
     com = Ratios(ratio, 0.1, Share(*stated))
     return replace(summary([made_up(method=method)]), com=com, time=time, **(GOOD | more))
 
@@ -30,7 +30,7 @@ def test_chance_leaves_16_of_20_at_least():
 
 
 def test_the_least_error_is_recommended_with_its_numbers():
-    said = advised_method([told("tracker", 1.3), told("trajectory", 1.04)], "com")
+    said = advised_method([reported("tracker", 1.3), reported("trajectory", 1.04)], "com")
     assert said.name == "trajectory"
     assert "RMSE 1 times the bound" in said.sentence
     assert "95 % of 360" in said.sentence
@@ -39,7 +39,11 @@ def test_the_least_error_is_recommended_with_its_numbers():
 
 @pytest.mark.parametrize(("ratio", "named"), [(1.49, True), (1.51, False)])
 def test_the_quickest_within_one_and_a_half_times_is_named_too(ratio, named):
-    methods = [told("trajectory", 1.0, 2.0), told("tracker", ratio, 0.1), told("ekf_9", 1.2, 1.0)]
+    methods = [
+        reported("trajectory", 1.0, 2.0),
+        reported("tracker", ratio, 0.1),
+        reported("ekf_9", 1.2, 1.0),
+    ]
     said = advised_method(methods, "com")
     assert said.name == "trajectory"
     assert ("tracker" in said.sentence) is named
@@ -47,7 +51,7 @@ def test_the_quickest_within_one_and_a_half_times_is_named_too(ratio, named):
 
 
 def test_nothing_is_added_when_the_best_is_the_quickest():
-    said = advised_method([told("trajectory", 1.0, 0.1), told("tracker", 1.1, 0.2)], "com")
+    said = advised_method([reported("trajectory", 1.0, 0.1), reported("tracker", 1.1, 0.2)], "com")
     assert "Quicker" not in said.sentence
 
 
@@ -64,8 +68,8 @@ WANTING = {
 @pytest.mark.parametrize(("more", "reason"), WANTING.values(), ids=WANTING.keys())
 def test_a_method_that_is_not_honest_is_passed_over(more, reason):
     """However accurate it is; when there is no other, nobody is recommended and it is told why."""
-    liar = told("smoother", 0.5, **more)
-    assert advised_method([liar, told("trajectory", 2.0)], "com").name == "trajectory"
+    liar = reported("smoother", 0.5, **more)
+    assert advised_method([liar, reported("trajectory", 2.0)], "com").name == "trajectory"
     alone = advised_method([liar], "com")
     assert alone.name is None
     assert reason in alone.sentence
@@ -73,29 +77,32 @@ def test_a_method_that_is_not_honest_is_passed_over(more, reason):
 
 def test_chance_is_that_of_runs_not_of_intervals():
     """83 % of 180 intervals is no chance for independent ones; of 20 runs, at least 80 % is."""
-    few = told("tracker", 1.0, runs=20, believed=20, coverage=Share(150, 180))
+    few = reported("tracker", 1.0, runs=20, trusted=20, coverage=Share(150, 180))
     assert advised_method([few], "com").name == "tracker"
 
 
 def test_a_warning_in_one_run_of_ten_is_borne():
-    borne = told("tracker", 1.0, warned=4, believed=36)
+    borne = reported("tracker", 1.0, warned=4, trusted=36)
     assert advised_method([borne], "com").name == "tracker"
 
 
 def test_inertia_is_advised_by_its_own_errors():
-    far, near = (Ratios(ratio, 0.1, Share(240, 240)) for ratio in (5.0, 1.0))
-    methods = [replace(told("tracker", 1.0), inertia=far),
-               replace(told("trajectory", 5.0), inertia=near)]  # fmt: skip
+    outlying, near = (Ratios(ratio, 0.1, Share(240, 240)) for ratio in (5.0, 1.0))
+    methods = [replace(reported("tracker", 1.0), inertia=outlying),
+               replace(reported("trajectory", 5.0), inertia=near)]  # fmt: skip
     assert advised_method(methods, "com").name == "tracker"
     assert advised_method(methods, "inertia").name == "trajectory"
 
 
 def test_intervals_that_are_too_wide_are_honest():
-    assert advised_method([told("tracker", 1.0, coverage=Share(360, 360))], "com").name == "tracker"
+    assert (
+        advised_method([reported("tracker", 1.0, coverage=Share(360, 360))], "com").name
+        == "tracker"
+    )
 
 
 def test_nobody_who_states_it_is_no_recommendation():
-    silent = replace(told("tracker", np.nan), com=Ratios(np.nan, np.nan, Share(0, 120)))
+    silent = replace(reported("tracker", np.nan), com=Ratios(np.nan, np.nan, Share(0, 120)))
     said = advised_method([silent], "com")
     assert said.name is None
     assert "none states it" in said.sentence
@@ -103,9 +110,9 @@ def test_nobody_who_states_it_is_no_recommendation():
 
 @pytest.mark.parametrize(("runs", "few"), [(6, True), (19, True), (20, False)])
 def test_too_few_runs_are_reported(runs, few):
-    method = told("tracker", 1.0, runs=runs, believed=runs)
+    method = reported("tracker", 1.0, runs=runs, trusted=runs)
     assert (f"{runs} runs are few" in advised_method([method], "com").sentence) is few
-    assert "few" not in advised_method([told("tracker", 1.0)], "com").sentence
+    assert "few" not in advised_method([reported("tracker", 1.0)], "com").sentence
 
 
 # --- laws --------------------------------------------------------------------------------------
@@ -115,12 +122,12 @@ def compared(*laws):
     """A comparison of laws of 20 runs each: name, torque left, halted, passed wrongly."""
     bed, required = read_preset("reference-table"), 1e-5
     one = law_summary([made_up_law()], UP, required, NEAR)
-    told_of = tuple(
+    reported_of = tuple(
         replace(one, law=law, runs=20, halted=halted, false_passes=false,
                 within=20 if torque <= required else 9, torque=middle(np.array([torque])))
         for law, torque, halted, false in laws
     )  # fmt: skip
-    return Comparison(bed, range(20), 0.3, required, middle(np.array([1e-3])), told_of, (), ())
+    return Comparison(bed, range(20), 0.3, required, middle(np.array([1e-3])), reported_of, (), ())
 
 
 def test_the_least_torque_among_laws_that_reach_it_is_taken():

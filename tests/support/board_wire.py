@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from equipoise.app.bench.emulation import ahead_of
 from equipoise.hardware.boards.registry import BOARDS
-from equipoise.hardware.emulated.registry import BOARDS as FAR_SIDES
+from equipoise.hardware.emulated.registry import BOARDS as OUTLYING_SIDES
 from equipoise.hardware.links.mass_interpolation import on_the_way
 from equipoise.io.testbed.presets import read_preset
 
@@ -28,10 +28,10 @@ class Wire:
     def __init__(self, kind, board=None, turn=TURN):
         self.board = board_of(kind) if board is None else board
         self.driver = BOARDS[kind](self.board, BED.masses)
-        self.far = FAR_SIDES[kind](self.board, BED.masses)
+        self.outlying = OUTLYING_SIDES[kind](self.board, BED.masses)
         self.t, self.turn, self.sent, self.legs = 0.0, turn, b"", []
         self.cut = False  # what the board says does not arrive
-        self.told = []  # s, positions, which have to go: every state that tells of another time
+        self.reported = []  # s, positions, which have to go: every state that tells of another time
         self.driver.opened(0.0)
 
     def run(self, seconds, listen=True, until=""):
@@ -39,7 +39,7 @@ class Wire:
         end = self.t + seconds
         while self.t < end - 1e-9 and self.driver.state.phase != until:
             self.t = round(self.t + self.turn, 9)
-            said, legs = self.far.run(self.t)
+            said, legs = self.outlying.run(self.t)
             self.legs += legs
             if listen:
                 self._talk(said)
@@ -48,15 +48,15 @@ class Wire:
     def _talk(self, said):
         if not self.cut:
             self.driver.feed(said, self.t)
-        told = self.driver.due(self.t)
-        self.sent += told
-        answer = self.far.take(told, self.t) if told else b""
+        reported = self.driver.due(self.t)
+        self.sent += reported
+        answer = self.outlying.take(reported, self.t) if reported else b""
         if not self.cut:
             self.driver.feed(answer, self.t)
         state = self.driver.state
-        if state.position and (not self.told or self.told[-1][0] != state.reported):
+        if state.position and (not self.reported or self.reported[-1][0] != state.reported):
             wants = on_the_way(state, self.board.axes)
-            self.told.append((state.reported, dict(state.position), wants))
+            self.reported.append((state.reported, dict(state.position), wants))
 
     def at_home(self):
         self.run(0.5)

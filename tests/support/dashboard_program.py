@@ -94,15 +94,15 @@ def browser() -> Iterator[Any]:
         opened.close()
 
 
-class Heard:
+class Received:
     """What a page says on its console, and whom it asks."""
 
     def __init__(self, page):
-        self.said, self.asked = [], set()
+        self.said, self.requested = [], set()
         page.on("console", lambda message: self.said.append((message.type, message.text)))
         page.on("pageerror", lambda error: self.said.append(("error", str(error))))
-        page.on("request", lambda request: self.asked.add(request.url.split("/")[2]))
-        page.on("websocket", lambda socket: self.asked.add(socket.url.split("/")[2]))
+        page.on("request", lambda request: self.requested.add(request.url.split("/")[2]))
+        page.on("websocket", lambda socket: self.requested.add(socket.url.split("/")[2]))
 
     @property
     def wrong(self):

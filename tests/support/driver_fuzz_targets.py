@@ -24,7 +24,7 @@ PHASES = get_args(Phase)
 SHARE_OF_PICTURES = 0.01  # drawing and reading one takes a hundred times as long as a line
 
 
-def heard(name: str) -> Callable[[bytes], None]:
+def received(name: str) -> Callable[[bytes], None]:
     """Return what a driver of a sensor does with bytes, at once and in two halves."""
 
     def take(content: bytes) -> None:
@@ -41,15 +41,15 @@ def heard(name: str) -> Callable[[bytes], None]:
     return take
 
 
-def told(name: str) -> bytes:
+def reported(name: str) -> bytes:
     """Return three rows of each channel as a sensor's far side tells them."""
     t = np.arange(3) * 0.025
     q = np.stack([np.cos(t), np.sin(t), 0 * t, 0 * t], axis=1)
     rows = Recording(Samples(t, q), Samples(t, np.stack([t, 1 - t, t / 7], axis=1)))
-    far, driver = SENSORS[name](unit(name)), DRIVERS[name](unit(name))
+    outlying, driver = SENSORS[name](unit(name)), DRIVERS[name](unit(name))
     driver.opened()
-    far.take(driver.due(0.0), 0.0)
-    return b"".join(far.tell(rows))
+    outlying.take(driver.due(0.0), 0.0)
+    return b"".join(outlying.messages(rows))
 
 
 class Listened(Wire):
@@ -104,7 +104,7 @@ def answered(kind: str) -> Callable[[bytes], None]:
     return take
 
 
-def cut_apart(content: bytes) -> None:
+def cut_separation(content: bytes) -> None:
     """A stream of pictures as a server sends it."""
     parts = Parts()
     for k in range(0, len(content), LUMP):
@@ -136,13 +136,13 @@ TARGETS = (
     *(
         Target(
             f"driver {name}",
-            made(told, name),
-            heard(name),
+            made(reported, name),
+            received(name),
             SHARE_OF_PICTURES if name in PICTURES else 1.0,
         )
         for name in DRIVERS
     ),
     *(Target(f"driver {kind}", made(conversation, kind), answered(kind)) for kind in BOARDS),
-    Target("stream of pictures", stream, cut_apart),
+    Target("stream of pictures", stream, cut_separation),
     Target("raw picture", picture, pictured),
 )

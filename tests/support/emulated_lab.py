@@ -41,7 +41,7 @@ class FaultyMotors:
     def __init__(self, device):
         self._device = device
         self.done = {}
-        self._told, self._at = {}, {}
+        self._reported, self._at = {}, {}
 
     def __getattr__(self, name):
         return getattr(self._device, name)
@@ -51,9 +51,9 @@ class FaultyMotors:
         return said, [self._really(leg) for leg in legs]
 
     def _really(self, leg):
-        told, at = self._told.get(leg.mass, 0.0), self._at.get(leg.mass, 0.0)
-        at += self.done.get(leg.mass, 1.0) * (leg.displacement - told)
-        self._told[leg.mass], self._at[leg.mass] = leg.displacement, at
+        reported, at = self._reported.get(leg.mass, 0.0), self._at.get(leg.mass, 0.0)
+        at += self.done.get(leg.mass, 1.0) * (leg.displacement - reported)
+        self._reported[leg.mass], self._at[leg.mass] = leg.displacement, at
         return replace(leg, displacement=at)
 
 
@@ -85,8 +85,8 @@ class JumpingClock:
     def __getattr__(self, name):
         return getattr(self._device, name)
 
-    def tell(self, rows):
-        return self._device.tell(later(rows, self.by))
+    def messages(self, rows):
+        return self._device.messages(later(rows, self.by))
 
 
 class Lab:

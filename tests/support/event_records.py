@@ -37,7 +37,7 @@ SIX = from_inertia(unpack_symmetric(INERTIA) - parallel_axis(MASS, COM))
 TRUTH = Unknowns(ATTITUDE, START, SIX, COM, np.zeros(16), np.zeros(24), np.zeros(0), np.zeros(3))
 
 
-def told(rng=None):
+def reported(rng=None):
     """The platform as it is, or as somebody knows it who is off by the stated sd."""
     six, com = INERTIA, COM
     if rng is not None:

@@ -69,7 +69,7 @@ class Bench:
     period: float = 0.1
     noise: tuple = (0.0, 0.0)  # rad, rad/s, one sd of a sample
     seed: int = 0
-    told: tuple = (0.0, 0.0)  # relative error of what a look tells, and its noise, m
+    reported: tuple = (0.0, 0.0)  # relative error of what a look tells, and its noise, m
     momentum: np.ndarray = None  # N m s, stored at the start
 
     @property
@@ -142,10 +142,14 @@ def onward(now, bench, goal, torque, duration):
     return Now(now.t + duration, path.y[-1], path.rate[-1], way[-1], h[-1], torque)
 
 
-def looked(now, bench, rng):
+def measured(now, bench, rng):
     """What a look tells of the centre of mass with the masses at home: its scale is that of J."""
     there = shift_of(now.d, bench)
-    com = (bench.com + there) * (1 + bench.told[0]) - there + bench.told[1] * rng.normal(size=3)
+    com = (
+        (bench.com + there) * (1 + bench.reported[0])
+        - there
+        + bench.reported[1] * rng.normal(size=3)
+    )
     parameters = tuple(Parameter(n, "m", float(x), 1e-6) for n, x in zip(COM, com, strict=True))
     return Estimate("told", Outcome(True, "Told."), parameters, 1e-12 * np.eye(3))
 
@@ -168,19 +172,19 @@ def closed_loop(bench, step, begun, end, first=AT_REST):
     """Return the rows of a law's run until ``end`` (s) or until it has finished."""
     (state, params), rng = begun, np.random.default_rng(bench.seed)
     now, rows = started(bench, *first), []
-    goal, seen = now.d, None
+    goal, observed = now.d, None
     while now.t < end - 1e-9:
-        seen = sample(now, bench, rng) if seen is None else seen
-        state, command = step(state, seen, params)
+        observed = sample(now, bench, rng) if observed is None else observed
+        state, command = step(state, observed, params)
         rows.append(row(now, bench, state, command))
         if command.finished:
             return rows
-        seen = None
+        observed = None
         if command.shift is not None:
             goal = displacements(command.shift, bench)
-        if command.look is not None:
-            now = onward(now, bench, now.d, np.zeros(3), command.look.duration)
-            goal, seen = now.d, looked(now, bench, rng)
+        if command.measurement is not None:
+            now = onward(now, bench, now.d, np.zeros(3), command.measurement.duration)
+            goal, observed = now.d, measured(now, bench, rng)
             continue
         torque = np.zeros(3) if command.torque is None else command.torque
         now = onward(now, bench, goal, torque, bench.period)

@@ -19,7 +19,7 @@ from equipoise.model.following import Following
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
-from equipoise.procedure.balancing.run_law import looked_into
+from equipoise.procedure.balancing.run_law import measured_estimate
 from equipoise.simulation.motion import run
 
 MASS, GRAVITY = 14.0, 9.81
@@ -81,7 +81,7 @@ class Now:
     h: np.ndarray
     d: np.ndarray  # m, displacements
     goal: np.ndarray  # m
-    asked: np.ndarray | None = None  # m, the shift that the goal is for
+    requested: np.ndarray | None = None  # m, the shift that the goal is for
     play: np.ndarray = field(default_factory=lambda: np.zeros(3))
     torque: np.ndarray = field(default_factory=lambda: np.zeros(3))  # delivered
     rate: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -162,8 +162,8 @@ def go(course: Course, command: Command, dt: float, rng: np.random.Generator) ->
     """Carry a command for dt seconds; the record grows."""
     now, truth, bed = course.now, course.truth, course.testbed
     shift = command.shift
-    if shift is not None and (now.asked is None or np.any(shift != now.asked)):
-        now.goal, now.asked = targets(bed, now.goal, shift), shift
+    if shift is not None and (now.requested is None or np.any(shift != now.requested)):
+        now.goal, now.requested = targets(bed, now.goal, shift), shift
     u, coil = delivered(course, command.torque, dt), magnetic(course, command.magnetic)
     stay = np.exp(-dt / 30.0)
     play = stay * now.play + truth.play * np.sqrt(1 - stay**2) * rng.normal(size=3)
@@ -205,12 +205,12 @@ def sample(course: Course, period: float, rng: np.random.Generator) -> Sample:
     return Sample(now.t, q, rate, down, shift, h, torque, np.zeros(3), B)
 
 
-def looked(course: Course, command: Command, rng: np.random.Generator):
+def measured(course: Course, command: Command, rng: np.random.Generator):
     """Let it swing, and estimate from the record as its sensors would have seen it."""
-    look, start = command.look, course.now.t
-    for _ in range(round(look.duration / 0.5)):
+    measurement, start = command.measurement, course.now.t
+    for _ in range(round(measurement.duration / 0.5)):
         go(course, Command(), 0.5, rng)
-    since = start if look.since is None else look.since
+    since = start if measurement.since is None else measurement.since
     bed = course.testbed
     t, q, w = np.array(course.t), np.array(course.q), np.array(course.w)
     every = round(1 / bed.attitude.rate / NODES)
@@ -224,7 +224,7 @@ def looked(course: Course, command: Command, rng: np.random.Generator):
     )  # fmt: skip
     bed = replace(bed, gyro=replace(bed.gyro, rate=1 / NODES, noise=noise))
     record = window(record, since, course.now.t)
-    return looked_into(record, bed, look)
+    return measured_estimate(record, bed, measurement)
 
 
 def close(law, testbed: Testbed, truth: Truth, target: np.ndarray, limit: float) -> Course:
@@ -236,16 +236,16 @@ def carried_on(law, beginning: tuple, course: Course, limit: float) -> Course:
     rng = np.random.default_rng(course.truth.seed)
     period = law.card.period
     state, params = beginning
-    seen = sample(course, period, rng)
+    observed = sample(course, period, rng)
     while course.now.t < limit:
-        state, command = law.step(state, seen, params)
+        state, command = law.step(state, observed, params)
         course.states.append(state)
         if command.finished:
             course.finished, course.following = command.finished, command.following
             break
-        if command.look is not None:
-            seen = looked(course, command, rng)
+        if command.measurement is not None:
+            observed = measured(course, command, rng)
             continue
         go(course, command, period, rng)
-        seen = sample(course, period, rng)
+        observed = sample(course, period, rng)
     return course

@@ -19,15 +19,15 @@ def noded(problem: Problem, record: Recording) -> Problem:
     cut = np.array([jump.t for jump in problem.jumps])
     line = timeline(
         record.attitude.t, record.rate.t, record.masses, len(problem.maps.momentum), 1.0,
-        record.momentum, record.torque, problem.errors.felt, problem.errors.owner, cut=cut,
+        record.momentum, record.torque, problem.errors.response, problem.errors.owner, cut=cut,
     )  # fmt: skip
-    seen = problem.seen._replace(
+    observed = problem.observed._replace(
         attitude_node=line.attitude_node,
         attitude_share=line.attitude_share,
         rate_node=line.rate_node,
         rate_share=line.rate_share,
     )
-    return replace(problem, line=line, seen=seen)
+    return replace(problem, line=line, observed=observed)
 
 
 def with_errors(problem: Problem, error: np.ndarray) -> np.ndarray:
@@ -45,7 +45,7 @@ def stepped(problem: Problem, point: Unknowns, step: np.ndarray) -> Unknowns:
     return unknowns_of(out)
 
 
-def apart(problem: Problem, point: Unknowns, other: Unknowns) -> np.ndarray:
+def separation(problem: Problem, point: Unknowns, other: Unknowns) -> np.ndarray:
     """Return how far another point is in physical coordinates, body axes for the attitude."""
     there, here = (physical(p, MASS, problem.layout) for p in (other, point))
     off = there - here

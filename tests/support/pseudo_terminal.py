@@ -33,14 +33,14 @@ class AtTerminal:
         )  # fmt: skip
         os.close(theirs)
         self.stdout = self._process.stdout  # None at the terminal
-        self._ours, self._heard = ours, bytearray()
+        self._ours, self._received = ours, bytearray()
         self._listener = threading.Thread(target=self._listen)
         self._listener.start()
 
     def _listen(self):
         try:
             while part := os.read(self._ours, 1 << 16):
-                self._heard += part
+                self._received += part
         except OSError:  # who had the other end is gone
             pass
         os.close(self._ours)
@@ -48,7 +48,7 @@ class AtTerminal:
     @property
     def written(self):
         """All bytes so far, as text."""
-        return bytes(self._heard).decode(errors="replace")
+        return bytes(self._received).decode(errors="replace")
 
     def wait_for(self, text):
         """Wait until something has been written."""

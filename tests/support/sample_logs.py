@@ -88,7 +88,7 @@ def bag_2_mcap_file(path: Path, topics: dict[str, str]) -> Path:
     return next(bag_2_mcap(path, topics).glob("*.mcap"))
 
 
-def told(kind: bytes, body: bytes) -> bytes:
+def reported(kind: bytes, body: bytes) -> bytes:
     return struct.pack("<HB", len(body), kind[0]) + body
 
 
@@ -101,15 +101,15 @@ def ulog(rates: str) -> bytes:
     }
     names = ("vehicle_attitude", rates)
     out = b"ULog\x01\x12\x35\x01" + struct.pack("<Q", 5_000_000)
-    out += told(b"B", bytes(40))
-    out += b"".join(told(b"F", name.encode() + b":" + layout[name]) for name in names)
+    out += reported(b"B", bytes(40))
+    out += b"".join(reported(b"F", name.encode() + b":" + layout[name]) for name in names)
     out += b"".join(
-        told(b"A", struct.pack("<BH", 0, number) + name.encode())
+        reported(b"A", struct.pack("<BH", 0, number) + name.encode())
         for number, name in enumerate(names)
     )
     for k in range(5):
         us, half = 5_000_000 + 100_000 * k, 0.05 * k
         q = (np.cos(half), np.sin(half), 0.0, 0.0)  # rolls to the right, right side down
-        out += told(b"D", struct.pack("<HQQ4f", 0, us + 999, us, *q))
-        out += told(b"D", struct.pack("<HQ3f", 1, us, 1.0, 0.25, -0.5))
+        out += reported(b"D", struct.pack("<HQQ4f", 0, us + 999, us, *q))
+        out += reported(b"D", struct.pack("<HQ3f", 1, us, 1.0, 0.25, -0.5))
     return out

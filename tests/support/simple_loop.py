@@ -71,7 +71,7 @@ class Run:
     com: np.ndarray  # (n, 3) m, the centre of mass as it truly was
     commands: list[Command]
     states: list
-    looks: int = 0
+    measurements: int = 0
 
     @property
     def finished(self) -> str:
@@ -106,7 +106,7 @@ class Plant:
     def com(self):
         return self.testbed.body.com + self.shift
 
-    def ask(self, shift):
+    def request(self, shift):
         """To whole steps, the fine masses first and the coarse ones as far as they must."""
         self.goal = without_delay(self.rails, self.goal, self.d, np.asarray(shift, dtype=float))
 
@@ -159,24 +159,24 @@ def fly(law: Law, begun, loop, duration, scale_error=0.05) -> Run:
     plant, (state, params) = loop.plant, begun
     out = Run(*(np.zeros(0) for _ in range(4)), [], [])
     rows: list[tuple] = []
-    seen = loop.sample(np.zeros(3), np.zeros(3))
+    observed = loop.sample(np.zeros(3), np.zeros(3))
     while plant.time < duration:
-        state, command = law.step(state, seen, params)
+        state, command = law.step(state, observed, params)
         out.commands.append(command)
         out.states.append(state)
         if command.finished:
             break
-        if command.shift is not None and command.look is None:
-            plant.ask(command.shift)
-        if command.look is not None:
-            plant.go(command.look.duration)
-            out.looks += 1
-            seen = estimate(plant, scale_error)
+        if command.shift is not None and command.measurement is None:
+            plant.request(command.shift)
+        if command.measurement is not None:
+            plant.go(command.measurement.duration)
+            out.measurements += 1
+            observed = estimate(plant, scale_error)
         else:
             plant.go(law.card.period, command.torque, command.impulse)
             torque = np.zeros(3) if command.torque is None else command.torque
             impulse = np.zeros(3) if command.impulse is None else command.impulse
-            seen = loop.sample(torque, impulse)
+            observed = loop.sample(torque, impulse)
         up_N = to_matrix(plant.y[:4]) @ plant.testbed.up
         rows.append((plant.time, np.arccos(np.clip(up_N[2], -1, 1)), plant.rate, plant.com))
     t, tilt, rate, com = (np.array(column) for column in zip(*rows, strict=True))

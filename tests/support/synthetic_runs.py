@@ -32,5 +32,5 @@ def comparison(runs):
     names = list(dict.fromkeys(run.method for run in runs))
     scene = Scene(read_preset("sputnix"), 60.0, [(30.0, {"z1": -0.05})], Options())
     bound = np.sqrt(np.mean(stack([run.bound for run in runs]) ** 2, axis=0))
-    told = tuple(summary([run for run in runs if run.method == name]) for name in names)
-    return MethodComparison(scene, sorted({run.seed for run in runs}), told, tuple(runs), bound)
+    reported = tuple(summary([run for run in runs if run.method == name]) for name in names)
+    return MethodComparison(scene, sorted({run.seed for run in runs}), reported, tuple(runs), bound)

@@ -6,7 +6,7 @@
 import multiprocessing
 from collections.abc import Callable
 
-from equipoise.app.dashboard.runner.live_estimate import LiveBelief, grown
+from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.io.testbed.presets import read_preset
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.simulation.bench import SimulatedBench
@@ -26,7 +26,7 @@ def track() -> None:
     """What simulation with devices, the tracker, the smoother and tables of rows need."""
     bed = read_preset("nanosat")
     rows = SimulatedBench(bed, 1).read(SECONDS)
-    grown(LiveBelief(bed), rows)
+    grown(LiveEstimate(bed), rows)
     SimulatedBench(read_preset("reference-table"), 1).read(SECONDS)
     others = "torque_kalman", "torque_tracking", "td_td_rls"
     for name in ("tracker", "momentum_possible", "smoother", *others):

@@ -55,8 +55,8 @@ def drive_names(mass: str) -> DriveNames:
 
 def across(axis: Vector3) -> tuple[Vector3, Vector3]:
     """Return two unit vectors across a rail, v first: near the body axis farthest from it."""
-    far = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    square: Vector3 = far - float(far @ axis) * axis
+    outlying = np.eye(3)[int(np.argmin(np.abs(axis)))]
+    square: Vector3 = outlying - float(outlying @ axis) * axis
     v: Vector3 = square / np.linalg.norm(square)
     return v, np.cross(axis, v)
 

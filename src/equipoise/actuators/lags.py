@@ -29,7 +29,7 @@ LAG = "mass_lag"
 CREEPS = 0.5  # share of the steps at rest, chosen: a command changes in none but a ramp's ends
 
 
-class Told(NamedTuple):
+class CommandColumns(NamedTuple):
     """Which columns of a record are commands."""
 
     standing: list[int]  # masses that were told to stay where they are
@@ -42,9 +42,9 @@ def is_command(d: Series1, travelling: Bools) -> bool:
     return bool(np.count_nonzero(at_rest) <= CREEPS * len(at_rest))
 
 
-def told(track: Samples, masses: tuple[SlidingMass, ...]) -> Told:
+def command_columns(track: Samples, masses: tuple[SlidingMass, ...]) -> CommandColumns:
     """Return which masses, of those that may not do as they are told, have commands as columns."""
-    found = Told([], [])
+    found = CommandColumns([], [])
     for i, mass in enumerate(masses):
         if mass.lag_sd > 0 or mass.sag_sd > 0:
             d = track.values[:, i]
@@ -54,7 +54,7 @@ def told(track: Samples, masses: tuple[SlidingMass, ...]) -> Told:
     return found
 
 
-def kinds_of(commands: Told, masses: tuple[SlidingMass, ...]) -> dict[float, list[int]]:
+def kinds_of(commands: CommandColumns, masses: tuple[SlidingMass, ...]) -> dict[float, list[int]]:
     """Return the masses that follow a command late, by the sd of their lag (s), for every kind."""
     return {
         sd: [i for i in commands.travelling if masses[i].lag_sd == sd]
@@ -91,7 +91,7 @@ def lag_errors(t: Series1, track: Samples, kinds: dict[float, list[int]]) -> lis
     ]
 
 
-def sags(commands: Told, masses: tuple[SlidingMass, ...]) -> Floats:
+def sags(commands: CommandColumns, masses: tuple[SlidingMass, ...]) -> Floats:
     """Return one sd of how far each mass hangs below its command, m.
 
     None where nothing travels: then home is where the masses hang.

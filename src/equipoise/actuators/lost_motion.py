@@ -41,7 +41,7 @@ class Play(NamedTuple):
     t: Series1  # s
     side: Series1
     gone: Series1  # s
-    told: Series1  # s
+    command_times: Series1  # s
 
 
 def directions(t: Series1, d: Series1, speed: float) -> list[Way]:
@@ -54,7 +54,7 @@ def directions(t: Series1, d: Series1, speed: float) -> list[Way]:
 def play_of(t: Series1, d: Series1, ways: list[Way], backlash: float) -> Play:
     """Return how the play of a backlash (m) is taken up."""
     play, side = max(backlash, LEAST), 0.0
-    knots, sides, gone, told = [t[:1]], [np.zeros(1)], [t[:1]], [t[:1]]
+    knots, sides, gone, reported = [t[:1]], [np.zeros(1)], [t[:1]], [t[:1]]
     for first, last, sign in ways:
         rows = slice(first, last + 1)
         way = np.maximum.accumulate(np.abs(d[rows] - d[first]))
@@ -64,10 +64,10 @@ def play_of(t: Series1, d: Series1, ways: list[Way], backlash: float) -> Play:
         sides.append(side + sign * 2 * crossed / play)
         side = sides[-1][-1]
         gone.append(np.array([t[first], knots[-1][-1], t[last]]))
-        told.append(t[[first, first, last]])
-    return Play(*map(np.concatenate, (knots, sides, gone, told)))
+        reported.append(t[[first, first, last]])
+    return Play(*map(np.concatenate, (knots, sides, gone, reported)))
 
 
-def told_when(play: Play | None, t: Series1) -> Series1:
+def command_times(play: Play | None, t: Series1) -> Series1:
     """Return when a mass was told to go as far as it has gone at ``t``; None: no play."""
-    return t if play is None else np.interp(t, play.gone, play.told)
+    return t if play is None else np.interp(t, play.gone, play.command_times)

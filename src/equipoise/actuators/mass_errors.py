@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.actuators.drive_errors import ACROSS, GAIN, drive_errors, plays, rails_of
-from equipoise.actuators.lags import LAG, kinds_of, lag_errors, lag_times, sags, told
-from equipoise.actuators.lost_motion import told_when
+from equipoise.actuators.lags import LAG, command_columns, kinds_of, lag_errors, lag_times, sags
+from equipoise.actuators.lost_motion import command_times
 from equipoise.actuators.stops import stop_errors
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.recording import Samples
@@ -24,7 +24,7 @@ from equipoise.model.testbed import SlidingMass
 class MassErrors:
     """The unknowns, and where each of them is felt."""
 
-    felt: Samples | None  # (n, f) displacement by unknown, straight between rows
+    response: Samples | None  # (n, f) displacement by unknown, straight between rows
     owner: Ints  # (f, 2) index of the rail along which it is felt, and of the unknown
     sd: Floats  # (e,) in the units of ``unit_of``
     names: tuple[str, ...]
@@ -42,16 +42,16 @@ def mass_errors(track: Samples | None, masses: tuple[SlidingMass, ...]) -> MassE
     """Return the unknowns of a recording: stops, lags of kinds of drives, drives in doubt."""
     if track is None or not len(track):
         return MassErrors(None, np.zeros((0, 2), dtype=np.int64), np.zeros(0), (), np.zeros(0))
-    commands = told(track, masses)
+    commands = command_columns(track, masses)
     kinds = kinds_of(commands, masses)
     late = lag_times(track, [sd for sd, kind in kinds.items() if kind])
     taken_up = plays(track, masses)
     t = np.unique(np.concatenate([late, *(play.t for play in taken_up.values())]))
-    gone = [told_when(taken_up.get(i), t) for i in range(len(masses))]
+    gone = [command_times(taken_up.get(i), t) for i in range(len(masses))]
     found = [*stop_errors(gone, track, masses), *lag_errors(t, track, kinds)]
     found += drive_errors(t, track, masses, taken_up)
-    columns: list[Series1] = [column for each in found for _, column in each.felt]
-    pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.felt]
+    columns: list[Series1] = [column for each in found for _, column in each.response]
+    pairs = [(mass, j) for j, each in enumerate(found) for mass, _ in each.response]
     return MassErrors(
         Samples(t, np.column_stack(columns)) if columns else None,
         np.array(pairs, dtype=np.int64).reshape(-1, 2),

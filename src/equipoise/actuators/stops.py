@@ -23,7 +23,7 @@ class MassError(NamedTuple):
 
     name: str
     sd: float  # in its unit: m of a stop, s of a lag
-    felt: list[tuple[int, Series1]]  # index of the rail; displacement by unknown
+    response: list[tuple[int, Series1]]  # index of the rail; displacement by unknown
 
 
 def is_travelling(t: Series1, d: Series1, speed: float) -> Bools:
@@ -38,7 +38,7 @@ def travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]]:
     return [(int(a), int(b)) for a, b in zip(first, last, strict=True)]
 
 
-def felt(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -> Floats:
+def response(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -> Floats:
     """Return how far the error of one stop is felt at each row: up, on, down."""
     before, after = t[list(arrival)], t[list(departure)]
     knots = [before[0], before[1], after[0], after[1]]
@@ -50,12 +50,12 @@ def stops_of(t: Series1, d: Series1, mass: SlidingMass) -> list[Floats]:
     """Return how each stop of one mass is felt, home excepted."""
     ways = travels(t, d, mass.speed)
     bounds = [(0, 0), *ways, (len(d) - 1, len(d) - 1)]
-    stands = [felt(t, bounds[k], bounds[k + 1]) for k in range(len(bounds) - 1)]
+    stands = [response(t, bounds[k], bounds[k + 1]) for k in range(len(bounds) - 1)]
     return stands if abs(d[0]) > mass.accuracy else stands[1:]
 
 
 def stop_errors(
-    told: Sequence[Series1], track: Samples, masses: tuple[SlidingMass, ...]
+    reported: Sequence[Series1], track: Samples, masses: tuple[SlidingMass, ...]
 ) -> list[MassError]:
     """Return an unknown displacement for each stop of a mass that stops with an accuracy.
 
@@ -63,7 +63,7 @@ def stop_errors(
     """
     return [
         MassError(f"error_{mass.name}_{k + 1}", mass.accuracy, [(i, np.interp(t, track.t, stand))])
-        for i, (mass, t) in enumerate(zip(masses, told, strict=True))
+        for i, (mass, t) in enumerate(zip(masses, reported, strict=True))
         if mass.accuracy > 0
         for k, stand in enumerate(stops_of(track.t, track.values[:, i], mass))
     ]

@@ -1,10 +1,10 @@
 """What a balancing law is: a card that says what it needs, how it begins and what a step is.
 
-    step(state, seen, params) -> (state, command)
+    step(state, observed, params) -> (state, command)
 
-is a pure function. ``seen`` is a Sample, or the Estimate of the look that the last command asked
-for. A law knows no device: it asks for a shift of the centre of mass and for torques, and
-``procedure.run_law`` finds masses, wheels, gyros, coils and jets that give them.
+is a pure function. ``observed`` is a Sample, or the Estimate of the measurement that the last
+command requested. A law knows no device: it asks for a shift of the centre of mass and for torques,
+and ``procedure.run_law`` finds masses, wheels, gyros, coils and jets that give them.
 """
 
 from collections.abc import Callable

@@ -70,7 +70,7 @@ def body_of(
 
 
 @part
-def look(
+def evaluate(
     body: Body,
     now: Now,
     maps: Floats,
@@ -116,7 +116,7 @@ def start(
         y[j] = q[j]
     for j in range(3):
         y[4 + j] = H[j] + now.momentum[j]
-    look(body, now, maps, t, known, owners, columns, i, 0.0, y, regress, fb)
+    evaluate(body, now, maps, t, known, owners, columns, i, 0.0, y, regress, fb)
     for c in range(n):
         kind, k, first = columns.kinds[c], columns.indices[c], place(c)
         if kind == TURN:
@@ -133,7 +133,7 @@ def start(
 def slope(
     body: Body, now: Now, w: Triple, g: Triple, y: Floats, regress: Floats, fb: Floats, dy: Floats
 ) -> None:
-    """Write y' from what ``look`` has seen."""
+    """Write y' from what ``evaluate`` has seen."""
     motion(body, now, y, w, g, regress, dy)
     if fb.shape[0]:
         by_rate, by_turn = linearise(body, now, y, w, g)
@@ -157,7 +157,7 @@ def slope_at(
     dy: Floats,
 ) -> None:
     """Write y' at ``share`` of step i, the platform being as it is ``now``."""
-    w, g = look(body, now, maps, t, known, owners, columns, i, share, y, regress, fb)
+    w, g = evaluate(body, now, maps, t, known, owners, columns, i, share, y, regress, fb)
     slope(body, now, w, g, y, regress, fb, dy)
 
 
@@ -309,7 +309,7 @@ def _run(
         now = body_at(body, maps, t, known, i, share)
         if node == 0:
             start(body, now, maps, t, known, owners, columns, i, q0, w0, y, regress, fb)
-        rate, _ = look(body, now, maps, t, known, owners, columns, i, share, y, regress, fb)
+        rate, _ = evaluate(body, now, maps, t, known, owners, columns, i, share, y, regress, fb)
         q[node] = y[:4]
         H[node] = y[4:7]
         for j in range(3):

@@ -134,18 +134,21 @@ def error_column(
 ) -> tuple[Triple, Triple]:
     """Return f and b of an error as one mass feels it, as the known input ``column`` says."""
     a, b, k = known[i], known[i + 1], KNOWN_D + owner
-    felt, rate = between(a[column], b[column], share), (b[column] - a[column]) / (t[i + 1] - t[i])
+    response, rate = (
+        between(a[column], b[column], share),
+        (b[column] - a[column]) / (t[i + 1] - t[i]),
+    )
     d, m = between(a[k], b[k], share), maps[owner]
     bend = (m[A] + 2 * d * m[B], m[A + 1] + 2 * d * m[B + 1], m[A + 2] + 2 * d * m[B + 2],
             m[A + 3] + 2 * d * m[B + 3], m[A + 4] + 2 * d * m[B + 4],
             m[A + 5] + 2 * d * m[B + 5])  # fmt: skip
     v, u = times(bend, w), cross((m[0], m[1], m[2]), g)
     f = (
-        felt * v[0] + rate * m[HM],
-        felt * v[1] + rate * m[HM + 1],
-        felt * v[2] + rate * m[HM + 2],
+        response * v[0] + rate * m[HM],
+        response * v[1] + rate * m[HM + 1],
+        response * v[2] + rate * m[HM + 2],
     )
-    return f, (felt * u[0], felt * u[1], felt * u[2])
+    return f, (response * u[0], response * u[1], response * u[2])
 
 
 @part
@@ -166,8 +169,8 @@ def write_error(
         fb[j * LANES] = 0.0
     for c in range(owners.shape[0]):
         if owners[c, 1] == error:
-            felt = KNOWN_D + maps.shape[0] + c
-            f, b = error_column(maps, t, known, i, share, int(owners[c, 0]), felt, w, g)
+            response = KNOWN_D + maps.shape[0] + c
+            f, b = error_column(maps, t, known, i, share, int(owners[c, 0]), response, w, g)
             for j in range(3):
                 fb[j * LANES] += f[j]
                 fb[(3 + j) * LANES] += b[j]

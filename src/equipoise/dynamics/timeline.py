@@ -82,10 +82,10 @@ def timeline(
     cut: Series1 | None = None,
 ) -> Timeline:
     """Return the grid for sensors that looked at these times (s), with nodes at every ``cut``."""
-    seen = np.concatenate([attitude_t, rate_t])
-    start, end = float(seen.min()), float(seen.max())
+    observed = np.concatenate([attitude_t, rate_t])
+    start, end = float(observed.min()), float(observed.max())
     knots = [corners(c, start, end) for c in (masses, momentum, torque, errors)]
-    firm = seen if at_nodes else np.array([start, end])
+    firm = observed if at_nodes else np.array([start, end])
     inner = np.zeros(0) if cut is None else cut
     t = fill(distinct(np.concatenate([firm, inner, *knots])), longest)
     owners = np.zeros((0, 2), dtype=np.int64) if owners is None else owners
@@ -99,8 +99,8 @@ def timeline(
     )
 
 
-def place(t: Series1, seen: Series1) -> tuple[Ints, Floats]:
+def place(t: Series1, observed: Series1) -> tuple[Ints, Floats]:
     """Return the node at or before each time, and the share of the step behind it."""
-    node = np.searchsorted(t, seen, side="right") - 1
+    node = np.searchsorted(t, observed, side="right") - 1
     length = np.append(np.diff(t), 1.0)
-    return node.astype(np.int64), (seen - t[node]) / length[node]
+    return node.astype(np.int64), (observed - t[node]) / length[node]

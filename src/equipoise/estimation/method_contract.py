@@ -72,13 +72,13 @@ class Method:
 
 def ignored(card: Card, options: Options) -> tuple[str, ...]:
     """Return the options that were asked for and that a method does not know."""
-    asked: dict[Choice, bool] = {
+    requested: dict[Choice, bool] = {
         "term": bool(options.terms),
         "hold": bool(options.hold),
         "prior": options.use_prior,
         "robust": options.robust,
     }
-    return tuple(name for name, wanted in asked.items() if wanted and name not in card.heeds)
+    return tuple(name for name, wanted in requested.items() if wanted and name not in card.heeds)
 
 
 def heeded(card: Card, options: Options) -> Options:

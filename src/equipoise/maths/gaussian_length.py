@@ -57,12 +57,12 @@ def lengths(x: Floats, Q: Square) -> Floats:
 def shortest(mean: Floats, C: Floats, Q: Square) -> float:
     """Return the least length within the ellipsoid."""
     values, vectors = np.linalg.eigh(C.T @ Q @ C)
-    seen = values > NOTHING * max(float(values[-1]), 0.0)
-    if not seen.any():
+    observed = values > NOTHING * max(float(values[-1]), 0.0)
+    if not observed.any():
         return float(lengths(mean[None], Q)[0])
-    values, V = values[seen], vectors[:, seen]
+    values, V = values[observed], vectors[:, observed]
     g = V.T @ (C.T @ (Q @ mean))
-    radius = float(np.sqrt(chi2.ppf(INSIDE, int(seen.sum()))))
+    radius = float(np.sqrt(chi2.ppf(INSIDE, int(observed.sum()))))
 
     def excess(damping: float) -> float:
         return float(np.linalg.norm(g / (values + damping))) - radius

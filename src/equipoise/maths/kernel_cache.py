@@ -20,8 +20,10 @@ def fingerprint(package: Path = PACKAGE) -> str:
     for source in sorted(package.rglob("*.py")):
         if MARK not in source.read_bytes():
             continue
-        seen = source.stat()
-        digest.update(f"{source.relative_to(package)} {seen.st_size} {seen.st_mtime_ns}".encode())
+        observed = source.stat()
+        digest.update(
+            f"{source.relative_to(package)} {observed.st_size} {observed.st_mtime_ns}".encode()
+        )
     return digest.hexdigest()
 
 

@@ -36,27 +36,29 @@ def checked_targets(
     """
     names = [mass.name for mass in masses]
     goals = _by_index("move", "mass", names, targets, "a displacement in m")
-    for i, asked in goals.items():
-        goals[i] = in_steps(masses[i], asked)
+    for i, requested in goals.items():
+        goals[i] = in_steps(masses[i], requested)
         low, high = masses[i].travel
-        if min(asked, goals[i]) < low - HAIR or max(asked, goals[i]) > high + HAIR:
-            raise MoveRefused(names[i], float(here[i]), asked, low, high)
+        if min(requested, goals[i]) < low - HAIR or max(requested, goals[i]) > high + HAIR:
+            raise MoveRefused(names[i], float(here[i]), requested, low, high)
     return goals
 
 
 def _by_index(
-    verb: str, kind: str, names: Sequence[str], asked: Mapping[str, float], number: str
+    verb: str, kind: str, names: Sequence[str], requested: Mapping[str, float], number: str
 ) -> dict[int, float]:
     """Return what is asked of each by its index; InputError for a strange name or no number."""
-    for name, value in asked.items():
+    for name, value in requested.items():
         if name not in names:
             known = nearest(name, names) if names else f"no {kind}: this testbed has none"
             raise InputError(verb, f"a {kind} '{name}'", known)
         if not np.isfinite(value):
             raise InputError(f"{verb}: {kind} {name}", f"{value}", number)
-    return {names.index(name): float(value) for name, value in asked.items()}
+    return {names.index(name): float(value) for name, value in requested.items()}
 
 
-def in_steps(mass: SlidingMass, asked: float) -> float:
+def in_steps(mass: SlidingMass, requested: float) -> float:
     """Return the displacement (m) that a motor of this resolution is told to go to."""
-    return asked if mass.resolution == 0 else round(asked / mass.resolution) * mass.resolution
+    return (
+        requested if mass.resolution == 0 else round(requested / mass.resolution) * mass.resolution
+    )

@@ -7,7 +7,7 @@ from equipoise.model.following import Following
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Measurement:
     """Let the platform swing, masses still and no torque, and estimate from that record.
 
     With ``since`` the record begins there: what was moved and driven after that is part of it.
@@ -33,7 +33,9 @@ class Command:
     torque: Vector3 | None = None  # N m on the platform, by wheels or gyros; None: none
     magnetic: Vector3 | None = None  # N m on the platform, by magnetorquers; None: none
     impulse: Vector3 | None = None  # N m s on the platform, by jets; None: none
-    look: Look | None = None  # the next step is given the Estimate of this look, not a Sample
+    measurement: Measurement | None = (
+        None  # the next step is given the Estimate of this look, not a Sample
+    )
     finished: str = ""  # why the law has done its work; empty: it has not
     following: Following | None = None  # with ``finished``: what masses can follow from now on
     note: str = ""  # what people should know of this step

@@ -38,25 +38,25 @@ class InputError(EquipoiseError):
 class MoveRefused(EquipoiseError):
     """A mass was asked to go where it may not; nothing has moved."""
 
-    def __init__(self, mass: str, at: float, asked: float, low: float, high: float) -> None:
+    def __init__(self, mass: str, at: float, requested: float, low: float, high: float) -> None:
         super().__init__(
-            f"mass {mass}: at {at * 1e3:.3g} mm, asked for {asked * 1e3:.3g} mm; "
+            f"mass {mass}: at {at * 1e3:.3g} mm, asked for {requested * 1e3:.3g} mm; "
             f"its travel is {low * 1e3:.3g} to {high * 1e3:.3g} mm; nothing was moved"
         )
         self.mass = mass
-        self.asked = asked
+        self.requested = requested
 
 
 class DriveRefused(EquipoiseError):
     """A device was asked for more than it may give; nothing was driven."""
 
-    def __init__(self, device: str, asked: float, limit: float, unit: str) -> None:
+    def __init__(self, device: str, requested: float, limit: float, unit: str) -> None:
         super().__init__(
-            f"device {device}: asked for {asked:.4g} {unit}; its limit is {limit:.4g} {unit}; "
+            f"device {device}: asked for {requested:.4g} {unit}; its limit is {limit:.4g} {unit}; "
             f"nothing was driven"
         )
         self.device = device
-        self.asked = asked
+        self.requested = requested
 
 
 class BenchStopped(EquipoiseError):

@@ -10,7 +10,7 @@ from equipoise.model.placing import Placing
 from equipoise.model.recording import Recording
 from equipoise.model.verdict import Verdict
 
-Kind = Literal["look", "estimate", "move", "place", "control", "verify", "stop"]
+Kind = Literal["measurement", "estimate", "move", "place", "control", "verify", "stop"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -65,8 +65,8 @@ def left_at(
 
 def displacement(travel: Travel, t: float) -> Floats:
     """Return where the masses are at a time not before their last command, (4, k) m."""
-    told, taken = (share_of(t, begin, travel.arrive) for begin in (travel.start, travel.taken))
-    share = np.array([told, told, taken, taken])  # reported and carriage; held and real
+    reported, taken = (share_of(t, begin, travel.arrive) for begin in (travel.start, travel.taken))
+    share = np.array([reported, reported, taken, taken])  # reported and carriage; held and real
     return (1.0 - share) * travel.begin + share * travel.end
 
 

@@ -36,9 +36,9 @@ from equipoise.simulation.camera_and_gyro import (
     camera_rows,
     gyro_rows,
     lead,
-    looks,
-    looks_between,
     outside,
+    sampled_at,
+    samples_between,
 )
 from equipoise.simulation.clock import multiples, samples, tick, tick_one
 from equipoise.simulation.devices import (
@@ -211,13 +211,15 @@ class SimulatedBench:
         """Return the nodes from the one where the state is kept to now."""
         start, now = self._node, self._time
         self._noise = extended(self._noise, now, self._noise_rng)
-        seen = [looks_between(s, start, now) for s in (self._testbed.attitude, self._testbed.gyro)]
+        observed = [
+            samples_between(s, start, now) for s in (self._testbed.attitude, self._testbed.gyro)
+        ]
         turns = tick(self._track.t + self.platform.mass_lag)
         others = [turns, self._happens, bends(self._devices, start, now)]
         others.append(multiples(grid_of(self._testbed), start, now))
         if self._noise.sd > 0:
             others.append(self._noise.t)
-        t = np.unique(np.concatenate([[start], *seen, *others]))
+        t = np.unique(np.concatenate([[start], *observed, *others]))
         return t[(t >= start) & (t <= now)]
 
     def _follow(self, t: Series1) -> Path:
@@ -240,23 +242,27 @@ class SimulatedBench:
         """Return the rows stamped after a time (s), masses since a time (s)."""
         testbed, names = self._testbed, tuple(mass.name for mass in self._testbed.masses)
 
-        def seen(sensor: Sensor, motion: Floats) -> tuple[Series1, Floats]:
+        def observed(sensor: Sensor, motion: Floats) -> tuple[Series1, Floats]:
             stamps = samples(sensor.rate, after, self._time)
-            return stamps, motion[np.searchsorted(t, looks(sensor, stamps))]
+            return stamps, motion[np.searchsorted(t, sampled_at(sensor, stamps))]
 
         attitude = rate = masses = None
         if testbed.attitude is not None:
-            attitude = self._attitude(*seen(testbed.attitude, path.y[:, :4]), testbed.attitude)
+            attitude = self._attitude(*observed(testbed.attitude, path.y[:, :4]), testbed.attitude)
         if testbed.gyro is not None:
-            rate = self._rate(*seen(testbed.gyro, path.rate), testbed.gyro)
+            rate = self._rate(*observed(testbed.gyro, path.rate), testbed.gyro)
         if names:
             start = max(since - self._lead, 0.0)
             masses = actuator.reported_rows(self._track, start, self._time)
-        seen_so_far = Recording(
+        observed_so_outlying = Recording(
             attitude, rate, names, masses, source=f"simulated {testbed.name}, seed {self._seed}"
         )
-        told = self._with_devices(seen_so_far, after) if testbed.devices else seen_so_far
-        return replace(told, field=self._magnetometer(t, path, after))
+        reported = (
+            self._with_devices(observed_so_outlying, after)
+            if testbed.devices
+            else observed_so_outlying
+        )
+        return replace(reported, field=self._magnetometer(t, path, after))
 
     def _magnetometer(self, t: Series1, path: Path, after: float) -> Samples | None:
         """Return the magnetometer's rows, at the attitude of the node at or before each stamp."""
@@ -278,8 +284,8 @@ class SimulatedBench:
         testbed, rng = self._testbed, self._states_rng
         t = samples(self._reports, after, self._time)
         rows = reported_states(testbed, self._devices, t, rng, 1 / self._reports)
-        seen = replace(recording, device_names=testbed.device_names, devices=Samples(t, rows))
-        return replace(seen, momentum=stored_momentum(seen, testbed))
+        observed = replace(recording, device_names=testbed.device_names, devices=Samples(t, rows))
+        return replace(observed, momentum=stored_momentum(observed, testbed))
 
     def _attitude(self, t: Series1, q: Floats, sensor: AttitudeSensor) -> Samples:
         """Return the camera's rows stamped ``t`` from attitudes at its looks."""

@@ -30,18 +30,20 @@ def lead(sensor: Sensor | None) -> float:
     return 0.0 if sensor is None else sensor.delay + sensor.averaging
 
 
-def looks(sensor: Sensor, t: Series1) -> Floats:
+def sampled_at(sensor: Sensor, t: Series1) -> Floats:
     """Return when rows stamped ``t`` looked, (n, 1) or (n, 5) s."""
     if sensor.averaging == 0:
         return tick(t - sensor.delay)[:, None]
     return tick(t[:, None] - sensor.delay - sensor.averaging * (1.0 - NODES))
 
 
-def looks_between(sensor: Sensor | None, after: float, until: float) -> Series1:
+def samples_between(sensor: Sensor | None, after: float, until: float) -> Series1:
     """Return every look in (after, until] s, of rows not yet stamped too."""
     if sensor is None:
         return np.zeros(0)
-    t = looks(sensor, samples(sensor.rate, after, until + lead(sensor) + 1 / sensor.rate)).ravel()
+    t = sampled_at(
+        sensor, samples(sensor.rate, after, until + lead(sensor) + 1 / sensor.rate)
+    ).ravel()
     return t[(t > after) & (t <= until)]
 
 

@@ -69,30 +69,30 @@ def kept_until(testbed: Testbed, t: float) -> float:
 def inputs_of(testbed: Testbed, inputs: Mapping[str, float]) -> Inputs:
     """Return inputs by index; InputError for a wrong name or number, DriveRefused beyond limits."""
     found = Inputs({}, {})
-    for i, asked in checked_inputs(testbed.devices, inputs).items():
+    for i, requested in checked_inputs(testbed.devices, inputs).items():
         device = testbed.devices[i]
-        found.goals[i] = goal_of(device, asked)
-        if isinstance(device, JetPair) and asked:
-            found.lasting[i] = abs(asked) / device.torque
+        found.goals[i] = goal_of(device, requested)
+        if isinstance(device, JetPair) and requested:
+            found.lasting[i] = abs(requested) / device.torque
     return found
 
 
-def goal_of(device: Device, asked: float) -> float:
+def goal_of(device: Device, requested: float) -> float:
     """Return the input of one device as a goal of its y; DriveRefused beyond its limit."""
     if isinstance(device, JetPair):
         least = device.torque * device.min_pulse
-        if asked and abs(asked) < least * (1 - HAIR):
-            raise DriveRefused(device.name, asked, least, "N m s at least")
-        return float(np.sign(asked)) * device.torque
+        if requested and abs(requested) < least * (1 - HAIR):
+            raise DriveRefused(device.name, requested, least, "N m s at least")
+        return float(np.sign(requested)) * device.torque
     limits = {
         ReactionWheel: ("max_torque", "N m"),
         ControlMomentGyro: ("max_rate", "rad/s"),
         Magnetorquer: ("max_dipole", "A m^2"),
     }
     limit, unit = limits[type(device)]
-    if abs(asked) > getattr(device, limit) * (1 + HAIR):
-        raise DriveRefused(device.name, asked, getattr(device, limit), unit)
-    return asked / device.inertia if isinstance(device, ReactionWheel) else asked
+    if abs(requested) > getattr(device, limit) * (1 + HAIR):
+        raise DriveRefused(device.name, requested, getattr(device, limit), unit)
+    return requested / device.inertia if isinstance(device, ReactionWheel) else requested
 
 
 def all_off(testbed: Testbed) -> dict[int, float]:

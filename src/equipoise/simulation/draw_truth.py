@@ -90,8 +90,8 @@ def real_masses(
     stated: tuple[SlidingMass, ...], drives: tuple[TrueDrive, ...]
 ) -> tuple[SlidingMass, ...]:
     """Return the masses with the drives that they really have, the stated where nothing is told."""
-    told = {drive.mass: drive for drive in drives}
-    return tuple(really(m, told[m.name]) if m.name in told else m for m in stated)
+    reported = {drive.mass: drive for drive in drives}
+    return tuple(really(m, reported[m.name]) if m.name in reported else m for m in stated)
 
 
 def really(mass: SlidingMass, drive: TrueDrive) -> SlidingMass:

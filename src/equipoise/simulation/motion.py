@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.dynamics.propagation import NO_COLUMNS, Columns, look, step
+from equipoise.dynamics.propagation import NO_COLUMNS, Columns, evaluate, step
 from equipoise.dynamics.regressor import WIDTH, Triple
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at
 from equipoise.maths.compiled import kernel, part
@@ -75,7 +75,7 @@ def _run(
     for node in range(t.shape[0] - 1):
         lay(t, known, node, 0.0, 1.0, t3, known3)
         now = body_at(body, maps, t3, known3, 1, 0.0)
-        w, _ = look(body, now, maps, t3, known3, owners, columns, 1, 0.0, y, regress, fb)
+        w, _ = evaluate(body, now, maps, t3, known3, owners, columns, 1, 0.0, y, regress, fb)
         if node == 0:
             rates[0, 0], rates[0, 1], rates[0, 2] = w
         n = parts_of(body, now, w, t[node + 1] - t[node])
@@ -83,7 +83,7 @@ def _run(
             lay(t, known, node, j / n, (j + 1) / n, t3, known3)
             step(body, maps, t3, known3, owners, columns, 1, y, regress, fb, at, dy, total)
         now = body_at(body, maps, t3, known3, 1, 1.0)
-        w, _ = look(body, now, maps, t3, known3, owners, columns, 1, 1.0, y, regress, fb)
+        w, _ = evaluate(body, now, maps, t3, known3, owners, columns, 1, 1.0, y, regress, fb)
         path[node + 1] = y
         rates[node + 1, 0], rates[node + 1, 1], rates[node + 1, 2] = w
 

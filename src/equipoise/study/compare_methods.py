@@ -73,7 +73,7 @@ class MethodSummary:
     com: Ratios
     inertia: Ratios
     coverage: Share
-    believed: int  # runs whose intervals count in the coverage
+    trusted: int  # runs whose intervals count in the coverage
     nees: float
     confident_wrong: int
     time: float  # s of the processor, median of the runs that were not refused
@@ -135,12 +135,12 @@ def stack(rows: Sequence[Floats]) -> Floats:
 def summary(runs: Sequence[MethodRun]) -> MethodSummary:
     """Return one method's runs in numbers."""
     done = [run for run in runs if run.ending == "done"]
-    believed = [run for run in done if run.stated]
+    estimated = [run for run in done if run.stated]
     error, bound = stack([run.error for run in done]), stack([run.bound for run in done])
-    z = stack([run.error / run.sd for run in believed])
-    told = np.abs(z[np.isfinite(z)])
+    z = stack([run.error / run.sd for run in estimated])
+    reported = np.abs(z[np.isfinite(z)])
     failures = [run for run in runs if run.ending != "done"]
-    nees = [run.nees for run in believed if np.isfinite(run.nees)]
+    nees = [run.nees for run in estimated if np.isfinite(run.nees)]
     costs = [run.cost for run in runs if run.ending != "refused"]
     weights = [cost.memory for cost in costs if cost.memory is not None]
     courses = [run.settled for run in done if run.settled is not None]
@@ -162,8 +162,8 @@ def summary(runs: Sequence[MethodRun]) -> MethodSummary:
         sd=by_column(error, deviation, fewest=2),
         rmse=by_column(error, root_mean_square),
         **by_group,
-        coverage=Share(int(np.sum(told <= NORMAL_95)), len(told)),
-        believed=len(believed),
+        coverage=Share(int(np.sum(reported <= NORMAL_95)), len(reported)),
+        trusted=len(estimated),
         nees=mean(np.array(nees)) if nees else np.nan,
         confident_wrong=int(np.sum(np.nanmax(np.abs(z), axis=1) > WRONG)) if len(z) else 0,
         time=float(np.median([cost.time for cost in costs])) if costs else np.nan,

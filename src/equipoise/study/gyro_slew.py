@@ -17,7 +17,7 @@ from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.steps.sampler import Eyes, looked, opened, sample_of
+from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
 from equipoise.simulation.bench import SimulatedBench
 
 PERIOD = 0.05  # s, chosen: the loop's
@@ -40,7 +40,7 @@ class Slew(NamedTuple):
 class Row(NamedTuple):
     """One step."""
 
-    seen: Sample
+    measured: Sample
     angles: Floats
     rates: Floats
     required: Floats
@@ -52,39 +52,39 @@ def slewed(testbed: Testbed, target: Quaternion, gains: Gains, duration: float, 
     bench, pid, rows = SimulatedBench(testbed, seed), unwound(), list[Row]()
     fresh = bench.read(PERIOD)
     parts, before = [fresh], opened(testbed)
-    eyes = looked(before, fresh, testbed)
+    eyes = sampled(before, fresh, testbed)
     while bench.time < duration:
-        seen = sample_of(before, eyes, fresh, testbed)
-        assert seen is not None  # a camera's first row is at time zero
-        pid, row = stepped(testbed, eyes, seen, (pid, target, gains))
+        observed = sample_of(before, eyes, fresh, testbed)
+        assert observed is not None  # a camera's first row is at time zero
+        pid, row = stepped(testbed, eyes, observed, (pid, target, gains))
         rows.append(row)
         named = zip(testbed.cmgs, row.rates, strict=True)
         bench.drive({cmg.name: float(rate) for cmg, rate in named})
         fresh = bench.read(PERIOD)
         parts.append(fresh)
-        before, eyes = eyes, looked(eyes, fresh, testbed)
-    return told(testbed, rows, parts)
+        before, eyes = eyes, sampled(eyes, fresh, testbed)
+    return slew_of(testbed, rows, parts)
 
 
 def stepped(
-    testbed: Testbed, eyes: Eyes, seen: Sample, law: tuple[Pid, Quaternion, Gains]
+    testbed: Testbed, eyes: Eyes, sample: Sample, law: tuple[Pid, Quaternion, Gains]
 ) -> tuple[Pid, Row]:
     """Return the law's state and what is done, at one step."""
     pid, target, gains = law
-    pid, required = torque(pid, seen, at_rest(target), gains, np.zeros(3))
+    pid, required = torque(pid, sample, at_rest(target), gains, np.zeros(3))
     angles = eyes.states[len(testbed.wheels) :][: len(testbed.cmgs)]
     rates = limited_rates(testbed.cmgs, singularity_robust(testbed.cmgs, angles, required))
     output: Floats = -jacobian(testbed.cmgs, angles) @ rates
-    return pid, Row(seen, angles, rates, required, output)
+    return pid, Row(sample, angles, rates, required, output)
 
 
-def told(testbed: Testbed, rows: list[Row], parts: list[Recording]) -> Slew:
+def slew_of(testbed: Testbed, rows: list[Row], parts: list[Recording]) -> Slew:
     """Return the rows as columns, and one recording."""
     measure = [singularity_measure(testbed.cmgs, row.angles) for row in rows]
     return Slew(
-        np.array([row.seen.t for row in rows]),
-        np.array([row.seen.q for row in rows]),
-        np.array([row.seen.rate for row in rows]),
+        np.array([row.measured.t for row in rows]),
+        np.array([row.measured.q for row in rows]),
+        np.array([row.measured.rate for row in rows]),
         np.array([row.angles for row in rows]),
         np.array([row.rates for row in rows]),
         np.array([row.required for row in rows]),

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.control.elements.attitude_pid import Gains
-from equipoise.estimation.information.fisher_information import Observability, seen_by
+from equipoise.estimation.information.fisher_information import Observability, information_by
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.output_error.trajectory import Params
@@ -129,8 +129,8 @@ def judged(testbed: Testbed, start: tuple[float, float, float], slew: Slew) -> M
     """Return what a slew from roll, pitch and yaw (deg) tells; the testbed has its own sensors."""
     bed = with_printed_errors(testbed)
     found = estimates_of(slew.recording, bed)
-    bound = seen_by(slew.recording, bed, Params())
-    own = seen_by(coarser(slew.recording, testbed), testbed, Params())
+    bound = information_by(slew.recording, bed, Params())
+    own = information_by(coarser(slew.recording, testbed), testbed, Params())
     return Manoeuvre(start, bed, slew, found, bound, own)
 
 

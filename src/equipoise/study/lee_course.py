@@ -31,7 +31,7 @@ EVERY = 1.0  # s
 SMOOTHED = 20  # rows of the gyro, to see whether it turns
 
 
-class Told(NamedTuple):
+class Course(NamedTuple):
     """What rows up to each time tell; columns in the order of ``names``."""
 
     names: tuple[str, ...]
@@ -53,17 +53,17 @@ def turning_from(recording: Recording) -> float:
     return float(rate.t[turns[0]])
 
 
-def told_along(formulation: Formulation, recording: Recording, testbed: Testbed) -> Told:
+def course_of(formulation: Formulation, recording: Recording, testbed: Testbed) -> Course:
     """Return the course of a formulation's estimates from where the platform turns."""
     start = turning_from(recording)
     part = window(recording, start, recording.span[1])
     rows = formulation(posed_of(part, testbed, Options()))
     times = np.arange(start + BATCH, rows.t[-1] + 1e-9, EVERY)
-    told = [told_at(rows, t) for t in times]
-    return Told(rows.names, times, *(np.array(column) for column in zip(*told, strict=True)))
+    reported = [course_at(rows, t) for t in times]
+    return Course(rows.names, times, *(np.array(column) for column in zip(*reported, strict=True)))
 
 
-def told_at(rows: Rows, t: float) -> tuple[Floats, float, Floats]:
+def course_at(rows: Rows, t: float) -> tuple[Floats, float, Floats]:
     """Return values, EI and PEI of the rows up to a time; nan where they tell nothing."""
     first = centred(rows_until(rows, t))
     H, y = flat(first)

@@ -129,10 +129,10 @@ def judged(method: str, seed: int, found: Found, record: JudgedRecord, cost: Cos
         if states(found, name):
             p = found.parameters[found.index(name)]
             error[k], sd[k] = p.value - record.truth[name], p.sd
-    told = tuple(name for name, e in zip(names, error, strict=True) if np.isfinite(e))
+    reported = tuple(name for name, e in zip(names, error, strict=True) if np.isfinite(e))
     return MethodRun(
         method, seed, ending, found.outcome.sentence, warns(found), error, sd, bound,
-        nees(found, told, error[np.isfinite(error)]), settled(found, record), cost,
+        nees(found, reported, error[np.isfinite(error)]), settled(found, record), cost,
     )  # fmt: skip
 
 
@@ -170,10 +170,10 @@ def settled(found: Estimate, record: JudgedRecord) -> float | None:
         return None
     where = [course.names.index(name) for name in COM]
     true = np.array([record.truth[name] for name in COM])
-    far = np.linalg.norm(course.values[:, where] - true, axis=1)
+    outlying = np.linalg.norm(course.values[:, where] - true, axis=1)
     first = float(np.linalg.norm(record.testbed.body.com - true))
-    outside = np.flatnonzero(~(far <= SETTLED * first))
+    outside = np.flatnonzero(~(outlying <= SETTLED * first))
     if not len(outside):
         return 0.0
     late = int(outside[-1]) + 1
-    return float(course.t[late] - record.recording.span[0]) if late < len(far) else np.inf
+    return float(course.t[late] - record.recording.span[0]) if late < len(outlying) else np.inf

@@ -58,14 +58,14 @@ def ratios_of(method: MethodSummary, group: Group) -> Ratios:
 def lacks(method: MethodSummary, group: Group) -> str:
     """Return why a method does not qualify, "" if it does."""
     stated, cover, runs = ratios_of(method, group).stated, method.coverage, method.runs
-    warned, least = method.warned, least_share(method.believed)
+    warned, least = method.warned, least_share(method.trusted)
     reasons = (
         (not stated.part, "states nothing"),
         (method.failed > 0, f"fails in {method.failed} of {runs} runs"),
         (stated.part < stated.of, f"states {stated.part} of {stated.of} values"),
         (method.confident_wrong > 0,
          f"misses by more than {WRONG:g} sd in {method.confident_wrong} of {runs} runs"),
-        (method.believed < MOSTLY * runs, f"warns of its intervals in {warned} of {runs} runs"),
+        (method.trusted < MOSTLY * runs, f"warns of its intervals in {warned} of {runs} runs"),
         (not cover.value >= least, f"has 95 % intervals that hold {percent(cover.value)}"),
     )  # fmt: skip
     return next((reason for lacking, reason in reasons if lacking), "")
@@ -76,7 +76,7 @@ def numbers(method: MethodSummary, group: Group) -> str:
     return (
         f"RMSE {ratios_of(method, group).rmse:.2g} times the bound, 95 % intervals that hold "
         f"{percent(method.coverage.value)} of {method.coverage.of} (chance leaves "
-        f"{percent(least_share(method.believed))} or more), no failure in {method.runs} runs, "
+        f"{percent(least_share(method.trusted))} or more), no failure in {method.runs} runs, "
         f"{float(f'{1e3 * method.time:.2g}'):g} ms"
     )
 
@@ -108,10 +108,10 @@ def nobody(
     stating = sorted((m for m in methods if ratios_of(m, group).stated.part), key=ratio)
     if not stating:
         return f"For {CALLED[group]} there is no method to recommend: none states it."
-    told = "; ".join(f"{m.method} {lacks(m, group)}" for m in stating[:3])
+    reported = "; ".join(f"{m.method} {lacks(m, group)}" for m in stating[:3])
     return (
         f"For {CALLED[group]} there is no method to recommend: none is honest on all records. "
-        f"The most accurate: {told}."
+        f"The most accurate: {reported}."
     )
 
 
@@ -123,10 +123,10 @@ def advised_law(found: Comparison) -> Advice:
         near = min(
             found.laws, key=lambda law: (-law.within / law.runs, law.left.most), default=None
         )
-        told = "" if near is None else f" The nearest: {near.law}, {law_numbers(near)}."
+        reported = "" if near is None else f" The nearest: {near.law}, {law_numbers(near)}."
         wrong = "leaves the required torque in 95 % of runs without passing what is wrong"
         return Advice(
-            None, f"There is no law to recommend: none {wrong} (at most {required}).{told}"
+            None, f"There is no law to recommend: none {wrong} (at most {required}).{reported}"
         )
     best = min(good, key=lambda law: (law.halted / law.runs, law.left.most))
     return Advice(best.law, f"Take {best.law}: {law_numbers(best)}; {required} was required.")

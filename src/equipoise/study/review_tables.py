@@ -103,7 +103,7 @@ TABLE_3: dict[Printed, tuple[str, ...]] = {
         "least squares, iterated [8,16,18,19]",
         "Table 1 alone",
         "35 [8] and 2000 uN m [18]; 5 [16] and 61 um [19]",
-    ): ("look_and_move",),
+    ): ("measure_and_move",),
     Printed("PID and L1 adaptive [22,23]", "section 4 and Table 1", "0.5 um [22,23]"): (
         "pid",
         "l1_adaptive",
@@ -111,7 +111,7 @@ TABLE_3: dict[Printed, tuple[str, ...]] = {
     Printed("others", NOT_THERE): (
         "coarse_fine",
         "impulse_feedback",
-        "slew_and_look",
+        "slew_and_measure",
         "momentum_buildup",
     ),
 }
@@ -119,8 +119,8 @@ TABLE_3: dict[Printed, tuple[str, ...]] = {
 
 def span(values: Sequence[float | None]) -> Span:
     """Return the least and the greatest of what is told."""
-    told = [value for value in values if value is not None and not np.isnan(value)]
-    return Span(min(told), max(told)) if told else Span(np.nan, np.nan)
+    reported = [value for value in values if value is not None and not np.isnan(value)]
+    return Span(min(reported), max(reported)) if reported else Span(np.nan, np.nan)
 
 
 def method_rows(methods: Sequence[MethodSummary]) -> list[MethodRow]:

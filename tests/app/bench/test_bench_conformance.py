@@ -76,7 +76,7 @@ def test_it_has_the_verbs_and_knows_its_platform(shown):
 
 
 def test_each_row_comes_once_in_order_and_not_before_its_time(shown):
-    bench, seen = shown.bench, []
+    bench, observed = shown.bench, []
     bench.read(0.1)
     begun = bench.time
     for length in LENGTHS:
@@ -85,9 +85,9 @@ def test_each_row_comes_once_in_order_and_not_before_its_time(shown):
         assert length - 1e-9 <= bench.time - start <= length + 2 * TURN
         for channel in (rows.attitude, rows.rate, rows.masses):
             assert channel is None or np.all(channel.t <= bench.time + 1e-9)
-        seen.append(rows)
+        observed.append(rows)
     for name in ("attitude", "rate"):
-        parts = [part for rows in seen if (part := getattr(rows, name)) is not None]
+        parts = [part for rows in observed if (part := getattr(rows, name)) is not None]
         t = np.concatenate([part.t for part in parts])
         assert np.all(np.diff(t) > 0)
         assert len(t) == pytest.approx(RATE * (bench.time - begun), abs=2)

@@ -70,8 +70,8 @@ def offered(address):
         try:
             with connect(address, subprotocols=["foxglove.sdk.v1"]) as client:
                 while {"/attitude", "/rate"} - topics:
-                    told = json.loads(client.recv(5.0))
-                    topics |= {each["topic"] for each in told.get("channels", [])}
+                    reported = json.loads(client.recv(5.0))
+                    topics |= {each["topic"] for each in reported.get("channels", [])}
                 return topics
         except (OSError, TimeoutError):
             time.sleep(0.05)
@@ -96,14 +96,14 @@ def test_record_writes_its_rows_while_other_clients_watch(bench):
 def test_record_shows_at_a_terminal_what_it_sees(bench):
     """Ctrl-C ends it early and leaves nothing of the live block on the screen."""
     words = ("record", "there.toml", "--out", "shown.mcap", "--duration-s", 600)
-    seen = AtTerminal(bench, words)
-    seen.wait_for(" deg, 4 s")
-    seen.ctrl_c()
-    assert seen.ended() == 0
-    told = stripped(seen.written)
+    observed = AtTerminal(bench, words)
+    observed.wait_for(" deg, 4 s")
+    observed.ctrl_c()
+    assert observed.ended() == 0
+    reported = stripped(observed.written)
     for text in ("% of 600 s  shown.mcap", "rows        attitude ", "deg/s", "recording ..."):
-        assert text in told
-    left = screen(seen.written)
+        assert text in reported
+    left = screen(observed.written)
     assert left[-1] == "wrote shown.mcap"
     assert all(line.startswith(("board masses: ", "sensor imu: ")) for line in left[:-1])
 
@@ -128,10 +128,10 @@ def test_the_first_ctrl_c_stops_and_saves(bench):
         if "stopped by hand: every mass was halted" in (out + err).lower():
             break
     assert code == 1
-    told = json.loads((bench / record.stem / "balance.json").read_text())
-    assert told["verdict"]["halted"]
-    assert "Stopped by hand: every mass was halted" in told["verdict"]["sentence"]
-    assert "seed" not in told["provenance"]
+    reported = json.loads((bench / record.stem / "balance.json").read_text())
+    assert reported["verdict"]["halted"]
+    assert "Stopped by hand: every mass was halted" in reported["verdict"]["sentence"]
+    assert "seed" not in reported["provenance"]
     assert "command" in [event.kind for event in events_of(record)]
     assert read_recording(record).attitude.t[-1] > 2.0
 
@@ -157,14 +157,14 @@ def test_the_second_ctrl_c_leaves_at_once(bench):
 
 
 def test_an_unreachable_bench_is_reported_before_any_rehearsal(equipoise, tmp_path):
-    told = equipoise("balance", "nanosat", "--bench", "--yes")
-    assert told.code == 2
-    assert "board masses cannot be reached: serial:/dev/ttyUSB0" in told.err
-    assert "practising" not in told.err
+    reported = equipoise("balance", "nanosat", "--bench", "--yes")
+    assert reported.code == 2
+    assert "board masses cannot be reached: serial:/dev/ttyUSB0" in reported.err
+    assert "practising" not in reported.err
     (tmp_path / "kept.mcap").write_text("a record")
-    told = equipoise("balance", "nanosat", "--bench", "--record", "kept.mcap")
-    assert (told.code, "a file that exists" in told.err) == (2, True)
-    told = equipoise("balance", "kau", "--bench")
-    assert (told.code, "found no hardware" in told.err) == (2, True)
-    told = equipoise("balance", "nanosat", "--foxglove")
-    assert (told.code, "--foxglove: found no --bench" in told.err) == (2, True)
+    reported = equipoise("balance", "nanosat", "--bench", "--record", "kept.mcap")
+    assert (reported.code, "a file that exists" in reported.err) == (2, True)
+    reported = equipoise("balance", "kau", "--bench")
+    assert (reported.code, "found no hardware" in reported.err) == (2, True)
+    reported = equipoise("balance", "nanosat", "--foxglove")
+    assert (reported.code, "--foxglove: found no --bench" in reported.err) == (2, True)

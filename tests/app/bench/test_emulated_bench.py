@@ -63,14 +63,14 @@ def test_it_balances_through_real_ports_and_the_verdict_is_true(kind, seed):
 def test_rows_are_those_of_the_sensors_and_a_move_is_recorded_as_it_happened():
     with lab() as found:
         found.bench.move({"x": 4 * MM})
-        seen = found.bench.read(2.0)
-        assert len(seen.attitude) == pytest.approx(80, abs=2)
-        assert len(seen.rate) == pytest.approx(80, abs=2)
-        assert np.all(np.diff(seen.attitude.t) > 0)
-        x = seen.masses.values[:, 0]
+        observed = found.bench.read(2.0)
+        assert len(observed.attitude) == pytest.approx(80, abs=2)
+        assert len(observed.rate) == pytest.approx(80, abs=2)
+        assert np.all(np.diff(observed.attitude.t) > 0)
+        x = observed.masses.values[:, 0]
         assert x[-1] == pytest.approx(4 * MM, abs=2e-6)
         going = np.flatnonzero(np.diff(x) > 0)
-        taken = seen.masses.t[going[-1] + 1] - seen.masses.t[going[0]]
+        taken = observed.masses.t[going[-1] + 1] - observed.masses.t[going[0]]
         assert taken == pytest.approx(0.5, abs=0.06)  # 4 mm at 8 mm/s, told every 50 ms
 
 
@@ -86,24 +86,24 @@ def with_sensor(driver):
 
 
 @pytest.mark.parametrize("driver", sorted(NEEDS.keys() - PICTURES))
-def test_each_sensor_returns_the_rows_given_to_its_far_side(driver):
+def test_each_sensor_returns_the_rows_given_to_its_outlying_side(driver):
     """In number, in time, and in value: attitude and rate come back as they went in."""
     with lab(with_sensor(driver)) as found:
-        device, told = found.imu.device, []
-        tell = device.tell
+        device, reported = found.imu.device, []
+        report = device.messages
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(device, "tell", lambda rows: told.append(rows) or tell(rows))
+            patch.setattr(device, "messages", lambda rows: reported.append(rows) or report(rows))
             found.wait(0.5)  # a WebSocket's rows go through a thread, and may be late by some ticks
             found.bench.read(0.0)
-            seen = found.bench.read(2.0)
+            observed = found.bench.read(2.0)
         (link,) = found.keeper.links.sensors
         assert link.driver.counts.corrupt == 0
         for channel in link.unit.gives:
-            ours, theirs = joined([seen], channel), joined(told, channel)
+            ours, theirs = joined([observed], channel), joined(reported, channel)
             assert len(ours) == pytest.approx(80, abs=10)
-            apart = np.abs(theirs.values[:, None] - ours.values).max(axis=2)
-            row = apart.argmin(axis=0)  # noise makes each row one of its kind
-            assert apart.min(axis=0).max() < 2e-6
+            separation = np.abs(theirs.values[:, None] - ours.values).max(axis=2)
+            row = separation.argmin(axis=0)  # noise makes each row one of its kind
+            assert separation.min(axis=0).max() < 2e-6
             assert np.all(np.diff(row) == 1)
             assert np.abs(theirs.t[row] - ours.t).max() < 0.021  # at most a tick late
 
@@ -193,11 +193,11 @@ def test_a_bad_cable_of_the_sensor_costs_rows_and_no_more(how):
     """One byte of a hundred wrong breaks two of three messages of 110 bytes; the rest are rows."""
     with lab() as found:
         found.imu.wire.spoil = how
-        seen = found.bench.read(4.0)
-        assert 20 <= len(seen.attitude) <= 162
+        observed = found.bench.read(4.0)
+        assert 20 <= len(observed.attitude) <= 162
         (link,) = found.keeper.links.sensors
         assert link.driver.counts.corrupt > 10
-        turn = np.abs(np.sum(seen.attitude.values[1:] * seen.attitude.values[:-1], axis=1))
+        turn = np.abs(np.sum(observed.attitude.values[1:] * observed.attitude.values[:-1], axis=1))
         assert np.degrees(2 * np.arccos(np.minimum(turn, 1.0))).max() < 10
 
 
@@ -278,9 +278,9 @@ def test_closing_a_bench_records_the_link_health_of_each_device():
         found.imu.wire.spoil = noisy
         found.bench.read(2.0)
         (link,) = found.keeper.links.sensors
-    told = [sentence for _, kind, sentence in found.events if kind == "health"]
-    assert told[0].startswith("board masses: ")
-    assert f"{link.driver.counts.corrupt} broken" in told[1]
+    reported = [sentence for _, kind, sentence in found.events if kind == "health"]
+    assert reported[0].startswith("board masses: ")
+    assert f"{link.driver.counts.corrupt} broken" in reported[1]
 
 
 def test_who_homes_holds_the_platform_as_at_first():
@@ -301,7 +301,7 @@ def test_a_hand_leads_the_platform_back_at_its_own_rate():
     """0.5 rad/s about one axis, as the gyro says too; a jump would look like a rate that stops."""
     with lab() as found:
         found.bench.read(4.0)
-        q0 = found.emulated._seen[1]
+        q0 = found.emulated._observed[1]
         found.emulated.catch()
         rows = found.bench.read(2.0)
         way = difference(found.emulated.platform.platform.attitude, q0)
@@ -320,9 +320,9 @@ def test_tilt_disturbs_nobody_who_only_records():
     found = emulated_lab.Lab(replace(BED, tilt_limit=np.radians(0.1)), 1)
     try:
         found.bench.watch()
-        seen = found.bench.read(2.0)
-        assert len(seen.attitude) == pytest.approx(80, abs=2)
-        assert seen.masses is None
+        observed = found.bench.read(2.0)
+        assert len(observed.attitude) == pytest.approx(80, abs=2)
+        assert observed.masses is None
         assert found.keeper.trip is None
     finally:
         found.keeper.close()

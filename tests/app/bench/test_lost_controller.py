@@ -114,12 +114,12 @@ def test_any_call_to_a_dead_bench_controller_raises_bench_stopped():
     assert [each.device for each in bench.health()] == ["board masses", "sensor imu"]
     os.kill(keeper._process.pid, signal.SIGKILL)
     keeper._process.join()
-    for ask in (
+    for request in (
         lambda: bench.read(1.0), lambda: bench.read(0.0), bench.stop, bench.watch,
         lambda: bench.move({"x": 0.0}),
     ):  # fmt: skip
         with pytest.raises(BenchStopped, match="the keeper of the bench has ended"):
-            ask()
+            request()
     assert halted(bench) == "the keeper of the bench has ended"  # as Ctrl-C's account has it
     assert bench.health() == []
     keeper.close()

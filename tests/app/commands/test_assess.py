@@ -74,17 +74,17 @@ def test_two_recordings_are_compared_and_the_document_holds_both(records, tmp_pa
     assert "rose" in page
     assert (folder / "assess.json").exists()
     drawn = {path.stem for path in folder.glob("figures/*.png")}
-    assert {"torque_in_range", "torque_felt", "swing_spectrum"} <= drawn
+    assert {"torque_in_range", "residual_torque", "swing_spectrum"} <= drawn
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "reported"),
     [
         (("--require-torque", "0"), "--require-torque"),
         (("--tilt-deg", "91"), "at most 90"),
         (("--hold", "com_q"), "com_z"),
     ],
 )
-def test_wrong_usage_is_reported(records, capsys, words, told):
+def test_wrong_usage_is_reported(records, capsys, words, reported):
     assert assess(records[0], *words) == 2
-    assert told in capsys.readouterr().err
+    assert reported in capsys.readouterr().err

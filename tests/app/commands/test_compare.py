@@ -34,7 +34,7 @@ class Balanced(HTMLParser):
         assert self.open.pop() == tag
 
 
-def told_of(done):
+def reported_of(done):
     """What was printed, lines joined."""
     return " ".join(done.out.split())
 
@@ -47,16 +47,16 @@ def test_methods_are_compared_and_written_down(equipoise, strict_json, tmp_path)
     assert document["parameters"] == list(JUDGED)
     assert document["seeds"] == [1, 2]
     assert document["moves"][0]["targets_m"]["z1"] == pytest.approx(-0.05)
-    told = {method["method"]: method for method in document["methods"]}
-    assert list(told) == ["trajectory", "ekf_12", "tracker"]
-    assert told["ekf_12"]["refused"] == 2
-    assert told["trajectory"]["memory"] > 1e5
+    reported = {method["method"]: method for method in document["methods"]}
+    assert list(reported) == ["trajectory", "ekf_12", "tracker"]
+    assert reported["ekf_12"]["refused"] == 2
+    assert reported["trajectory"]["memory"] > 1e5
     assert done.code == (0 if document["recommended"]["com"]["name"] else 1)
     with (folder / "methods.csv").open(encoding="utf-8", newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["method"] == "trajectory"]
     assert [row["seed"] for row in rows] == ["1", "2"]
     squares = [float(row["com_z_error_um"]) ** 2 for row in rows]
-    assert told["trajectory"]["rmse"][2] == pytest.approx(
+    assert reported["trajectory"]["rmse"][2] == pytest.approx(
         1e-6 * (sum(squares) / 2) ** 0.5, rel=1e-4
     )
     page = (folder / "report.html").read_text("utf-8")
@@ -104,9 +104,9 @@ def test_the_table_has_honest_methods_first_and_reasons_below(equipoise):
     assert tracker[4:6] == ["100", "%"]
     cost = [line.split() for line in done.out.splitlines() if line.startswith("tracker")][-1]
     assert cost == ["tracker", "20", "3", "12"]
-    assert "Failed: ekf_12 (20): No gyro." in told_of(done)
-    assert "Failed: smoother (1): Not so. It did not settle." in told_of(done)
-    assert "For the centre of mass take tracker: RMSE 2 times the bound" in told_of(done)
+    assert "Failed: ekf_12 (20): No gyro." in reported_of(done)
+    assert "Failed: smoother (1): Not so. It did not settle." in reported_of(done)
+    assert "For the centre of mass take tracker: RMSE 2 times the bound" in reported_of(done)
 
 
 @pytest.mark.usefixtures("without_work")
@@ -116,7 +116,7 @@ def test_table_2_of_the_review_is_measured(equipoise):
     row = next(line for line in done.out.splitlines() if line.startswith("EKF [33]")).split()
     # Of tracker and ekf_12: half of the runs failed; com settles after 12 s.
     assert row[-5:] == ["12", "50", "%", "0", "%"]
-    assert "EKF [33]: ekf_12, tracker" in told_of(done)
+    assert "EKF [33]: ekf_12, tracker" in reported_of(done)
 
 
 @pytest.mark.usefixtures("without_work")
@@ -150,8 +150,8 @@ def test_it_ends_with_1_when_nobody_can_be_recommended(equipoise, monkeypatch):
     monkeypatch.setattr(comparison_runs, "run_methods", lambda *_: comparison(runs))
     done = equipoise("compare", "sputnix", "--methods")
     assert done.code == 1
-    assert "no method to recommend" in told_of(done)
-    assert "tracker misses by more than 5 sd in 1 of 20 runs" in told_of(done)
+    assert "no method to recommend" in reported_of(done)
+    assert "tracker misses by more than 5 sd in 1 of 20 runs" in reported_of(done)
 
 
 def test_an_open_scale_is_reported(equipoise, monkeypatch):
@@ -159,7 +159,7 @@ def test_an_open_scale_is_reported(equipoise, monkeypatch):
     monkeypatch.setattr(comparison_runs, "run_methods", lambda *_: comparison(runs))
     done = equipoise("compare", "sputnix", "--methods")
     assert done.code == 1
-    assert "give --move, --hold or --prior" in told_of(done)
+    assert "give --move, --hold or --prior" in reported_of(done)
 
 
 def test_names_go_to_their_kind():

@@ -31,13 +31,13 @@ def test_it_reports_reach_steps_measurements_budget_and_the_limiting_contributio
 
 def test_json_is_one_document(equipoise, strict_json):
     done = equipoise("design", "sputnix", *SHORT, "--json")
-    told = strict_json(done.out)
-    assert told["schema"] == "equipoise/design/1"
-    assert told["reach"]["tolerance_m"] == pytest.approx(109.55e-6, rel=1e-4)
-    assert told["masses"][0]["torque_N_m"] == pytest.approx(1.53e-4, rel=1e-3)
-    assert [look["record_s"] for look in told["looks"]] == [60.0]
-    assert told["outcome"]["met"]
-    assert {line["name"] for line in told["budget"]} >= {"look", "steps", "stops", "air"}
+    reported = strict_json(done.out)
+    assert reported["schema"] == "equipoise/design/1"
+    assert reported["reach"]["tolerance_m"] == pytest.approx(109.55e-6, rel=1e-4)
+    assert reported["masses"][0]["torque_N_m"] == pytest.approx(1.53e-4, rel=1e-3)
+    assert [measurement["record_s"] for measurement in reported["measurements"]] == [60.0]
+    assert reported["outcome"]["met"]
+    assert {line["name"] for line in reported["budget"]} >= {"measurement", "steps", "stops", "air"}
 
 
 def test_a_requirement_that_cannot_be_met_ends_with_1(equipoise):

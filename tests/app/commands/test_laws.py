@@ -19,7 +19,7 @@ PID = CARDS["pid"]
 NEEDLESS = "underactuated"  # masses alone, and soon begun
 
 
-def told_of(done):
+def reported_of(done):
     """All that was printed, its lines joined."""
     return " ".join(done.out.split())
 
@@ -35,8 +35,8 @@ def test_one_law_is_described_in_full(equipoise):
     done = equipoise("laws", "pid")
     assert done.code == 0
     for said in (PID.idea, PID.source, PID.leaves, PID.stable, *(NEEDS[n] for n in PID.needs)):
-        assert said in told_of(done)
-    assert f"{PID.period:g} s between steps" in told_of(done)
+        assert said in reported_of(done)
+    assert f"{PID.period:g} s between steps" in reported_of(done)
 
 
 def test_a_law_that_does_not_exist_names_the_nearest(equipoise):
@@ -59,8 +59,8 @@ def test_cards_are_json(equipoise, strict_json):
 @pytest.mark.parametrize(("law", "lacks"), [("fully_actuated", "momentum"), ("pid", "gyro")])
 def test_a_testbed_without_the_devices_is_refused_in_one_sentence(equipoise, command, law, lacks):
     """The mock-up has masses and a camera."""
-    asked = {"balance": ("--law", law), "compare": ("--laws", "--only", law)}[command]
-    done = equipoise(command, "sputnix", *asked)
+    requested = {"balance": ("--law", law), "compare": ("--laws", "--only", law)}[command]
+    done = equipoise(command, "sputnix", *requested)
     assert (done.code, done.out) == (2, "")
     lines = [line for line in done.err.splitlines() if not line.endswith("...")]
     assert len(lines) == 1
@@ -136,15 +136,15 @@ def without_work(monkeypatch):
             return Refusal(task.law, "it does not like it")
         return made_up(task.law, task.seed, torques[task.law] * task.seed)
 
-    def found(asked, _workers):
-        tasks = [Task(card.name, asked.testbed, seed, BalanceOptions(), 60.0, 0.3)
-                 for seed in asked.seeds for card in asked.cards]  # fmt: skip
-        return compared(tasks, asked.cards, asked.required, lambda *_: map(finding, tasks))
+    def found(requested, _workers):
+        tasks = [Task(card.name, requested.testbed, seed, BalanceOptions(), 60.0, 0.3)
+                 for seed in requested.seeds for card in requested.cards]  # fmt: skip
+        return compared(tasks, requested.cards, requested.required, lambda *_: map(finding, tasks))
 
     monkeypatch.setattr(comparison, "run", found)
 
 
-THREE = ("compare", "reference-table", "--laws", "--only", "pid", "--only", "slew_and_look",
+THREE = ("compare", "reference-table", "--laws", "--only", "pid", "--only", "slew_and_measure",
          "--only", "l1_adaptive", "--runs", "3")  # fmt: skip
 
 
@@ -153,8 +153,8 @@ def test_the_table_has_the_least_torque_first_and_refusals_below(equipoise):
     done = equipoise(*THREE)
     assert done.code == 0
     assert done.out.index("l1_adaptive") < done.out.index("pid")
-    assert "slew_and_look was refused: it does not like it" in told_of(done)
-    assert "3 platforms of reference table" in told_of(done)
+    assert "slew_and_measure was refused: it does not like it" in reported_of(done)
+    assert "3 platforms of reference table" in reported_of(done)
     pid = next(line for line in done.out.splitlines() if line.startswith("pid")).split()
     # 5 um aside, 9 um high; 5, 10 and 15 uN m, of which two are within 10; no mass follows.
     assert pid[1:8] == ["5", "(5)", "9", "(9)", "10", "(14.5)", "-"]
@@ -175,7 +175,7 @@ def test_it_ends_with_1_when_every_law_that_reaches_it_passed_what_is_wrong(equi
     """As the last line says: no law is to be recommended, however little torque it leaves."""
     monkeypatch.setattr(sys.modules[__name__], "SAID", Verdict(True, "Said so."))
     done = equipoise(*THREE)
-    assert "no law to recommend" in told_of(done)
+    assert "no law to recommend" in reported_of(done)
     assert done.code == 1
 
 

@@ -18,8 +18,8 @@ from equipoise.model.recording import Recording, Samples, rows_between
 @pytest.mark.parametrize("suffix", ["parquet", "mcap", "mat"])
 def test_a_recording_is_converted_and_back(equipoise, record_file, suffix):
     assert equipoise("convert", record_file, f"run.{suffix}").code == 0
-    told = equipoise("convert", f"run.{suffix}", "again.csv")
-    assert (told.code, "wrote again.csv" in told.out) == (0, True)
+    reported = equipoise("convert", f"run.{suffix}", "again.csv")
+    assert (reported.code, "wrote again.csv" in reported.out) == (0, True)
     first, again = read_recording(record_file), read_recording("again.csv")
     np.testing.assert_allclose(again.attitude.t, first.attitude.t, rtol=0, atol=0.5e-9)
     np.testing.assert_array_equal(again.attitude.values, first.attitude.values)
@@ -27,23 +27,23 @@ def test_a_recording_is_converted_and_back(equipoise, record_file, suffix):
 
 
 def test_an_unsupported_output_suffix_is_reported_before_anything_is_read(equipoise):
-    told = equipoise("convert", "none.csv", "out.bag")
-    assert told.code == 2
-    assert "ending in .csv, .parquet, .mcap or .mat" in told.err
+    reported = equipoise("convert", "none.csv", "out.bag")
+    assert reported.code == 2
+    assert "ending in .csv, .parquet, .mcap or .mat" in reported.err
 
 
 def test_a_cut_recording_is_repaired_and_says_up_to_when(equipoise, record_file, tmp_path):
     equipoise("convert", record_file, "whole.mcap")
     content = (tmp_path / "whole.mcap").read_bytes()
     (tmp_path / "cut.mcap").write_bytes(content[: len(content) * 6 // 10])
-    told = equipoise("repair", "cut.mcap", "--out", "saved.mcap")
-    assert told.code == 0
-    assert "no end" in told.out
+    reported = equipoise("repair", "cut.mcap", "--out", "saved.mcap")
+    assert reported.code == 0
+    assert "no end" in reported.out
     saved = read_recording("saved.mcap")
     cut = read_recording("cut.mcap")
     np.testing.assert_array_equal(saved.attitude.values, cut.attitude.values)
     ends = [c.t[-1] for c in (saved.attitude, saved.rate, saved.masses) if c is not None]
-    assert f"up to {max(ends):.3f} s" in told.out
+    assert f"up to {max(ends):.3f} s" in reported.out
     again = equipoise("repair", "saved.mcap", "--out", "twice.mcap")
     assert "saved.mcap is whole" in again.out
     assert not (tmp_path / "twice.mcap").exists()
@@ -57,8 +57,8 @@ def test_a_live_record_is_given_an_index_and_keeps_every_message(equipoise, tmp_
         live.rows(Recording(rate=Samples(t, none)))
         live.turn(2.0)
         live.rows(Recording(rate=Samples(t + 2.0, none)))
-    told = equipoise("repair", "live.mcap", "--out", "indexed.mcap")
-    assert (told.code, "It has no index; the new file has one" in told.out) == (0, True)
+    reported = equipoise("repair", "live.mcap", "--out", "indexed.mcap")
+    assert (reported.code, "It has no index; the new file has one" in reported.out) == (0, True)
     assert chunks_and_messages("live.mcap") == (0, chunks_and_messages("indexed.mcap")[1])
     assert chunks_and_messages("indexed.mcap")[0] > 0
     assert stored_testbed("indexed.mcap") == "name = 'x'"
@@ -81,27 +81,27 @@ def test_a_garbled_recording_says_how_many_messages_are_lost(equipoise, record_f
     content = (tmp_path / "whole.mcap").read_bytes()
     middle = len(content) // 3
     (tmp_path / "bad.mcap").write_bytes(content[:middle] + bytes(8) + content[middle + 8 :])
-    told = equipoise("repair", "bad.mcap", "--out", "saved.mcap").out
+    reported = equipoise("repair", "bad.mcap", "--out", "saved.mcap").out
     all_of_it = equipoise("repair", "whole.mcap", "--out", "x.mcap").out
     total = int(all_of_it.split("whole: ")[1].split()[0])
-    saved = int(told.split("Saved: ")[1].split()[0])
-    lost = int(told.split("Lost: ")[-1].split()[0])
+    saved = int(reported.split("Saved: ")[1].split()[0])
+    lost = int(reported.split("Lost: ")[-1].split()[0])
     assert saved + lost == total
     assert lost > 0
 
 
 def test_what_is_no_mcap_is_refused(equipoise, tmp_path):
     (tmp_path / "text.mcap").write_text("no recording at all, by any means")
-    told = equipoise("repair", "text.mcap", "--out", "out.mcap")
-    assert told.code == 2
-    assert "no whole message" in told.err
+    reported = equipoise("repair", "text.mcap", "--out", "out.mcap")
+    assert reported.code == 2
+    assert "no whole message" in reported.err
 
 
 def test_a_replay_prints_time_tilt_and_masses_each_second(equipoise, record_file):
     """The known move of the record is seen: x1 goes to -10 mm at 60 s."""
-    told = equipoise("replay", record_file, "--testbed", "sputnix", "--speed", 0)
-    assert told.code == 0
-    lines = told.out.splitlines()
+    reported = equipoise("replay", record_file, "--testbed", "sputnix", "--speed", 0)
+    assert reported.code == 0
+    lines = reported.out.splitlines()
     assert 100 < len(lines) <= 122
     assert "tilt" in lines[0]
     assert "x1  -10.00 mm" in lines[-1]
@@ -111,8 +111,8 @@ def test_a_replay_keeps_its_pace(equipoise, record_file):
     """Two seconds of the record at four times the speed take half a second."""
     start = time.perf_counter()
     words = ("--speed", 4, "--from-s", 10, "--to-s", 12)
-    told = equipoise("replay", record_file, "--testbed", "sputnix", *words)
-    assert told.code == 0
+    reported = equipoise("replay", record_file, "--testbed", "sputnix", *words)
+    assert reported.code == 0
     assert 0.4 < time.perf_counter() - start < 3.0
 
 
@@ -121,8 +121,8 @@ def test_a_replay_is_served_to_foxglove(equipoise, record_file, monkeypatch):
         "equipoise.io.mcap.foxglove_server.PORT", 0
     )  # the customary one may be taken here
     words = ("--speed", 0, "--foxglove", "--from-s", 10, "--to-s", 12)
-    told = equipoise("replay", record_file, "--testbed", "sputnix", *words)
-    assert "ws://127.0.0.1:" in told.out
+    reported = equipoise("replay", record_file, "--testbed", "sputnix", *words)
+    assert "ws://127.0.0.1:" in reported.out
 
 
 def test_a_benchs_own_record_is_fitted_from_where_the_platform_was_let_go(tmp_path):

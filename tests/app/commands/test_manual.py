@@ -24,14 +24,14 @@ def swings(tmp_path_factory):
     folder = tmp_path_factory.mktemp("swings")
     hands, files, steps = SimulatedHands(BED, 1), [], []
     for step in balance_by_hand(hands, HandOptions()):
-        if step.recording is not None and step.kind == "look":
+        if step.recording is not None and step.kind == "measurement":
             files.append(folder / f"run{len(files) + 1}.csv")
             write_recording(step.recording, files[-1])
         steps.append(step)
     return files, steps
 
 
-def told(out: str) -> str:
+def reported(out: str) -> str:
     """Return a text without its line ends and the spaces of its tables."""
     return " ".join(out.split())
 
@@ -67,9 +67,9 @@ def test_a_session_resumed_with_every_recording_is_the_run_in_one_go(equipoise, 
     placed = [step.placing.after for step in steps if step.placing is not None]
     kept = tomllib.loads(Path("s.toml").read_text(encoding="utf-8"))["round"]
     assert [each.get("placed") for each in kept] == [*map(Piles(BED).lines, placed), None]
-    assert told(steps[-1].verdict.sentence) in told(last.out)
+    assert reported(steps[-1].verdict.sentence) in reported(last.out)
     again = equipoise(*WORDS, "--session", "s.toml")
-    assert told(steps[-1].verdict.sentence) in told(again.out)
+    assert reported(steps[-1].verdict.sentence) in reported(again.out)
     over = equipoise(*WORDS, "--session", "s.toml", "--recording", files[0])
     assert over.code == 2
 
@@ -89,7 +89,7 @@ def test_the_session_file_may_be_corrected_to_the_actual_placement(equipoise, sw
     write_recording(hands.swing(), "next.csv")
     done = equipoise(*WORDS, "--session", "s.toml", "--recording", "next.csv")
     assert done.code == 0
-    assert "is not where" not in told(done.out)
+    assert "is not where" not in reported(done.out)
 
 
 def test_lines_of_piles_read_back_as_the_same_loading():
@@ -128,7 +128,7 @@ def test_wrong_usage_is_reported_in_one_sentence(equipoise, words, wanted):
     before = Path("s.toml").read_text(encoding="utf-8")
     done = equipoise(*WORDS, *words) if words else equipoise(*WORDS[:2], "--session", "s.toml")
     assert done.code == 2
-    assert wanted in told(done.err)
+    assert wanted in reported(done.err)
     assert "Traceback" not in done.err
     assert Path("s.toml").read_text(encoding="utf-8") == before
 
@@ -143,8 +143,8 @@ def test_an_impossible_pile_is_reported_with_its_round(equipoise, swings, pile, 
     Path("s.toml").write_text(text, encoding="utf-8")
     done = equipoise(*WORDS, "--session", "s.toml")
     assert done.code == 2
-    assert wanted in told(done.err)
-    assert "round[1].placed" in told(done.err)
+    assert wanted in reported(done.err)
+    assert "round[1].placed" in reported(done.err)
 
 
 def test_a_recording_that_is_there_already_or_has_changed_is_refused(equipoise, swings):
@@ -153,18 +153,18 @@ def test_a_recording_that_is_there_already_or_has_changed_is_refused(equipoise, 
     equipoise(*WORDS, "--session", "s.toml", "--recording", "run1.csv")
     twice = equipoise(*WORDS, "--session", "s.toml", "--recording", "run1.csv")
     assert twice.code == 2
-    assert "the recording of round 1 again" in told(twice.err)
+    assert "the recording of round 1 again" in reported(twice.err)
     lines = file.read_text(encoding="utf-8").splitlines()
     Path("run1.csv").write_text("\n".join(lines[:-5]) + "\n", encoding="utf-8")
     changed = equipoise(*WORDS, "--session", "s.toml")
     assert changed.code == 2
-    assert "as it was when it was added" in told(changed.err)
+    assert "as it was when it was added" in reported(changed.err)
 
 
 def test_a_platform_without_weights_is_sent_to_the_preset(equipoise):
     done = equipoise("balance", "sputnix", "--manual")
     assert done.code == 2
-    assert "weights-by-hand" in told(done.err)
+    assert "weights-by-hand" in reported(done.err)
 
 
 def test_a_stock_that_does_not_suffice_ends_with_1(equipoise, tmp_path):
@@ -174,4 +174,4 @@ def test_a_stock_that_does_not_suffice_ends_with_1(equipoise, tmp_path):
     write_testbed(few, tmp_path / "few.toml")
     done = equipoise("balance", "few.toml", "--manual", "--max-rounds", "1", "--seed", "1")
     assert done.code == 1
-    assert "do not reach the target" in told(done.out)
+    assert "do not reach the target" in reported(done.out)

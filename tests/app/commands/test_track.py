@@ -13,7 +13,7 @@ cv2 = pytest.importorskip("cv2", reason="the extra 'camera' is not installed")
 from equipoise.hardware.camera.eye import eye_of  # noqa: E402
 from equipoise.hardware.emulated.camera import EmulatedCamera, renderer_of  # noqa: E402
 from equipoise.hardware.emulated.far_side import TcpFarSide  # noqa: E402
-from equipoise.hardware.emulated.rendering import Look  # noqa: E402
+from equipoise.hardware.emulated.rendering import Appearance  # noqa: E402
 from equipoise.io.recording.recording_file import read_recording  # noqa: E402
 from equipoise.io.testbed.presets import read_preset  # noqa: E402
 from equipoise.maths.attitude import difference, from_euler321, to_matrix  # noqa: E402
@@ -33,7 +33,7 @@ def swing(count):
 
 
 def drawn(attitudes):
-    renderer = renderer_of(EYE, Look())
+    renderer = renderer_of(EYE, Appearance())
     turns = EYE.to_laboratory.T @ to_matrix(attitudes)
     return [renderer.picture(turn, np.array([0.0, 0.0, 0.7])) for turn in turns]
 
@@ -46,7 +46,7 @@ def pictures():
     return found
 
 
-def seen_rightly(path, missing=5, count=12):
+def observed_rightly(path, missing=5, count=12):
     recording = read_recording(path)
     rows = [k for k in range(count) if k != missing]
     np.testing.assert_allclose(recording.attitude.t, np.array(rows) / RATE, atol=1e-6)
@@ -64,7 +64,7 @@ def test_a_video_becomes_a_recording(equipoise, tmp_path, pictures):
     assert "seen in 11 of 12 pictures" in done.out
     assert "~ 1 pictures without the board" in done.out
     assert "deg per axis" in done.out
-    seen_rightly(tmp_path / "run.csv")
+    observed_rightly(tmp_path / "run.csv")
 
 
 def test_a_folder_with_a_board_and_a_lens(equipoise, tmp_path, pictures):
@@ -81,7 +81,7 @@ def test_a_folder_with_a_board_and_a_lens(equipoise, tmp_path, pictures):
     words = ("track", folder, "--board", "board.toml", "--lens", "lens.toml", "--out", "run.csv")
     done = equipoise(*words, "--rate-hz", RATE)
     assert done.code == 0, done.err
-    seen_rightly(tmp_path / "run.csv")
+    observed_rightly(tmp_path / "run.csv")
     without = equipoise(*words)
     assert without.code == 2
     assert "--rate-hz" in without.err
@@ -93,13 +93,13 @@ def test_a_level_board_determines_the_up_direction(equipoise, tmp_path):
     turns = [lean @ EYE.to_laboratory.T @ to_matrix(from_euler321(0, 0, h)) for h in (0, 1, 2.5)]
     folder = tmp_path / "level"
     folder.mkdir()
-    renderer = renderer_of(EYE, Look())
+    renderer = renderer_of(EYE, Appearance())
     for k, turn in enumerate(turns):
         cv2.imwrite(str(folder / f"{k}.png"), renderer.picture(turn, np.array([0.0, 0.0, 0.7])))
     done = equipoise("track", folder, "--testbed", "sputnix", "--level", "--rate-hz", 1)
     assert done.code == 0, done.err
-    told = [line for line in done.out.splitlines() if line.startswith("up_")]
-    up = [tomllib.loads("\n".join(told))[f"up_{axis}"] for axis in "xyz"]
+    reported = [line for line in done.out.splitlines() if line.startswith("up_")]
+    up = [tomllib.loads("\n".join(reported))[f"up_{axis}"] for axis in "xyz"]
     # Up of the upright camera is -z; a turn by 0.1 about x takes it to (0, sin 0.1, -cos 0.1).
     np.testing.assert_allclose(up, [0.0, math.sin(0.1), -math.cos(0.1)], atol=5e-4)
 
@@ -114,7 +114,7 @@ def test_a_camera_on_the_network_is_watched(equipoise, tmp_path):
                 wire.send(camera.take(data, 0.0))
             if (time.monotonic() - begin) * RATE > sent:
                 row = Samples(np.array([sent / RATE]), swing(sent + 1)[-1:])
-                for message in camera.tell(Recording(row)):
+                for message in camera.messages(Recording(row)):
                     wire.send(message)
                 sent += 1
             time.sleep(0.005)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.frames import decoded
 from equipoise.app.dashboard.runner.benches import simulated
 from equipoise.app.dashboard.runner.outbox import Post
@@ -15,11 +15,11 @@ from equipoise.app.dashboard.runner.request_handler import Desk
 from equipoise.app.dashboard.runner.runner import Runner
 from equipoise.io.testbed.presets import read_preset
 
-BALANCE = ask.Balance((0.0, 0.0, -100e-6), (2e-6, 2e-6, 3e-6), "look_and_move")
+BALANCE = requests.Balance((0.0, 0.0, -100e-6), (2e-6, 2e-6, 3e-6), "measure_and_move")
 
 
 @dataclass
-class Told:
+class Reported:
     """What the runner has told, by kind, and what is to be asked when something is told."""
 
     about: list[dict] = field(default_factory=list)
@@ -51,13 +51,13 @@ class Room:
     """A runner, its desk, and a page's end of the pipe."""
 
     def __init__(self, station, folder, seed=1):
-        self.page, far = Pipe()
-        self.told, self.folder = Told(), folder
-        self.runner = Runner(station, Post(self.told), folder, "session")
+        self.page, outlying = Pipe()
+        self.reported, self.folder = Reported(), folder
+        self.runner = Runner(station, Post(self.reported), folder, "session")
         self.runner.pace.at(0.0)
-        self.desk = Desk(self.runner, far, folder, seed)
+        self.desk = Desk(self.runner, outlying, folder, seed)
 
-    def ask(self, *requests):
+    def request(self, *requests):
         for request in requests:
             self.page.send(request)
 
@@ -72,7 +72,7 @@ class Room:
             if there():
                 return
             self.turn()
-        raise AssertionError(f"not within {most} turns: {self.told.state}")
+        raise AssertionError(f"not within {most} turns: {self.reported.state}")
 
 
 @pytest.fixture(scope="session")
@@ -85,7 +85,7 @@ def room(nanosat, tmp_path, monkeypatch):
     """A simulated platform that is let go."""
     monkeypatch.setenv("EQUIPOISE_RUNS", "")
     made = Room(simulated(nanosat, 1), tmp_path)
-    made.ask(ask.Pause(False))
+    made.request(requests.Pause(False))
     made.turn()
     yield made
     made.runner.close()

@@ -29,32 +29,32 @@ def test_a_frame_comes_back_as_it_was():
 
 
 def test_rows_are_sent_together_and_before_the_step_that_follows_them():
-    told = []
-    post = Post(lambda kind, what: told.append((kind, what)))
+    reported = []
+    post = Post(lambda kind, what: reported.append((kind, what)))
     post.rows(1.0, [("com", np.ones((2, 2)))])
     post.rows(2.0, [("com", 2 * np.ones((1, 2)))])
     post.step({"index": 0})
-    assert [kind for kind, _ in told] == ["rows", "step"]
-    t, parts = decoded(told[0][1])
+    assert [kind for kind, _ in reported] == ["rows", "step"]
+    t, parts = decoded(reported[0][1])
     assert t == 2.0
     assert parts["com"].tolist() == [[1, 1], [1, 1], [2, 2]]
 
 
 def test_pending_rows_of_the_previous_view_are_dropped():
-    told = []
-    post = Post(lambda kind, what: told.append(kind))
+    reported = []
+    post = Post(lambda kind, what: reported.append(kind))
     post.rows(1.0, [("com", np.ones((2, 2)))])
     post.about({"clock": 2})
     post.flush()
-    assert told == ["about"]
+    assert reported == ["about"]
 
 
 def test_the_state_is_sent_only_when_it_changes():
-    told = []
-    post = Post(lambda kind, what: told.append(what))
+    reported = []
+    post = Post(lambda kind, what: reported.append(what))
     for phase in ("idle", "idle", "balancing"):
         post.state({"phase": phase})
-    assert [what["phase"] for what in told] == ["idle", "balancing"]
+    assert [what["phase"] for what in reported] == ["idle", "balancing"]
 
 
 # --- What is kept for pages that come later ------------------------------------------------------

@@ -4,16 +4,16 @@ import pytest
 
 from tests.support.dashboard_program import CHROMIUM
 from verification.dashboard_hour import SHARE, growth, share, soaked
-from verification.dashboard_hour import Seen as At
+from verification.dashboard_hour import Observed as At
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
 def test_a_quarter_of_a_minute_at_100_hz_costs_little():
     """Of a core; the page, whose beginning counts more here, twice what is wanted of an hour."""
-    seen = soaked(2, 8.0)
-    assert 0.0 < share(seen, "server") < SHARE
-    assert 0.0 < share(seen, "page") < 2 * SHARE
-    bench, clock = seen[-1].bench - seen[0].bench, seen[-1].clock - seen[0].clock
+    observed = soaked(2, 8.0)
+    assert 0.0 < share(observed, "server") < SHARE
+    assert 0.0 < share(observed, "page") < 2 * SHARE
+    bench, clock = observed[-1].bench - observed[0].bench, observed[-1].clock - observed[0].clock
     assert bench > 0.85 * clock
 
 

@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import tilt
-from tests.support.dashboard_program import CHROMIUM, Heard, browser, started
+from tests.support.dashboard_program import CHROMIUM, Received, browser, started
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
 SOON, LATER = 15_000, 120_000  # ms: a busy computer
@@ -25,10 +25,10 @@ def chromium():
 
 def opened(chromium, running):
     page = chromium.new_page(viewport={"width": 1280, "height": 720})
-    heard = Heard(page)
+    received = Received(page)
     page.goto(running.url)
     expect(page.locator("#eq-link")).to_contain_text("connected", timeout=LATER)
-    return page, heard
+    return page, received
 
 
 def button(page, name):
@@ -58,8 +58,8 @@ def wait_until(page, condition, most=LATER):
 def test_the_whole_story(chromium, tmp_path):
     running = started(tmp_path, "nanosat")
     try:
-        page, heard = opened(chromium, running)
-        who_looks_on_commands_nothing(page)
+        page, received = opened(chromium, running)
+        who_measurements_on_commands_nothing(page)
         a_wrong_token_is_refused(page, running)
         a_second_commander_is_refused(chromium, page, running)
         balanced_until_it_passes(page)
@@ -69,14 +69,14 @@ def test_the_whole_story(chromium, tmp_path):
         recorded_and_marked(page)
         stopped_by_hand(page)
         replayed_as_recorded(page, tmp_path)
-        assert heard.wrong == []
-        assert heard.asked == {f"127.0.0.1:{running.port}"}
+        assert received.wrong == []
+        assert received.requested == {f"127.0.0.1:{running.port}"}
         running = restarted(page, running, tmp_path)
     finally:
         running.end()
 
 
-def who_looks_on_commands_nothing(page):
+def who_measurements_on_commands_nothing(page):
     for name in ("Start balancing", "Stop", "Let go"):
         expect(button(page, name)).to_be_disabled()
     assert state(page)["steps"] == 0
@@ -108,7 +108,7 @@ def balanced_until_it_passes(page):
     button(page, "Hold").click()
     expect(page.locator(".eq-phase")).to_contain_text("paused", timeout=SOON)
     kinds = page.locator("#eq-story b").all_inner_texts()
-    assert set(kinds) >= {"look", "estimate", "move", "verify"}
+    assert set(kinds) >= {"measurement", "estimate", "move", "verify"}
 
 
 def pictures_of(page, folder):
@@ -142,10 +142,10 @@ def cut_off(page):
         .map(e => e.textContent)""")
 
 
-def once_settled(page, look):
+def once_settled(page, measurement):
     """Return what is found once it is nothing, or after ten seconds: a busy computer is slow."""
     for _ in range(20):
-        found = look(page)
+        found = measurement(page)
         if not found:
             break
         page.wait_for_timeout(500)

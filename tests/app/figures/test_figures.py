@@ -15,7 +15,7 @@ from equipoise.app.figures.base.files import rendered
 from equipoise.app.figures.base.style import MOST, STYLE, thinned
 from equipoise.app.figures.catalogue import of_balancing, of_fit, of_move, of_tracking
 from equipoise.app.figures.recording import record
-from equipoise.app.runs.demonstration import looked
+from equipoise.app.runs.demonstration import measured
 from equipoise.estimation.model_selection import reference_fit
 from equipoise.estimation.output_error import trajectory
 from equipoise.io.testbed.presets import read_preset
@@ -31,10 +31,10 @@ PNG = b"\x89PNG"
 @pytest.fixture(scope="module")
 def pictures():
     bench = SimulatedBench(BED, seed=1)
-    recording, truth = looked(bench)
+    recording, truth = measured(bench)
     estimate = reference_fit.estimate(recording, BED, trajectory.Params())
-    looks = [(30.0, truth[1][0], np.full(3, 1e-6)), (90.0, truth[1][-1], np.full(3, np.inf))]
-    story = Story(looks, np.array([0, 0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]), truth)
+    measurements = [(30.0, truth[1][0], np.full(3, 1e-6)), (90.0, truth[1][-1], np.full(3, np.inf))]
+    story = Story(measurements, np.array([0, 0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]), truth)
     found = [
         *of_fit(recording, BED, estimate),
         *of_tracking(window(recording, 0.0, 60.0), BED, estimate, truth[1][0]),

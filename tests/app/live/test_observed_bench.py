@@ -23,10 +23,10 @@ class CountingBench:
     testbed = BED
 
     def __init__(self, stops_at: float = math.inf):
-        self.time, self._rows, self._stops_at, self.asked = 0.0, 0, stops_at, []
+        self.time, self._rows, self._stops_at, self.requested = 0.0, 0, stops_at, []
 
     def read(self, duration):
-        self.asked.append(duration)
+        self.requested.append(duration)
         begun, self.time = self.time, min(self.time + duration, self._stops_at)
         if begun < self._stops_at <= self.time:
             raise BenchStopped("by the test")
@@ -57,17 +57,17 @@ def same(a, b):
 
 
 def test_a_long_reading_is_cut_and_put_together_again():
-    seen, bench = [], CountingBench()
-    rows = WatchedBench(bench, seen.append, 0.25).read(0.6)
-    assert bench.asked == pytest.approx([0.25, 0.25, 0.1])
-    assert [len(numbers(each)) for each in seen] == [25, 25, 10]
+    observed, bench = [], CountingBench()
+    rows = WatchedBench(bench, observed.append, 0.25).read(0.6)
+    assert bench.requested == pytest.approx([0.25, 0.25, 0.1])
+    assert [len(numbers(each)) for each in observed] == [25, 25, 10]
     assert numbers(rows) == list(range(60))
 
 
 def test_a_reading_of_no_time_is_read_all_the_same():
     bench = CountingBench()
     WatchedBench(bench, lambda _rows: None, 0.25).read(0.0)
-    assert bench.asked == [0.0]
+    assert bench.requested == [0.0]
 
 
 def test_a_slice_that_lasts_longer_shortens_the_reading_by_so_much():
@@ -76,19 +76,19 @@ def test_a_slice_that_lasts_longer_shortens_the_reading_by_so_much():
     read = bench.read
     bench.read = lambda duration: read(max(duration, 1.0))
     WatchedBench(bench, lambda _rows: None, 0.25).read(2.0)
-    assert len(bench.asked) == 2
+    assert len(bench.requested) == 2
     assert bench.time == 2.0
 
 
 def test_rows_before_a_stop_within_a_reading_are_all_recorded():
     """The stop comes 0.35 s after a reading began: one slice was read, the next was not."""
-    seen, bench = [], CountingBench(stops_at=1.35)
-    recorded = RecordedBench(WatchedBench(bench, seen.append, 0.25))
+    observed, bench = [], CountingBench(stops_at=1.35)
+    recorded = RecordedBench(WatchedBench(bench, observed.append, 0.25))
     recorded.read(1.0)
     with pytest.raises(BenchStopped, match="by the test"):
         recorded.read(5.0)
     assert numbers(recorded.recording()) == list(range(135))
-    assert numbers(joined(seen)) == list(range(135))
+    assert numbers(joined(observed)) == list(range(135))
 
 
 def test_who_stops_between_slices_loses_no_row():
@@ -109,18 +109,18 @@ def test_who_stops_between_slices_loses_no_row():
 
 
 def test_a_failing_observer_is_reported_once_and_the_bench_goes_on(capsys):
-    asked = []
+    requested = []
 
     def fails(rows):
-        asked.append(rows)
+        requested.append(rows)
         raise ZeroDivisionError("in the view")
 
     watched = WatchedBench(CountingBench(), fails, 0.25)
     assert numbers(watched.read(1.0)) == list(range(100))
-    assert len(asked) == 1
-    told = capsys.readouterr().err
-    assert told.count("\n") == 1
-    assert "the view of the bench has failed, the bench goes on" in told
+    assert len(requested) == 1
+    reported = capsys.readouterr().err
+    assert reported.count("\n") == 1
+    assert "the view of the bench has failed, the bench goes on" in reported
 
 
 def test_ctrl_c_is_no_failure_of_an_onlooker():
@@ -137,21 +137,21 @@ def test_ctrl_c_is_no_failure_of_an_onlooker():
 
 
 def test_a_real_bench_gives_the_same_rows_watched_or_not():
-    seen, found = [], []
+    observed, found = [], []
     for watched in (False, True):
         with lab(BED) as there:
-            bench = WatchedBench(there.bench, seen.append, 0.125) if watched else there.bench
+            bench = WatchedBench(there.bench, observed.append, 0.125) if watched else there.bench
             bench.move({"x": 0.004})
             found.append(bench.read(1.6))
     assert same(*found)
-    assert 10 <= len(seen) <= 13  # 1.6 s in eighths, each ending with a tick of 0.02 s
-    assert same(joined(seen), found[0])
+    assert 10 <= len(observed) <= 13  # 1.6 s in eighths, each ending with a tick of 0.02 s
+    assert same(joined(observed), found[0])
 
 
 def test_rows_before_an_interlock_of_a_real_bench_are_all_recorded():
-    seen = []
+    observed = []
     with lab(BED) as there:
-        bench = RecordedBench(WatchedBench(there.bench, seen.append, 0.125))
+        bench = RecordedBench(WatchedBench(there.bench, observed.append, 0.125))
         bench.move({"z": -0.014})
         begun = there.clock.now
         there.clock.at(begun + 1.0, there.board.device.hit_limit)
@@ -161,13 +161,13 @@ def test_rows_before_an_interlock_of_a_real_bench_are_all_recorded():
     assert rows.attitude.t[0] < begun + 0.1
     assert rows.attitude.t[-1] > begun + 0.9
     assert np.diff(rows.attitude.t).max() < 0.05  # 40 Hz, none lost on the way
-    assert same(joined(seen), rows)
+    assert same(joined(observed), rows)
 
 
 def test_a_simulated_bench_in_one_slice_hands_on_the_very_rows():
-    seen = []
-    rows = WatchedBench(SimulatedBench(BED, 1), seen.append, math.inf).read(2.0)
-    assert seen == [rows]
+    observed = []
+    rows = WatchedBench(SimulatedBench(BED, 1), observed.append, math.inf).read(2.0)
+    assert observed == [rows]
 
 
 @pytest.mark.timeout(60)

@@ -66,9 +66,9 @@ def test_the_status_block_shows_the_latest_values_in_bench_units():
 
 
 def test_a_terminal_without_blocks_gets_plain_letters():
-    told = "\n".join(drawn(view(), encoding="ascii"))
-    assert told.isascii()
-    assert "# to 12.0 deg, 2 s" in told
+    reported = "\n".join(drawn(view(), encoding="ascii"))
+    assert reported.isascii()
+    assert "# to 12.0 deg, 2 s" in reported
 
 
 @pytest.mark.parametrize("width", [1, 5, 20, 40, 60, 80, 200])
@@ -86,7 +86,7 @@ def test_texts_are_put_side_by_side_where_the_width_allows():
 
 def test_a_step_that_says_nothing_of_the_centre_of_mass_leaves_the_last_that_did():
     found = view()
-    found.step(Step("look", 9.0, "Looked for 1 s."))
+    found.step(Step("measurement", 9.0, "Looked for 1 s."))
     assert any("at 2.5 s" in line for line in drawn(found))
 
 
@@ -101,16 +101,16 @@ def test_unknown_quantities_are_not_shown():
 def test_recording_progress_shows_share_file_and_rows_of_each_channel(tmp_path):
     found = RecordingView(BED, tmp_path / "run.mcap", 1.0, 8.0)
     found.rows(ROWS)
-    told = drawn(found)
-    assert "  record       25% of 8 s  run.mcap" in told
-    assert "  rows        attitude 2  rate 1  masses 1" in told
+    reported = drawn(found)
+    assert "  record       25% of 8 s  run.mcap" in reported
+    assert "  rows        attitude 2  rate 1  masses 1" in reported
 
 
 def test_a_drawing_failure_is_reported_in_the_block_and_nowhere_else():
     found = view()
     found.newest = None
-    (_, told) = drawn(found, 120)
-    assert told.startswith("  the view has failed, the bench goes on: AttributeError")
+    (_, reported) = drawn(found, 120)
+    assert reported.startswith("  the view has failed, the bench goes on: AttributeError")
 
 
 def interactive(monkeypatch, **environment):
@@ -127,9 +127,9 @@ def test_a_simulated_bench_is_handed_on_whole_and_one_without_a_terminal_as_it_i
     assert watched_by(view(), bench) is bench
     interactive(monkeypatch)
     found = TerminalView(BED)
-    seen = watched_by(found, bench)
-    assert seen is not bench
-    rows = seen.read(2.0)
+    observed = watched_by(found, bench)
+    assert observed is not bench
+    rows = observed.read(2.0)
     assert found.newest.counts["attitude"] == len(rows.attitude)
 
 
@@ -159,32 +159,32 @@ def without_its_making(document):
 
 def test_balancing_with_a_live_view_gives_the_same_document_as_without(equipoise, tmp_path):
     """The same seed, the same bytes; the block is on stderr alone and leaves nothing behind."""
-    seen = AtTerminal(tmp_path, [*BALANCE, "--json"], stdout=subprocess.PIPE)
-    with seen.stdout:
-        document = seen.stdout.read().decode()
+    observed = AtTerminal(tmp_path, [*BALANCE, "--json"], stdout=subprocess.PIPE)
+    with observed.stdout:
+        document = observed.stdout.read().decode()
     plain = equipoise(*BALANCE, "--json")
-    assert seen.ended() == plain.code
+    assert observed.ended() == plain.code
     assert without_its_making(document) == without_its_making(plain.out)
     assert "\x1b" not in plain.out + plain.err
-    told = stripped(seen.written)
+    reported = stripped(observed.written)
     for text in ("bench time", "(limit 40)", "deg/s", "masses, mm", "com, um", "balancing ..."):
-        assert text in told
-    assert re.search(f"[{BLOCKS}] to [0-9.]+ deg, ", told)
-    assert seen.written.rindex(SHOW) > seen.written.rindex(HIDE)
-    assert screen(seen.written) == []
+        assert text in reported
+    assert re.search(f"[{BLOCKS}] to [0-9.]+ deg, ", reported)
+    assert observed.written.rindex(SHOW) > observed.written.rindex(HIDE)
+    assert screen(observed.written) == []
 
 
 def test_ctrl_c_leaves_a_narrow_terminal_clean(tmp_path):
     """Without colour and without blocks; the code is a shell's for Ctrl-C."""
     environment = {"NO_COLOR": "1", "PYTHONIOENCODING": "ascii"}
-    seen = AtTerminal(tmp_path, BALANCE, (40, 15), environment)
-    seen.wait_for(" deg, ")
-    seen.ctrl_c()
-    assert seen.ended() == BY_HAND
-    assert seen.written.rindex(SHOW) > seen.written.rindex(HIDE)
-    *above, last = screen(seen.written)
+    observed = AtTerminal(tmp_path, BALANCE, (40, 15), environment)
+    observed.wait_for(" deg, ")
+    observed.ctrl_c()
+    assert observed.ended() == BY_HAND
+    assert observed.written.rindex(SHOW) > observed.written.rindex(HIDE)
+    *above, last = screen(observed.written)
     assert last.startswith("equipoise: stopped by hand")
     assert all(re.match(r" +[0-9.]+ s  \w+|  ", line) for line in above), above
     assert not any("bench time" in line or "balancing" in line for line in above)
-    assert not any(verb == "m" and "3" in n for _, n, verb in ESCAPE.findall(seen.written))
-    assert re.search(r"[#*+=] to [0-9.]+ deg, ", stripped(seen.written))
+    assert not any(verb == "m" and "3" in n for _, n, verb in ESCAPE.findall(observed.written))
+    assert re.search(r"[#*+=] to [0-9.]+ deg, ", stripped(observed.written))

@@ -86,14 +86,14 @@ def test_the_list_has_one_line_per_run(of):
     lines = [line for line in done.out.splitlines() if "sputnix" in line.lower()]
     assert len(lines) == 3
     assert "balance" in lines[0]
-    assert "look_and_move" in lines[0]
+    assert "measure_and_move" in lines[0]
     assert [line.split()[0] for line in lines] == ["1", "2", "3"]
 
 
 @pytest.mark.parametrize(
     ("words", "count"),
     [(["--kind", "identify"], 2), (["--kind", "balance"], 1), (["--platform", "SPUTNIX"], 3),
-     (["--platform", "nobody"], 0), (["--method", "look_and_move"], 1), (["--last", "1"], 1),
+     (["--platform", "nobody"], 0), (["--method", "measure_and_move"], 1), (["--last", "1"], 1),
      (["--since", "2020-01-01"], 3), (["--until", "2020-01-01"], 0), (["--outcome", "usable"], 2)],
 )  # fmt: skip
 def test_runs_are_chosen(of, words, count, strict_json):
@@ -114,8 +114,10 @@ def test_what_is_wrong_is_said(of, words, said):
 
 
 def test_the_same_recording_gives_the_same_numbers(of, strict_json):
-    far = strict_json(of("--compare", "2", "3", "--json").out)["sd_from_first"]
-    assert all(value == 0 for each in far.values() for value in each.values() if value is not None)
+    outlying = strict_json(of("--compare", "2", "3", "--json").out)["sd_from_first"]
+    assert all(
+        value == 0 for each in outlying.values() for value in each.values() if value is not None
+    )
     shown = of("--compare", "1", "2")
     assert shown.code == 0
     assert "com_x" in shown.out
@@ -126,8 +128,8 @@ def test_a_table_holds_the_numbers(of, tmp_path, strict_json):
     assert of("--export", "runs.csv").code == 0
     assert of("--export", "runs.parquet").code == 0
     rows = list(csv.DictReader((tmp_path / "runs.csv").read_text().splitlines()))
-    told = strict_json(of("--json").out)["runs"]
-    for row, each in zip(rows, told, strict=True):
+    reported = strict_json(of("--json").out)["runs"]
+    for row, each in zip(rows, reported, strict=True):
         assert (row["name"], row["outcome"]) == (each["name"], each["outcome"])
         known = {p["name"]: p["value"] for p in each["parameters"]}
         assert float(row["com_z_m"]) == pytest.approx(known["com_z"])
@@ -261,9 +263,9 @@ def test_nothing_lies_beyond_the_paper(runs, kind):
         width, height = page.get_size()
         text = page.get_textpage()
         boxes = np.array([text.get_charbox(k) for k in range(text.count_chars())])
-        seen = boxes[boxes[:, 2] > boxes[:, 0]]
-        assert len(seen) > 20
-        left, bottom, right, top = seen.T
+        observed = boxes[boxes[:, 2] > boxes[:, 0]]
+        assert len(observed) > 20
+        left, bottom, right, top = observed.T
         assert left.min() > 20
         assert bottom.min() > 15
         assert right.max() < width - 20

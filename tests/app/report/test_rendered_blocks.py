@@ -39,7 +39,7 @@ PAGE = Page(
                 Items((f"Item {ODD}", "Another")),
                 Pairs(((f"name {ODD}", f"value {ODD}"),)),
                 Grid(("", "what"), (("1", f"cell {ODD}"), ("2", "words " * 40)), (1,)),
-                Moment("1.5 s", "look", f"Moment {ODD}"),
+                Moment("1.5 s", "measurement", f"Moment {ODD}"),
                 Drawn("one", f"Caption {ODD}"),
             ),
         ),
@@ -81,7 +81,7 @@ def bare(text):
     )
 
 
-def told_in_pdf(data):
+def reported_in_pdf(data):
     document = pypdfium2.PdfDocument(data)
     return bare("".join(page.get_textpage().get_text_range() for page in document))
 
@@ -107,7 +107,7 @@ def test_html_says_it_all_as_it_is():
 
 def test_pdf_says_it_all_as_it_is():
     """Word by word: cells that stand side by side are broken into lines of their own."""
-    told = told_in_pdf(pdf(PAGE, {"one": SVG}))
+    reported = reported_in_pdf(pdf(PAGE, {"one": SVG}))
     for text in texts(PAGE):
         for word in text.split():
-            assert bare(word) in told
+            assert bare(word) in reported

@@ -70,8 +70,8 @@ def test_figures_of_steps_say_where_the_masses_are(folder):
 def test_every_measurement_or_estimate_step_has_its_figure(folder):
     page = (folder / "report.html").read_text(encoding="utf-8")
     drawn = sorted(path.stem for path in folder.glob("figures/*.png"))
-    looks = page.count("<b>look<") + page.count("<b>verify<")
-    assert len(drawn) >= len(PAPER) + looks > len(PAPER)
+    measurements = page.count("<b>look<") + page.count("<b>verify<")
+    assert len(drawn) >= len(PAPER) + measurements > len(PAPER)
 
 
 def test_the_report_needs_no_other_file(folder):

@@ -36,9 +36,9 @@ def test_narrow_columns_hold_the_greatest_of_whole_seconds():
 
 
 def test_a_column_stays_what_it_was_while_time_goes_on():
-    seen = {second: float(second % 7) for second in range(100)}
-    early, _ = in_columns({s: v for s, v in seen.items() if s < 90}, 60, 20)
-    late, _ = in_columns(seen, 60, 20)
+    observed = {second: float(second % 7) for second in range(100)}
+    early, _ = in_columns({s: v for s, v in observed.items() if s < 90}, 60, 20)
+    late, _ = in_columns(observed, 60, 20)
     assert early[4:] == late[:-4]  # the newest begin at 87 s and at 99 s
 
 

@@ -30,8 +30,10 @@ def recorded(gyro=lambda w: w, noise: float = 1e-3) -> Recording:
     """Return a noisy record; ``gyro`` distorts the rates."""
     rng = np.random.default_rng(7)
     q, rate = swing(rng, noise)
-    felt = gyro(rate + rng.normal(scale=1e-3, size=rate.shape))
-    return Recording(attitude=Samples(T, q), rate=Samples(T + DT / 2, felt))  # means between rows
+    response = gyro(rate + rng.normal(scale=1e-3, size=rate.shape))
+    return Recording(
+        attitude=Samples(T, q), rate=Samples(T + DT / 2, response)
+    )  # means between rows
 
 
 def said(recording: Recording, kind: str = "problem") -> str:
@@ -82,8 +84,8 @@ def test_the_correlation_of_axes_is_near_one_on_the_diagonal() -> None:
     recording = recorded()
     assert recording.attitude is not None
     assert recording.rate is not None
-    seen, felt = rate_pairs(recording.attitude, recording.rate)
-    assert np.all(np.diag(correlation(felt, seen)) > 0.95)
+    observed, response = rate_pairs(recording.attitude, recording.rate)
+    assert np.all(np.diag(correlation(response, observed)) > 0.95)
 
 
 @pytest.mark.parametrize("noise", [1e-4, 1e-3, 1e-2])
@@ -126,11 +128,11 @@ def test_devices_and_the_field_are_reported_and_unknown_names_listed() -> None:
     devices, field = Samples(t, np.ones((6, 2))), Samples(t, np.full((6, 3), 2e-5))
     names = ("wheel:rw_x", "jet:rw_y")
     record = Recording(Samples(T, q), device_names=names, devices=devices, field=field)
-    told = " ".join(f.sentence for f in findings(record, read_preset("reference-table")))
-    assert "devices of wheel:rw_x, jet:rw_y: 6 rows from 0 to 5 s, 1 Hz." in told
-    assert "magnetic field: 6 rows from 0 to 5 s, 1 Hz." in told
-    assert "device jet:rw_y is not in the testbed; did you mean 'jet:jp_y'?" in told
-    assert "device wheel:rw_x" not in told
+    reported = " ".join(f.sentence for f in findings(record, read_preset("reference-table")))
+    assert "devices of wheel:rw_x, jet:rw_y: 6 rows from 0 to 5 s, 1 Hz." in reported
+    assert "magnetic field: 6 rows from 0 to 5 s, 1 Hz." in reported
+    assert "device jet:rw_y is not in the testbed; did you mean 'jet:jp_y'?" in reported
+    assert "device wheel:rw_x" not in reported
     bare = " ".join(f.sentence for f in findings(record, read_preset("sputnix")))
     assert "device wheel:rw_x is not in the testbed; it has none" in bare
     assert "device" not in said(record)
@@ -181,5 +183,5 @@ def test_the_gyro_noise_is_estimated_within_ten_percent(noise) -> None:
     """White noise of known size on a slow swing; scatter of the sd from 3000 rows: 3 %."""
     rng = np.random.default_rng(4)
     _, rate = swing(rng)
-    felt = Samples(T, rate + rng.normal(scale=noise, size=rate.shape))
-    assert rate_noise(felt) == pytest.approx(noise, rel=0.1)
+    response = Samples(T, rate + rng.normal(scale=noise, size=rate.shape))
+    assert rate_noise(response) == pytest.approx(noise, rel=0.1)

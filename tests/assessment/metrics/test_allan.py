@@ -33,7 +33,7 @@ def test_the_allan_deviation_of_three_measurements_by_hand():
 def test_the_deviation_of_pure_measurement_noise_falls_with_the_root_of_the_count():
     squares = [wander_of(T, noise(s), SD).deviation ** 2 for s in range(40)]
     found = wander_of(T, noise(0), SD)
-    ratio = np.sqrt(np.mean(squares, axis=0)) / found.looks_alone
+    ratio = np.sqrt(np.mean(squares, axis=0)) / found.measurements_alone
     np.testing.assert_allclose(ratio[:5], 1.0, atol=0.08)
 
 

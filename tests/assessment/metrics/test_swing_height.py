@@ -20,12 +20,12 @@ def swing(frequency, along=(1.0, 0.0), amplitude=0.05):
     return Swing(frequency, 1e-3 * frequency, amplitude, 0.0, along)
 
 
-def told(*swings, duration=T, spin=0.0):
+def reported(*swings, duration=T, spin=0.0):
     return hanging(swings, duration, J, DOWN, spin)
 
 
 def test_both_swing_modes_give_the_same_height():
-    slow, quick = told(swing(SLOW), swing(QUICK, (0.0, 1.0)))
+    slow, quick = reported(swing(SLOW), swing(QUICK, (0.0, 1.0)))
     assert (slow.mode, quick.mode) == (0, 1)
     assert slow.moment == pytest.approx(MOMENT, rel=1e-9)
     assert quick.moment == pytest.approx(MOMENT, rel=1e-9)
@@ -35,8 +35,8 @@ def test_both_swing_modes_give_the_same_height():
 def test_a_swing_alone_is_named_by_its_direction():
     """The slow one is about y, where the inertia is greater, and moves the vertical along x."""
     (slow,), (quick,) = (
-        told(swing(SLOW), duration=2 * T),
-        told(swing(QUICK, (0.0, 1.0)), duration=2 * T),
+        reported(swing(SLOW), duration=2 * T),
+        reported(swing(QUICK, (0.0, 1.0)), duration=2 * T),
     )
     assert slow.mode == 0
     assert quick.mode == 1
@@ -46,14 +46,14 @@ def test_a_swing_alone_is_named_by_its_direction():
 
 def test_two_indistinguishable_swing_modes_are_reported_as_one():
     """Thirty seconds: 15 % of a period of 27 s cannot be seen."""
-    (both,) = told(swing(0.5 * (SLOW + QUICK), (0.7, 0.7)), duration=30.0)
+    (both,) = reported(swing(0.5 * (SLOW + QUICK), (0.7, 0.7)), duration=30.0)
     assert both.mode is None
     assert abs(both.moment - MOMENT) < both.sd
     assert both.sd == pytest.approx(0.5 * MOMENT * (J[1, 1] - J[0, 0]) / 0.35, rel=0.05)
 
 
 def test_an_overtone_is_no_swing():
-    (only,) = told(swing(SLOW), swing(2 * SLOW, amplitude=0.02))
+    (only,) = reported(swing(SLOW), swing(2 * SLOW, amplitude=0.02))
     assert only.swing.frequency == SLOW
 
 
@@ -61,10 +61,10 @@ def test_a_spin_goes_into_the_height():
     """Told without it the height is off by more than its sd."""
     rates = swing_rates(MOMENT, J, DOWN, 0.05) / (2 * np.pi)
     pair = swing(rates[0]), swing(rates[1], (0.0, 1.0))
-    assert told(*pair, spin=0.05)[0].moment == pytest.approx(MOMENT, rel=1e-9)
-    assert abs(told(*pair)[0].moment - MOMENT) > 3 * told(*pair)[0].sd
+    assert reported(*pair, spin=0.05)[0].moment == pytest.approx(MOMENT, rel=1e-9)
+    assert abs(reported(*pair)[0].moment - MOMENT) > 3 * reported(*pair)[0].sd
 
 
 def test_an_impossible_swing_yields_no_height():
-    assert told() == ()
-    assert told(replace(swing(SLOW), frequency=1e-6), spin=1.0) == ()
+    assert reported() == ()
+    assert reported(replace(swing(SLOW), frequency=1e-6), spin=1.0) == ()

@@ -26,7 +26,7 @@ def turning() -> tuple[np.ndarray, np.ndarray]:
 Q, W = turning()
 
 
-def seen(lag: float, seed: int, noise: float = 1e-3) -> tuple[Samples, Samples]:
+def observed(lag: float, seed: int, noise: float = 1e-3) -> tuple[Samples, Samples]:
     """A camera that is late, and a gyro with a zero of its own."""
     rng = np.random.default_rng(seed)
     t, late = np.arange(0, 60, 0.1), np.arange(0, 60, 0.02)
@@ -40,15 +40,15 @@ def seen(lag: float, seed: int, noise: float = 1e-3) -> tuple[Samples, Samples]:
 @pytest.mark.parametrize("lag", [-0.3, 0.0, 0.04, 0.5])
 def test_a_lag_is_recovered_without_noise(lag) -> None:
     """To a millisecond: the integral by trapezoids and the mean of two rates are not exact."""
-    told = clock_offset(*seen(lag, 0, noise=0.0))
-    assert told is not None
-    assert told.lag == pytest.approx(lag, abs=1e-3)
+    reported = clock_offset(*observed(lag, 0, noise=0.0))
+    assert reported is not None
+    assert reported.lag == pytest.approx(lag, abs=1e-3)
 
 
 def test_its_error_is_of_the_size_of_its_sd() -> None:
     """Thirty seeds: the mean square of error over sd is one within a half."""
-    told = [clock_offset(*seen(0.04, seed)) for seed in range(30)]
-    errors = [(o.lag - 0.04) / o.sd for o in told if o is not None]
+    reported = [clock_offset(*observed(0.04, seed)) for seed in range(30)]
+    errors = [(o.lag - 0.04) / o.sd for o in reported if o is not None]
     assert len(errors) == 30
     assert 0.5 < np.mean(np.square(errors)) < 1.7
 
@@ -64,12 +64,12 @@ def test_a_steady_rotation_yields_no_clock_offset() -> None:
 
 def test_the_testbed_is_held_against_it() -> None:
     """A delay of 20 ms and the half of an averaging of 40 ms are a lag of 40 ms."""
-    rows = seen(0.04, 1)
+    rows = observed(0.04, 1)
     gyro = Gyro(50.0, 1e-3, 1e-2)
     (fits,) = offset_findings(*rows, AttitudeSensor(10.0, 1e-3, 0.02, 0.04), gyro)
     assert fits.kind == "content"
     (wrong,) = offset_findings(*rows, AttitudeSensor(10.0, 1e-3), gyro)
     assert wrong.kind == "problem"
     assert "by the testbed it would be 0 ms" in wrong.sentence
-    told = float(wrong.sentence.split("stamped ")[1].split(" ms")[0])
-    assert told == pytest.approx(40, abs=4)
+    reported = float(wrong.sentence.split("stamped ")[1].split(" ms")[0])
+    assert reported == pytest.approx(40, abs=4)

@@ -17,7 +17,7 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential, multiply, normalise
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 
 REAL = Path(__file__).parents[4] / "shared" / "data" / "optitrack_tumbling.csv"
 T = np.arange(300) * 0.1
@@ -53,12 +53,12 @@ def test_two_frames_by_hand() -> None:
     frames = exponential(np.multiply.outer([-half, half], [0, 0, 2.0]))
     assert np.linalg.norm(frames.mean(axis=0)) == pytest.approx(np.cos(0.03), abs=1e-15)
     length = np.full((len(T), 1), np.cos(0.03))
-    told = row_averaging(Samples(T, exponential(np.outer(T, [0, 0, 2.0]))), Samples(T, length))
-    assert told is not None
-    assert told.window == pytest.approx(np.sqrt(12) * half, rel=1e-4)
-    assert told.damping == pytest.approx(4 * 0.03**2 * 12 / 24, rel=1e-3)  # w^2 T^2 / 24
-    assert told.odd == ()
-    assert told.steady
+    reported = row_averaging(Samples(T, exponential(np.outer(T, [0, 0, 2.0]))), Samples(T, length))
+    assert reported is not None
+    assert reported.window == pytest.approx(np.sqrt(12) * half, rel=1e-4)
+    assert reported.damping == pytest.approx(4 * 0.03**2 * 12 / 24, rel=1e-3)  # w^2 T^2 / 24
+    assert reported.odd == ()
+    assert reported.steady
 
 
 @pytest.mark.parametrize("digits", [5, 6, 7])
@@ -66,14 +66,14 @@ def test_two_frames_by_hand() -> None:
 def test_four_frames_with_25_ms_spacing_are_a_window_of_97_ms(speed, digits) -> None:
     """Variance (n^2 - 1) / 12 dt^2: T = dt sqrt(15), wherever the row is stamped in it."""
     for start in (0.0, -0.0375, -0.075):
-        told = row_averaging(*means(speed, start + 0.025 * np.arange(4), digits))
-        assert told is not None
+        reported = row_averaging(*means(speed, start + 0.025 * np.arange(4), digits))
+        assert reported is not None
         # Rounding, and what the second order leaves out at 280 deg/s: 0.04 %.
         wanted = 0.025 * np.sqrt(15)
-        assert abs(told.window - wanted) < 4 * told.sd + 5e-4 * wanted
-        assert told.sd < 0.02 * wanted
-        assert told.odd == ()
-        assert told.steady
+        assert abs(reported.window - wanted) < 4 * reported.sd + 5e-4 * wanted
+        assert reported.sd < 0.02 * wanted
+        assert reported.odd == ()
+        assert reported.steady
 
 
 def test_the_error_is_of_the_size_of_its_sd() -> None:
@@ -83,9 +83,9 @@ def test_the_error_is_of_the_size_of_its_sd() -> None:
     for seed in range(60):
         rng = np.random.default_rng(seed)
         noisy = Samples(T, lengths.values + rng.normal(scale=1e-4, size=(len(T), 1)))
-        told = row_averaging(attitude, noisy)
-        assert told is not None
-        found.append((told.window - 0.025 * np.sqrt(15)) / told.sd)
+        reported = row_averaging(attitude, noisy)
+        assert reported is not None
+        found.append((reported.window - 0.025 * np.sqrt(15)) / reported.sd)
     assert 0.6 < np.mean(np.square(found)) < 1.6
 
 
@@ -110,10 +110,10 @@ def test_single_frames_among_means_are_named(rows) -> None:
     for row in rows:
         norm[row] = 1.0
         q[row] = multiply(q[row], exponential(np.radians([0.0, 1.0, 3.0])))
-    told = row_averaging(Samples(T, q), Samples(T, norm))
-    assert told is not None
-    assert told.odd == rows
-    assert told.window == pytest.approx(0.025 * np.sqrt(15), rel=2e-3)
+    reported = row_averaging(Samples(T, q), Samples(T, norm))
+    assert reported is not None
+    assert reported.odd == rows
+    assert reported.window == pytest.approx(0.025 * np.sqrt(15), rel=2e-3)
     text = said(Samples(T, q), Samples(T, norm))
     assert f"problem: row {rows[-1] + 1} at {T[rows[-1]]:g} s is not a mean" in text
 
@@ -123,19 +123,19 @@ def test_a_window_that_changes_is_said() -> None:
     four, two = means(3.0, 0.025 * np.arange(4)), means(3.0, 0.025 * np.arange(2))
     late = (T > 15)[:, None]
     lengths = Samples(T, np.where(late, two[1].values, four[1].values))
-    told = row_averaging(four[0], lengths)
-    assert told is None or not told.steady
+    reported = row_averaging(four[0], lengths)
+    assert reported is None or not reported.steady
     assert "windows of different width" in said(four[0], lengths)
 
 
 def test_the_rows_of_a_sensor_with_the_window_stand_for_the_same_moments() -> None:
     """Whatever delay and averaging the testbed had."""
-    told = RowAveraging(0.1, 1e-4, True, 1e-3, 2e-4, ())
+    reported = RowAveraging(0.1, 1e-4, True, 1e-3, 2e-4, ())
     for delay, averaging in ((0.0, 0.0), (0.02, 0.0), (0.0, 0.06)):
         sensor = AttitudeSensor(10.0, 1e-3, delay, averaging)
-        changed = with_window(sensor, told)
+        changed = with_window(sensor, reported)
         assert changed.averaging == 0.1
-        np.testing.assert_allclose(seen_at(T, changed), seen_at(T, sensor), atol=1e-15)
+        np.testing.assert_allclose(measured_at(T, changed), measured_at(T, sensor), atol=1e-15)
 
 
 def test_the_testbed_is_held_against_the_record() -> None:
@@ -152,11 +152,11 @@ def test_the_testbed_is_held_against_the_record() -> None:
 def test_the_real_record() -> None:
     """Found elsewhere from the same lengths: 4 frames 25.06 ms apart; the last row is a frame."""
     record = read_recording(REAL)
-    told = row_averaging(record.attitude, record.attitude_norm)
-    assert told is not None
-    assert told.window == pytest.approx(25.06e-3 * np.sqrt(15), rel=3e-3)
-    assert told.odd == (600,)
-    assert told.steady
+    reported = row_averaging(record.attitude, record.attitude_norm)
+    assert reported is not None
+    assert reported.window == pytest.approx(25.06e-3 * np.sqrt(15), rel=3e-3)
+    assert reported.odd == (600,)
+    assert reported.steady
     sentences = " ".join(f.sentence for f in findings(record))
     assert "row 601 at 60 s is not a mean" in sentences
     assert "the mean over 0.0971 s" in sentences

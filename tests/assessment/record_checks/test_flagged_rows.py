@@ -28,7 +28,7 @@ def motion(t: np.ndarray, spin: float) -> np.ndarray:
     return multiply(exponential(tilt), exponential(heading[:, None] * [0.0, 0.0, 1.0]))
 
 
-def seen(rng, spin: float = SPIN[2], dt: float = 0.1, n: int = 400, noise: float = NOISE):
+def observed(rng, spin: float = SPIN[2], dt: float = 0.1, n: int = 400, noise: float = NOISE):
     """A noisy attitude record."""
     t = np.arange(n) * dt
     return Samples(t, turned(motion(t, spin), rng.normal(scale=noise, size=(n, 3))))
@@ -38,7 +38,7 @@ def turned(q: np.ndarray, vector: np.ndarray) -> np.ndarray:
     return multiply(q, exponential(vector))
 
 
-def felt(rng, dt: float = 0.05, n: int = 600, noise: float = 1e-3) -> Samples:
+def response(rng, dt: float = 0.05, n: int = 600, noise: float = 1e-3) -> Samples:
     """A noisy gyro record."""
     t = np.arange(n) * dt
     rate = np.stack([0.1 * np.sin(t), 0.1 * np.cos(0.8 * t), 0.2 + 0.05 * np.sin(0.5 * t)], 1)
@@ -54,7 +54,7 @@ def off(rng, size: float) -> np.ndarray:
 @pytest.mark.parametrize("dt", [0.02, 0.1])
 def test_smooth_motion_is_not_flagged(spin, dt) -> None:
     """At most one record in ten has a false alarm: with ten seeds, four would be one in 80."""
-    alarms = [outlying_attitudes(seen(np.random.default_rng(s), spin, dt)).mask.any()
+    alarms = [outlying_attitudes(observed(np.random.default_rng(s), spin, dt)).mask.any()
               for s in range(10)]  # fmt: skip
     assert sum(alarms) < 4
 
@@ -62,24 +62,26 @@ def test_smooth_motion_is_not_flagged(spin, dt) -> None:
 def test_motion_without_noise_is_not_flagged() -> None:
     """What the polynomial cannot follow is no outlier."""
     for spin in SPIN:
-        assert not outlying_attitudes(seen(np.random.default_rng(1), spin, noise=0.0)).mask.any()
+        assert not outlying_attitudes(
+            observed(np.random.default_rng(1), spin, noise=0.0)
+        ).mask.any()
 
 
 def test_false_alarms_of_a_gyro() -> None:
     """Fewer than one in ten; of 40, nine would be one in 50."""
-    assert sum(outlying_rates(felt(np.random.default_rng(s))).mask.any() for s in range(40)) < 9
+    assert sum(outlying_rates(response(np.random.default_rng(s))).mask.any() for s in range(40)) < 9
 
 
 def test_a_flip_by_one_step_of_coarse_values_is_no_outlier() -> None:
     """Slow motion, noise far below the step: values stand still and flip; a spike still shows."""
     step = np.radians(1 / 16)
     for seed in range(10):
-        slow = felt(np.random.default_rng(seed))
+        slow = response(np.random.default_rng(seed))
         rate = np.round(0.05 * slow.values / step) * step
         assert not outlying_rates(Samples(slow.t, rate)).mask.any()
         rate[300] += 20 * step
         assert np.flatnonzero(outlying_rates(Samples(slow.t, rate)).mask).tolist() == [300]
-        camera = seen(np.random.default_rng(seed), 0.0, dt=0.02, noise=1e-5)
+        camera = observed(np.random.default_rng(seed), 0.0, dt=0.02, noise=1e-5)
         coarse = normalise(np.round(camera.values, 3))
         assert not outlying_attitudes(Samples(camera.t, coarse)).mask.any()
 
@@ -89,7 +91,7 @@ def test_rows_that_are_off_are_found_and_no_others(size) -> None:
     """Anywhere inside a record at 105 deg/s and 10 Hz, noise 0.03 deg."""
     for seed in range(5):
         rng = np.random.default_rng(seed)
-        record = seen(rng)
+        record = observed(rng)
         q, rows = record.values.copy(), [40, int(rng.integers(100, 300)), 360]
         wrong = np.array([off(rng, np.radians(size)) for _ in rows])
         q[rows] = turned(q[rows], wrong)
@@ -102,7 +104,7 @@ def test_a_flipped_attitude_row_does_not_flag_its_neighbours_during_a_spin() -> 
     """150 deg off at 280 deg/s: taken from that row, all others swing round with the spin."""
     for seed in range(8):
         rng = np.random.default_rng(seed)
-        record = seen(rng, SPIN[3])
+        record = observed(rng, SPIN[3])
         q = record.values.copy()
         q[200] = turned(q[200], off(rng, np.radians(150)))
         odd = outlying_attitudes(Samples(record.t, q))
@@ -115,7 +117,7 @@ def test_the_first_and_the_last_row_are_judged(row, size) -> None:
     """At an edge a tenth of the rate is taken for a touch: 10.5 deg/s, 1 deg in 0.1 s."""
     for seed in range(5):
         rng = np.random.default_rng(seed)
-        record = seen(rng)
+        record = observed(rng)
         q = record.values.copy()
         q[row] = turned(q[row], off(rng, np.radians(size)))
         odd = outlying_attitudes(Samples(record.t, q))
@@ -126,7 +128,7 @@ def test_rows_next_to_a_gap_are_not_flagged_but_judged() -> None:
     """28 s are lost; then the row before the gap is 10 deg off."""
     for seed in range(5):
         rng = np.random.default_rng(seed)
-        record = seen(rng, n=700)
+        record = observed(rng, n=700)
         keep = np.r_[0:200, 480:700]
         t, q = record.t[keep], record.values[keep].copy()
         assert not outlying_attitudes(Samples(t, q)).mask.any()
@@ -139,7 +141,7 @@ def test_touches_are_not_flagged() -> None:
     flagged = 0
     for seed in range(10):
         rng = np.random.default_rng(seed)
-        record = seen(rng)
+        record = observed(rng)
         q = record.values
         for moment in 4.03 + 6.0 * np.arange(6) + rng.uniform(0, 2, 6):
             since = np.maximum(record.t - moment, 0)[:, None]
@@ -152,7 +154,7 @@ def test_a_push_is_no_outlier_of_a_gyro_but_a_spike_is() -> None:
     """The rate jumps for good at 10 s; at row 400 it jumps for one row."""
     for seed in range(5):
         rng = np.random.default_rng(seed)
-        record = felt(rng)
+        record = response(rng)
         pushed = record.values + (record.t > 10.02)[:, None] * off(rng, 0.1)
         assert not outlying_rates(Samples(record.t, pushed)).mask.any()
         pushed[400] += off(rng, 0.1)
@@ -162,12 +164,12 @@ def test_a_push_is_no_outlier_of_a_gyro_but_a_spike_is() -> None:
 
 def test_rows_that_repeat_are_found_where_motion_goes_on() -> None:
     """Rows 50 and 51 repeat row 49; at rest in coarse steps repeats are nothing."""
-    record = seen(np.random.default_rng(2))
+    record = observed(np.random.default_rng(2))
     q = record.values.copy()
     q[50:52] = q[49]
     assert np.flatnonzero(frozen_attitudes(Samples(record.t, q))).tolist() == [50, 51]
     assert not frozen_attitudes(record).any()
-    rate = felt(np.random.default_rng(2))
+    rate = response(np.random.default_rng(2))
     step = np.radians(1 / 16)
     slow = np.round(rate.values * [0.01, 0.01, 0] / step) * step
     assert not frozen_rates(Samples(rate.t, slow)).any()
@@ -176,7 +178,7 @@ def test_rows_that_repeat_are_found_where_motion_goes_on() -> None:
 def test_a_mask_holds_both_and_the_findings_name_rows_from_one() -> None:
     """Row 101 of a person is row 100 here."""
     rng = np.random.default_rng(3)
-    record, gyro = seen(rng), felt(rng)
+    record, gyro = observed(rng), response(rng)
     q, w = record.values.copy(), gyro.values.copy()
     q[100] = turned(q[100], np.radians([0, 6, 8]))
     w[301] = w[300]

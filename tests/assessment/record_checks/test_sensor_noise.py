@@ -71,8 +71,8 @@ def test_a_camera_that_nobody_described() -> None:
 
 def test_assumed_sensor_noise_is_reported() -> None:
     testbed, recording = builders.platform(), Recording(rate=rates(0.01))
-    (told,) = unstated_findings(recording, testbed)
+    (reported,) = unstated_findings(recording, testbed)
     # 0.01 rad/s = 0.573 deg/s, told to some per cent by 4000 rows
-    assert "no sensor.gyro: its noise is taken as 0.5" in told.sentence
+    assert "no sensor.gyro: its noise is taken as 0.5" in reported.sentence
     assert unstated_findings(recording, builders.platform(gyro=True)) == []
     assert unstated_findings(recording, None) == []

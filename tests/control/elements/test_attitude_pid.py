@@ -36,13 +36,13 @@ Q = exponential(np.array([0.3, -0.2, 0.5]))
 NONE = np.zeros(3)
 
 
-def seen_at(q=Q, w=NONE, h=NONE, t=0.0, delivered=NONE):
+def observed_at(q=Q, w=NONE, h=NONE, t=0.0, delivered=NONE):
     down = to_matrix(q).T @ np.array([0.0, 0.0, -GRAVITY])
     return Sample(t, q, w, down, NONE, h, delivered, NONE, None)
 
 
-def asked(seen, q, gains=None, moment=NONE):
-    return torque(unwound(), seen, at_rest(q), gains or gains_for(INERTIA, 5e-3), moment)[1]
+def requested(observed, q, gains=None, moment=NONE):
+    return torque(unwound(), observed, at_rest(q), gains or gains_for(INERTIA, 5e-3), moment)[1]
 
 
 def test_error_is_the_angle_still_to_turn_in_body_axes():
@@ -60,14 +60,16 @@ def test_weight_is_held_when_at_rest_at_the_target():
     """Level, the centre of mass 10 um along x: gravity turns by -m g x about -y, so -1.37 mN m."""
     q, moment = np.array([1.0, 0, 0, 0]), MASS * np.array([1e-5, 0, 0])
     # mu x g_B = (x, 0, 0) x (0, 0, -g) = (0, x g, 0); the torque held against it is its opposite
-    assert asked(seen_at(q), q, moment=moment) == pytest.approx([0, -MASS * GRAVITY * 1e-5, 0])
+    assert requested(observed_at(q), q, moment=moment) == pytest.approx(
+        [0, -MASS * GRAVITY * 1e-5, 0]
+    )
 
 
 def test_gyroscopic_torque_is_cancelled_with_stored_momentum():
     """With no gain at all, what is asked leaves J w' = 0 in Euler's equation."""
     w, h = np.array([0.1, -0.2, 0.05]), np.array([0.02, 0.01, -0.03])
     gains = Gains(INERTIA, 0.0, 0.0, 0.0, 1.0)
-    u = asked(seen_at(w=w, h=h), Q, gains)
+    u = requested(observed_at(w=w, h=h), Q, gains)
     assert -np.cross(w, INERTIA @ w + h) + u == pytest.approx(np.zeros(3), abs=1e-15)
 
 
@@ -75,7 +77,7 @@ def test_proportional_and_rate_parts_are_scaled_by_the_inertia():
     """Small: J (w_n^2 e - 2 zeta w_n w), with numbers worked by hand."""
     gains = Gains(np.diag([2.0, 1.0, 1.0]), 0.5, 0.8, 0.0, 1.0)
     target = multiply(Q, exponential(np.array([1e-4, 0, 0])))
-    u = asked(seen_at(w=np.array([1e-5, 0, 0])), target, gains)
+    u = requested(observed_at(w=np.array([1e-5, 0, 0])), target, gains)
     assert u[0] == pytest.approx(2.0 * (0.25 * 1e-4 - 2 * 0.8 * 0.5 * 1e-5), rel=1e-6)
 
 
@@ -83,8 +85,8 @@ def integral_after(delivered, steps=100):
     gains = gains_for(INERTIA, 5e-3)
     target, pid, u = multiply(Q, exponential(np.array([0.5, 0, 0]))), unwound(), NONE
     for k in range(steps):
-        seen = seen_at(t=0.1 * k, delivered=delivered(u))
-        pid, u = torque(pid, seen, at_rest(target), gains, NONE)
+        observed = observed_at(t=0.1 * k, delivered=delivered(u))
+        pid, u = torque(pid, observed, at_rest(target), gains, NONE)
     return pid.total
 
 
@@ -141,8 +143,8 @@ def test_lees_turn_settles_in_tens_of_seconds():
     delivered = np.zeros(3)
     for k in range(1200):
         down = to_matrix(y[:4]).T @ np.array([0.0, 0.0, -GRAVITY])
-        seen = Sample(0.1 * k, y[:4], w, down, NONE, h, delivered, NONE, None)
-        pid, u = torque(pid, seen, at_rest(target), gains, NONE)
+        observed = Sample(0.1 * k, y[:4], w, down, NONE, h, delivered, NONE, None)
+        pid, u = torque(pid, observed, at_rest(target), gains, NONE)
         delivered = u
         known = np.zeros((2, 6))
         known[:, :3] = h, h - 0.1 * u

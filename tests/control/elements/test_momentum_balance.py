@@ -16,7 +16,7 @@ NONE = np.zeros(3)
 SAG = ("sag_xx", "sag_yy", "sag_xy", "sag_xz", "sag_yz")
 
 
-def seen_at(q, t=0.0, w=NONE, h=NONE, shift=NONE):
+def observed_at(q, t=0.0, w=NONE, h=NONE, shift=NONE):
     down = to_matrix(q).T @ np.array([0.0, 0.0, -GRAVITY])
     return Sample(t, q, w, down, shift, h, NONE, NONE, None)
 
@@ -25,7 +25,7 @@ def test_rows_are_the_torques_in_laboratory_axes():
     """By the cross products themselves: m r x g, m s x g and m g (C n) x n."""
     bed = platform(disturbances=SAG)
     q, shift = exponential(np.array([0.2, -0.3, 0.7])), np.array([1e-6, 2e-6, -3e-6])
-    rows = ml.rows_at(seen_at(q, shift=shift), ml.book_of(bed), 0.0)
+    rows = ml.rows_at(observed_at(q, shift=shift), ml.book_of(bed), 0.0)
     R, g = to_matrix(q), to_matrix(q).T @ np.array([0, 0, -GRAVITY])
     r, n = np.array([3e-6, -1e-6, 5e-6]), g / GRAVITY
     assert rows[:, :3] @ r == pytest.approx(R @ np.cross(MASS * r, g))
@@ -42,11 +42,13 @@ def followed(truth, turns, seconds, bed):
     book, gains, ledger = ml.book_of(bed), gains_for(INERTIA, 5e-3), None
     for turn in turns:
         for _ in range(round(seconds / 0.1)):
-            seen = sample(course, 0.1, rng)
+            observed = sample(course, 0.1, rng)
             ledger = (
-                ml.opened(bed, book, seen) if ledger is None else ml.entered(ledger, seen, book)
+                ml.opened(bed, book, observed)
+                if ledger is None
+                else ml.entered(ledger, observed, book)
             )
-            pid, u = torque(pid, seen, at_rest(exponential(turn)), gains, NONE)
+            pid, u = torque(pid, observed, at_rest(exponential(turn)), gains, NONE)
             go(course, Command(torque=u), 0.1, rng)
     return ledger, course
 
@@ -88,9 +90,9 @@ def test_a_move_adds_the_accuracy_of_the_masses_that_may_have_moved():
     assert ml.stop_variance(np.array([1e-5, 0, 0]), book) == pytest.approx(coarse**2 + fine**2)
     assert ml.stop_variance(np.array([3e-7, 0, 0]), book) == pytest.approx(fine**2)
     q, still = np.array([1.0, 0, 0, 0]), np.array([1e-5, 0, 0])
-    ledger = ml.opened(bed, book, seen_at(q))
+    ledger = ml.opened(bed, book, observed_at(q))
     for k, shift in enumerate([0.5 * still, still]):
-        ledger = ml.predicted(ledger, seen_at(q, 0.1 * (k + 1), shift=shift), book)
+        ledger = ml.predicted(ledger, observed_at(q, 0.1 * (k + 1), shift=shift), book)
     stands = ml.arrived(ledger, book)  # once for the whole way, not once a sample
     assert np.diag(stands.P - ledger.P)[9:12] == pytest.approx(coarse**2 + fine**2)
     assert ml.arrived(stands, book) is stands
@@ -99,17 +101,17 @@ def test_a_move_adds_the_accuracy_of_the_masses_that_may_have_moved():
 def test_samples_during_mass_travel_are_rejected():
     bed = platform()
     book, q = ml.book_of(bed), np.array([1.0, 0, 0, 0])
-    ledger = ml.opened(bed, book, seen_at(q))
-    wrong = seen_at(q, 0.1, h=np.array([1.0, 0, 0]), shift=np.array([1e-6, 0, 0]))
+    ledger = ml.opened(bed, book, observed_at(q))
+    wrong = observed_at(q, 0.1, h=np.array([1.0, 0, 0]), shift=np.array([1e-6, 0, 0]))
     assert ml.entered(ledger, wrong, book).x[0] == pytest.approx(0.0, abs=1e-4)
-    still = seen_at(q, 0.1, h=np.array([1.0, 0, 0]))
+    still = observed_at(q, 0.1, h=np.array([1.0, 0, 0]))
     assert ml.entered(ledger, still, book).x[0] > 0.1
 
 
 def test_drift_is_integrated_from_the_first_sample_to_the_requested_time():
     bed = platform(disturbances=("drift_x",))
     book, q = ml.book_of(bed), np.array([1.0, 0, 0, 0])
-    ledger = ml.opened(bed, book, seen_at(q, 5.0))._replace(t=65.0)
+    ledger = ml.opened(bed, book, observed_at(q, 5.0))._replace(t=65.0)
     x = ledger.x.copy()
     x[9:13] = 1e-6, 0, 0, 2e-9
     com, _ = ml.com_now(ledger._replace(x=x), book)
@@ -121,12 +123,12 @@ def test_play_of_the_air_is_a_torque_on_the_platform_of_a_stated_sd():
     """It puts +x momentum in where it is positive; without samples it forgets in PLAY_TIME."""
     bed = platform()
     book, q = ml.book_of(bed), np.array([1.0, 0, 0, 0])
-    ledger = ml.opened(bed, book, seen_at(q))
+    ledger = ml.opened(bed, book, observed_at(q))
     x, P = ledger.x.copy(), ledger.P.copy()
     x[ml.PLAY], P[ml.PLAY, ml.PLAY] = 1e-6, 0.0
     ahead = ledger._replace(x=x, P=P)
     for k in range(300):
-        ahead = ml.predicted(ahead, seen_at(q, 0.1 * (k + 1)), book)
+        ahead = ml.predicted(ahead, observed_at(q, 0.1 * (k + 1)), book)
     time, spent = ml.PLAY_TIME, 1 - np.exp(-30.0 / ml.PLAY_TIME)
     assert ahead.x[0] == pytest.approx(1e-6 * time * spent, rel=1e-4)
     assert ahead.x[ml.PLAY] == pytest.approx(1e-6 * (1 - spent))

@@ -7,10 +7,10 @@ import pytest
 
 from equipoise.control.elements import planar_feedback as pf
 from equipoise.control.plant.move_timing import Waiting, amplitudes, watched
-from equipoise.control.plant.swing_estimates import Shown, believed, held
+from equipoise.control.plant.swing_estimates import Shown, combined, held
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.command import Command
-from tests.control.elements.test_momentum_balance import seen_at
+from tests.control.elements.test_momentum_balance import observed_at
 from tests.support.plain_loop import GRAVITY, MASS, UP, Truth, begun, go, platform, sample
 
 DEPTH = 100e-6
@@ -65,11 +65,11 @@ def swung(variant, coils, seconds=150.0):
     loop = pf.loop_for(PLANT._replace(coils=coils), DEPTH, variant)
     shift, tilts = np.zeros(3), []
     for _ in range(round(seconds / 0.2)):
-        seen = sample(course, 0.2, rng)
-        across = pf.lean(seen.gravity, UP)
-        swing = np.linalg.norm(seen.rate[:2]) / loop.swing
-        shift = shift + 0.2 * pf.creep(seen.gravity, UP, swing, loop)
-        u = pf.damping_torque(seen.rate, loop)
+        observed = sample(course, 0.2, rng)
+        across = pf.lean(observed.gravity, UP)
+        swing = np.linalg.norm(observed.rate[:2]) / loop.swing
+        shift = shift + 0.2 * pf.creep(observed.gravity, UP, swing, loop)
+        u = pf.damping_torque(observed.rate, loop)
         h = course.now.h.copy()
         go(course, Command(shift=shift), 0.2, rng)
         # Ideal coils: their torque enters the momentum.
@@ -101,12 +101,12 @@ def test_a_platform_let_go_from_level_is_levelled_when_it_is_back():
     waiting, shift = Waiting(np.array([-8e-6, 8e-6, 0.0]), swing), np.zeros(3)
     most, after = 0.0, []
     for _ in range(600):
-        seen = sample(course, 0.2, rng)
+        observed = sample(course, 0.2, rng)
         if not all(waiting.done):
-            waiting, shift = watched(waiting, seen, UP, shift)
-            most = max(most, np.linalg.norm(pf.lean(seen.gravity, UP)))
+            waiting, shift = watched(waiting, observed, UP, shift)
+            most = max(most, np.linalg.norm(pf.lean(observed.gravity, UP)))
         else:
-            after.append(np.linalg.norm(pf.lean(seen.gravity, UP)))
+            after.append(np.linalg.norm(pf.lean(observed.gravity, UP)))
         go(course, Command(shift=shift), 0.2, rng)
     assert most > 0.15
     assert max(after) < 0.15 * most
@@ -131,17 +131,17 @@ SHIFTS = [np.array([0, 0, -200e-6]), np.array([-3e-6, 1e-6, 10e-6]), np.array([9
 
 def test_known_shifts_between_measurements_remove_the_scale_error_of_r():
     r, k = np.array([3e-6, -2e-6, -40e-6]), 1.07
-    looks = tuple(Shown(k * (r + s) - s, np.full(3, 1e-8), s) for s in SHIFTS)
-    found = believed(looks, UP, 0.05)
+    measurements = tuple(Shown(k * (r + s) - s, np.full(3, 1e-8), s) for s in SHIFTS)
+    found = combined(measurements, UP, 0.05)
     assert found.com == pytest.approx(r, abs=2e-8)
     assert found.sd[2] < 2e-8
 
 
 def test_imprecise_measurements_leave_the_scale_to_the_inertia_prior():
     """One look: as it says, and its sd has that of the inertia, 5 % of 240 um."""
-    look = Shown(np.array([0, 0, -40e-6]), np.full(3, 1e-6), SHIFTS[0])
-    found = believed((look,), UP, 0.05)
-    assert found.com == pytest.approx(look.com)
+    measurement = Shown(np.array([0, 0, -40e-6]), np.full(3, 1e-6), SHIFTS[0])
+    found = combined((measurement,), UP, 0.05)
+    assert found.com == pytest.approx(measurement.com)
     assert found.sd == pytest.approx([1e-6, 1e-6, np.hypot(1e-6, 0.05 * 240e-6)])
 
 
@@ -151,11 +151,11 @@ def test_the_error_of_the_measured_height_is_consistent_with_its_sd():
     sds = [5e-6, 2e-6, 1e-6]
     for _ in range(400):
         k = 1 + 0.05 * rng.normal()
-        looks = tuple(
+        measurements = tuple(
             Shown(k * (r + s) - s + sd * rng.normal() * UP, np.full(3, sd), s)
             for s, sd in zip(SHIFTS, sds, strict=True)
         )
-        found = believed(looks, UP, 0.05)
+        found = combined(measurements, UP, 0.05)
         errors.append((found.com[2] - r[2]) / found.sd[2])
     assert np.std(errors) == pytest.approx(1.0, abs=0.12)
 
@@ -169,4 +169,4 @@ def test_measurements_fix_a_level_moment_unobservable_inertia_sag_and_drift():
 
 def test_lean_is_the_vertical_across_up():
     q = exponential(np.array([0.1, 0.0, 0.0]))
-    assert np.linalg.norm(pf.lean(seen_at(q).gravity, UP)) == pytest.approx(np.sin(0.1))
+    assert np.linalg.norm(pf.lean(observed_at(q).gravity, UP)) == pytest.approx(np.sin(0.1))

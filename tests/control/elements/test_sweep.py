@@ -39,8 +39,8 @@ def test_the_rate_leads_gravity_along_the_cone_and_back_to_it():
             middle = n + step / 2 * np.cross(n, wanted(SWEEP, t, n, np.zeros(3)).rate)
             n = n + step * np.cross(middle, wanted(SWEEP, t + step / 2, middle, np.zeros(3)).rate)
             t += step
-        apart = np.linalg.norm(n - cone(SWEEP, t)[0])
-        assert apart == pytest.approx(off * np.exp(-0.3 * 5.0), rel=0.02, abs=1e-6)
+        separation = np.linalg.norm(n - cone(SWEEP, t)[0])
+        assert separation == pytest.approx(off * np.exp(-0.3 * 5.0), rel=0.02, abs=1e-6)
 
 
 def test_the_slope_of_the_rate_is_its_slope():

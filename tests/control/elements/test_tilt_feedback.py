@@ -48,13 +48,13 @@ class State(NamedTuple):
     gravity: np.ndarray
 
 
-def printed(state, seen, params):
+def printed(state, observed, params):
     """The first step alone, rh(0) = 0."""
     held = np.zeros(3)
     if state is not None:
-        held = followed(params.gains, state.held, state.gravity, seen.gravity, wait=False)
-    shift = shift_for(params.gains, held, seen.gravity, seen.rate)
-    return State(held, seen.gravity), Command(shift=shift)
+        held = followed(params.gains, state.held, state.gravity, observed.gravity, wait=False)
+    shift = shift_for(params.gains, held, observed.gravity, observed.rate)
+    return State(held, observed.gravity), Command(shift=shift)
 
 
 def run(com, gains, end, bench=None, first=AT_REST):

@@ -10,7 +10,7 @@ import pytest
 from equipoise.control.law import NEEDS, Law
 from equipoise.control.laws.registry import ALL, LAWS
 from equipoise.io.testbed.presets import read_preset
-from equipoise.model.command import Command, Look
+from equipoise.model.command import Command, Measurement
 from equipoise.model.devices import JetPair, Magnetorquer, ReactionWheel
 from equipoise.model.errors import EquipoiseError, InputError
 from equipoise.model.step import Step
@@ -83,10 +83,10 @@ class Course:
 def watched(law: Law[Any, Any], course: Course) -> Law[Any, Any]:
     """Return a law whose every step is made twice, its input compared before and after."""
 
-    def step(state, seen, params):
-        given = frozen((state, seen, params))
-        first, again = law.step(state, seen, params), law.step(state, seen, params)
-        if frozen((state, seen, params)) != given:
+    def step(state, observed, params):
+        given = frozen((state, observed, params))
+        first, again = law.step(state, observed, params), law.step(state, observed, params)
+        if frozen((state, observed, params)) != given:
             course.impure.append(f"step {len(course.commands)} changed what it was given")
         if frozen(first) != frozen(again):
             course.impure.append(f"step {len(course.commands)} came out in two ways")
@@ -191,7 +191,7 @@ def test_commands_are_vectors_of_numbers(name):
             if wanted is not None:
                 assert wanted.shape == (3,)
                 assert np.all(np.isfinite(wanted))
-        assert command.look is None or isinstance(command.look, Look)
+        assert command.measurement is None or isinstance(command.measurement, Measurement)
 
 
 @every_law
@@ -249,14 +249,17 @@ def test_a_platform_beyond_its_tilt_limit_is_halted(name, how):
     assert not verdict.passed
     assert "tilt" in verdict.sentence
     bench = course.bench
-    stood, looks = bench.displacements, sum(c.look is not None for c in course.commands)
-    assert looks > 0 or bench.time < 5.0
+    stood, measurements = (
+        bench.displacements,
+        sum(c.measurement is not None for c in course.commands),
+    )
+    assert measurements > 0 or bench.time < 5.0
     bench.read(0.5)  # what follows an input late has come to rest
     np.testing.assert_array_equal(bench.displacements, stood)
-    seen = bench.read(AFTER)
+    observed = bench.read(AFTER)
     np.testing.assert_array_equal(bench.displacements, stood)
-    assert seen.devices is not None
-    for device, rows in zip(bench.testbed.devices, seen.devices.values.T, strict=True):
+    assert observed.devices is not None
+    for device, rows in zip(bench.testbed.devices, observed.devices.values.T, strict=True):
         if isinstance(device, ReactionWheel):
             gained = rows[-50:].mean() - rows[:50].mean()
             assert abs(gained) < 5 * device.speed_noise * np.sqrt(2 / 50)

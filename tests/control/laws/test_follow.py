@@ -83,8 +83,8 @@ def test_it_commands_the_shift_for_the_measured_attitude():
     q = exponential(np.array([0.2, 0.1, 0.0]))
     down = to_matrix(q).T @ -UP
     zero = np.zeros(3)
-    seen = Sample(59.9, q, zero, 9.81 * down, zero, zero, zero, zero, None)
-    command = law.step(state, seen, params)[1]
+    observed = Sample(59.9, q, zero, 9.81 * down, zero, zero, zero, zero, None)
+    command = law.step(state, observed, params)[1]
     assert command.shift == pytest.approx(shift_at(following, down, 59.9), abs=1e-15)
     assert not command.finished
 
@@ -95,6 +95,6 @@ def test_wheels_carry_the_weight_of_a_target_aside():
     law = following_law(Following(zero, 0.0, zero, np.zeros((3, 3)), zero), 60.0)
     state, params = law.begin(platform(), target)
     q = np.array([1.0, 0.0, 0.0, 0.0])
-    seen = Sample(0.0, q, zero, -GRAVITY * UP, zero, zero, zero, zero, None)
-    torque = law.step(state, seen, params)[1].torque
+    observed = Sample(0.0, q, zero, -GRAVITY * UP, zero, zero, zero, zero, None)
+    torque = law.step(state, observed, params)[1].torque
     assert torque == pytest.approx([0.0, -MASS * GRAVITY * 5e-6, 0.0], abs=1e-12)

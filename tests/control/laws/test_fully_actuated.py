@@ -134,7 +134,7 @@ def test_the_null_vector_is_not_balanced_and_the_law_says_so():
     assert np.abs([r.rate for r in rows]).max() < 1e-9
     said = rows[-1].command.finished
     assert "not balanced" in said
-    worst = np.linalg.eigh(rows[-1].state.seen)[1][:, 0]
+    worst = np.linalg.eigh(rows[-1].state.observed)[1][:, 0]
     assert abs(worst @ down) == pytest.approx(1.0)
     assert f"{worst[0]:.2f}, {worst[1]:.2f}, {worst[2]:.2f}" in said
 
@@ -191,9 +191,9 @@ def test_what_the_masses_cannot_follow_does_not_wind_up():
     """s leads what is reported by ``lead`` at most."""
     _, params = LAW.begin(bed(), TARGET)
     bench = Bench(bed(), COM)
-    seen = sample(started(bench, LEVEL, np.zeros(3)), bench, np.random.default_rng(0))
-    far = State(np.array([1e-2, 0, 0]), np.zeros((3, 3)))
-    after, command = step(far, seen, params)
+    observed = sample(started(bench, LEVEL, np.zeros(3)), bench, np.random.default_rng(0))
+    outlying = State(np.array([1e-2, 0, 0]), np.zeros((3, 3)))
+    after, command = step(outlying, observed, params)
     np.testing.assert_allclose(after.shift, [params.lead, 0, 0])
     np.testing.assert_array_equal(command.shift, after.shift)
 
@@ -202,14 +202,14 @@ def test_it_does_not_learn_from_torque_that_was_not_given():
     """Saturated wheels: e is then theirs, not gravity's."""
     bench = Bench(bed(), COM)
     _, params = LAW.begin(bench.testbed, TARGET)
-    seen = sample(
+    observed = sample(
         started(bench, LEVEL, np.array([0.0, 0.05, 0.0])), bench, np.random.default_rng(0)
     )
-    asked, before = np.array([0.0, -0.1, 0.0]), np.array([0.5, 0.0, -9.7])
-    state = State(np.zeros(3), np.zeros((3, 3)), 0.0, before, np.zeros(3), asked)
-    starved = step(state, replace(seen, t=0.1), params)[0]
+    requested, before = np.array([0.0, -0.1, 0.0]), np.array([0.5, 0.0, -9.7])
+    state = State(np.zeros(3), np.zeros((3, 3)), 0.0, before, np.zeros(3), requested)
+    starved = step(state, replace(observed, t=0.1), params)[0]
     np.testing.assert_array_equal(starved.shift, np.zeros(3))
-    given = step(state, replace(seen, t=0.1, torque=asked), params)[0]
+    given = step(state, replace(observed, t=0.1, torque=requested), params)[0]
     assert np.linalg.norm(given.shift) > 1e-5
 
 

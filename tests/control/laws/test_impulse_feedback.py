@@ -44,19 +44,19 @@ def test_the_account_balances_on_true_motion(speed, share):
     params, rng = params_for(truth), np.random.default_rng(5)
     plant = Plant(truth, [0.3, -0.2, 1.0], [0.2, -0.1, 0.3])
     loop, zero = Loop(plant), np.zeros(3)
-    seen = loop.sample(zero, zero)
-    window = law.opened(seen, params)
+    observed = loop.sample(zero, zero)
+    window = law.opened(observed, params)
     for _ in range(200):
-        before = law.Before(seen.t, to_matrix(seen.q), seen.gravity, seen.shift)
+        before = law.Before(observed.t, to_matrix(observed.q), observed.gravity, observed.shift)
         impulse = 3e-3 * rng.normal(size=3)
-        plant.ask(np.array([30e-6, 20e-6, -50e-6]))
+        plant.request(np.array([30e-6, 20e-6, -50e-6]))
         plant.y[4:] += impulse
         plant.go(0.02)
         # The impulse falls at the beginning of the step, so it is given there.
         window = window._replace(given=window.given + before.R @ impulse)
-        seen = loop.sample(zero, zero)
-        window = law.summed(window, before, seen, params)
-    b = law.told(window, seen, params)
+        observed = loop.sample(zero, zero)
+        window = law.summed(window, before, observed, params)
+    b = law.unbalance_impulse(window, observed, params)
     np.testing.assert_allclose(b, window.A @ OFFSET, atol=share * np.linalg.norm(window.A @ OFFSET))
 
 

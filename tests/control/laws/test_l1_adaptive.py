@@ -74,8 +74,8 @@ def test_the_largest_adaptation_is_where_the_sampled_estimates_swing_up():
 def test_the_adaptation_keeps_its_bounds():
     """Projection: whatever the error, th_hat stays in its ball and s_hat in its range."""
     axis = law.begin(guess(), np.zeros(3))[1].axes[0]
-    far = np.array([-1e3, -1e3])
-    th, s = law.adapted(axis, far, np.array([0.3, 0.1]), np.zeros(2), 0.0)
+    outlying = np.array([-1e3, -1e3])
+    th, s = law.adapted(axis, outlying, np.array([0.3, 0.1]), np.zeros(2), 0.0)
     assert np.linalg.norm(th) == pytest.approx(axis.most)
     assert s == axis.furthest
 
@@ -136,8 +136,8 @@ def test_turning_over_by_yaw_is_that_of_the_true_platform():
     params = law.begin(table(), np.zeros(3))[1]
     loop, zero, rows = Loop(true), np.zeros(3), []
     for _ in range(3):
-        seen = loop.sample(zero, zero)
-        rows.append([tilt_of(params.plant, seen), rate_of(params.plant, seen)])
+        observed = loop.sample(zero, zero)
+        rows.append([tilt_of(params.plant, observed), rate_of(params.plant, observed)])
         true.go(0.01)
     before, now, after = np.array(rows).transpose(0, 2, 1)
     slope = (after - before) / 0.02 - np.column_stack([now[:, 1], np.zeros(2)])
@@ -149,9 +149,9 @@ def test_turning_over_by_yaw_is_that_of_the_true_platform():
 def test_the_swing_is_that_of_the_height_masses_have_reached():
     """Asked to hang at 386 um, 286 um of them by masses; they report 200 um: 300 um so far."""
     state, params = law.begin(guess(), np.zeros(3))
-    seen = Loop(Plant(table(), TURN, RATE)).sample(np.zeros(3), np.zeros(3))
-    seen = replace(seen, shift=np.array([0.0, 0.0, -200e-6]))
-    found = law.frequencies(state, seen, params.plant) ** 2 / params.plant.gain
+    observed = Loop(Plant(table(), TURN, RATE)).sample(np.zeros(3), np.zeros(3))
+    observed = replace(observed, shift=np.array([0.0, 0.0, -200e-6]))
+    found = law.frequencies(state, observed, params.plant) ** 2 / params.plant.gain
     np.testing.assert_allclose(found, 300e-6)
 
 

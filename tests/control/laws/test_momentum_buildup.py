@@ -60,15 +60,15 @@ def test_what_is_left_on_a_platform_that_sags_is_what_no_centre_of_mass_can_take
 def test_masses_that_follow_the_laws_output_leave_a_small_fraction_of_the_torque(seed):
     """Weight times |(r + s + C n) x n| over the cap, s as the law's last word asks for it."""
     course = run(seed, True)
-    told = course.following
+    reported = course.following
     here = course.truth.com + course.truth.drift * course.now.t
     directions, weights = downs(UP, TWENTY)
     square = 0.0
     for n, weight in zip(directions, weights[:, 0], strict=True):
-        acting = here + shift_at(told, n, course.now.t) + SAG @ n
+        acting = here + shift_at(reported, n, course.now.t) + SAG @ n
         square += weight * np.sum(np.cross(acting, n) ** 2)
     assert MASS * GRAVITY * square**0.5 < 1.19e-5 / 2
-    np.testing.assert_allclose(told.drift, course.truth.drift, atol=0.5e-9)
+    np.testing.assert_allclose(reported.drift, course.truth.drift, atol=0.5e-9)
 
 
 @pytest.mark.parametrize(("doubt", "again"), [(1.0, False), (10.0, True)])
@@ -78,10 +78,10 @@ def test_a_goal_in_doubt_at_the_end_is_held_for_once_more(doubt, again):
     last = next(state for state in course.states if state.closing is not None)
     before = replace(last, closing=None, ledger=last.ledger._replace(P=doubt**2 * last.ledger.P))
     params = mb.begin(course.testbed, np.zeros(3))[1]
-    seen = sample(course, 0.1, np.random.default_rng(1))
-    after = mb.closed(before, seen, params)
+    observed = sample(course, 0.1, np.random.default_rng(1))
+    after = mb.closed(before, observed, params)
     assert (after.again, after.closing is None) == (again, again)
-    assert mb.closed(replace(before, again=True), seen, params).closing is not None
+    assert mb.closed(replace(before, again=True), observed, params).closing is not None
 
 
 def test_wheels_are_not_filled():
@@ -120,15 +120,15 @@ def test_unloading_is_against_the_momentum_that_is_stored():
     bed = platform()
     _, params = mb.LAW.begin(bed, np.zeros(3))
     from equipoise.control.elements.momentum_balance import opened
-    from tests.control.elements.test_momentum_balance import seen_at
+    from tests.control.elements.test_momentum_balance import observed_at
 
     q = exponential(np.array([0.1, -0.05, 0.8]))
-    seen = seen_at(q)
-    ledger = opened(bed, params.book, seen)
+    observed = observed_at(q)
+    ledger = opened(bed, params.book, observed)
     x = ledger.x.copy()
     x[:3] = 0.01, -0.004, 0.02
-    shift = mb.unloading(ledger._replace(x=x), seen, params)
-    torque_N = to_matrix(q) @ np.cross(MASS * shift, seen.gravity)
+    shift = mb.unloading(ledger._replace(x=x), observed, params)
+    torque_N = to_matrix(q) @ np.cross(MASS * shift, observed.gravity)
     assert np.cross(torque_N, x[:3] * [1, 1, 0]) == pytest.approx(np.zeros(3), abs=1e-12)
     assert torque_N @ x[:3] < 0
 

@@ -53,8 +53,8 @@ def test_a_target_that_is_not_the_centre_is_reached():
 def test_the_tilt_goes_to_zero_at_every_height():
     """What is levelled is the sideways part, and that alone: the height stays, until a look."""
     run = flown()
-    looks = [i for i, c in enumerate(run.commands) if c.look is not None]
-    first, *later = (i - 24 for i in looks)  # 6 s before the kick
+    measurements = [i for i, c in enumerate(run.commands) if c.measurement is not None]
+    first, *later = (i - 24 for i in measurements)  # 6 s before the kick
     np.testing.assert_allclose(run.com[first, :2], 0.0, atol=pid.ROUGH * 436 * UM)
     assert run.com[first, 2] == pytest.approx(-436e-6, abs=1e-6)
     for quiet in later:
@@ -114,8 +114,8 @@ def test_an_integral_whose_command_was_not_delivered_unwinds():
     """Masses that report no shift while 20 um were asked: I' has minus their difference."""
     state, params = pid.begin(guess(), np.zeros(3))
     loop = Loop(Plant(table(), [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]))
-    asked = pendulum.shift_for(params.plant, np.array([20e-6, 0.0]))
-    state = replace(state, phase="level", asked=asked, integral=np.zeros(2))
+    requested = pendulum.shift_for(params.plant, np.array([20e-6, 0.0]))
+    state = replace(state, phase="level", requested=requested, integral=np.zeros(2))
     after, _ = pid.step(state, loop.sample(np.zeros(3), np.zeros(3)), params)
     p, i, _ = params.gains[0]
     np.testing.assert_allclose(after.integral, [pid.PERIOD * 20e-6 * i / p, 0.0], atol=1e-12)
@@ -125,21 +125,21 @@ def test_an_uninformative_measurement_ends_the_run_level():
     """The masses go back to where they levelled it, and the sentence says why it hangs."""
     state, params = pid.begin(guess(), np.zeros(3))
     loop, zero = Loop(Plant(table(), TURN, RATE)), np.zeros(3)
-    level, seen = np.array([1e-6, 2e-6, 3e-6]), loop.sample(zero, zero)
-    way = height_adjustment.once_level(params.plant, state.height, seen, level, zero)
+    level, observed = np.array([1e-6, 2e-6, 3e-6]), loop.sample(zero, zero)
+    way = height_adjustment.once_level(params.plant, state.height, observed, level, zero)
     state = replace(state, phase="level", level=level, way=way)
     blind = Estimate("trajectory", Outcome(False, "too little motion"), (), np.zeros((0, 0)))
     state, command = pid.step(state, blind, params)
     np.testing.assert_array_equal(command.shift, level)
     assert not command.finished
-    _, command = pid.step(state, replace(seen, shift=level), params)
+    _, command = pid.step(state, replace(observed, shift=level), params)
     assert "too little motion" in command.finished
 
 
 def test_measurements_repeat_at_smaller_depth_until_the_height_is_known():
     """An open scale of 5 %: from 436 um it is known to 22, from 65 to 3, from 10 to 0.5."""
     run = flown(5)
-    assert run.looks == 3
+    assert run.measurements == 3
     depths = [s.height.depth for s in run.states if s.level is not None]
     assert min(depths) == height_adjustment.SHALLOW
 
@@ -172,6 +172,6 @@ def test_an_unstable_loop_is_refused():
 
 def test_steps_are_pure():
     state, params = pid.begin(guess(), np.zeros(3))
-    seen = Loop(Plant(table(), TURN, RATE)).sample(np.zeros(3), np.zeros(3))
-    first, second = (pid.step(state, seen, params)[1].shift for _ in range(2))
+    observed = Loop(Plant(table(), TURN, RATE)).sample(np.zeros(3), np.zeros(3))
+    first, second = (pid.step(state, observed, params)[1].shift for _ in range(2))
     np.testing.assert_array_equal(first, second)

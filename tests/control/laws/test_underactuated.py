@@ -51,7 +51,7 @@ def ends(rows):
     return [r for r in rows if r.command is not None and r.command.note.startswith("Levelled")]
 
 
-def looks(rows):
+def measurements(rows):
     """Rows at which a look was judged."""
     texts = ((r, r.command.note + r.command.finished) for r in rows if r.command is not None)
     return [r for r, text in texts if text.startswith("Look ")]
@@ -71,7 +71,7 @@ def test_it_balances_to_a_motor_step(law):
     """Motor steps of 3.6 um, 5 mm/s, looks 10 % and 1 um off, noise of a good attitude filter."""
     masses = rails(speed=0.005, resolution=1e-5)
     rows, bench, params = run(
-        law, masses=masses, instant=False, told=(0.1, 1e-6), noise=(1e-4, 1e-5), seed=4
+        law, masses=masses, instant=False, reported=(0.1, 1e-6), noise=(1e-4, 1e-5), seed=4
     )
     assert "motor step or less" in rows[-1].command.finished
     off = total(rows, bench)[-1] - TARGET
@@ -107,13 +107,13 @@ def test_the_integral_leaves_a_motor_step_where_the_printed_law_leaves_fifty():
 
 
 def test_routh_says_what_the_roots_say():
-    rng, seen = np.random.default_rng(3), set()
+    rng, observed = np.random.default_rng(3), set()
     for _ in range(300):
         w, integral, swing = rng.uniform(0.1, 2), rng.uniform(0.01, 6), rng.uniform(-2, 2)
         stable = bool(np.all(np.roots(polynomial(w, integral, swing)).real < 0))
         assert (routh_margin(w, integral, swing) > 0) == stable
-        seen.add(stable)
-    assert seen == {True, False}
+        observed.add(stable)
+    assert observed == {True, False}
 
 
 @pytest.mark.parametrize(("share", "holds"), [(0.8, True), (1.2, False)])
@@ -155,14 +155,14 @@ def test_the_integral_waits_for_late_masses():
     _, params = underactuated_integral.LAW.begin(platform(2e-4), TARGET)
     before = np.array([0.5, 0, -9.7])
     state = two_steps.State(np.zeros(3), 0.0, gravity=before, owed=np.zeros(3),
-                             asked=np.array([5e-4, 0, 0]))  # fmt: skip
+                             requested=np.array([5e-4, 0, 0]))  # fmt: skip
     rows, *_ = run(underactuated_integral.LAW, 0.1)
     bench = Bench(platform(), COM)
-    seen = closed_loop(bench, lambda s, x, p: (x, rows[0].command), (None, None), 0.1)[0].state
-    late, _ = two_steps.step(state, seen, params)
-    rise = params.gains.gamma * MASS * (seen.gravity - before)
+    observed = closed_loop(bench, lambda s, x, p: (x, rows[0].command), (None, None), 0.1)[0].state
+    late, _ = two_steps.step(state, observed, params)
+    rise = params.gains.gamma * MASS * (observed.gravity - before)
     np.testing.assert_allclose(late.held, rise, atol=1e-15)
-    there, _ = two_steps.step(replace(state, asked=seen.shift), seen, params)
+    there, _ = two_steps.step(replace(state, requested=observed.shift), observed, params)
     assert np.linalg.norm(there.held - rise) > 1e-6
 
 
@@ -208,7 +208,7 @@ def test_a_target_aside_of_up_is_refused():
         underactuated.LAW.begin(platform(), np.array([1e-5, 0, -1e-4]))
 
 
-def told(usable=True, **values):
+def reported(usable=True, **values):
     """An estimate with these parameters."""
     parameters = tuple(Parameter(name, "m", x, 1e-6) for name, x in values.items())
     return Estimate("told", Outcome(usable, "A sentence."), parameters, np.eye(len(values)))
@@ -216,17 +216,17 @@ def told(usable=True, **values):
 
 def test_heights_are_read_from_the_estimate_of_a_method():
     x, z = np.array([-1.0, 0, 0]), UP
-    assert two_steps.height_in(told(com_x=1e-6, com_y=2e-6, com_z=3e-6), x) == -1e-6
-    assert two_steps.height_in(told(com_z=3e-6), z) == 3e-6
-    assert two_steps.height_in(told(com_x=3e-6), x) == -3e-6
-    assert two_steps.height_in(told(com_up=3e-6), np.array([0.6, 0, 0.8])) == 3e-6
+    assert two_steps.height_in(reported(com_x=1e-6, com_y=2e-6, com_z=3e-6), x) == -1e-6
+    assert two_steps.height_in(reported(com_z=3e-6), z) == 3e-6
+    assert two_steps.height_in(reported(com_x=3e-6), x) == -3e-6
+    assert two_steps.height_in(reported(com_up=3e-6), np.array([0.6, 0, 0.8])) == 3e-6
 
 
-def looked():
+def measured():
     """A state that waits for a look, level but for 0.01 rad, masses 0.5 mm up."""
     _, params = underactuated.LAW.begin(platform(1e-4), TARGET)
     state = two_steps.State(
-        np.zeros(3), 0.0, phase="look", rest=np.array([1e-5, 0, 5e-4]),
+        np.zeros(3), 0.0, phase="measurement", rest=np.array([1e-5, 0, 5e-4]),
         level=np.array([0.0, 0.01, 0.0]),
     )  # fmt: skip
     return state, params
@@ -234,8 +234,8 @@ def looked():
 
 def test_a_measurement_trims_the_height_alone():
     """Found 1 mm low, masses 0.5 mm up: 0.4 mm more is wanted."""
-    state, params = looked()
-    after, command = two_steps.step(state, told(com_x=7e-5, com_y=0.0, com_z=-1e-3), params)
+    state, params = measured()
+    after, command = two_steps.step(state, reported(com_x=7e-5, com_y=0.0, com_z=-1e-3), params)
     np.testing.assert_allclose(command.shift, [1e-5, 0, 9e-4], atol=1e-15)
     assert (after.phase, after.gravity, after.rounds) == ("follow", None, 1)
     np.testing.assert_allclose(after.held, [-1e-5, 0, 0], atol=1e-15)
@@ -243,13 +243,13 @@ def test_a_measurement_trims_the_height_alone():
 
 
 def test_rounds_end_when_nothing_is_gained_or_they_are_used_up():
-    state, params = looked()
-    far = told(com_x=0.0, com_y=0.0, com_z=-1e-3)
-    gained = two_steps.step(replace(state, left=6e-4), far, params)[0]
+    state, params = measured()
+    outlying = reported(com_x=0.0, com_y=0.0, com_z=-1e-3)
+    gained = two_steps.step(replace(state, left=6e-4), outlying, params)[0]
     assert not gained.ending
-    stuck = two_steps.step(replace(state, left=4.1e-4), far, params)[0]
+    stuck = two_steps.step(replace(state, left=4.1e-4), outlying, params)[0]
     assert "gained nothing" in stuck.ending
-    spent = two_steps.step(replace(state, rounds=params.rounds - 1), far, params)[0]
+    spent = two_steps.step(replace(state, rounds=params.rounds - 1), outlying, params)[0]
     assert "used up" in spent.ending
 
 
@@ -264,11 +264,11 @@ def test_after_the_last_measurement_it_levels_once_more_and_rests():
 
 
 def test_an_unusable_measurement_is_repeated_and_reported():
-    state, params = looked()
-    after, command = two_steps.step(state, told(usable=False), params)
+    state, params = measured()
+    after, command = two_steps.step(state, reported(usable=False), params)
     assert (after.phase, command.finished) == ("push", "")
     assert "A sentence." in command.note
-    spent = two_steps.step(replace(state, rounds=params.rounds - 1), told(usable=False), params)
+    spent = two_steps.step(replace(state, rounds=params.rounds - 1), reported(usable=False), params)
     assert "A sentence." in spent[1].finished
 
 
@@ -284,11 +284,11 @@ def test_the_push_swings_the_platform_by_the_intended_amplitude():
     begun = underactuated_integral.LAW.begin(bench.testbed, TARGET)
     begun = (replace(begun[0], height=0.0), begun[1])
     rows = closed_loop(bench, underactuated_integral.LAW.step, begun, 200.0)
-    first = looks(rows)[0]
+    first = measurements(rows)[0]
     before = rows[rows.index(first) - 1]
     rate = np.linalg.norm(before.rate)
     assert rate == pytest.approx(0.4 * np.radians(30) / 20, rel=0.1)
-    assert before.command.look.since == pytest.approx(ends(rows)[0].t)  # a known change
+    assert before.command.measurement.since == pytest.approx(ends(rows)[0].t)  # a known change
     np.testing.assert_allclose(before.shift, first.shift, atol=1e-9)  # the masses are back
 
 

@@ -14,7 +14,7 @@ from tests.support.simple_loop import GRAVITY, MASS, Loop, Plant, table
 DEEP = table(np.array([0.0, 0.0, -400e-6]))
 
 
-def seen_at(q, rate=(0.0, 0.0, 0.0)):
+def observed_at(q, rate=(0.0, 0.0, 0.0)):
     gravity = to_matrix(q).T @ np.array([0.0, 0.0, -GRAVITY])
     zero = np.zeros(3)
     return Sample(0.0, q, np.array(rate), gravity, zero, zero, zero, zero, None)
@@ -25,7 +25,7 @@ def test_tilt_is_the_small_turn_from_level(turn):
     """To second order, whatever the heading."""
     heading = exponential(np.array([0.0, 0.0, 0.7]))
     q = multiply(heading, exponential(np.array([*turn, 0.0])))
-    np.testing.assert_allclose(h.tilt_of(h.hanging(DEEP), seen_at(q)), turn, atol=1e-6)
+    np.testing.assert_allclose(h.tilt_of(h.hanging(DEEP), observed_at(q)), turn, atol=1e-6)
 
 
 def test_a_weight_to_the_left_turns_to_the_left():

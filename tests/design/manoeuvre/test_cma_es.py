@@ -15,12 +15,12 @@ def bent(x):
     return float(turned @ (turned * [1.0, 100.0, 1.0, 100.0]))
 
 
-def hear_nothing(_):
+def receive_nothing(_):
     pass
 
 
 def test_the_least_of_a_narrow_valley_is_found():
-    found = least(bent, [np.full(4, 0.5)], 2500, 1, hear_nothing)
+    found = least(bent, [np.full(4, 0.5)], 2500, 1, receive_nothing)
     np.testing.assert_allclose(found, GOAL, atol=1e-4)
 
 
@@ -33,23 +33,23 @@ def test_a_worse_beginning_may_end_better():
 
     first = [np.full(3, 0.2), np.full(3, 0.7)]
     assert wells(first[0]) < wells(first[1]) < 1.3
-    np.testing.assert_allclose(least(wells, first, 1500, 1, hear_nothing), 0.8, atol=1e-3)
+    np.testing.assert_allclose(least(wells, first, 1500, 1, receive_nothing), 0.8, atol=1e-3)
 
 
 def test_trials_stay_within_bounds_and_number():
     """First choices, then generations of 4 + floor(3 ln 4) = 8 until the number is reached."""
-    met, heard = [], []
+    met, received = [], []
 
     def slope(x):
         met.append(x.copy())
         return float(x.sum())
 
-    least(slope, [np.full(4, 0.5), np.full(4, 0.3)], 101, 1, heard.append)
+    least(slope, [np.full(4, 0.5), np.full(4, 0.3)], 101, 1, received.append)
     assert len(met) == 2 + 8 * 13
     assert np.min(met) >= 0.0
     assert np.max(met) <= 1.0
-    assert heard == sorted(heard)
-    assert heard[-1] == 1.0
+    assert received == sorted(received)
+    assert received[-1] == 1.0
 
 
 def test_the_best_few_have_their_share_and_the_best_goes_on():
@@ -63,7 +63,7 @@ def test_the_best_few_have_their_share_and_the_best_goes_on():
 
     first = [np.full(2, c) for c in centres]
     trials = 600
-    least(wells, first, trials, 1, hear_nothing)
+    least(wells, first, trials, 1, receive_nothing)
     begun = near[len(first) : len(first) + int(SIDE_BY_SIDE * SHARE * trials)]
     assert {0, 1, 2, 3} <= set(begun)
     assert set(near[-100:]) == {0}
@@ -71,7 +71,7 @@ def test_the_best_few_have_their_share_and_the_best_goes_on():
 
 def test_the_same_seed_finds_the_same():
     once, again, other = (
-        least(bent, [np.full(4, 0.5)], 300, seed, hear_nothing) for seed in (1, 1, 2)
+        least(bent, [np.full(4, 0.5)], 300, seed, receive_nothing) for seed in (1, 1, 2)
     )
     np.testing.assert_array_equal(once, again)
     assert np.any(once != other)
@@ -80,11 +80,11 @@ def test_the_same_seed_finds_the_same():
 def test_a_first_choice_that_nothing_betters_is_kept():
     """The least is where the search begins: nothing else is returned."""
     start = np.array([0.4, 0.6])
-    found = least(lambda x: float(np.any(x != start)), [start], 60, 1, hear_nothing)
+    found = least(lambda x: float(np.any(x != start)), [start], 60, 1, receive_nothing)
     np.testing.assert_array_equal(found, start)
 
 
 @pytest.mark.parametrize("trials", [1, 0])
 def test_with_no_trials_left_the_best_first_choice_is_it(trials):
     first = [np.full(4, 0.1), GOAL]
-    np.testing.assert_array_equal(least(bent, first, trials, 1, hear_nothing), GOAL)
+    np.testing.assert_array_equal(least(bent, first, trials, 1, receive_nothing), GOAL)

@@ -9,19 +9,19 @@ import pytest
 from equipoise.actuators.square_waves import inputs_along, switchings
 from equipoise.design.manoeuvre.criterion import score, sizes
 from equipoise.design.manoeuvre.limit_check import (
+    covariance_of,
     for_search,
     peaks,
     rehearsal,
     started,
     thinned,
-    told,
 )
 from equipoise.design.manoeuvre.manoeuvre_space import Space, chosen, greatest, level_axes
 from equipoise.design.manoeuvre.plan import Wish, merit, planned, search_for
 from equipoise.design.manoeuvre.predicted_information import predicted
 from equipoise.design.manoeuvre.predicted_sd import met
 from equipoise.design.manoeuvre.reference_manoeuvre import usual
-from equipoise.design.manoeuvre.scenario import Scenario, beforehand, scenarios
+from equipoise.design.manoeuvre.scenario import Scenario, scenarios, stated_prior
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import leaning, tilt, to_matrix
@@ -106,10 +106,10 @@ def test_a_rehearsal_says_what_a_prediction_says():
     """Of another platform than the one it was posed for, let go off plan: sd within 1 %."""
     testbed = for_search(bed())
     m = usual(testbed, 120.0, {})
-    expected, other = scenarios(beforehand(testbed), 2, np.random.default_rng(3))
+    expected, other = scenarios(stated_prior(testbed), 2, np.random.default_rng(3))
     tried = rehearsal(testbed, expected, m, Params())
     truth = started(tried, other)
-    fast = np.sqrt(np.diag(told(tried, truth, None)))
+    fast = np.sqrt(np.diag(covariance_of(tried, truth, None)))
     slow = predicted(testbed, other.body, met(m, other, testbed.up), Params())
     where = [slow.names.index(name) for name in BODY]
     np.testing.assert_allclose(fast[where], slow.sd[where], rtol=0.01)
@@ -168,7 +168,7 @@ def test_the_same_seed_plans_the_same_and_better_than_usual():
     body = type(testbed.body)(testbed.body.mass, com, testbed.body.inertia_P)
     testbed = replace(testbed, body=body, com_sd=sd)
     where = Space(testbed, 60.0, 1, testbed.tilt_limit, RATE, {})
-    wish = Wish("both", "A", Params(), beforehand(testbed))
+    wish = Wish("both", "A", Params(), stated_prior(testbed))
     first, second = (planned(where, wish, 2, 180) for _ in range(2))
     assert (first.moves, first.tilt) == (second.moves, second.tilt)
     search = search_for(where, wish, 2)
@@ -184,7 +184,7 @@ def test_level_axes_are_square_to_up_whatever_points_up():
 def test_a_merit_is_of_the_mean_over_platforms():
     """Criterion A is ln of a root of a mean square: squares of two platforms are averaged."""
     testbed, where = bed(), Space(bed(), 60.0, 1, 100.0, 100.0, {})
-    search = search_for(where, Wish("both", "A", Params(), beforehand(testbed)), 1)
+    search = search_for(where, Wish("both", "A", Params(), stated_prior(testbed)), 1)
     first, _, third, *_ = search.scenarios
     m = usual(testbed, 60.0, {})
     one, other, both = (

@@ -47,11 +47,11 @@ def test_it_is_what_observe_says_of_the_recording(testbed, manoeuvre):
     """`observe` fits the noiseless rows first, and ends at the truth: sd within 1e-3."""
     params = Params(testbed.disturbances)
     said = predicted(testbed, testbed.body, manoeuvre, params)
-    seen = fisher_information.seen_by(
+    observed = fisher_information.information_by(
         imagined(testbed, testbed.body, manoeuvre).recording, testbed, params
     )
-    assert said.names == seen.names
-    np.testing.assert_allclose(said.sd, seen.sd, rtol=1e-3)
+    assert said.names == observed.names
+    np.testing.assert_allclose(said.sd, observed.sd, rtol=1e-3)
 
 
 def swung(x: np.ndarray, t: np.ndarray) -> np.ndarray:
@@ -119,9 +119,11 @@ def test_the_drift_of_a_rate_from_white_noise_is_known_as_the_rule_says():
 
 def test_it_is_what_observe_says_along_the_same_motion():
     said = predicted(sputnix(), sputnix().body, PAPER, Params())
-    seen = fisher_information.seen_along(followed_truth(sputnix(), sputnix().body, PAPER, Params()))
-    np.testing.assert_array_equal(said.sd, seen.sd)
-    assert said.peak_tilt == pytest.approx(seen.tilt[1], rel=1e-3)
+    observed = fisher_information.information_along(
+        followed_truth(sputnix(), sputnix().body, PAPER, Params())
+    )
+    np.testing.assert_array_equal(said.sd, observed.sd)
+    assert said.peak_tilt == pytest.approx(observed.tilt[1], rel=1e-3)
 
 
 def test_unobservable_parameters_have_infinite_sd_and_are_named():

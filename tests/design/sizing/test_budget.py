@@ -8,7 +8,7 @@ import pytest
 from scipy.stats import norm
 
 from equipoise.design.manoeuvre.reference_swing import GUARD, gentle_swing, usual_swing
-from equipoise.design.sizing.budget import budget_of, seen
+from equipoise.design.sizing.budget import budget_of, estimated
 from equipoise.design.sizing.case import Case
 from equipoise.design.sizing.environment import Surroundings
 from equipoise.design.sizing.likely_offsets import (
@@ -18,8 +18,8 @@ from equipoise.design.sizing.likely_offsets import (
     with_covariance,
     within_reach,
 )
-from equipoise.design.sizing.limits import limit_sentence, verdict, worth_telling
-from equipoise.design.sizing.measurement_bound import first_look, later_look
+from equipoise.design.sizing.limits import limit_sentence, verdict, worth_listing
+from equipoise.design.sizing.measurement_bound import first_bound, later_bound
 from equipoise.design.sizing.reachable_set import reach_of
 from equipoise.design.sizing.sensitivity import changes, what_to_buy
 from equipoise.design.sizing.sizing import sized
@@ -37,8 +37,8 @@ def sputnix():
 
 def case(bed=None, **use):
     bed = sputnix() if bed is None else bed
-    told = {"target": np.zeros(3), "tilt": TILT, "look_time": 60.0, "moves": 2}
-    return Case(bed, **(told | use))
+    reported = {"target": np.zeros(3), "tilt": TILT, "look_time": 60.0, "moves": 2}
+    return Case(bed, **(reported | use))
 
 
 @cache
@@ -87,21 +87,21 @@ def test_a_balanced_platform_is_let_go_so_gently_that_it_stays_within_its_limit(
 
 def test_a_measurement_reports_that_its_move_was_shortened():
     """The UnB platform would tilt too far with 50 mm; it is halved four times."""
-    (text,) = first_look(read_preset("unb"), 300.0).cautions
+    (text,) = first_bound(read_preset("unb"), 300.0).cautions
     assert text.startswith("The first look's move is shortened to 3.12 mm")
-    assert first_look(sputnix(), 60.0).cautions == ()
+    assert first_bound(sputnix(), 60.0).cautions == ()
 
 
 def test_a_longer_measurement_is_more_precise():
-    sd = np.array([first_look(sputnix(), length).com_sd for length in (30.0, 60.0, 120.0, 300.0)])
+    sd = np.array([first_bound(sputnix(), length).com_sd for length in (30.0, 60.0, 120.0, 300.0)])
     assert np.all(np.diff(sd, axis=0) < 0)
 
 
 def test_a_later_measurement_benefits_from_a_tighter_prior():
-    first = first_look(sputnix(), 60.0)
+    first = first_bound(sputnix(), 60.0)
     wide = replace(first, com=1e-9 * np.eye(3))
     narrow = replace(first, com=np.diag([1e-14, 1e-14, 1e-14]))
-    after = [later_look(sputnix(), 60.0, np.zeros(3), known).com_sd for known in (wide, narrow)]
+    after = [later_bound(sputnix(), 60.0, np.zeros(3), known).com_sd for known in (wide, narrow)]
     assert np.all(after[1] < after[0])
     assert np.all(after[1] < 1e-7)
     assert np.all(after[0] < np.sqrt(1e-9))
@@ -112,7 +112,7 @@ def test_correcting_by_a_measurement_leaves_the_posterior_covariance():
     after = symmetrise(np.linalg.inv(np.linalg.inv(before) + np.diag([1.0, 5.0, 0.2])))
     normals = np.random.default_rng(1).normal(size=(200_000, 6))
     error = with_covariance(normals[:, :3], before)
-    left = error - seen(error, before, after, normals[:, 3:])
+    left = error - estimated(error, before, after, normals[:, 3:])
     np.testing.assert_allclose(left.T @ left / len(left), after, atol=0.02)
 
 
@@ -181,15 +181,17 @@ def test_what_no_mass_can_shift_stays():
     line = found.lines[0]
     assert line.name == "out of reach"
     np.testing.assert_allclose(np.sqrt(np.diag(line.moment)), [0, 0, 1e-4], rtol=0.05, atol=1e-9)
-    look = next(line for line in found.lines if line.name == "look")
-    np.testing.assert_allclose(look.moment[2], 0.0, atol=1e-24)  # the height is counted above
+    measurement = next(line for line in found.lines if line.name == "measurement")
+    np.testing.assert_allclose(
+        measurement.moment[2], 0.0, atol=1e-24
+    )  # the height is counted above
     assert found.within == 0.0
 
 
 def test_the_budget_of_an_unreachable_platform_still_states_what_moves_leave():
-    far = replace(sputnix(), com_sd=np.full(3, 1e-6), body=replace(
+    outlying = replace(sputnix(), com_sd=np.full(3, 1e-6), body=replace(
         sputnix().body, com=np.array([0.0, 0.0, -500e-6])))  # fmt: skip
-    found = budget_of(case(far))
+    found = budget_of(case(outlying))
     assert found.within == 0.0
     assert 0 < torque_of(found, "steps") < 1e-4
 
@@ -206,9 +208,9 @@ def test_each_change_betters_what_it_says():
 def test_improvements_are_sorted_best_first_and_useless_ones_omitted():
     torques = [found.torque for found in better()]
     assert torques == sorted(torques)
-    told = worth_telling(usual(), better())
-    assert {found.name for found in told} < {found.name for found in better()}
-    assert "twice the travel" in {found.name for found in told}  # for what is within reach
+    reported = worth_listing(usual(), better())
+    assert {found.name for found in reported} < {found.name for found in better()}
+    assert "twice the travel" in {found.name for found in reported}  # for what is within reach
 
 
 def test_what_limits_is_named_with_its_masses():
@@ -233,7 +235,7 @@ def test_a_verdict_needs_torque_and_reach():
 
 def test_the_shortest_record_is_judged():
     found = sized(case(), (120.0, 60.0), None)
-    assert found.case.look_time == 60.0
+    assert found.case.measurement_time == 60.0
     assert [budget.first.duration for budget in found.budgets] == [60.0, 120.0]
     assert found.budget.torque == pytest.approx(usual().torque)
     assert not found.reached.startswith("The masses reach")

@@ -64,8 +64,8 @@ def test_warmth_moves_by_seven_tenths_of_a_micrometre_a_kelvin():
     assert np.sqrt(np.trace(line.moment)) == pytest.approx(2 * 0.69e-6)
     assert line.torque == pytest.approx(WEIGHT * 2 * 0.69e-6 * np.sqrt(2 / 3))
     assert line.basis == PARTLY
-    told = replace(STILL, temperature=2.0, expansion=1e-5, length=0.2, lopsided=0.2)
-    assert line_of("warmth", told).basis == "stated"
+    reported = replace(STILL, temperature=2.0, expansion=1e-5, length=0.2, lopsided=0.2)
+    assert line_of("warmth", reported).basis == "stated"
 
 
 @pytest.mark.parametrize(("bending", "sag"), [(30.0, 276e-6), (50.0, 99e-6), (100.0, 24.8e-6)])

@@ -89,12 +89,14 @@ def test_it_is_the_hull_of_all_corners(masses):
 
 @pytest.mark.parametrize("plane", [(0, 1), (0, 2), (1, 2)])
 def test_outline_is_the_hull_of_the_shadow(plane):
-    seen, flat = outline(reach_of(SKEW, TOTAL), plane), corners(SKEW)[:, plane]
+    observed, flat = outline(reach_of(SKEW, TOTAL), plane), corners(SKEW)[:, plane]
     hull = ConvexHull(flat / UM)
-    area = 0.5 * np.sum(seen[:, 0] * np.roll(seen[:, 1], -1) - np.roll(seen[:, 0], -1) * seen[:, 1])
+    area = 0.5 * np.sum(
+        observed[:, 0] * np.roll(observed[:, 1], -1) - np.roll(observed[:, 0], -1) * observed[:, 1]
+    )
     assert area == pytest.approx(hull.volume * UM**2)  # in order, and so counter-clockwise
     for vertex in flat[hull.vertices]:
-        assert np.isclose(seen, vertex, atol=1e-12).all(axis=1).any()
+        assert np.isclose(observed, vertex, atol=1e-12).all(axis=1).any()
 
 
 def test_inside_is_what_a_linear_programme_can_do():

@@ -9,8 +9,8 @@ import pytest
 from equipoise.estimation.events import record_model
 from equipoise.estimation.events.detection_threshold import threshold
 from equipoise.estimation.events.record_model import (
-    Believed,
     Happening,
+    RecordModel,
     evidence,
     refitted,
     smoothed,
@@ -18,7 +18,7 @@ from equipoise.estimation.events.record_model import (
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.output_error.trajectory import Params, problem_of
 from tests.support.builders import noisy
-from tests.support.event_records import EVENT, KINDS, TRUTH, told, with_event
+from tests.support.event_records import EVENT, KINDS, TRUTH, reported, with_event
 
 PRICE = 20.0
 
@@ -31,21 +31,21 @@ def test_both_kinds_at_all_cuts_exceed_the_threshold_once_an_hour(spacing):
     assert 2 * 3600.0 / spacing * chance == pytest.approx(1.0, rel=1e-9)
 
 
-def believed(record, *events):
+def estimated(record, *events):
     """The belief that these happened."""
-    testbed, params = told(), Params(use_prior=True)
+    testbed, params = reported(), Params(use_prior=True)
     first = settle(problem_of(record, testbed, params), TRUTH)
     cuts = np.arange(1.0, 39.0, 0.5)
-    return refitted(Believed(record, testbed, params, cuts, np.zeros(3), events, first, testbed))
+    return refitted(RecordModel(record, testbed, params, cuts, np.zeros(3), events, first, testbed))
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_event_gains_what_the_cost_falls_by_less_its_price(kind):
     """All else is as informed as if it were known, however well or badly its size is."""
     record = noisy(with_event(kind, 3.0), 2)
-    plain, told_of = believed(record), believed(record, Happening(EVENT, kind))
-    fell = 2 * (plain.fitted.at.cost - told_of.fitted.at.cost)
-    gained = evidence(*smoothed(plain), PRICE) - evidence(*smoothed(told_of), PRICE)
+    plain, reported_of = estimated(record), estimated(record, Happening(EVENT, kind))
+    fell = 2 * (plain.fitted.at.cost - reported_of.fitted.at.cost)
+    gained = evidence(*smoothed(plain), PRICE) - evidence(*smoothed(reported_of), PRICE)
     assert fell > 20
     assert gained == pytest.approx(fell - PRICE, abs=0.3)
 
@@ -56,14 +56,14 @@ def test_a_wider_prior_of_an_event_changes_nothing(monkeypatch):
     values = []
     for width in (1.0, 10.0):
         monkeypatch.setitem(record_model.WIDE, "impulse", width)
-        values.append(evidence(*smoothed(believed(record, Happening(EVENT, "impulse"))), PRICE))
+        values.append(evidence(*smoothed(estimated(record, Happening(EVENT, "impulse"))), PRICE))
     assert values[0] == pytest.approx(values[1], abs=1e-3)
 
 
 def test_process_noise_is_paid_for_by_its_prior():
     """-2 ln evidence with jumps of known sd, by hand: the record's information on them added."""
     record = noisy(with_event("impulse", 0.0), 2)
-    calm = believed(record)
+    calm = estimated(record)
     wandering = refitted(replace(calm, walk=np.full(3, 1e-9)))
     # noise that small neither explains nor costs anything
     assert evidence(*smoothed(wandering), PRICE) == pytest.approx(

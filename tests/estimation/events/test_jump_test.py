@@ -12,7 +12,7 @@ from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import settle, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, problem_of
 from tests.support.builders import noisy
-from tests.support.event_records import EVENT, KINDS, TRUTH, eventful, told, with_event
+from tests.support.event_records import EVENT, KINDS, TRUTH, eventful, reported, with_event
 
 every_kind = pytest.mark.parametrize("kind", KINDS)
 
@@ -20,7 +20,7 @@ every_kind = pytest.mark.parametrize("kind", KINDS)
 def settled(record, jumps=(), testbed=None):
     """Return the optimum with these jumps."""
     params = Params(jumps=tuple(jumps), use_prior=True)
-    return settle(problem_of(record, told() if testbed is None else testbed, params), TRUTH)
+    return settle(problem_of(record, reported() if testbed is None else testbed, params), TRUTH)
 
 
 def freed(kind, t=EVENT):
@@ -72,7 +72,7 @@ def calm():
     """Surprises (seed, cut) of records in which nothing happens, for each kind."""
     clean, found = eventful(), {kind: [] for kind in KINDS}
     for seed in range(SEEDS):
-        testbed = told(np.random.default_rng(1000 + seed))
+        testbed = reported(np.random.default_rng(1000 + seed))
         after = smooth_at(settled(noisy(clean, seed), CUTS, testbed))
         for kind, (_, coordinates, _) in KINDS.items():
             found[kind].append(disturbances(after, coordinates).surprise)
@@ -95,7 +95,7 @@ def test_an_event_is_recovered_within_its_sd(kind):
     """Ten seeds, ten times the size: the errors in units of their covariance are chi-square."""
     clean, total = with_event(kind, 10.0), 0.0
     for seed in range(10):
-        testbed = told(np.random.default_rng(2000 + seed))
+        testbed = reported(np.random.default_rng(2000 + seed))
         found = settled(noisy(clean, 100 + seed), [freed(kind)], testbed)
         assert found.converged
         off, spread = found.jumps[0] - 10 * KINDS[kind][2], smooth_at(found).jump_covariance[0]

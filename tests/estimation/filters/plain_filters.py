@@ -25,7 +25,7 @@ class Plain(NamedTuple):
     walks: Walks
 
 
-class Belief(NamedTuple):
+class Posterior(NamedTuple):
     q: np.ndarray
     H: np.ndarray
     com: np.ndarray
@@ -121,10 +121,10 @@ def stride(plain, drive, i, body, y):
     t, a, b, (com, J) = drive.t, drive.known[i], drive.known[i + 1], body
     dt, g = t[i + 1] - t[i], plain.testbed.gravity
     heres = [platform_at(plain.testbed, com, J, (a, b, dt), s) for s in (0, 0.5, 1)]
-    seen = [gravity_of(drive.q[i], g), gravity_of(drive.q[i + 1], g)]
+    observed = [gravity_of(drive.q[i], g), gravity_of(drive.q[i + 1], g)]
 
     def at(y, share):
-        given = (1 - share) * seen[0] + share * seen[1]
+        given = (1 - share) * observed[0] + share * observed[1]
         weight = gravity_of(y[:4], g) if plain.kind.attitude else given
         return slope(plain, heres[int(2 * share)], y, weight)
 
@@ -149,9 +149,9 @@ def noise_of(plain, here, dt, n):
     return Q
 
 
-def transition(plain, drive, i, belief: Belief):
+def transition(plain, drive, i, posterior: Posterior):
     """Phi over a step, the state behind it and the platform there."""
-    q, H, com, J, P = belief
+    q, H, com, J, P = posterior
     n, dt, g = len(P), drive.t[i + 1] - drive.t[i], plain.testbed.gravity
     y, here, end = stride(plain, drive, i, (com, J), np.append(q, H))
     change = (end.J - here.J) / dt, (end.h - here.h) / dt
@@ -161,35 +161,35 @@ def transition(plain, drive, i, belief: Belief):
     return np.eye(n) + dt / 2 * (F0 + F1) + dt**2 / 2 * F1 @ F0, last, y[4:], end
 
 
-def extended(plain, drive, i, belief: Belief) -> Belief:
+def extended(plain, drive, i, posterior: Posterior) -> Posterior:
     """One step by the linearised model."""
-    phi, q, H, end = transition(plain, drive, i, belief)
+    phi, q, H, end = transition(plain, drive, i, posterior)
     Q = noise_of(plain, end, drive.t[i + 1] - drive.t[i], len(phi))
-    return Belief(q, H, belief.com, belief.J, phi @ belief.P @ phi.T + Q)
+    return Posterior(q, H, posterior.com, posterior.J, phi @ posterior.P @ phi.T + Q)
 
 
-def moved(plain, belief, x):
+def moved(plain, posterior, x):
     """Parameters and attitude after an error, and the rate's part of it."""
     o = 3 if plain.kind.attitude else 0
     x = np.append(x, np.zeros(o + 13 - len(x)))
-    q = multiply(belief.q, exponential(x[:3])) if o else belief.q
-    com, J = belief.com + plain.axes @ x[o + 3 : o + 6], belief.J + full(x[o + 6 : o + 12])
+    q = multiply(posterior.q, exponential(x[:3])) if o else posterior.q
+    com, J = posterior.com + plain.axes @ x[o + 3 : o + 6], posterior.J + full(x[o + 6 : o + 12])
     return q, x[o : o + 3], com, J
 
 
-def unscented(plain, drive, i, belief: Belief) -> Belief:
+def unscented(plain, drive, i, posterior: Posterior) -> Posterior:
     """One step by 2n points."""
-    n, dt, g = len(belief.P), drive.t[i + 1] - drive.t[i], plain.testbed
+    n, dt, g = len(posterior.P), drive.t[i + 1] - drive.t[i], plain.testbed
     a, b = drive.known[i], drive.known[i + 1]
     o = 3 if plain.kind.attitude else 0
-    here, end = (platform_at(g, belief.com, belief.J, (a, b, dt), s) for s in (0, 1))
-    root = np.linalg.cholesky(n * belief.P)
+    here, end = (platform_at(g, posterior.com, posterior.J, (a, b, dt), s) for s in (0, 1))
+    root = np.linalg.cholesky(n * posterior.P)
     points = np.hstack([root, -root]).T
     carried, turned = [], []
     for x in points:
-        q, dw, com, J = moved(plain, belief, x)
+        q, dw, com, J = moved(plain, posterior, x)
         now = platform_at(g, com, J, (a, b, dt), 0)
-        H = now.J @ (rate(here, belief.H) + dw) + now.h
+        H = now.J @ (rate(here, posterior.H) + dw) + now.h
         y, _, then = stride(plain, drive, i, (com, J), np.append(q, H))
         carried.append(rate(then, y[4:]))
         turned.append(y[:4])
@@ -201,61 +201,61 @@ def unscented(plain, drive, i, belief: Belief) -> Belief:
         q = multiply(turned[0], exponential(np.mean(off, axis=0)))
         e[:, :3] = difference(np.array(turned), q)
     P = e.T @ e / (2 * n) + noise_of(plain, end, dt, n)
-    return Belief(q, end.J @ w + end.h, belief.com, belief.J, P)
+    return Posterior(q, end.J @ w + end.h, posterior.com, posterior.J, P)
 
 
-def correct(plain, here, q, seen, belief: Belief) -> tuple[Belief, float]:
+def correct(plain, here, q, observed, posterior: Posterior) -> tuple[Posterior, float]:
     """Joseph's form with the gain of what is not told nought."""
-    n, o = len(belief.P), 3 if plain.kind.attitude else 0
-    w = rate(here, belief.H)
-    z = difference(q, belief.q) if o else seen - w
+    n, o = len(posterior.P), 3 if plain.kind.attitude else 0
+    w = rate(here, posterior.H)
+    z = difference(q, posterior.q) if o else observed - w
     H, R = np.eye(3, n), plain.noise**2 * np.eye(3)
-    S = H @ belief.P @ H.T + R
-    apart = 0 if plain.kind.gyroscopic else np.outer(belief.P[-1], belief.P[-1])
-    alone = belief.P - apart  # as if nothing were left out
+    S = H @ posterior.P @ H.T + R
+    separation = 0 if plain.kind.gyroscopic else np.outer(posterior.P[-1], posterior.P[-1])
+    alone = posterior.P - separation  # as if nothing were left out
     K = alone @ H.T @ np.linalg.inv(H @ alone @ H.T + R)
-    K[plain.kind.told :] = 0
+    K[plain.kind.estimated :] = 0
     left = np.eye(n) - K @ H
-    P = left @ belief.P @ left.T + K @ R @ K.T
-    q, dw, com, J = moved(plain, belief, K @ z)
-    momentum = (here.J + J - belief.J) @ (w + dw) + here.h
-    return Belief(q, momentum, com, J, P), float(z @ np.linalg.solve(S, z))
+    P = left @ posterior.P @ left.T + K @ R @ K.T
+    q, dw, com, J = moved(plain, posterior, K @ z)
+    momentum = (here.J + J - posterior.J) @ (w + dw) + here.h
+    return Posterior(q, momentum, com, J, P), float(z @ np.linalg.solve(S, z))
 
 
-def restart(plain, here, q, belief: Belief) -> Belief:
-    P, rows = belief.P.copy(), 6 if plain.kind.attitude else 3
+def restart(plain, here, q, posterior: Posterior) -> Posterior:
+    P, rows = posterior.P.copy(), 6 if plain.kind.attitude else 3
     P[:rows], P[:, :rows] = 0, 0
     P[:rows, :rows] = np.diag([plain.noise**2] * (rows - 3) + [FIRST_RATE**2] * 3)
-    return Belief(q, here.h, belief.com, belief.J, P)
+    return Posterior(q, here.h, posterior.com, posterior.J, P)
 
 
-def run(plain: Plain, rows, belief: Belief):
+def run(plain: Plain, rows, posterior: Posterior):
     """Beliefs after every row."""
     drive, found, here = rows.drive, [], 0
     ahead = unscented if plain.kind.unscented else extended
-    for node, fresh, seen in zip(rows.node, rows.fresh, rows.seen, strict=True):
+    for node, fresh, observed in zip(rows.node, rows.fresh, rows.observed, strict=True):
         a, o = drive.known[node], 6 if plain.kind.attitude else 3
         if fresh:
-            P = belief.P.copy()
+            P = posterior.P.copy()
             P[range(o, o + 3), range(o, o + 3)] += plain.walks.com**2 * (
                 drive.t[node] - drive.t[here]
             )
-            now = platform_at(plain.testbed, belief.com, belief.J, (a, a, 1), 0)
-            belief = restart(plain, now, drive.q[node], belief._replace(P=P))
+            now = platform_at(plain.testbed, posterior.com, posterior.J, (a, a, 1), 0)
+            posterior = restart(plain, now, drive.q[node], posterior._replace(P=P))
             if not plain.kind.attitude:
-                belief, _ = correct(plain, now, drive.q[node], seen, belief)
+                posterior, _ = correct(plain, now, drive.q[node], observed, posterior)
         else:
             for i in range(here, node):
-                belief = ahead(plain, drive, i, belief)
+                posterior = ahead(plain, drive, i, posterior)
             step = drive.known[node - 1], a, drive.t[node] - drive.t[node - 1]
-            now = platform_at(plain.testbed, belief.com, belief.J, step, 1)
-            belief, _ = correct(plain, now, drive.q[node], seen, belief)
-        found.append(belief)
+            now = platform_at(plain.testbed, posterior.com, posterior.J, step, 1)
+            posterior, _ = correct(plain, now, drive.q[node], observed, posterior)
+        found.append(posterior)
         here = node
     return found
 
 
-def begun(plain: Plain) -> Belief:
+def begun(plain: Plain) -> Posterior:
     """What is believed beforehand."""
     kind, testbed = plain.kind, plain.testbed
     o, tensor = 3 if kind.attitude else 0, testbed.body.inertia_P
@@ -267,6 +267,6 @@ def begun(plain: Plain) -> Belief:
         (six(np.outer(size, size)) * testbed.inertia_sd) ** 2
     )
     P[o + 12, o + 12] = 1.0
-    known = testbed.inertia_sd == 0 and kind.told < 12
+    known = testbed.inertia_sd == 0 and kind.estimated < 12
     n = o + 13 if not kind.gyroscopic else o + 6 if known else o + 12
-    return Belief(np.array([1.0, 0, 0, 0]), np.zeros(3), testbed.body.com, J, P[:n, :n])
+    return Posterior(np.array([1.0, 0, 0, 0]), np.zeros(3), testbed.body.com, J, P[:n, :n])

@@ -62,7 +62,7 @@ def bench(inertia_sd=0.05):
 
 
 @pytest.fixture(scope="module")
-def seen():
+def observed():
     """A move, a torque, a wheel, and a gap of both sensors: what the filters have to know."""
     record = noisy(recording(END, move_at(10.0, END), 5.0, 10.0), 3)
 
@@ -83,22 +83,22 @@ def rows_of(kind, record, testbed):
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_kernels_are_the_plain_filters(seen, name):
+def test_kernels_are_the_plain_filters(observed, name):
     """To 1e-6 sd of every parameter after every row, and of every covariance.
 
     Through a move, a torque with an edge between two rows, a wheel and a gap.
     """
     kind, testbed = KINDS[name], bench()
-    rows, noise = rows_of(kind, seen, testbed)
+    rows, noise = rows_of(kind, observed, testbed)
     end, passed = driver.advance(driver.begin(kind, testbed, noise, WALKS), rows)
     twin = plain.Plain(kind, testbed, axes_of(kind, testbed.up), noise, WALKS)
     found = plain.run(twin, rows, plain.begun(twin))
     values = np.array([[*b.com, *plain.six(b.J)] for b in found])
-    apart = (values @ end.shown.T - passed.course.values) / passed.course.sd
-    assert np.abs(apart).max() < 1e-6
+    separation = (values @ end.shown.T - passed.course.values) / passed.course.sd
+    assert np.abs(separation).max() < 1e-6
     scale = np.sqrt(np.diag(end.covariance))
     assert np.abs((found[-1].P - end.covariance) / np.outer(scale, scale)).max() < 1e-6
-    np.testing.assert_allclose(found[-1].H, end.belief[4:7], rtol=1e-7)
+    np.testing.assert_allclose(found[-1].H, end.posterior[4:7], rtol=1e-7)
     assert np.array_equal(end.covariance, end.covariance.T)
 
 
@@ -211,11 +211,11 @@ def carried(kind, scale, dt=0.2):
     """Belief and covariance after a step, begun with the sd times ``scale``; its row is noise."""
     testbed = bench()
     model, drive = model_of(kind, testbed, 1e20, Walks(0.0, 0.0)), step_of(dt)
-    belief, P = start_of(kind, testbed, drive), covariance_of(kind, testbed, model) * scale**2
-    state = driver.State(kind, model, COM_NAMES, np.eye(9)[:3], belief, P)
+    posterior, P = start_of(kind, testbed, drive), covariance_of(kind, testbed, model) * scale**2
+    state = driver.State(kind, model, COM_NAMES, np.eye(9)[:3], posterior, P)
     rows = Rows(drive, np.array([1]), np.array([False]), np.zeros((1, 3)))
     after, _ = driver.advance(state, rows)
-    return after.belief, after.covariance / scale**2
+    return after.posterior, after.covariance / scale**2
 
 
 def differences(twin, drive, first, sizes):
@@ -246,7 +246,7 @@ def test_transition_is_good_to_second_order(name):
     for dt in (0.8, 0.4):
         drive, twin = step_of(dt), plain.Plain(kind, testbed, np.eye(3), 1.0, Walks(0.0, 0.0))
         whole = start_of(kind, testbed, drive)
-        first = plain.Belief(whole[:4], whole[4:7], COM, plain.full(INERTIA), np.eye(n))
+        first = plain.Posterior(whole[:4], whole[4:7], COM, plain.full(INERTIA), np.eye(n))
         phi, *_ = plain.transition(twin, drive, 0, first)
         off = phi[: o + 3] - differences(twin, drive, first, sizes)[3 - o :]
         size = np.abs((phi - np.eye(n))[: o + 3]).max(axis=0) / dt  # of F
@@ -289,7 +289,7 @@ def textbook(rows, testbed, noise):
     x, P = np.zeros(6), np.diag(np.repeat([0.1**2, 1e-8], 3))
     x[3:], H, E = testbed.body.com, np.eye(3, 6), np.eye(6)
     g = [plain.cross(plain.gravity_of(q, testbed.gravity)) for q in rows.drive.q]
-    for k, w in enumerate(rows.seen):
+    for k, w in enumerate(rows.observed):
         if k:
             T = rows.drive.t[k] - rows.drive.t[k - 1]
             A = np.eye(6)
@@ -309,7 +309,7 @@ def test_every_filter_is_the_linear_one_where_the_model_is_linear(name):
     rows, _ = gyro_rows(noisy(recording(20.0, None, 5.0, 20.0), 1), testbed)
     end, _ = driver.advance(driver.begin(kind, testbed, GYRO_SD, WALKS), rows)
     com, covariance = textbook(rows, testbed, GYRO_SD)
-    values, found = driver.told(end)
+    values, found = driver.reported(end)
     sd = np.sqrt(np.diag(covariance))
     np.testing.assert_allclose(values / sd, com / sd, atol=1e-9 * np.abs(com / sd).max())
     assert np.abs((found - covariance) / np.outer(sd, sd)).max() < 1e-9
@@ -320,17 +320,17 @@ def test_every_filter_is_the_linear_one_where_the_model_is_linear(name):
 
 @pytest.mark.parametrize("name", KINDS)
 @pytest.mark.parametrize("chunk", [1, 37])
-def test_rows_one_by_one_give_what_a_file_gives(seen, name, chunk):
+def test_rows_one_by_one_give_what_a_file_gives(observed, name, chunk):
     """To the last bit: states, courses and surprises."""
     kind, testbed = KINDS[name], bench()
-    rows, noise = rows_of(kind, seen, testbed)
+    rows, noise = rows_of(kind, observed, testbed)
     first = driver.begin(kind, testbed, noise, WALKS)
     whole, at_once = driver.advance(first, rows)
     state, parts, n = first, [], len(rows.node)
     for k in range(0, n, chunk):
         state, passed = driver.advance(state, taken(rows, k, min(k + chunk, n)))
         parts.append(passed)
-    assert np.array_equal(state.belief, whole.belief)
+    assert np.array_equal(state.posterior, whole.posterior)
     assert np.array_equal(state.covariance, whole.covariance)
     for field in ("t", "values", "sd"):
         joined = np.concatenate([getattr(part.course, field) for part in parts])
@@ -340,14 +340,16 @@ def test_rows_one_by_one_give_what_a_file_gives(seen, name, chunk):
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_nothing_given_is_changed_and_twice_is_the_same(seen, name):
+def test_nothing_given_is_changed_and_twice_is_the_same(observed, name):
     kind, testbed = KINDS[name], bench()
-    rows, noise = rows_of(kind, seen, testbed)
+    rows, noise = rows_of(kind, observed, testbed)
     state = driver.begin(kind, testbed, noise, WALKS)
-    kept = [x.copy() for x in (state.belief, state.covariance, *rows.drive, rows.node, rows.seen)]
+    kept = [
+        x.copy() for x in (state.posterior, state.covariance, *rows.drive, rows.node, rows.observed)
+    ]
     a, _ = driver.advance(state, rows)
     b, _ = driver.advance(state, rows)
-    now = (state.belief, state.covariance, *rows.drive, rows.node, rows.seen)
+    now = (state.posterior, state.covariance, *rows.drive, rows.node, rows.observed)
     assert all(np.array_equal(x, y) for x, y in zip(kept, now, strict=True))
-    assert np.array_equal(a.belief, b.belief)
+    assert np.array_equal(a.posterior, b.posterior)
     assert np.array_equal(a.covariance, b.covariance)

@@ -83,16 +83,16 @@ def test_a_camera_that_may_lean_raises_it(run, bound):
     """By 0.3 deg of a centre of mass 60 to 100 um low: 0.3 to 0.5 um if nothing showed the lean."""
     recording, testbed, truth = run
     leaning = replace(testbed, attitude=replace(testbed.attitude, plumb_sd=np.radians(0.3)))
-    told = least_sd(recording, leaning, Params(), truth)
-    assert told["com_x"] > 2 * bound["com_x"]
-    assert told["com_x"] < 0.5e-6
+    reported = least_sd(recording, leaning, Params(), truth)
+    assert reported["com_x"] > 2 * bound["com_x"]
+    assert reported["com_x"] < 0.5e-6
 
 
 def test_an_open_scale_has_no_bound(run):
     recording, testbed, truth = run
     free = replace(recording, masses=None, mass_names=())
-    told = least_sd(free, testbed, Params(), truth)
-    assert all(np.isinf(told[name]) for name in NAMES)
+    reported = least_sd(free, testbed, Params(), truth)
+    assert all(np.isinf(reported[name]) for name in NAMES)
 
 
 def test_the_bound_covers_com_at_the_current_mass_positions(bound):

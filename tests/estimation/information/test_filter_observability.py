@@ -378,8 +378,8 @@ def test_the_rank_of_an_unstable_motion_is_independent_of_restarts(monkeypatch, 
 def test_unobservable_directions_are_expressed_in_the_fewest_states():
     """e_0 and e_1, mixed: they come apart; and the scale comes first, as a whole."""
     mixed = np.array([[1.0, 1.0], [1.0, -1.0], [0.0, 0.0]]) / 2**0.5
-    apart = np.abs(spelled(mixed, np.zeros(3)))
-    np.testing.assert_allclose(sorted(map(tuple, apart)), [(0, 1, 0), (1, 0, 0)], atol=1e-12)
+    separation = np.abs(spelled(mixed, np.zeros(3)))
+    np.testing.assert_allclose(sorted(map(tuple, separation)), [(0, 1, 0), (1, 0, 0)], atol=1e-12)
     scale = np.array([0.6, 0.8, 0.0])
     first, second = spelled(mixed, scale)
     np.testing.assert_allclose(first, scale, atol=1e-12)

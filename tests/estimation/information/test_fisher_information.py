@@ -12,7 +12,7 @@ from equipoise.estimation.information import fisher_information
 from equipoise.estimation.information.fisher_information import (
     Observability,
     gravity_sweep,
-    seen_by,
+    information_by,
 )
 from equipoise.estimation.information.reference_motion import DAMPED, cautions, followed, halfway
 from equipoise.estimation.output_error import trajectory
@@ -52,8 +52,8 @@ def clean(end: float = 120.0, camera: float = 5.0, gyro: float = 0.0, moved: boo
     return recording(end, move_at(end / 2, end) if moved else None, camera, gyro)
 
 
-def bound(seen: Observability, *names: str) -> np.ndarray:
-    return np.array([seen.sd[seen.names.index(name)] for name in names])
+def bound(observed: Observability, *names: str) -> np.ndarray:
+    return np.array([observed.sd[observed.names.index(name)] for name in names])
 
 
 # --- The bound --------------------------------------------------------------------------------
@@ -63,12 +63,12 @@ def bound(seen: Observability, *names: str) -> np.ndarray:
 def test_the_bound_is_what_a_fit_states(gyro):
     """Of the same record, noisy, at its optimum: stated sd without widening, within 1 %."""
     record, testbed = noisy(clean(gyro=gyro), 5), level(guessed_wrong(platform(gyro=gyro > 0)))
-    seen = seen_by(record, testbed, Params())
+    observed = information_by(record, testbed, Params())
     found = trajectory.fit(record, testbed, Params())
     stated = conclude(found, "fit", record)
     assert "widened" not in stated.outcome.sentence
     sd = np.sqrt(np.diag(stated.covariance_of(BODY)))
-    np.testing.assert_allclose(bound(seen, *BODY), sd, rtol=0.01)
+    np.testing.assert_allclose(bound(observed, *BODY), sd, rtol=0.01)
 
 
 def outputs(record: Recording, x: np.ndarray) -> np.ndarray:
@@ -98,8 +98,8 @@ def test_the_bound_is_the_inverse_of_information_by_finite_differences():
     S = np.hstack([S, bias])
     prior = np.append(np.zeros(15), np.full(3, 1e-2**-2.0))
     sd = np.sqrt(np.diag(np.linalg.inv(S.T @ S + np.diag(prior))))
-    seen = seen_by(record, level(platform(gyro=True)), Params())
-    np.testing.assert_allclose(seen.sd, sd, rtol=2e-3)
+    observed = information_by(record, level(platform(gyro=True)), Params())
+    np.testing.assert_allclose(observed.sd, sd, rtol=2e-3)
 
 
 def test_masses_that_may_hang_make_it_as_large_as_a_fit_states():
@@ -107,7 +107,7 @@ def test_masses_that_may_hang_make_it_as_large_as_a_fit_states():
     stiff = level(platform())
     soft = replace(stiff, masses=tuple(replace(mass, sag_sd=0.1) for mass in stiff.masses))
     record = noisy(clean(), 5)
-    narrow, wide = (bound(seen_by(record, bed, Params()), *BODY) for bed in (stiff, soft))
+    narrow, wide = (bound(information_by(record, bed, Params()), *BODY) for bed in (stiff, soft))
     assert np.any(wide > 1.01 * narrow)
     stated = conclude(trajectory.fit(record, soft, Params()), "fit", record)
     np.testing.assert_allclose(wide, np.sqrt(np.diag(stated.covariance_of(BODY))), rtol=0.01)
@@ -122,27 +122,33 @@ def test_a_dense_record_shows_the_same_as_means_of_its_rows():
     assert len(motion.fitted.at.left_w) < len(record.rate) / 2
     stated = conclude(trajectory.fit(record, testbed, Params()), "fit", record)
     sd = np.sqrt(np.diag(stated.covariance_of(BODY)))
-    np.testing.assert_allclose(bound(fisher_information.seen_along(motion), *BODY), sd, rtol=0.02)
+    np.testing.assert_allclose(
+        bound(fisher_information.information_along(motion), *BODY), sd, rtol=0.02
+    )
 
 
 def test_twice_the_rows_make_it_smaller_by_the_square_root_of_two():
     """The same two minutes at 10 instead of 5 Hz: 1201 rows for 601."""
-    few, many = (seen_by(clean(camera=hz), level(platform()), Params()) for hz in (5.0, 10.0))
+    few, many = (
+        information_by(clean(camera=hz), level(platform()), Params()) for hz in (5.0, 10.0)
+    )
     np.testing.assert_allclose(bound(few, *BODY) / bound(many, *BODY), 2**0.5, rtol=0.01)
 
 
 def test_twice_the_noise_makes_it_twice_as_large():
     testbed = level(platform())
     worse = replace(testbed, attitude=replace(testbed.attitude, noise=2 * CAMERA_SD))
-    one, two = (seen_by(clean(), bed, Params()) for bed in (testbed, worse))
+    one, two = (information_by(clean(), bed, Params()) for bed in (testbed, worse))
     np.testing.assert_allclose(bound(two, *BODY) / bound(one, *BODY), 2.0, rtol=1e-3)
 
 
 def test_twice_the_length_makes_it_smaller_by_more_than_that():
     """J known: a pendulum's phase tells its stiffness ever better, as the length to 3/2."""
     record = clean(240.0, moved=False)
-    halves = [seen_by(window(record, 0.0, end), level(platform()), HELD) for end in (120.0, 240.0)]
-    shorter, longer = (bound(seen, *COM_NAMES) for seen in halves)
+    halves = [
+        information_by(window(record, 0.0, end), level(platform()), HELD) for end in (120.0, 240.0)
+    ]
+    shorter, longer = (bound(observed, *COM_NAMES) for observed in halves)
     assert np.all(shorter / longer > 2**0.5)
     assert shorter[2] / longer[2] == pytest.approx(2**1.5, rel=0.25)
 
@@ -165,16 +171,16 @@ def swung() -> Testbed:
 
 def test_the_vertical_offset_is_observable_in_proportion_to_tilt():
     """1, 2 and 4 deg, J known: sd as 4, 2, 1; gravity's sweep as 1, 4, 16."""
-    seen = [seen_by(swing(np.radians(a)), swung(), HELD) for a in (1.0, 2.0, 4.0)]
-    sd = np.array([bound(one, "com_z")[0] for one in seen])
+    observed = [information_by(swing(np.radians(a)), swung(), HELD) for a in (1.0, 2.0, 4.0)]
+    sd = np.array([bound(one, "com_z")[0] for one in observed])
     np.testing.assert_allclose(sd / sd[-1], [4.0, 2.0, 1.0], rtol=0.02)
-    sweeps = np.array([one.gravity_sweep for one in seen])
+    sweeps = np.array([one.gravity_sweep for one in observed])
     np.testing.assert_allclose(sweeps / sweeps[0], [1.0, 4.0, 16.0], rtol=0.02)
 
 
 def test_a_prior_makes_it_smaller_and_never_larger_than_itself():
     testbed = level(platform())
-    plain, informed = (seen_by(clean(), testbed, Params(use_prior=p)) for p in (False, True))
+    plain, informed = (information_by(clean(), testbed, Params(use_prior=p)) for p in (False, True))
     assert np.all(bound(informed, *BODY) < bound(plain, *BODY))
     loose = [informed.names.index(name) for name in BODY]
     assert np.all(informed.sd[loose] < informed.before[loose])
@@ -182,8 +188,8 @@ def test_a_prior_makes_it_smaller_and_never_larger_than_itself():
 
 def test_what_the_testbed_states_stands_beside_it():
     """com 0.1 mm, moments 10 %; nothing of the first attitude."""
-    seen = seen_by(clean(), platform(gyro=True), Params())
-    before = dict(zip(seen.names, seen.before, strict=True))
+    observed = information_by(clean(), platform(gyro=True), Params())
+    before = dict(zip(observed.names, observed.before, strict=True))
     assert before["com_x"] == pytest.approx(1e-4)
     assert before["inertia_P_xx"] == pytest.approx(0.1 * INERTIA[0])
     assert before["inertia_P_xy"] == pytest.approx(0.1 * np.sqrt(INERTIA[0] * INERTIA[1]))
@@ -192,7 +198,9 @@ def test_what_the_testbed_states_stands_beside_it():
 
 def test_the_cameras_vertical_is_estimated_only_where_it_may_lean():
     """Where it may, com is known worse."""
-    lean, plumb = (seen_by(clean(), bed, Params()) for bed in (platform(), level(platform())))
+    lean, plumb = (
+        information_by(clean(), bed, Params()) for bed in (platform(), level(platform()))
+    )
     assert "plumb_x" in lean.names
     assert "plumb_x" not in plumb.names
     assert np.all(bound(lean, *COM_NAMES) > bound(plumb, *COM_NAMES))
@@ -203,14 +211,14 @@ def test_the_cameras_vertical_is_estimated_only_where_it_may_lean():
 
 def test_free_motion_leaves_the_scale_and_nothing_else():
     """14 of 15: attitude 3, rate 3, J 6, com 3, but for the scale; ratios are bounded."""
-    seen = seen_by(clean(moved=False), level(platform()), Params())
-    assert (seen.rank, seen.size) == (14, 15)
-    assert len(seen.sentences) == 1
-    assert "scale" in seen.sentences[0]
-    assert np.all(np.isinf(bound(seen, *BODY)))
-    assert np.isinf(seen.condition)
-    assert len(seen.ratios) == 8
-    assert all(np.isfinite(ratio.sd) for ratio in seen.ratios)
+    observed = information_by(clean(moved=False), level(platform()), Params())
+    assert (observed.rank, observed.size) == (14, 15)
+    assert len(observed.sentences) == 1
+    assert "scale" in observed.sentences[0]
+    assert np.all(np.isinf(bound(observed, *BODY)))
+    assert np.isinf(observed.condition)
+    assert len(observed.ratios) == 8
+    assert all(np.isfinite(ratio.sd) for ratio in observed.ratios)
 
 
 def test_the_scale_is_the_null_direction_of_the_information():
@@ -227,10 +235,10 @@ def test_the_scale_is_the_null_direction_of_the_information():
 
 
 def test_a_known_move_or_a_held_moment_closes_the_scale():
-    moved = seen_by(clean(), level(platform()), Params())
+    moved = information_by(clean(), level(platform()), Params())
     assert (moved.rank, moved.size, moved.sentences) == (15, 15, ())
     assert np.isfinite(moved.condition)
-    held = seen_by(clean(moved=False), level(platform()), Params(hold=("inertia_P_zz",)))
+    held = information_by(clean(moved=False), level(platform()), Params(hold=("inertia_P_zz",)))
     assert (held.rank, held.size, held.sentences) == (14, 14, ())
     assert held.sd[held.names.index("inertia_P_zz")] == 0.0
     assert held.held.sum() == 1
@@ -238,18 +246,18 @@ def test_a_known_move_or_a_held_moment_closes_the_scale():
 
 def test_without_tilt_the_offset_along_gravity_is_unobservable():
     """Balanced but for 79 um straight below, let go level: it never tilts."""
-    seen = seen_by(swing(0.0), swung(), HELD)
-    assert seen.hidden[seen.names.index("com_z")]
-    assert not seen.hidden[seen.names.index("com_x")]
-    assert seen.gravity_sweep == pytest.approx(0.0, abs=1e-9)
-    assert any("com_z" in sentence for sentence in seen.sentences)
+    observed = information_by(swing(0.0), swung(), HELD)
+    assert observed.hidden[observed.names.index("com_z")]
+    assert not observed.hidden[observed.names.index("com_x")]
+    assert observed.gravity_sweep == pytest.approx(0.0, abs=1e-9)
+    assert any("com_z" in sentence for sentence in observed.sentences)
 
 
 def test_without_a_camera_heading_is_unobservable():
     record = clean(30.0, camera=0.0, gyro=20.0, moved=False)
-    seen = seen_by(record, platform(gyro=True), HELD)
-    assert seen.hidden[seen.names.index("attitude_z")]
-    assert any("attitude_z" in sentence for sentence in seen.sentences)
+    observed = information_by(record, platform(gyro=True), HELD)
+    assert observed.hidden[observed.names.index("attitude_z")]
+    assert any("attitude_z" in sentence for sentence in observed.sentences)
 
 
 def test_the_condition_of_a_known_matrix():
@@ -275,7 +283,7 @@ def test_the_sweep_of_a_known_motion():
 
 
 def test_the_tilt_range_is_reported_from_least_to_greatest():
-    low, high = seen_by(swing(np.radians(4.0)), swung(), HELD).tilt
+    low, high = information_by(swing(np.radians(4.0)), swung(), HELD).tilt
     assert low < np.radians(0.2)
     assert high == pytest.approx(np.radians(4.0), rel=1e-3)
 
@@ -284,7 +292,7 @@ def test_the_tilt_range_is_reported_from_least_to_greatest():
 
 
 def test_a_sound_record_needs_no_caution():
-    assert seen_by(noisy(clean(), 3), guessed_wrong(platform()), Params()).cautions == ()
+    assert information_by(noisy(clean(), 3), guessed_wrong(platform()), Params()).cautions == ()
 
 
 def test_a_model_that_does_not_explain_the_record_is_reported():
@@ -292,10 +300,10 @@ def test_a_model_that_does_not_explain_the_record_is_reported():
     torque = np.zeros(16)
     torque[4] = 2e-4
     record = noisy(recording(120.0, move_at(60.0, 120.0), torque=torque), 1)
-    plain = seen_by(record, platform(), Params())
+    plain = information_by(record, platform(), Params())
     assert any("does not explain" in sentence for sentence in plain.cautions)
     terms = ("constant_x", "constant_y", "constant_z")
-    assert seen_by(record, platform(), Params(terms)).cautions == ()
+    assert information_by(record, platform(), Params(terms)).cautions == ()
 
 
 def test_a_random_attitude_record_is_reported():
@@ -303,8 +311,8 @@ def test_a_random_attitude_record_is_reported():
     q = np.random.default_rng(0).normal(size=(200, 4))
     q /= np.linalg.norm(q, axis=1, keepdims=True)
     record = Recording(Samples(np.arange(200) / 5.0, q))
-    seen = seen_by(record, platform(), Params())
-    assert "did not settle" in seen.cautions[0] or "does not explain" in seen.cautions[0]
+    observed = information_by(record, platform(), Params())
+    assert "did not settle" in observed.cautions[0] or "does not explain" in observed.cautions[0]
 
 
 def test_unrequested_damping_is_reported():
@@ -326,4 +334,4 @@ def test_masses_are_displaced_to_where_the_fit_found_them():
 
 def test_too_few_rows_are_refused():
     with pytest.raises(InputError, match="3 rows"):
-        seen_by(window(clean(), 0.0, 0.5), platform(), Params())
+        information_by(window(clean(), 0.0, 0.5), platform(), Params())

@@ -23,7 +23,7 @@ TRUTH = dict(zip((*COM, *INERTIA), (*TRUE_COM, *TRUE_INERTIA), strict=True))
 FARTHEST = 6.0  # sd
 # Flipped signs have a test of their own, which asks for more.
 TROUBLES = ["none", *(name for name in AWKWARD if name != "sign_flips")]
-ASKED = {
+REQUESTED = {
     "term": Options(terms=("viscous_x",)),
     "hold": Options(hold=("inertia_P_zz",)),
     "prior": Options(use_prior=True),
@@ -62,19 +62,19 @@ def test_the_card_says_it_all(name):
     said = (card.formulation, card.solver, card.source, card.needs, card.cannot_see)
     assert all(len(text) > 5 for text in said)
     assert card.regime in REGIMES
-    assert set(card.heeds) <= set(ASKED)
+    assert set(card.heeds) <= set(REQUESTED)
 
 
 @every_method
-@pytest.mark.parametrize("option", ASKED)
+@pytest.mark.parametrize("option", REQUESTED)
 def test_an_option_is_known_or_refused(name, option):
     """Nothing that is asked for is passed over in silence."""
     method = METHODS[name]
     if option in method.card.heeds:
-        assert estimated(method, sound(), bed(), ASKED[option]).outcome.sentence
+        assert estimated(method, sound(), bed(), REQUESTED[option]).outcome.sentence
     else:
         with pytest.raises(InputError, match=f"--{option}"):
-            estimated(method, sound(), bed(), ASKED[option])
+            estimated(method, sound(), bed(), REQUESTED[option])
 
 
 @every_method

@@ -18,13 +18,13 @@ from equipoise.estimation.model_selection.decimation import (
     turned,
 )
 from equipoise.estimation.model_selection.dense_record import first_gap, moved, with_noise_of
-from equipoise.estimation.model_selection.survey import cut_times, looked_into, survey
+from equipoise.estimation.model_selection.survey import cut_times, examined, survey
 from equipoise.estimation.output_error.problem import quickest_swing
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
 from equipoise.maths.attitude import difference, exponential
 from equipoise.model.recording import Recording, Samples
-from equipoise.sensors.timing import seen_at, spread_of
+from equipoise.sensors.timing import measured_at, spread_of
 from tests.support.builders import move_at, noisy, platform, recording
 
 LATE = replace(platform().attitude, rate=100.0, delay=0.3, averaging=0.2)
@@ -74,8 +74,8 @@ def test_signs_of_quaternions_do_not_matter():
 
 def test_means_do_not_reach_over_gaps():
     """Nothing between 4 and 10 s: the row at 4 s has no partner."""
-    seen = rows_at(np.array([0.0, 1, 2, 3, 4, 10, 11, 12, 13, 14, 15]))
-    np.testing.assert_array_equal(first_rows(seen, 2), [0, 2, 5, 7, 9])
+    observed = rows_at(np.array([0.0, 1, 2, 3, 4, 10, 11, 12, 13, 14, 15]))
+    np.testing.assert_array_equal(first_rows(observed, 2), [0, 2, 5, 7, 9])
 
 
 def test_a_missing_row_is_no_gap_in_a_long_mean():
@@ -90,8 +90,8 @@ def test_a_mean_stands_for_the_moments_of_its_rows():
     """Middle and variance of four rows that are themselves late means, each of 0.2 s."""
     t = 0.01 * np.arange(4.0)
     mean = averaged(LATE, 4, 0.01)
-    middles = seen_at(t, LATE)
-    assert seen_at(np.array([t.mean()]), mean)[0] == pytest.approx(middles.mean(), abs=1e-12)
+    middles = measured_at(t, LATE)
+    assert measured_at(np.array([t.mean()]), mean)[0] == pytest.approx(middles.mean(), abs=1e-12)
     assert spread_of(mean) == pytest.approx(0.2**2 / 12 + middles.var(), rel=1e-12)
     assert mean.noise == pytest.approx(LATE.noise / 2)
     assert mean.rate == 25.0
@@ -108,11 +108,11 @@ def test_long_means_are_predicted_as_means():
     """Of 2.56 s in swings of 40 s: what is left falls from W^2 T^2 / 24 to W^4 T^4 / 1920."""
     k, record = 256, recording(120.0, camera=100.0)
     few = replace(record, attitude=mean_attitudes(record.attitude, k))
-    told = replace(platform(), attitude=averaged(FAST.attitude, k, 0.01))
-    middle = told.attitude.delay + 0.5 * told.attitude.averaging
-    moments = replace(told, attitude=replace(told.attitude, averaging=0.0, delay=middle))
-    assert left_of(few, told) < 1e-6
-    assert left_of(few, moments) > 20 * left_of(few, told)
+    reported = replace(platform(), attitude=averaged(FAST.attitude, k, 0.01))
+    middle = reported.attitude.delay + 0.5 * reported.attitude.averaging
+    moments = replace(reported, attitude=replace(reported.attitude, averaging=0.0, delay=middle))
+    assert left_of(few, reported) < 1e-6
+    assert left_of(few, moments) > 20 * left_of(few, reported)
 
 
 @pytest.mark.parametrize(("speed", "k"), [(5.0, 4), (1.0, 16), (0.5, 32), (20.0, 1)])
@@ -158,8 +158,8 @@ def test_noise_found_in_means_is_brought_back_to_rows():
     few = condensed(noisy(dense(), 0), FAST)
     loud = replace(few.testbed, attitude=replace(few.testbed.attitude, noise=2e-3))
     problem = fit(few.recording, few.testbed, Params(), guess=None)
-    belief = replace(survey(few.recording, few.testbed, Params(), problem), testbed=loud)
-    assert with_noise_of(few, belief, FAST).attitude.noise == pytest.approx(4e-3)
+    model = replace(survey(few.recording, few.testbed, Params(), problem), testbed=loud)
+    assert with_noise_of(few, model, FAST).attitude.noise == pytest.approx(4e-3)
 
 
 def test_the_start_is_given_the_rows_before_the_first_gap():
@@ -195,7 +195,7 @@ def test_a_search_gone_astray_is_an_outcome(monkeypatch):
     record, testbed = noisy(recording(60.0, move_at(20.0, 60.0)), 0), platform(3e-4)
     lost = astray(record, testbed)
     with pytest.raises(np.linalg.LinAlgError):
-        looked_into(replace(survey(record, testbed, Params(), lost), cuts=cut_times(record)))
+        examined(replace(survey(record, testbed, Params(), lost), cuts=cut_times(record)))
     monkeypatch.setattr(initial_model, "fit", lambda *_: lost)
     estimate = reference_fit.estimate(record, testbed, Params())
     assert not estimate.outcome.usable

@@ -144,8 +144,8 @@ def test_it_is_narrower_than_the_tracker():
     after = smooth_at(fitted)
     sd = np.sqrt(np.einsum("kii->ki", after.covariance[:, R, R]))
     first = tracker.first_state(0.0, record.attitude.values[0], known)
-    told = tracker.Params(com_walk=1e-7, torque_walk=1e-12, bias_walk=1e-15)
-    track = tracker.track(record, known, told, first)
+    reported = tracker.Params(com_walk=1e-7, torque_walk=1e-12, bias_walk=1e-15)
+    track = tracker.track(record, known, reported, first)
     beside = np.array([np.interp(nodes, track.t, column) for column in track.com_sd.T]).T
     inner = (nodes > 2) & (nodes < END - 10)
     assert np.all(sd[inner] < 1.02 * beside[inner])

@@ -44,7 +44,7 @@ def attitudes(end, rate, size=FAST):
     return np.array(found)
 
 
-def seen(end, seed, bias, gyro=100.0, size=FAST):
+def observed(end, seed, bias, gyro=100.0, size=FAST):
     """A record with the noise that the testbed states."""
     rng = np.random.default_rng(seed)
     t_w, t_q = np.arange(round(end * gyro)) / gyro, np.arange(round(end * 20.0)) / 20.0
@@ -115,7 +115,7 @@ def plainly(record, testbed, turns=False):
 def test_it_is_the_textbooks_filter_with_whole_matrices():
     """Camera rows between those of the gyro, too: 20 Hz against 70 Hz."""
     testbed = bed(gyro=70.0)
-    record = seen(5.0, 3, np.array([1e-3, -2e-3, 5e-4]), gyro=70.0)
+    record = observed(5.0, 3, np.array([1e-3, -2e-3, 5e-4]), gyro=70.0)
     q, b, P, rate = plainly(record, testbed)
     found = followed(None, record, testbed)
     np.testing.assert_allclose(difference(found.q, q), 0.0, atol=1e-12)
@@ -129,7 +129,7 @@ def test_it_is_the_textbooks_filter_with_whole_matrices():
 def test_what_the_turning_of_errors_would_change_is_small_at_a_swing():
     """Less than a tenth of an sd at 0.02 rad/s. (At 0.2 rad/s the bias is 1.5 sd off.)"""
     testbed = bed()
-    record = seen(10.0, 5, np.array([1e-3, -2e-3, 5e-4]), size=SLOW)
+    record = observed(10.0, 5, np.array([1e-3, -2e-3, 5e-4]), size=SLOW)
     q, b, P, _ = plainly(record, testbed, turns=True)
     found = followed(None, record, testbed)
     assert np.all(np.abs(difference(found.q, q)) < 0.1 * np.sqrt(P[0, 0]))
@@ -145,7 +145,7 @@ def test_the_difference_of_the_twin_is_the_turn_that_leads_from_one_to_the_other
 def test_cut_into_parts_it_comes_to_the_same():
     """A law sees a record a tenth of a second at a time; only the mean rate is of the last part."""
     testbed = bed()
-    record = seen(4.0, 1, np.zeros(3))
+    record = observed(4.0, 1, np.zeros(3))
     whole, state = followed(None, record, testbed), None
     for k in range(40):
         start = 0.1 * k - 1e-6
@@ -158,7 +158,7 @@ def test_cut_into_parts_it_comes_to_the_same():
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_the_sign_of_a_quaternion_is_nothing(sign):
     testbed = bed()
-    record = seen(2.0, 2, np.zeros(3))
+    record = observed(2.0, 2, np.zeros(3))
     turned = record.attitude.values.copy()
     turned[1::2] *= sign
     found = followed(None, replace(record, attitude=Samples(record.attitude.t, turned)), testbed)
@@ -169,7 +169,7 @@ def test_the_sign_of_a_quaternion_is_nothing(sign):
 
 def test_there_is_no_state_before_the_first_camera_row():
     testbed = bed()
-    record = seen(1.0, 1, np.zeros(3))
+    record = observed(1.0, 1, np.zeros(3))
     blind = replace(record, attitude=None)
     assert followed(None, blind, testbed) is None
     state = followed(None, record, testbed)
@@ -183,7 +183,7 @@ def test_delayed_sensor_rows_are_processed_at_their_measurement_time():
     """Both stamped 50 ms after they looked: the state is as without, 50 ms earlier."""
     plain, late = bed(), bed(delay=0.05)
     late = replace(late, attitude=replace(late.attitude, delay=0.05))
-    record = seen(3.0, 4, np.zeros(3))
+    record = observed(3.0, 4, np.zeros(3))
     stamped = Recording(
         Samples(record.attitude.t + 0.05, record.attitude.values),
         Samples(record.rate.t + 0.05, record.rate.values),
@@ -202,7 +202,7 @@ def test_bias_and_attitude_are_found_within_their_stated_sd():
     ]  # at 19.99 s, the gyro's last row; the camera's is at 19.95 s
     for seed in range(30):
         bias = BIAS_SD * rng.normal(size=3)
-        found = followed(None, seen(20.0, seed, bias, size=SLOW), testbed)
+        found = followed(None, observed(20.0, seed, bias, size=SLOW), testbed)
         angle, off = difference(now, found.q), found.bias - bias
         scores.append([angle @ angle / found.values[8], off @ off / found.values[10]])
     # A chi-square of 90 degrees of freedom: 15 % are one sd.

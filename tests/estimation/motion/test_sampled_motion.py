@@ -110,9 +110,9 @@ def test_start_from_a_gyro_corrects_the_inertia():
 @pytest.mark.parametrize("seed", range(5))
 def test_start_is_good_enough_with_noise(seed):
     """The fit begins at the whole record: within capture, camera alone, 0.2 deg."""
-    seen, testbed = noisy(recording(track=MOVED), seed), guessed_wrong(platform())
-    problem = problem_of(seen, testbed, Params())
-    assert misfit(problem, start(seen, testbed, problem.layout, 0.0)) < CAPTURE
+    observed, testbed = noisy(recording(track=MOVED), seed), guessed_wrong(platform())
+    problem = problem_of(observed, testbed, Params())
+    assert misfit(problem, start(observed, testbed, problem.layout, 0.0)) < CAPTURE
 
 
 def test_start_knows_nothing_but_the_record():
@@ -133,5 +133,5 @@ def test_rows_of_an_impossible_body_do_not_start_wildly(seed):
     record = regime("moved", seed)
     rows, testbed = sound(spoiled(record.recording, seed), record.testbed)
     found = start(rows, testbed, problem_of(rows, testbed, Params()).layout, 0.0)
-    seen = np.median(rows.rate.values[:50], axis=0)
-    assert np.linalg.norm(found.w0 - seen) < np.radians(10)
+    observed = np.median(rows.rate.values[:50], axis=0)
+    assert np.linalg.norm(found.w0 - observed) < np.radians(10)

@@ -6,7 +6,7 @@ import numpy as np
 
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
-from equipoise.estimation.output_error.outlier_rejection import far_off, without_far_rows
+from equipoise.estimation.output_error.outlier_rejection import outlying, without_outliers
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.maths.attitude import exponential, multiply
 from equipoise.model.recording import Samples
@@ -25,7 +25,7 @@ def spoiled():
 
 def test_the_odd_rows_go_and_no_others():
     sound, odd = spoiled()
-    kept, gone = without_far_rows(odd, BED, Params())
+    kept, gone = without_outliers(odd, BED, Params())
     assert gone == 6
     assert len(kept.attitude) == len(sound.attitude) - 6
     assert len(kept.rate) == len(sound.rate)
@@ -40,12 +40,12 @@ def test_a_robust_estimate_says_how_many_it_left_out():
 def test_where_many_rows_deviate_none_is_an_outlier():
     left = np.random.default_rng(1).normal(size=(100, 3))
     left[:30] += 1000.0
-    assert not far_off(left).any()
+    assert not outlying(left).any()
     left[:30] -= 1000.0
     left[0] += 1000.0
-    assert far_off(left).tolist() == [True] + [False] * 99
+    assert outlying(left).tolist() == [True] + [False] * 99
 
 
 def test_uniformly_loud_noise_has_no_outliers():
     """Ten times as loud as stated: the usual distance is ten, too."""
-    assert not far_off(10 * np.random.default_rng(2).normal(size=(1000, 3))).any()
+    assert not outlying(10 * np.random.default_rng(2).normal(size=(1000, 3))).any()

@@ -34,7 +34,7 @@ from tests.support.builders import (
     platform,
     recording,
 )
-from tests.support.plain_problem import apart, noded, stepped, with_errors
+from tests.support.plain_problem import noded, separation, stepped, with_errors
 
 END = 20.0
 BIASES = ("gyro_bias_x", "gyro_bias_y", "gyro_bias_z")
@@ -124,10 +124,10 @@ def test_residuals_are_those_of_a_motion_in_pieces(cut):
     record, problem, point = cut
     problem = noded(problem, record)
     q, w, bias = pieced(problem, point, SIZES)
-    at, seen = evaluate(problem, point, SIZES), problem.seen
-    e_q = difference(seen.attitude, q[seen.attitude_node]) / seen.attitude_sd
-    k = seen.rate_node
-    e_w = (seen.rate - w[k] - bias[k]) / seen.rate_sd
+    at, observed = evaluate(problem, point, SIZES), problem.observed
+    e_q = difference(observed.attitude, q[observed.attitude_node]) / observed.attitude_sd
+    k = observed.rate_node
+    e_w = (observed.rate - w[k] - bias[k]) / observed.rate_sd
     np.testing.assert_allclose(at.left_q, e_q, rtol=0, atol=1e-8)
     np.testing.assert_allclose(at.left_w, e_w, rtol=0, atol=1e-8)
     unmoved = evaluate(problem, point, np.zeros_like(SIZES))
@@ -154,7 +154,9 @@ def test_no_jump_allowed_is_the_uncut_fit(cut):
     np.testing.assert_allclose(*scaled, rtol=0, atol=1e-10)
     fits = [settle(problem, point) for problem in (whole, parts)]
     assert fits[1].at.cost == pytest.approx(fits[0].at.cost, rel=1e-10)
-    assert np.abs(apart(whole, *(fit.point for fit in fits)) / deviations(fits[0])).max() < 1e-3
+    assert (
+        np.abs(separation(whole, *(fit.point for fit in fits)) / deviations(fits[0])).max() < 1e-3
+    )
 
 
 def test_two_jumps_within_rounding_of_each_other_both_act(cut):
@@ -232,10 +234,10 @@ def faultless(problem, point, jumps):
 
     The sensitivities of the fit leave out terms in the attitude residuals themselves.
     """
-    seen = problem.seen
-    left = evaluate(problem, point, jumps).left_q * seen.attitude_sd
-    said = multiply(seen.attitude, exponential(-left))
-    return replace(problem, seen=seen._replace(attitude=said))
+    observed = problem.observed
+    left = evaluate(problem, point, jumps).left_q * observed.attitude_sd
+    said = multiply(observed.attitude, exponential(-left))
+    return replace(problem, observed=observed._replace(attitude=said))
 
 
 def least_squares_at(problem, point, jumps):
@@ -317,7 +319,7 @@ def test_the_optimum_is_that_of_dense_least_squares(cut, optimum):
     there, jumps = gauss_newton(problem, point, np.zeros_like(SIZES), 4)
     assert evaluate(problem, there, jumps).cost == pytest.approx(fit.at.cost, abs=1e-4)
     sd = np.sqrt(np.diag(np.linalg.inv(J.T @ J)))
-    off = np.concatenate([apart(problem, fit.point, there), (jumps - fit.jumps)[full.free]])
+    off = np.concatenate([separation(problem, fit.point, there), (jumps - fit.jumps)[full.free]])
     assert np.abs(off / sd).max() < 0.01
 
 
@@ -334,7 +336,7 @@ def test_covariance_of_every_stretch_is_of_the_dense_inverse(optimum):
         at.pieces.jumps[:] = jumps
         pieces_at(kernel, at)
         there = [unknowns_of(p) for p in at.pieces.points]
-        return np.array([apart(fit.problem, a, b) for a, b in zip(points, there, strict=True)])
+        return np.array([separation(fit.problem, a, b) for a, b in zip(points, there, strict=True)])
 
     by_z = full.by_z(beginnings, full.sizes())
     for M, C in zip(by_z, after.covariance, strict=True):
@@ -360,9 +362,9 @@ def test_covariance_of_every_jump_is_of_the_dense_inverse(optimum):
         found = after.jump_covariance[k, :a, :a] * np.outer(unit, unit)
         np.testing.assert_allclose(found, wanted * np.outer(unit, unit), rtol=0, atol=1e-6)
     weight = full.cuts.weight[full.free]
-    told = np.sum(1 - np.diag(spread) * weight)
-    assert freedom(fit, after) == pytest.approx(told, rel=1e-6)
-    assert 3 < told < weight.size
+    reported = np.sum(1 - np.diag(spread) * weight)
+    assert freedom(fit, after) == pytest.approx(reported, rel=1e-6)
+    assert 3 < reported < weight.size
 
 
 def test_score_of_a_stretch_pulls_as_the_jumps_before_it_do(optimum):

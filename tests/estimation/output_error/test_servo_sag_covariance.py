@@ -53,8 +53,8 @@ def hung(sag: float) -> Recording:
     line = line_of(t, Samples(t, late))
     down = -to_matrix(travel(line).q[np.searchsorted(line.t, t - 1e-9)])[:, 2, :]
     hanging = sag * np.column_stack([np.interp(t - LATE, t, n) for n in down.T])
-    seen = recording(END, Samples(t, late + hanging), gyro=20.0)
-    return replace(seen, masses=MOVE)
+    observed = recording(END, Samples(t, late + hanging), gyro=20.0)
+    return replace(observed, masses=MOVE)
 
 
 def fitted(sag: float, bed: Testbed) -> Fitted:

@@ -121,9 +121,9 @@ def test_errors_are_as_large_as_stated():
 
 def test_wrong_stops_are_found():
     """z stops 1 mm short of what is told: an unknown with its accuracy as prior finds it."""
-    told = move_at(60.0, 120.0)
-    really = Samples(told.t, told.values + np.outer([0, 0, 0, 1, 1], [0, 0, 1e-3]))
-    record = replace(recording(120.0, really), masses=told, mass_names=("x", "y", "z"))
+    reported = move_at(60.0, 120.0)
+    really = Samples(reported.t, reported.values + np.outer([0, 0, 0, 1, 1], [0, 0, 1e-3]))
+    record = replace(recording(120.0, really), masses=reported, mass_names=("x", "y", "z"))
     fitted = fit(record, sharp(platform(accuracy=1e-3)), Params())
     assert fitted.problem.layout.errors == ("error_x_1", "error_y_1", "error_z_1")
     # an error of 2 % in the step is an error of 2 % in the scale, unless the prior speaks: the

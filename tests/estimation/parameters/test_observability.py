@@ -112,15 +112,15 @@ def test_com_alone_is_not_the_scale():
     assert not examine(without(unit("com_z"))).scale_open
 
 
-@pytest.mark.parametrize(("sd", "seen"), [(0.49, True), (0.51, False)])
-def test_half_a_natural_size_is_the_limit(sd, seen):
+@pytest.mark.parametrize(("sd", "observed"), [(0.49, True), (0.51, False)])
+def test_half_a_natural_size_is_the_limit(sd, observed):
     """A moment of inertia known to half its own size or better counts as seen."""
     k = LAYOUT.names.index("inertia_P_yy")
     information = SHARP * np.eye(N)
     information[k, k] = sd**-2
     view = examine(information)
-    assert ("inertia_P_yy" not in hidden(view)) == seen
-    if seen:
+    assert ("inertia_P_yy" not in hidden(view)) == observed
+    if observed:
         assert np.sqrt(view.covariance[k, k]) == pytest.approx(sd * SIZE[k])
 
 
@@ -151,9 +151,9 @@ def test_what_is_held_does_not_drown_the_rest():
     view = observability.examine_unheld(information, scale, SIZE, LAYOUT.names, held)
     assert hidden(view) == {"com_z"}
     assert view.sentences == ("the data do not see com_z",)
-    seen = ~held & (unit("com_z") == 0)
+    observed = ~held & (unit("com_z") == 0)
     sd = np.sqrt(np.diag(view.covariance))
-    np.testing.assert_allclose(sd[seen], SIZE[seen] / 1e3, rtol=1e-9)
+    np.testing.assert_allclose(sd[observed], SIZE[observed] / 1e3, rtol=1e-9)
     np.testing.assert_allclose(sd[JP] / SIZE[JP], [1e-9] * 3 + [1e-18] * 3, rtol=1e-9)
     assert view.unseen.shape == (N, 1)
     assert np.argmax(np.abs(view.unseen[:, 0] / SIZE)) == LAYOUT.names.index("com_z")

@@ -9,7 +9,7 @@ import pytest
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.regression.formulations.energy import energy
 from equipoise.estimation.regression.formulations.torque import savitzky_golay, torque
-from equipoise.estimation.regression.inverse_dynamics_torque import felt
+from equipoise.estimation.regression.inverse_dynamics_torque import residual_torque
 from equipoise.estimation.regression.linear_method import posed_of
 from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
 from equipoise.maths.linalg import unpack_symmetric
@@ -35,10 +35,10 @@ def at_rest(seed):
     return posed_of(record, replace(bed, masses=()), Options())
 
 
-def seen(seconds):
+def observed(seconds):
     posed = at_rest(1)
     draws = tuple(pairs(posed, Drawn(), 8))
-    return felt(torque(partial(savitzky_golay, seconds=seconds)), posed, draws)
+    return residual_torque(torque(partial(savitzky_golay, seconds=seconds)), posed, draws)
 
 
 @pytest.mark.parametrize("seconds", [2.0, 8.0])
@@ -46,12 +46,12 @@ def test_noise_leaves_the_published_floor(seconds):
     """2.5 sqrt(12) N J T^-3/2 about each axis, J here as the norm of its rows."""
     size = float(np.linalg.norm(unpack_symmetric(INERTIA)))
     expected = 2.5 * np.sqrt(12) * DENSITY * size * seconds**-1.5
-    assert seen(seconds).noise == pytest.approx(expected, rel=0.08)
+    assert observed(seconds).noise == pytest.approx(expected, rel=0.08)
 
 
 def test_a_torque_free_platform_has_no_significant_residual_torque():
     """What is left when noise is taken off is within three of its sd of nothing."""
-    found = seen(4.0)
+    found = observed(4.0)
     assert found.rms < 3 * np.sqrt(2 * found.noise * found.rms_sd) + found.rms_sd
     assert found.rms < 0.5 * found.noise
     assert found.greatest < 6 * found.noise
@@ -60,6 +60,6 @@ def test_a_torque_free_platform_has_no_significant_residual_torque():
 def test_energy_is_known_up_to_a_constant():
     """The mean of the noise's energy, 1/2 tr(J) N^2 f, is a constant, and no swing."""
     posed = at_rest(2)
-    found = felt(energy, posed, tuple(pairs(posed, Drawn(), 8)), about_mean=True)
+    found = residual_torque(energy, posed, tuple(pairs(posed, Drawn(), 8)), about_mean=True)
     assert abs(found.values.mean()) < 1e-12 * np.abs(found.values).max() + 1e-15
     assert found.rms < found.noise

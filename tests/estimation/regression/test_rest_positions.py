@@ -133,8 +133,8 @@ def test_a_swing_is_no_rest():
     assert "not trustworthy" in found.outcome.sentence
 
 
-@pytest.mark.parametrize(("sd", "told"), [(0.99, True), (1.01, False)])
-def test_an_sd_longer_than_the_arm_is_rejected_as_too_rough(sd, told):
+@pytest.mark.parametrize(("sd", "reported"), [(0.99, True), (1.01, False)])
+def test_an_sd_longer_than_the_arm_is_rejected_as_too_rough(sd, reported):
     """Arms of 20 um along z and x, directions to s: 1 / s^2 + 1 / s^2 across both, 1 / s^2 else.
 
     The least information is (1 / (20 um s))^2: the sd is as long as the arm at s = 1 rad.
@@ -146,7 +146,7 @@ def test_an_sd_longer_than_the_arm_is_rejected_as_too_rough(sd, told):
         Rest(np.array([1.0, 0.0, 0.0]), sd, sideways, 1.0),
     ]
     information = sum(along(com + s.shift)[1].T @ along(com + s.shift)[1] / sd**2 for s in rests)
-    assert (too_rough(rests, com, information) == "") is told
+    assert (too_rough(rests, com, information) == "") is reported
 
 
 def test_rests_of_a_platform_that_swings_widely_are_refused_with_a_sentence():

@@ -26,7 +26,7 @@ def tracked(record, seed: int, doubt: float = 0.02):
 def nees(found, seed: int, shift=NOWHERE) -> float:
     true = np.concatenate([case_s.COM + shift, case_s.case(seed).inertia])
     error = np.concatenate([found.com[-1], found.inertia[-1]]) - true
-    return float(error @ np.linalg.solve(found.end.belief.covariance, error))
+    return float(error @ np.linalg.solve(found.end.posterior.covariance, error))
 
 
 @pytest.mark.parametrize("doubt", [0.02, 0.2])
@@ -37,7 +37,7 @@ def test_before_a_move_nothing_is_learnt_about_the_scale(doubt):
         found = tracked(window(case_s.run(seed), 0.0, 55.0), seed, doubt)
         x = found.end.memory.point
         prior = np.append(testbed.com_sd, doubt * element_sizes(testbed.body.inertia_P))
-        information = x @ np.linalg.solve(found.end.belief.covariance, x)
+        information = x @ np.linalg.solve(found.end.posterior.covariance, x)
         assert information == pytest.approx(np.sum((x / prior) ** 2), rel=0.1)
 
 

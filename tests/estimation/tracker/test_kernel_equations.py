@@ -97,7 +97,7 @@ def test_signature_is_what_two_filters_differ_by(first, second):
         steps.expect(P, first, second, 0.7, tools.work)
         steps.weigh(tuple(z), tools.work)
         onsets.follow(watch, phi, tools.room)
-        onsets.felt(watch, first, second, tools.room)
+        onsets.response(watch, first, second, tools.room)
         onsets.gather(watch, tuple(z), tools.work, tools.room)
         onsets.respond(watch, tools.work, tools.room)
         S, K = tools.work.S.copy(), tools.work.K.T.copy()
@@ -170,8 +170,8 @@ def test_a_contact_leaves_the_mixture_of_its_hypotheses():
         expected += p * (X @ packed(room.V[:, h]) @ X.T)
         expected += p * np.outer(effects[h] - mean, effects[h] - mean)
         if h not in (0, ONSETS):  # the oldest has none older
-            apart = columns(watch, h - 1) @ room.v[:, h] - effects[h]
-            expected += p / 12 * np.outer(apart, apart)
+            separation = columns(watch, h - 1) @ room.v[:, h] - effects[h]
+            expected += p / 12 * np.outer(separation, separation)
     mixture.mend(watch, P, x, room)
     np.testing.assert_allclose(x, mean, rtol=1e-9)
     np.testing.assert_allclose(P, expected, rtol=1e-9)
@@ -200,9 +200,9 @@ def test_an_attitude_taken_anew_brings_its_rate():
     P = covariance(11)
     place, body = Place(np.arange(19.0), P.copy()), np.s_[6:, 6:]
     take_anew(rows, 1, 1e-3, place)
-    np.testing.assert_allclose(place.belief[:4], q[1])
-    np.testing.assert_allclose(place.belief[4:7], [0.0, 0.1, 0.0], atol=1e-12)
-    np.testing.assert_array_equal(place.belief[7:], np.arange(7.0, 19.0))
+    np.testing.assert_allclose(place.posterior[:4], q[1])
+    np.testing.assert_allclose(place.posterior[4:7], [0.0, 0.1, 0.0], atol=1e-12)
+    np.testing.assert_array_equal(place.posterior[7:], np.arange(7.0, 19.0))
     np.testing.assert_array_equal(place.covariance[body], P[body])
     left = np.zeros((18, 18))
     left[body] = P[body]

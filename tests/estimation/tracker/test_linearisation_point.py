@@ -12,7 +12,7 @@ from equipoise.estimation.tracker.linearisation_point import (
 )
 
 POINT = np.array([2e-6, -3e-6, -80e-6, 0.35, 0.54, 0.85, 0.01, -0.02, 0.015])
-BELIEF = np.array([3e-6, -2e-6, -95e-6, 0.38, 0.50, 0.92, 0.02, -0.01, 0.0])
+POSTERIOR = np.array([3e-6, -2e-6, -95e-6, 0.38, 0.50, 0.92, 0.02, -0.01, 0.0])
 SPREAD = np.array([1e-5, 1e-5, 1e-5, 0.05, 0.05, 0.05, 0.02, 0.02, 0.02])
 
 
@@ -39,7 +39,7 @@ def some_covariance() -> np.ndarray:
     return root @ root.T * np.outer(sd, sd)
 
 
-def belief_at(body: np.ndarray) -> np.ndarray:
+def posterior_at(body: np.ndarray) -> np.ndarray:
     return np.concatenate([[1, 0, 0, 0], np.zeros(3), body, np.zeros(3)])
 
 
@@ -47,7 +47,7 @@ def carried(P: np.ndarray, *stations: np.ndarray) -> np.ndarray:
     """P after going from POINT by way of the stations."""
     P, point = P.copy(), POINT.copy()
     for body in stations:
-        transport(P, point, belief_at(body))
+        transport(P, point, posterior_at(body))
         np.testing.assert_array_equal(point, body)
     return P
 
@@ -55,35 +55,35 @@ def carried(P: np.ndarray, *stations: np.ndarray) -> np.ndarray:
 def test_transport_is_a_constant_covariance_in_scale_coordinates():
     """T = (d coordinates/dx at the belief)^-1 (d coordinates/dx at the point), by differences."""
     T = np.eye(18)
-    T[6:15, 6:15] = np.linalg.solve(slope(BELIEF), slope(POINT))
+    T[6:15, 6:15] = np.linalg.solve(slope(POSTERIOR), slope(POINT))
     P = some_covariance()
     scale = np.sqrt(np.outer(np.diag(P), np.diag(P)))
-    np.testing.assert_allclose(carried(P, BELIEF) / scale, T @ P @ T.T / scale, atol=2e-5)
+    np.testing.assert_allclose(carried(P, POSTERIOR) / scale, T @ P @ T.T / scale, atol=2e-5)
 
 
 def test_the_unobservable_direction_goes_along():
     """P = x x^T at the point becomes x' x'^T at the belief."""
     P = np.zeros((18, 18))
     P[6:15, 6:15] = np.outer(POINT, POINT)
-    there = carried(P, BELIEF)[6:15, 6:15]
-    np.testing.assert_allclose(there, np.outer(BELIEF, BELIEF), rtol=1e-9, atol=1e-15)
+    there = carried(P, POSTERIOR)[6:15, 6:15]
+    np.testing.assert_allclose(there, np.outer(POSTERIOR, POSTERIOR), rtol=1e-9, atol=1e-15)
 
 
 def test_the_way_does_not_matter():
     """By way of another point, and back to where it began."""
-    P, detour = some_covariance(), 1.3 * BELIEF + 0.1 * POINT
-    np.testing.assert_allclose(carried(P, detour, BELIEF), carried(P, BELIEF), rtol=1e-9)
-    np.testing.assert_allclose(carried(P, BELIEF, POINT), P, rtol=1e-9)
+    P, detour = some_covariance(), 1.3 * POSTERIOR + 0.1 * POINT
+    np.testing.assert_allclose(carried(P, detour, POSTERIOR), carried(P, POSTERIOR), rtol=1e-9)
+    np.testing.assert_allclose(carried(P, POSTERIOR, POINT), P, rtol=1e-9)
 
 
 def test_the_distance_unit_is_one_percent_of_a_moment_or_three_percent_of_r():
     """1 % of sqrt(J_xx J_yy) = 4.35e-3 kg m^2; 3 % of |r| = 2.4 um."""
     for k, step in ((6, 4.35e-3), (3, 3.5e-3), (2, 2.4e-6)):
-        near, far = POINT.copy(), POINT.copy()
+        near, outlying = POINT.copy(), POINT.copy()
         near[k] += 0.98 * step
-        far[k] += 1.02 * step
-        assert distance(POINT, belief_at(near)) == pytest.approx(0.98, rel=2e-3)
-        assert distance(POINT, belief_at(far)) == pytest.approx(1.02, rel=2e-3)
+        outlying[k] += 1.02 * step
+        assert distance(POINT, posterior_at(near)) == pytest.approx(0.98, rel=2e-3)
+        assert distance(POINT, posterior_at(outlying)) == pytest.approx(1.02, rel=2e-3)
 
 
 def test_an_impossible_inertia_is_approached_and_stays_possible():
@@ -93,7 +93,7 @@ def test_an_impossible_inertia_is_approached_and_stays_possible():
     wild = body.copy()
     wild[3] = -0.35
     assert nearer(body, wild)[3] == pytest.approx(0.2625)
-    np.testing.assert_array_equal(nearer(body, BELIEF), BELIEF)
+    np.testing.assert_array_equal(nearer(body, POSTERIOR), POSTERIOR)
 
 
 def test_products_decide_whether_an_inertia_is_possible():

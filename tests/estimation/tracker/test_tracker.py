@@ -23,24 +23,24 @@ def bed(gyro: float):
 
 
 @cache
-def seen(gyro: float, seed: int = 3):
+def observed(gyro: float, seed: int = 3):
     return noisy(recording(120.0, move_at(60.0, 120.0), 5.0, gyro), seed)
 
 
 def tracked(gyro: float, params: Params, record=None):
-    record = seen(gyro) if record is None else record
+    record = observed(gyro) if record is None else record
     return track(record, bed(gyro), params, start(gyro))
 
 
 def start(gyro: float):
-    return first_state(0.0, seen(gyro).attitude.values[0], bed(gyro))
+    return first_state(0.0, observed(gyro).attitude.values[0], bed(gyro))
 
 
 @both_sensors
 def test_with_the_inertia_known_it_ends_where_the_fit_ends(gyro):
     """Centre of mass within one combined sd of the whole-record fit, on every axis."""
     known = replace(bed(gyro), inertia_sd=1e-6)
-    fit = reference_fit.estimate(seen(gyro), known, trajectory.Params(use_prior=True))
+    fit = reference_fit.estimate(observed(gyro), known, trajectory.Params(use_prior=True))
     found = tracked(gyro, Params())
     sd = np.sqrt(np.diag(fit.covariance_of(COM_NAMES)))
     assert np.all(np.abs(found.com[-1] - fit.com) < np.hypot(sd, found.com_sd[-1]))
@@ -50,8 +50,8 @@ def wrong(gyro: float):
     """The platform described with moments 2 % and products 1 % of a moment off."""
     body = bed(gyro).body
     off = np.diag([0.02, -0.02, 0.02]) * body.inertia_P
-    believed = body.inertia_P + off + 0.01 * body.inertia_P[0, 0] * (1 - np.eye(3))
-    return replace(bed(gyro), body=replace(body, inertia_P=believed), inertia_sd=0.02)
+    estimated = body.inertia_P + off + 0.01 * body.inertia_P[0, 0] * (1 - np.eye(3))
+    return replace(bed(gyro), body=replace(body, inertia_P=estimated), inertia_sd=0.02)
 
 
 @both_sensors
@@ -61,9 +61,11 @@ def test_with_the_inertia_to_be_learnt_it_ends_where_the_fit_ends(gyro):
     Where the masses stopped is part of the tracker's centre of mass, so the fit's last one counts.
     The tracker takes the camera's vertical for gravity's, so the fit is told the same.
     """
-    fit = reference_fit.estimate(seen(gyro), level(wrong(gyro)), trajectory.Params(use_prior=True))
-    first = first_state(0.0, seen(gyro).attitude.values[0], wrong(gyro))
-    found = track(seen(gyro), wrong(gyro), Params(com_walk=1e-10, torque_walk=1e-10), first)
+    fit = reference_fit.estimate(
+        observed(gyro), level(wrong(gyro)), trajectory.Params(use_prior=True)
+    )
+    first = first_state(0.0, observed(gyro).attitude.values[0], wrong(gyro))
+    found = track(observed(gyro), wrong(gyro), Params(com_walk=1e-10, torque_walk=1e-10), first)
     sd = np.sqrt(np.diag(fit.covariance_of((*END, *INERTIA))))
     ends = np.concatenate([found.com[-1] + SHIFT, found.inertia[-1]])
     assert np.all(np.abs(ends - fit.values((*END, *INERTIA))) < sd)
@@ -85,8 +87,8 @@ def test_in_parts_a_stop_at_the_cut_is_not_lost(gyro):
 
 def assert_same_in_parts(gyro: float, cut: float, since: float):
     whole = tracked(gyro, Params())
-    first = tracked(gyro, Params(), window(seen(gyro), 0.0, cut))
-    rest = track(window(seen(gyro), since, 120.0), bed(gyro), Params(), first.end)
+    first = tracked(gyro, Params(), window(observed(gyro), 0.0, cut))
+    rest = track(window(observed(gyro), since, 120.0), bed(gyro), Params(), first.end)
     np.testing.assert_array_equal(np.append(first.t, rest.t), whole.t)
     np.testing.assert_allclose(np.vstack([first.com, rest.com]), whole.com, rtol=0, atol=1e-9)
     np.testing.assert_allclose(np.vstack([first.sd, rest.sd]), whole.sd, rtol=1e-6)

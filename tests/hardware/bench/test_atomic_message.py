@@ -24,15 +24,15 @@ def test_the_block_ends_first():
 
 def test_it_does_what_it_did_before():
     """Whoever had taken Ctrl-C over has it again, and is told once."""
-    told = []
-    before = signal.signal(signal.SIGINT, lambda *_: told.append("told"))
+    reported = []
+    before = signal.signal(signal.SIGINT, lambda *_: reported.append("told"))
     try:
         with whole_message():
             signal.raise_signal(signal.SIGINT)
-            assert told == []
-        assert told == ["told"]
+            assert reported == []
+        assert reported == ["told"]
         signal.raise_signal(signal.SIGINT)
-        assert told == ["told"] * 2
+        assert reported == ["told"] * 2
     finally:
         signal.signal(signal.SIGINT, before)
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.hardware.bench.interlocks import Seen, silence, tripped, turning
+from equipoise.hardware.bench.interlocks import Observed, silence, tripped, turning
 from equipoise.hardware.transport.driver_protocol import BoardState
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import from_euler321
@@ -30,7 +30,7 @@ def board(phase="ready", at=0.0, goal=0.0, sure=True, sentence=""):
     return BoardState(phase, sentence, {"x": at}, {"x": goal}, 10.0, sure)
 
 
-CALM = Seen(10.0, attitudes(1, 2, 3), rates(1, 1, 1), {"imu": 0.1}, {"masses": board()})
+CALM = Observed(10.0, attitudes(1, 2, 3), rates(1, 1, 1), {"imu": 0.1}, {"masses": board()})
 
 
 def kind(**changes):
@@ -61,8 +61,8 @@ def test_rate_beyond_its_limit_stops_and_says_both():
 
 def test_without_a_gyro_the_rate_is_that_of_the_attitudes():
     """From 0 to 4 deg in two rows of 0.1 s: 20 deg/s."""
-    seen = replace(CALM, rates=(), attitudes=attitudes(0, 2, 4))
-    assert turning(seen) == pytest.approx(20 * DEG, rel=1e-9)
+    observed = replace(CALM, rates=(), attitudes=attitudes(0, 2, 4))
+    assert turning(observed) == pytest.approx(20 * DEG, rel=1e-9)
 
 
 def test_a_silent_sensor_stops_moving_masses_and_is_only_reported_at_rest():

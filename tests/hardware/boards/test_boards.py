@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from equipoise.hardware.boards.legs import next_leg
 from equipoise.hardware.boards.registry import BOARDS
-from equipoise.hardware.emulated.registry import BOARDS as FAR_SIDES
-from equipoise.hardware.links.row_buffer import Heard
+from equipoise.hardware.emulated.registry import BOARDS as OUTLYING_SIDES
+from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.errors import BenchStopped, InputError
 from tests.support.board_wire import BED, LETTERS, MM, TURN, Wire, board_of
@@ -19,8 +19,8 @@ SPEED = 8 * MM
 every_board = pytest.mark.parametrize("kind", sorted(BOARDS))
 
 
-def test_every_driver_has_a_far_side_and_is_tested_here():
-    assert set(BOARDS) == set(FAR_SIDES) == set(LETTERS)
+def test_every_driver_has_a_outlying_side_and_is_tested_here():
+    assert set(BOARDS) == set(OUTLYING_SIDES) == set(LETTERS)
 
 
 @every_board
@@ -158,9 +158,9 @@ def stands_until_home(wire):
 @pytest.mark.parametrize(
     ("trouble", "said"),
     [
-        (lambda wire: wire.far.press_reset(), "position is lost"),
-        (lambda wire: wire.far.hit_limit(), "a limit switch was hit"),
-        (lambda wire: wire.far.switch(False), "without power"),
+        (lambda wire: wire.outlying.press_reset(), "position is lost"),
+        (lambda wire: wire.outlying.hit_limit(), "a limit switch was hit"),
+        (lambda wire: wire.outlying.switch(False), "without power"),
     ],
 )
 def test_trouble_in_a_way_is_a_fault_in_words_and_ends_with_homing(kind, late, trouble, said):
@@ -172,7 +172,7 @@ def test_trouble_in_a_way_is_a_fault_in_words_and_ends_with_homing(kind, late, t
     state = wire.run(0.5)
     assert (state.phase, state.sure) == ("fault", False)
     assert said in state.sentence
-    wire.far.switch(True)
+    wire.outlying.switch(True)
     stands_until_home(wire)
 
 
@@ -195,11 +195,11 @@ def test_a_board_that_is_silent_is_a_fault_within_half_a_second(kind):
 def test_trouble_while_masses_stand_is_noticed_too(kind, trouble):
     wire = Wire(kind).at_home()
     if trouble == "reset":
-        wire.far.press_reset()
+        wire.outlying.press_reset()
     else:
-        wire.far.switch(False)
+        wire.outlying.switch(False)
         wire.run(0.1)
-        wire.far.switch(True)
+        wire.outlying.switch(True)
     wire.run(0.6)
     assert not wire.driver.state.sure
     with pytest.raises(BenchStopped):
@@ -249,7 +249,7 @@ def test_a_silent_board_is_reported_as_a_fault(kind):
 @every_board
 def test_an_axis_that_this_kind_of_board_does_not_have_is_refused(kind):
     axes = (replace(board_of(kind).axes[0], letter="9"),)
-    for make in (BOARDS[kind], FAR_SIDES[kind]):
+    for make in (BOARDS[kind], OUTLYING_SIDES[kind]):
         with pytest.raises(InputError, match="letter '9'"):
             make(replace(board_of(kind), axes=axes), BED.masses)
 
@@ -269,16 +269,16 @@ def test_what_is_recorded_is_where_masses_were(kind, turn):
     wire.run(0.7)
     wire.driver.halt(wire.t)
     wire.run(1.0)
-    heard = Heard(BED.masses)
-    for t, position, wants in wire.told:
-        heard.masses(position, wants, t)
-    rows = heard.taken().masses
+    received = RowBuffer(BED.masses)
+    for t, position, wants in wire.reported:
+        received.masses(position, wants, t)
+    rows = received.taken().masses
     t = np.arange(begun, wire.t - 0.2, 0.005)
     for k, name in enumerate("xyz"):
-        seen = np.interp(t, rows.t, rows.values[:, k])
+        observed = np.interp(t, rows.t, rows.values[:, k])
         true = np.array([wire.true(name, each) for each in t])
-        assert np.max(np.abs(seen - true)) < 0.04 * SPEED
-        assert seen[-1] == pytest.approx(true[-1], abs=2e-6)
+        assert np.max(np.abs(observed - true)) < 0.04 * SPEED
+        assert observed[-1] == pytest.approx(true[-1], abs=2e-6)
 
 
 @every_board

@@ -19,7 +19,7 @@ from equipoise.hardware.camera.sight import Sight  # noqa: E402
 from equipoise.hardware.camera.tag_board import TagBoard, board_print  # noqa: E402
 from equipoise.hardware.camera.upright import camera_to_laboratory, level_up  # noqa: E402
 from equipoise.hardware.emulated.camera import EmulatedCamera, renderer_of  # noqa: E402
-from equipoise.hardware.emulated.rendering import Look, Renderer, Sheet, project  # noqa: E402
+from equipoise.hardware.emulated.rendering import Appearance, Renderer, Sheet, project  # noqa: E402
 from equipoise.hardware.links.frame_transform import placed  # noqa: E402
 from equipoise.hardware.sensors.camera import Camera  # noqa: E402
 from equipoise.hardware.transport.mjpeg_stream import Chunks, Parts  # noqa: E402
@@ -66,7 +66,7 @@ def stream(device, attitudes, rate=5.0):
     camera = EmulatedCamera(device)
     hello = camera.take(b"GET /stream HTTP/1.1\r\nHost: x\r\n\r\n", 0.0)
     t = np.arange(len(attitudes)) / rate
-    return hello, camera.tell(Recording(Samples(t, np.array(attitudes))))
+    return hello, camera.messages(Recording(Samples(t, np.array(attitudes))))
 
 
 # --- Geometry --------------------------------------------------------------------------------
@@ -103,12 +103,12 @@ def test_a_lens_by_hand():
     y' = 0.0996 + 0.01 x (0.05 + 0.02) + 2 x 0.02 x 0.02 = 0.1011.
     """
     lens = Lens(1000, 2000, 600, 400, 1280, 960, (-0.1, 0.4, 0.01, 0.02, 0.0))
-    seen = project(np.array([[0.4, 0.2, 2.0]]), lens)
-    np.testing.assert_allclose(seen, [[802.2, 602.2]], atol=1e-9)
+    observed = project(np.array([[0.4, 0.2, 2.0]]), lens)
+    np.testing.assert_allclose(observed, [[802.2, 602.2]], atol=1e-9)
     theirs = cv2.projectPoints(
         np.array([[0.4, 0.2, 2.0]]), np.zeros(3), np.zeros(3), lens.matrix, lens.coefficients
     )[0]
-    np.testing.assert_allclose(theirs.reshape(1, 2), seen, atol=1e-9)
+    np.testing.assert_allclose(theirs.reshape(1, 2), observed, atol=1e-9)
 
 
 def test_which_way_is_up_by_hand():
@@ -170,7 +170,7 @@ def test_errors_are_small_and_as_stated():
     The median is wanted below 0.05 deg; found is some 0.006. Of e^T C^-1 e, 3 on average, the mean
     of 60 is 3 within 0.1 x 3 (one sd); bounds of 30 % leave room for a floor and for JPEG.
     """
-    found = [check.seen(look, 12, 5) for look in check.LOOKS.values()]
+    found = [check.observed(measurement, 12, 5) for measurement in check.MEASUREMENTS.values()]
     errors = np.concatenate([each.errors for each in found])
     nees = np.concatenate([each.nees for each in found])
     assert len(errors) >= 59
@@ -184,8 +184,8 @@ def test_less_ink_turns_nothing():
     eye = eye_of(unit().settings, "t")
     fat = replace(eye.board, marker=0.0408, gap=0.0092)  # what the settings say; the print has 40
     turn = DOWN @ turned(15, -10, 30)
-    picture = renderer_of(eye, Look()).picture(turn, np.array([0.02, 0.01, 0.7]))
-    pose = Sight(fat, eye.lens, "t").looked(picture)
+    picture = renderer_of(eye, Appearance()).picture(turn, np.array([0.02, 0.01, 0.7]))
+    pose = Sight(fat, eye.lens, "t").observe(picture)
     assert np.linalg.norm(difference(pose.attitude, from_matrix(turn))) < 0.03 * DEG
     assert pose.rms < 0.1
 
@@ -209,14 +209,14 @@ def test_a_small_distant_board_never_yields_the_mirrored_pose():
     lens = Lens(1200, 1200, 319.5, 239.5, 640, 480)
     eye = replace(check.EYE, board=TagBoard("4X4_50", 2, 1, 0.040, 0.010), lens=lens)
     renderer, rng, said = (
-        renderer_of(eye, Look(noise=4.0, blur=1.0), 3),
+        renderer_of(eye, Appearance(noise=4.0, blur=1.0), 3),
         np.random.default_rng(3),
         [],
     )
     for _ in range(40):
         side = rng.uniform(0, 2 * np.pi)
         turn = turned(15 * np.cos(side), 15 * np.sin(side), 0) @ DOWN
-        pose = Sight(eye.board, lens, "t").looked(renderer.picture(turn, np.array([0, 0, 1.9])))
+        pose = Sight(eye.board, lens, "t").observe(renderer.picture(turn, np.array([0, 0, 1.9])))
         said.append(
             np.linalg.norm(difference(pose.attitude, from_matrix(turn))) / DEG
             if isinstance(pose, Pose)
@@ -295,7 +295,7 @@ def test_a_server_that_refuses_gives_no_rows():
     camera = EmulatedCamera(unit())
     assert camera.take(b"POST / HTTP/1.1\r\n\r\n", 0.0).startswith(b"HTTP/1.0 400")
     q = np.array([[1.0, 0.0, 0.0, 0.0]])
-    assert camera.tell(Recording(Samples(np.zeros(1), q))) == []
+    assert camera.messages(Recording(Samples(np.zeros(1), q))) == []
 
 
 @given(st.binary(max_size=400), st.integers(0, 1999), st.integers(1, 300))
@@ -365,7 +365,7 @@ def views():
     """Return chessboard corners in 20 drawn pictures through a lens that bends, and the lens."""
     charuco = aruco.Charuco("4X4_50", 8, 6, 0.030, 0.022)
     lens = Lens(820.0, 815.0, 322.0, 236.0, 640, 480, (-0.2, 0.06, 0.001, -0.001, 0.0))
-    renderer = Renderer(charuco_sheet(charuco, 820 / 0.3), lens, Look(noise=2.0))
+    renderer = Renderer(charuco_sheet(charuco, 820 / 0.3), lens, Appearance(noise=2.0))
     rng, pictures = np.random.default_rng(2), []
     for k in range(20):
         tilt, side = (20 + 15 * (k % 2)) * DEG, rng.uniform(0, 2 * np.pi)
@@ -377,8 +377,8 @@ def views():
 
 
 def test_a_lens_is_found_again(views):
-    seen, lens = views
-    found = lens_from(seen, (640, 480))
+    observed, lens = views
+    found = lens_from(observed, (640, 480))
     assert found.lens.rms < 0.3
     assert found.lens.fx == pytest.approx(lens.fx, abs=max(4 * found.focal_sd, 0.5))
     assert found.lens.fy == pytest.approx(lens.fy, abs=max(4 * found.focal_sd, 0.5))
@@ -389,15 +389,15 @@ def test_a_lens_is_found_again(views):
 
 
 def test_pictures_that_do_not_determine_a_lens_are_refused(views):
-    seen, _ = views
+    observed, _ = views
     with pytest.raises(InputError, match="the chessboard in 5 of 5 pictures"):
-        lens_from(seen[:5], (640, 480))
+        lens_from(observed[:5], (640, 480))
     with pytest.raises(InputError, match="right and bottom"):
-        lens_from(seen, (1280, 960))
+        lens_from(observed, (1280, 960))
     rng = np.random.default_rng(0)
     with pytest.raises(InputError, match="px off on average"):
         lens_from(
-            [View(v.board, v.picture + rng.normal(size=v.picture.shape) * 3) for v in seen],
+            [View(v.board, v.picture + rng.normal(size=v.picture.shape) * 3) for v in observed],
             (640, 480),
         )
     with pytest.raises(InputError, match="clearly tilted in 0 of 12 pictures"):
@@ -412,5 +412,7 @@ def tilted_view(k, tilt, rng):
     place = np.array([0.03 * (k % 4 - 1.5), 0.03 * (k // 4 - 1), 0.33])
     turn = turned(tilt * np.cos(k), tilt * np.sin(k), 0) @ turned(0, 0, 5 * k)
     exact = project(board @ turn.T + place, Lens(820, 820, 319.5, 239.5, 640, 480))
-    seen = np.all((exact > 0) & (exact < [640, 480]), axis=1)
-    return View(board[seen], exact[seen] + 0.3 * rng.normal(size=(np.count_nonzero(seen), 2)))
+    observed = np.all((exact > 0) & (exact < [640, 480]), axis=1)
+    return View(
+        board[observed], exact[observed] + 0.3 * rng.normal(size=(np.count_nonzero(observed), 2))
+    )

@@ -5,7 +5,7 @@ import pytest
 
 from equipoise.actuators.stops import stops_of
 from equipoise.hardware.links.mass_interpolation import Answer, on_the_way, rows_to
-from equipoise.hardware.links.row_buffer import Heard
+from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.transport.driver_protocol import BoardState
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.hardware import Axis
@@ -71,14 +71,14 @@ def test_answers_that_jitter_show_the_moves_there_were(seed):
     time between answers can make them: 70 ms at a start or an arrival, 20 ms on the way.
     """
     rng = np.random.default_rng(seed)
-    heard = Heard(MASSES)
-    for asked in np.arange(0.0, 4.0, 0.05):
+    received = RowBuffer(MASSES)
+    for requested in np.arange(0.0, 4.0, 0.05):
         late = rng.choice([0.0, 0.02, 0.06], p=[0.5, 0.4, 0.1]) * rng.random()
-        at = np.round(truth(asked), 6)
-        goal = GOALS if 0.5 <= asked < 2.0 else np.zeros(3)
+        at = np.round(truth(requested), 6)
+        goal = GOALS if 0.5 <= requested < 2.0 else np.zeros(3)
         wants = {n: bool(abs(a - g) > 2e-6) for n, a, g in zip(NAMES, at, goal, strict=True)}
-        heard.masses(dict(zip(NAMES, at, strict=True)), wants, asked + late)
-    rows = heard.taken().masses
+        received.masses(dict(zip(NAMES, at, strict=True)), wants, requested + late)
+    rows = received.taken().masses
     assert np.all(np.diff(rows.t) > 0)
     wrong = np.abs(rows.values - np.array([truth(t) for t in rows.t]))
     assert wrong.max() < 8e-3 * 0.07

@@ -122,7 +122,7 @@ def test_a_declaration_that_cannot_be_is_named(settings, said):
         LineProtocol(over("serial:X", **settings))
 
 
-def test_what_the_far_side_prints_in_any_columns_comes_back():
+def test_what_the_outlying_side_prints_in_any_columns_comes_back():
     """Angles and JSON too: 0.3 deg/s is not the number that stands in rad/s."""
     t = np.array([0.0, 0.02])
     q = from_euler321(np.array([0.1, 0.2]), np.array([-0.3, 0.3]), np.array([1.0, 2.0]))
@@ -131,7 +131,7 @@ def test_what_the_far_side_prints_in_any_columns_comes_back():
     device = over("serial:X", format="json",
                   columns=("n", "t_s", *angles, "gx_rad_s", "gy_rad_s", "gz_rad_s"))  # fmt: skip
     driver = LineProtocol(device)
-    lines = EmulatedLineProtocol(device).tell(Recording(Samples(t, q), Samples(t, w)))
+    lines = EmulatedLineProtocol(device).messages(Recording(Samples(t, q), Samples(t, w)))
     found = [reading for line in lines for reading in driver.feed(line)]
     np.testing.assert_allclose([r.values for r in found if r.channel == "attitude"], q, atol=1e-9)
     np.testing.assert_allclose([r.values for r in found if r.channel == "rate"], w, atol=1e-9)

@@ -119,14 +119,14 @@ def test_a_body_is_found_by_its_name():
     driver.opened()
     hello = driver.due(0.0)
     assert hello == b"\x00\x00\x05\x00Ping\x00"
-    assert driver.feed(motive.tell(rows)[0]) == []
+    assert driver.feed(motive.messages(rows)[0]) == []
     driver.feed(motive.take(hello, 0.0))
     assert driver.due(0.5) == b""
-    ask = driver.due(1.0)
-    assert ask == b"\x04\x00\x01\x00\x00"
-    driver.feed(motive.take(ask, 1.0))
+    request = driver.due(1.0)
+    assert request == b"\x04\x00\x01\x00\x00"
+    driver.feed(motive.take(request, 1.0))
     assert driver.due(2.0) == b"\x0a\x00\x01\x00\x00"
-    (row,) = driver.feed(motive.tell(rows)[0])
+    (row,) = driver.feed(motive.messages(rows)[0])
     assert row.values == pytest.approx((HALF, 0, HALF, 0), abs=1e-7)
     assert driver.due(3.0) == b"\x0a\x00\x01\x00\x00"
     assert driver.due(4.0) == hello  # nothing has come for a second: Motive began anew
@@ -150,14 +150,14 @@ def test_a_declaration_that_cannot_be_is_named(settings, said):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the library reads 4 of 8 bytes there")
-def test_the_library_reads_the_far_sides_frames_likewise():
+def test_the_library_reads_the_outlying_sides_frames_likewise():
     """A second reader of the format, by others; it stops before the flags at the end."""
     natnet = pytest.importorskip("natnet")
     from natnet.data_frame import DataFrame
     from natnet.packet_buffer import PacketBuffer
 
     t = np.array([0.25])
-    (message,) = EmulatedNatNet(unit("natnet", "z_up")).tell(
+    (message,) = EmulatedNatNet(unit("natnet", "z_up")).messages(
         Recording(Samples(t, np.array([[0.5] * 4])))
     )
     frame = DataFrame.read_from_buffer(PacketBuffer(message[4:]), natnet.Version(4, 1))

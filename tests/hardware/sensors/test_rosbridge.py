@@ -80,8 +80,8 @@ def two_topics():
 
 def test_attitude_and_rate_may_come_from_two_topics():
     driver = RosBridge(two_topics())
-    asked = [json.loads(line) for line in driver.due(0.0).splitlines()]
-    assert asked == [
+    requested = [json.loads(line) for line in driver.due(0.0).splitlines()]
+    assert requested == [
         {"op": "subscribe", "topic": "/mocap/pose", "type": POSE},
         {"op": "subscribe", "topic": "/imu", "type": "sensor_msgs/msg/Imu"},
     ]
@@ -121,11 +121,11 @@ ANY_JSON = st.recursive(
 )
 
 
-def places(told, path=()):
+def places(reported, path=()):
     """Return the paths to everything in a message."""
     found = [path]
-    inner = told.items() if isinstance(told, dict) else enumerate(told)
-    for key, value in inner if isinstance(told, (dict, list)) else ():
+    inner = reported.items() if isinstance(reported, dict) else enumerate(reported)
+    for key, value in inner if isinstance(reported, (dict, list)) else ():
         found += places(value, (*path, key)) if isinstance(value, (dict, list)) else [(*path, key)]
     return found
 
@@ -136,17 +136,17 @@ WHOLE = json.loads(published(imu()))
 @settings(max_examples=200, deadline=None)
 @given(st.sampled_from(places(WHOLE)[1:]), ANY_JSON)
 def test_anything_in_the_place_of_anything_raises_nothing(path, value):
-    told = copy.deepcopy(WHOLE)
-    at = told
+    reported = copy.deepcopy(WHOLE)
+    at = reported
     for key in path[:-1]:
         at = at[key]
     at[path[-1]] = value
-    for reading in RosBridge(unit("rosbridge")).feed(json.dumps(told).encode()):
+    for reading in RosBridge(unit("rosbridge")).feed(json.dumps(reported).encode()):
         assert np.all(np.isfinite(reading.values))
 
 
 @pytest.mark.parametrize(
-    ("told", "said"),
+    ("reported", "said"),
     [
         ({"topic_attitude": "/imu"}, "'rate'; wanted a setting topic_"),
         ({"topic_attitude": "/a", "topic_rate": "/a", "type_attitude": POSE}, "two topics"),
@@ -154,9 +154,9 @@ def test_anything_in_the_place_of_anything_raises_nothing(path, value):
         ({"topic": "/a"}, "'topic'"),
     ],
 )
-def test_a_declaration_that_cannot_be_is_named(told, said):
+def test_a_declaration_that_cannot_be_is_named(reported, said):
     with pytest.raises(InputError, match=said):
-        RosBridge(unit("rosbridge", **told))
+        RosBridge(unit("rosbridge", **reported))
 
 
 # --- A real WebSocket ------------------------------------------------------------------------
@@ -172,65 +172,67 @@ def until(take, patience=2.0):
 
 @pytest.fixture
 def socket():
-    far = far_side(Port("ws://ros:9090/bridge"))
-    near = open_port(Port(far.address))
-    yield near, far
+    outlying = far_side(Port("ws://ros:9090/bridge"))
+    near = open_port(Port(outlying.address))
+    yield near, outlying
     near.close()
-    far.close()
+    outlying.close()
 
 
 def test_messages_arrive_whole_both_ways(socket):
     """A message of 200 kB is still one; two lines that are sent are two messages."""
-    near, far = socket
-    assert far.address.endswith("/bridge")
+    near, outlying = socket
+    assert outlying.address.endswith("/bridge")
     big = json.dumps({"name": "ä" * 100_000}, ensure_ascii=False).encode()
-    far.send(big)
-    far.send(b"second")
+    outlying.send(big)
+    outlying.send(b"second")
     found = []
     assert until(lambda: found.extend(near.receive()) or len(found) == 2)
     assert found == [big, b"second"]
     near.send(b'{"a": 1}\n{"b": 2}\n')
-    heard = []
-    assert until(lambda: heard.extend(far.receive().splitlines()) or len(heard) == 2)
-    assert heard == [b'{"a": 1}', b'{"b": 2}']
+    received = []
+    assert until(lambda: received.extend(outlying.receive().splitlines()) or len(received) == 2)
+    assert received == [b'{"a": 1}', b'{"b": 2}']
 
 
 def test_a_listener_who_takes_nothing_keeps_nobody_waiting(socket):
     """40 MB to one who does not look: calls are short, what is too much is left out whole."""
-    near, far = socket
+    near, outlying = socket
     longest = 0.0
     for _ in range(400):
         start = time.monotonic()
-        far.send(b"x" * 100_000)
+        outlying.send(b"x" * 100_000)
         longest = max(longest, time.monotonic() - start)
     assert longest < 0.5
     found = []
-    while until(lambda: (far.receive(), found.extend(fresh := near.receive()), fresh)[-1], 0.2):
+    while until(
+        lambda: (outlying.receive(), found.extend(fresh := near.receive()), fresh)[-1], 0.2
+    ):
         pass
     assert 10 < len(found) < 400
     assert set(found) == {b"x" * 100_000}
-    far.send(b"last")
+    outlying.send(b"last")
     assert until(near.receive) == [b"last"]
 
 
 def test_a_server_that_goes_is_a_port_that_is_lost(socket):
-    near, far = socket
-    far.close()
+    near, outlying = socket
+    outlying.close()
     with pytest.raises(PortLost):
         until(lambda: near.receive() and False)
 
 
 def test_the_newest_listener_counts(socket):
-    _, far = socket
-    other = open_port(Port(far.address))
-    far.send(b"hello")
+    _, outlying = socket
+    other = open_port(Port(outlying.address))
+    outlying.send(b"hello")
     assert until(other.receive) == [b"hello"]
     other.close()
 
 
 def test_topics_without_subscription_are_not_sent():
     device = replace(two_topics(), gives=("rate",))
-    far = EmulatedRosBridge(device)
-    status = json.loads(far.take(b'{"op": "subscribe", "topic": "/x", "type": "y"}\n', 0.0))
+    outlying = EmulatedRosBridge(device)
+    status = json.loads(outlying.take(b'{"op": "subscribe", "topic": "/x", "type": "y"}\n', 0.0))
     assert status["op"] == "status"
-    assert far.take(RosBridge(device).due(0.0), 0.0) == b""
+    assert outlying.take(RosBridge(device).due(0.0), 0.0) == b""

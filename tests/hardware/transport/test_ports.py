@@ -36,29 +36,29 @@ def wait_for(take, wanted=bytes):
 
 @pytest.fixture(params=KINDS)
 def wire(request):
-    far = far_side(Port(request.param))
-    near = open_port(Port(far.address))
-    yield near, far
+    outlying = far_side(Port(request.param))
+    near = open_port(Port(outlying.address))
+    yield near, outlying
     near.close()
-    far.close()
+    outlying.close()
 
 
-def near_speaks_first(far):
-    return far.address.startswith("udpout:")
+def near_speaks_first(outlying):
+    return outlying.address.startswith("udpout:")
 
 
 def test_bytes_arrive_unchanged_both_ways(wire):
     """All 256 values: a terminal that turned returns into line feeds would be seen."""
-    near, far = wire
+    near, outlying = wire
     message = bytes(range(256))
-    if near_speaks_first(far):
+    if near_speaks_first(outlying):
         near.send(b"hello")
-        assert wait_for(far.receive) == b"hello"
-    far.receive()  # takes the connection
-    far.send(message)
+        assert wait_for(outlying.receive) == b"hello"
+    outlying.receive()  # takes the connection
+    outlying.send(message)
     assert wait_for(lambda: b"".join(near.receive()), lambda d: len(d) == 256) == message
     near.send(message[::-1])
-    assert wait_for(far.receive, lambda d: len(d) == 256) == message[::-1]
+    assert wait_for(outlying.receive, lambda d: len(d) == 256) == message[::-1]
 
 
 def test_receiving_does_not_wait(wire):
@@ -70,10 +70,10 @@ def test_receiving_does_not_wait(wire):
 
 @pytest.mark.parametrize("kind", KINDS[:2])
 def test_a_port_that_is_pulled_out_is_lost(kind):
-    far = far_side(Port(kind))
-    near = open_port(Port(far.address))
-    far.receive()
-    far.close()
+    outlying = far_side(Port(kind))
+    near = open_port(Port(outlying.address))
+    outlying.receive()
+    outlying.close()
     with pytest.raises(PortLost):
         wait_for(lambda: b"".join(near.receive()))
     near.close()
@@ -89,12 +89,12 @@ def test_an_unreachable_port_is_reported_with_its_address():
 
 
 def test_a_connection_comes_back_when_the_device_does():
-    far = far_side(Port("tcp:host:23"))
-    line = Connection(Port(far.address), open_port)
+    outlying = far_side(Port("tcp:host:23"))
+    line = Connection(Port(outlying.address), open_port)
     assert line.turn(0.0).opened
-    far.receive()
-    number = int(far.address.rpartition(":")[2])
-    far.close()
+    outlying.receive()
+    number = int(outlying.address.rpartition(":")[2])
+    outlying.close()
     t, lost = 0.0, ""
     while not lost and t < 2:
         t, lost = t + 0.01, line.turn(t).lost

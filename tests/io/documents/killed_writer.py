@@ -26,7 +26,8 @@ def run(made_at="2026-03-01T12:00:00+01:00", **more) -> LoggedRun:
     )
     known = {
         "name": "", "kind": "balance", "platform": "Mock-up", "configuration": "c1",
-        "method": "look_and_move", "bench": "simulated", "outcome": "passed", "sentence": "Good.",
+        "method": "measure_and_move", "bench": "simulated", "outcome": "passed",
+        "sentence": "Good.",
         "parameters": home, "standing": home[:1], "provenance": {"seed": "1"},
     }  # fmt: skip
     return LoggedRun(made_at=made_at, **(known | more))
@@ -48,14 +49,14 @@ def write_for_ever(folder: Path, child: int, said: int) -> None:
 
 def trial(folder: Path, child: int, delay: float) -> str:
     """Kill one that writes, at a moment after its first run: a slow disk writes that one too."""
-    heard, said = os.pipe()
+    received, said = os.pipe()
     pid = os.fork()
     if pid == 0:
-        os.close(heard)
+        os.close(received)
         write_for_ever(folder, child, said)
     os.close(said)
-    assert os.read(heard, 1) == b"!"
-    os.close(heard)
+    assert os.read(received, 1) == b"!"
+    os.close(received)
     time.sleep(delay)
     os.kill(pid, signal.SIGKILL)
     os.waitpid(pid, 0)

@@ -28,7 +28,7 @@ from tests.support.sample_logs import (
     bag_2_mcap,
     bag_2_mcap_file,
     record,
-    told,
+    reported,
     ulog,
 )
 
@@ -73,14 +73,14 @@ BAGS = {
 @pytest.mark.parametrize("kind", [IMU, POSE, TURNED, ODOMETRY])
 def test_bags_of_every_type_are_read(tmp_path, bag, kind):
     """Attitude scalar first, rate in body axes, the stamps' times, from zero."""
-    seen = read_recording(bag(tmp_path / "run.bag", {"/platform": kind}))
-    np.testing.assert_array_equal(seen.attitude.t, [0.0, 0.25, 0.5, 0.75])
-    np.testing.assert_allclose(seen.attitude.values, [TURN] * 4, atol=1e-15)
+    observed = read_recording(bag(tmp_path / "run.bag", {"/platform": kind}))
+    np.testing.assert_array_equal(observed.attitude.t, [0.0, 0.25, 0.5, 0.75])
+    np.testing.assert_allclose(observed.attitude.values, [TURN] * 4, atol=1e-15)
     if kind in (IMU, ODOMETRY):
-        np.testing.assert_array_equal(seen.rate.values[:, 0], 0.1 * np.arange(4))
-        np.testing.assert_array_equal(seen.rate.values[:, 1:], [(0.2, -0.3)] * 4)
+        np.testing.assert_array_equal(observed.rate.values[:, 0], 0.1 * np.arange(4))
+        np.testing.assert_array_equal(observed.rate.values[:, 1:], [(0.2, -0.3)] * 4)
     else:
-        assert seen.rate is None
+        assert observed.rate is None
 
 
 @pytest.mark.parametrize("bag", BAGS.values(), ids=BAGS.keys())
@@ -91,10 +91,10 @@ def test_two_topics_of_a_type_are_listed(tmp_path, bag):
 
 def test_a_pose_goes_before_what_an_inertial_unit_makes_up(tmp_path):
     """And the notes say which topic gave what."""
-    seen = read_recording(bag_1(tmp_path / "run.bag", {"/imu": IMU, "/camera": POSE}))
-    told = " ".join(seen.notes)
-    assert "attitude: taken from topic '/camera'" in told
-    assert "rate: taken from topic '/imu'" in told
+    observed = read_recording(bag_1(tmp_path / "run.bag", {"/imu": IMU, "/camera": POSE}))
+    reported = " ".join(observed.notes)
+    assert "attitude: taken from topic '/camera'" in reported
+    assert "rate: taken from topic '/imu'" in reported
 
 
 def test_a_bag_without_what_we_know_is_refused(tmp_path):
@@ -139,23 +139,25 @@ def test_a_log_of_px4_is_read_in_axes_whose_z_is_up(tmp_path, rates):
     Level is level; a roll right side down is about +x in both; pitch and yaw rates change sign.
     """
     (tmp_path / "run.ulg").write_bytes(ulog(rates))
-    seen = read_recording(tmp_path / "run.ulg")
-    np.testing.assert_allclose(seen.rate.t, np.arange(5) / 10, atol=1e-12)
-    np.testing.assert_allclose(seen.rate.values, [(1.0, -0.25, 0.5)] * 5, atol=1e-7)
-    np.testing.assert_allclose(seen.attitude.t, np.arange(5) / 10, atol=1e-12)
+    observed = read_recording(tmp_path / "run.ulg")
+    np.testing.assert_allclose(observed.rate.t, np.arange(5) / 10, atol=1e-12)
+    np.testing.assert_allclose(observed.rate.values, [(1.0, -0.25, 0.5)] * 5, atol=1e-7)
+    np.testing.assert_allclose(observed.attitude.t, np.arange(5) / 10, atol=1e-12)
     half = 0.05 * np.arange(5)
     wanted = np.stack([np.cos(half), np.sin(half), 0 * half, 0 * half], axis=1)
-    np.testing.assert_allclose(np.abs(np.sum(seen.attitude.values * wanted, axis=1)), 1, atol=1e-7)
+    np.testing.assert_allclose(
+        np.abs(np.sum(observed.attitude.values * wanted, axis=1)), 1, atol=1e-7
+    )
 
 
 def test_a_heading_east_turns_the_other_way_about_up(tmp_path):
     """NED yaw of +90 deg, from north to east, is -90 deg about our up."""
     east = b"".join(
-        told(b"D", struct.pack("<HQQ4f", 0, k, k, np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
+        reported(b"D", struct.pack("<HQQ4f", 0, k, k, np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
         for k in range(9_000_000, 9_000_004)
     )
     head = ulog("sensor_combined")
-    (tmp_path / "run.ulg").write_bytes(head[: head.index(told(b"D", b"\0\0")[2:4]) - 2] + east)
+    (tmp_path / "run.ulg").write_bytes(head[: head.index(reported(b"D", b"\0\0")[2:4]) - 2] + east)
     q = read_recording(tmp_path / "run.ulg").attitude.values[-1]
     np.testing.assert_allclose(np.abs(q @ [np.sqrt(0.5), 0, 0, -np.sqrt(0.5)]), 1, atol=1e-6)
 
@@ -187,10 +189,10 @@ def test_a_mat_file_of_version_7_3_is_refused_with_advice_to_save_as_v7(tmp_path
 def test_a_mat_file_with_rows_texts_and_numbers_beside_is_read(tmp_path):
     """As MATLAB saves a workspace."""
     t = np.arange(5.0)
-    told_ = {"time_s": t, "omega_x_rad_s": t, "omega_y_rad_s": t + 1, "omega_z_rad_s": t + 2}
-    savemat(tmp_path / "run.mat", told_ | {"name": "platform", "mass": 4.0, "J": np.eye(3)})
-    seen = read_recording(tmp_path / "run.mat")
-    np.testing.assert_array_equal(seen.rate.values, np.stack([t, t + 1, t + 2], axis=1))
+    reported_ = {"time_s": t, "omega_x_rad_s": t, "omega_y_rad_s": t + 1, "omega_z_rad_s": t + 2}
+    savemat(tmp_path / "run.mat", reported_ | {"name": "platform", "mass": 4.0, "J": np.eye(3)})
+    observed = read_recording(tmp_path / "run.mat")
+    np.testing.assert_array_equal(observed.rate.values, np.stack([t, t + 1, t + 2], axis=1))
 
 
 # --- Broken ------------------------------------------------------------------------------------

@@ -31,23 +31,23 @@ def test_a_client_receives_rows_with_their_times():
             assert client.subprotocol == PROTOCOL
             offered = {}
             while "/rate" not in offered:
-                told = json.loads(client.recv(PATIENCE))
-                offered |= {c["topic"]: c for c in told.get("channels", [])}
+                reported = json.loads(client.recv(PATIENCE))
+                offered |= {c["topic"]: c for c in reported.get("channels", [])}
             assert offered["/attitude"]["schemaName"] == "foxglove.FrameTransform"
-            assert "clientPublish" not in told.get("capabilities", [])
+            assert "clientPublish" not in reported.get("capabilities", [])
             wanted = {"id": 7, "channelId": offered["/rate"]["id"]}
             client.send(json.dumps({"op": "subscribe", "subscriptions": [wanted]}))
-            until, seen = time.monotonic() + PATIENCE, b""
-            while not seen and time.monotonic() < until:
+            until, observed = time.monotonic() + PATIENCE, b""
+            while not observed and time.monotonic() < until:
                 view.rows(rows(0.25))
                 try:
                     message = client.recv(0.05)
                 except TimeoutError:
                     continue
-                seen = message if isinstance(message, bytes) and message[0] == 1 else b""
-    kind, subscription, ns = struct.unpack_from("<BIQ", seen)
+                observed = message if isinstance(message, bytes) and message[0] == 1 else b""
+    kind, subscription, ns = struct.unpack_from("<BIQ", observed)
     assert (kind, subscription, ns) == (1, 7, ZERO + 250_000_000)
-    assert json.loads(seen[13:]) == {"x_rad_s": 0.1, "y_rad_s": 0.0, "z_rad_s": -2.0}
+    assert json.loads(observed[13:]) == {"x_rad_s": 0.1, "y_rad_s": 0.0, "z_rad_s": -2.0}
 
 
 def test_it_listens_on_this_computer_alone():

@@ -51,12 +51,12 @@ def test_an_event_is_in_the_file_at_once(tmp_path):
         file.rows(rows(0, 10))
         file.event(0.125, "interlock", "Tilt 31 deg; stopped.", {"tilt_deg": 31.0, "of": ["x1"]})
         (event,) = events_of(path)
-        seen = read_recording(path)
+        observed = read_recording(path)
     assert (event.t, event.kind, event.sentence) == (0.125, "interlock", "Tilt 31 deg; stopped.")
     assert event.data == {"tilt_deg": 31.0, "of": ["x1"]}
-    assert seen.rate is not None
-    assert len(seen.rate) == 10
-    assert "no end" in " ".join(seen.notes)
+    assert observed.rate is not None
+    assert len(observed.rate) == 10
+    assert "no end" in " ".join(observed.notes)
 
 
 def test_rows_are_in_the_file_after_half_a_second(tmp_path):
@@ -150,11 +150,11 @@ def test_a_full_disk_stops_with_one_sentence_and_an_intact_file(tmp_path):
     sentence, *again = done.stdout.splitlines()
     assert again == ["stopped"] * 4  # rows, event, turn, close
     assert sentence.startswith(f"{path}: recording stopped ({os.strerror(errno.EFBIG)})")
-    seen = read_recording(path)
-    wanted = rows(0, len(seen.rate))
-    assert len(seen.rate) > 100
-    np.testing.assert_array_equal(seen.rate.values, wanted.rate.values)
-    np.testing.assert_array_equal(seen.attitude.values, wanted.attitude.values)
+    observed = read_recording(path)
+    wanted = rows(0, len(observed.rate))
+    assert len(observed.rate) > 100
+    np.testing.assert_array_equal(observed.rate.values, wanted.rate.values)
+    np.testing.assert_array_equal(observed.attitude.values, wanted.attitude.values)
     assert 20_000 < path.stat().st_size <= 30_000
 
 

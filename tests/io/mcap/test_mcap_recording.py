@@ -60,10 +60,10 @@ def read_bytes_as(content: bytes, folder) -> Recording:
     return read_recording(path)
 
 
-def assert_part_of(seen: Recording, wanted: Recording) -> None:
+def assert_part_of(observed: Recording, wanted: Recording) -> None:
     """Every row that is there is one of those that were written, to the last bit."""
     for name in ("attitude", "rate"):
-        ours, theirs = getattr(seen, name), getattr(wanted, name)
+        ours, theirs = getattr(observed, name), getattr(wanted, name)
         if ours is None:
             continue
         at = np.searchsorted(theirs.t, ours.t - 1e-12)
@@ -173,10 +173,10 @@ def test_attitudes_of_other_programs_are_read(tmp_path, kind):
     }[kind]
     channel = {"FrameTransform": FrameTransformChannel, "PoseInFrame": PoseInFrameChannel}[kind]
     foxglove_file(tmp_path / "run.mcap", channel, made)
-    seen = read_recording(tmp_path / "run.mcap")
-    np.testing.assert_array_equal(seen.attitude.t, [0.0, 1.0, 2.0, 3.0])
-    np.testing.assert_allclose(seen.attitude.values, [TURN] * 4, atol=1e-15)
-    assert "taken from topic '/platform'" in " ".join(seen.notes)
+    observed = read_recording(tmp_path / "run.mcap")
+    np.testing.assert_array_equal(observed.attitude.t, [0.0, 1.0, 2.0, 3.0])
+    np.testing.assert_allclose(observed.attitude.values, [TURN] * 4, atol=1e-15)
+    assert "taken from topic '/platform'" in " ".join(observed.notes)
 
 
 def imu(sec: int, rate: tuple[float, float, float], known: bool = True) -> bytes:
@@ -205,10 +205,10 @@ def imu_file(topics: tuple[str, ...], known: bool = True) -> bytes:
 
 
 def test_an_inertial_unit_of_ros_2_gives_rate_and_attitude(tmp_path):
-    seen = read_bytes_as(imu_file(("/imu",)), tmp_path)
-    np.testing.assert_array_equal(seen.rate.t, [0, 1, 2])
-    np.testing.assert_array_equal(seen.rate.values[:, 0], [0.0, 0.1, 0.2])
-    np.testing.assert_allclose(seen.attitude.values, [TURN] * 3, atol=1e-15)
+    observed = read_bytes_as(imu_file(("/imu",)), tmp_path)
+    np.testing.assert_array_equal(observed.rate.t, [0, 1, 2])
+    np.testing.assert_array_equal(observed.rate.values[:, 0], [0.0, 0.1, 0.2])
+    np.testing.assert_allclose(observed.attitude.values, [TURN] * 3, atol=1e-15)
 
 
 def test_an_attitude_that_the_unit_says_it_has_not_is_none(tmp_path):
@@ -228,14 +228,14 @@ def test_attitudes_in_json_are_read(tmp_path):
     schema = writer.register_schema("foxglove.PoseInFrame", "jsonschema", b"{}")
     channel = writer.register_channel("/pose", "json", schema)
     for k in range(3):
-        told = {
+        reported = {
             "timestamp": {"sec": k, "nsec": 5},
             "pose": {"orientation": dict(zip("wxyz", TURN, strict=True))},
         }
-        writer.add_message(channel, log_time=1, data=json.dumps(told).encode(), publish_time=1)
+        writer.add_message(channel, log_time=1, data=json.dumps(reported).encode(), publish_time=1)
     writer.finish()
-    seen = read_bytes_as(stream.getvalue(), tmp_path)
-    np.testing.assert_array_equal(seen.attitude.t, [0, 1, 2])
+    observed = read_bytes_as(stream.getvalue(), tmp_path)
+    np.testing.assert_array_equal(observed.attitude.t, [0, 1, 2])
 
 
 def test_protobuf_by_hand():

@@ -82,9 +82,9 @@ BAD = {
 }
 
 
-@pytest.mark.parametrize(("text", "told"), BAD.values(), ids=BAD.keys())
-def test_an_impossible_value_is_reported_with_its_key(text, told):
-    with pytest.raises(InputError, match=told):
+@pytest.mark.parametrize(("text", "reported"), BAD.values(), ids=BAD.keys())
+def test_an_impossible_value_is_reported_with_its_key(text, reported):
+    with pytest.raises(InputError, match=reported):
         parse_testbed(text, "t.toml")
 
 

@@ -43,8 +43,8 @@ def test_it_passes_in_at_most_three_moves():
 def test_every_move_is_followed_by_a_measurement():
     """A move's prediction is tested on data that had no part in making it."""
     kinds = [step.kind for step in plain()[1]]
-    assert kinds[0] == "look"
-    assert all(kinds[k + 1] == "look" for k, kind in enumerate(kinds) if kind == "move")
+    assert kinds[0] == "measurement"
+    assert all(kinds[k + 1] == "measurement" for k, kind in enumerate(kinds) if kind == "move")
     assert [step.time for step in plain()[1]] == sorted(step.time for step in plain()[1])
 
 

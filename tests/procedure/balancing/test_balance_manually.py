@@ -23,7 +23,7 @@ from equipoise.procedure.balancing.balance_manually import (
     errands,
     sentence_of,
 )
-from equipoise.procedure.balancing.manual_estimate import first_belief, reloaded, taught
+from equipoise.procedure.balancing.manual_estimate import first_posterior, reloaded, taught
 from equipoise.simulation.hands import SimulatedHands
 from verification import manual
 from verification.manual import TARGET, half_a_millimetre_off
@@ -61,7 +61,7 @@ def test_what_is_stated_on_the_way_covers_the_truth():
 
 def test_weights_added_to_an_estimate_are_added_to_its_body():
     """Agreement with putting the two bodies together; the doubt of com shrinks as mass grows."""
-    before = first_belief(BED)
+    before = first_posterior(BED)
     loading = at(BED, deck_A1=5, left_K13=2)
     load = load_of(BED, loading)
     alone = MassProperties(load.mass, load.first_moment / load.mass, load.inertia_P)
@@ -82,13 +82,13 @@ def test_weights_added_to_an_estimate_are_added_to_its_body():
 def test_a_free_swing_leaves_the_scale_open_and_a_known_load_closes_it():
     """J_xx: 6 % before, as much after one recording, under 2 % after a second, loaded one."""
     hands = SimulatedHands(half_a_millimetre_off(BED, 0), 0)
-    belief, none = first_belief(BED), unloaded(BED.grids, BED.weights)
+    posterior, none = first_posterior(BED), unloaded(BED.grids, BED.weights)
     shown = shown_by(caught(hands.swing(), BED), BED)
     scale = shown.estimate.values((*INERTIA, *COM))
     assert scale @ shown.information @ scale < 1.0  # alone, it knows the scale to 100 % at best
     wrong_way = scale * np.repeat([1.0, -1.0], [6, 3])
     assert wrong_way @ shown.information @ wrong_way > 1e3
-    first = taught(belief, shown)
+    first = taught(posterior, shown)
     loading = next(
         step.placing.after for step in balance_by_hand(
             SimulatedHands(half_a_millimetre_off(BED, 0), 0), HandOptions(TARGET)
@@ -98,7 +98,7 @@ def test_a_free_swing_leaves_the_scale_open_and_a_known_load_closes_it():
     second = reloaded(first, BED, none, loading)
     known = replace(BED, body=MassProperties(second.mass, second.com, second.body.inertia_P))
     last = taught(second, shown_by(caught(hands.swing(), BED), known))
-    sd = [np.sqrt(b.covariance[0, 0]) / b.mean[0] for b in (belief, first, last)]
+    sd = [np.sqrt(b.covariance[0, 0]) / b.mean[0] for b in (posterior, first, last)]
     assert sd[0] == pytest.approx(0.06, rel=1e-6)
     assert sd[1] > 0.03
     assert sd[2] < 0.02
@@ -107,10 +107,10 @@ def test_a_free_swing_leaves_the_scale_open_and_a_known_load_closes_it():
 def test_what_a_recording_says_does_not_depend_on_the_prior_it_was_fitted_with():
     """Guesses 8 % and 100 um apart, the same belief to add it to: the same within a tenth sd."""
     hands = SimulatedHands(half_a_millimetre_off(BED, 5), 5)
-    fresh, belief = caught(hands.swing(), BED), first_belief(BED)
+    fresh, posterior = caught(hands.swing(), BED), first_posterior(BED)
     other = MassProperties(14.0, np.array([60.0, -80.0, 20.0]) * UM, 1.08 * BED.body.inertia_P)
     one, two = (
-        taught(belief, shown_by(fresh, replace(BED, body=body))) for body in (BED.body, other)
+        taught(posterior, shown_by(fresh, replace(BED, body=body))) for body in (BED.body, other)
     )
     sd = np.sqrt(np.diag(one.covariance))
     assert np.abs((one.mean - two.mean) / sd).max() < 0.25
@@ -154,8 +154,8 @@ def test_a_pile_that_was_forgotten_is_noticed_and_balanced_all_the_same():
     """The recording after it does not fit; from there on it alone counts."""
     hands = Clumsy(half_a_millimetre_off(BED, 3), 3)
     steps = list(balance_by_hand(hands, HandOptions(TARGET)))
-    told = [step.sentence for step in steps if step.kind == "estimate"]
-    astray = ["not where the weights should have left it" in text for text in told]
+    reported = [step.sentence for step in steps if step.kind == "estimate"]
+    astray = ["not where the weights should have left it" in text for text in reported]
     assert astray[:2] == [False, True]
     assert not any(astray[2:])
     assert steps[-1].verdict.passed
@@ -209,8 +209,8 @@ def placing_of(before, after, left=(0.0, 0.0, -100.0)):
 def test_placement_instructions_list_moves_first():
     """Three off A1 and one off A2, two to B1: two are moved and two come off."""
     before, after = at(BED, deck_A1=3, deck_A2=1), at(BED, deck_B1=2)
-    told = errands(placing_of(before, after), BED)
-    assert told == ["Move 2 x washer from deck:A1 to deck:B1",
+    reported = errands(placing_of(before, after), BED)
+    assert reported == ["Move 2 x washer from deck:A1 to deck:B1",
                     "Take off 1 x washer at deck:A1, 1 x washer at deck:A2"]  # fmt: skip
     assert placing_of(before, after).handled == 4
     assert errands(placing_of(after, before), BED)[1].startswith("Put on")

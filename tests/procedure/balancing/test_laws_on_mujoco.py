@@ -16,7 +16,7 @@ def test_it_is_a_bench():
     assert isinstance(bench_of(0), Bench)
 
 
-@pytest.mark.parametrize("law", ["look_and_move", "coarse_fine"])
+@pytest.mark.parametrize("law", ["measure_and_move", "coarse_fine"])
 def test_it_balances_and_its_verdict_is_true(law):
     assert laws_on_mujoco.measure([sum(map(ord, law))], laws=(law,)).missed == ()
 
@@ -29,9 +29,9 @@ def test_momentum_build_up_finds_it_to_a_twentieth_of_a_micrometre_and_masses_fo
     bench, goal = bench_of(5), Goal(np.zeros(3), BalanceOptions().tolerance)
     limits = Limits(max_time=600.0, hold=60.0, law="momentum_buildup")
     steps = list(procedure(bench, goal, limits))
-    told = next(step.following for step in steps if step.following is not None)
-    assert np.abs(told.sag).max() < 2e-6
-    assert np.abs(told.drift).max() * 600 < 0.5e-6
+    reported = next(step.following for step in steps if step.following is not None)
+    assert np.abs(reported.sag).max() < 2e-6
+    assert np.abs(reported.drift).max() * 600 < 0.5e-6
     assert "follow for 59 s of bench time: masses followed tilt and drift" in steps[-2].sentence
     assert sum(step.sentence.startswith("Passed: ") for step in steps) >= 2
     assert np.abs(bench.com[:2]).max() < 0.05e-6

@@ -71,11 +71,11 @@ class MujocoHands:
             run, self.rng, 10.0, BED.attitude.noise, 50.0, BED.gyro.noise,
             self.rng.normal(0.0, 0.002, 3),
         )  # fmt: skip
-        seen = log.attitude.t <= end, log.rate.t <= end
+        observed = log.attitude.t <= end, log.rate.t <= end
         self.time += end
         rows = [
             type(c)(c.t[keep], c.values[keep])
-            for c, keep in zip((log.attitude, log.rate), seen, strict=True)
+            for c, keep in zip((log.attitude, log.rate), observed, strict=True)
         ]
         return replace(log, attitude=rows[0], rate=rows[1], mass_names=(), masses=None)
 

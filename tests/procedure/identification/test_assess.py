@@ -11,8 +11,12 @@ from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Samples
 from equipoise.procedure.identification.assess import AssessOptions, assess
-from equipoise.procedure.identification.drift_metrics import looks_over_hours
-from equipoise.procedure.identification.swing_metrics import as_one_body, looked_at, standing_part
+from equipoise.procedure.identification.drift_metrics import metrics_over_hours
+from equipoise.procedure.identification.swing_metrics import (
+    as_one_body,
+    standing_part,
+    swing_metrics,
+)
 from equipoise.simulation.bench import SimulatedBench
 from tests.support.builders import COM, INERTIA, move_at, noisy, platform, recording
 from verification.verdicts import swing
@@ -20,8 +24,8 @@ from verification.verdicts import swing
 STIFF = np.zeros((3, 3))
 
 
-def assessed(record, testbed, **asked):
-    steps, procedure = [], assess(record, testbed, AssessOptions(**asked))
+def assessed(record, testbed, **requested):
+    steps, procedure = [], assess(record, testbed, AssessOptions(**requested))
     while True:
         try:
             steps.append(next(procedure))
@@ -80,7 +84,7 @@ def test_the_masses_count_where_they_stand():
     whole, bed = as_one_body(part, found.testbed)
     assert whole.masses is None
     assert bed.masses == ()
-    assert found.looks.duration == pytest.approx(65.0, abs=0.2)
+    assert found.metrics.duration == pytest.approx(65.0, abs=0.2)
 
 
 def test_a_platform_that_sags_has_the_torque_of_both():
@@ -108,9 +112,9 @@ def test_a_platform_that_sags_has_the_torque_of_both():
 @pytest.mark.parametrize("seed", [8, 19])
 def test_simple_measurements_agree_with_mujoco(seed):
     """Height, torque and energy within four of their own sd: a camera alone, and with a gyro."""
-    from verification.verdicts import looks
+    from verification.verdicts import measurements
 
-    found = looks(seed)
+    found = measurements(seed)
     assert found["height by the period"]
     for name, off in found.items():
         assert np.abs(off).max() < 4.0, name
@@ -128,7 +132,7 @@ def test_a_record_too_short_for_metrics_is_reported():
     run, record, testbed = swing(8)
     body = MassProperties(run.platform.mass, run.platform.com, run.platform.inertia_P)
     few = Samples(record.attitude.t[:8], record.attitude.values[:8])
-    found = looked_at(replace(record, attitude=few, masses=None), replace(testbed, body=body))
+    found = swing_metrics(replace(record, attitude=few, masses=None), replace(testbed, body=body))
     assert found.torque is None
     assert "rows" in found.quiet
 
@@ -142,16 +146,16 @@ def test_measurements_over_time_show_a_drift():
     bed = read_preset("sputnix")
     truth = replace(bed.truth, com=np.array([-3e-6, 2e-6, -60e-6]), torque={"drift_x": 1e-6 / 60})
     record = SimulatedBench(replace(bed, truth=truth), 4).read(360.0)
-    found = looks_over_hours(record, bed, 40.0, inertia_known=False)
+    found = metrics_over_hours(record, bed, 40.0, inertia_known=False)
     assert len(found.t) == 9
     off = (found.wander.drift - np.array([1e-6 / 60, 0, 0])) / found.wander.drift_sd
     assert np.abs(off).max() < 3.5
     assert found.wander.drift[0] > 5 * found.wander.drift_sd[0]
-    assert found.wander.deviation[2, 0] > 2 * found.wander.looks_alone[2, 0]
+    assert found.wander.deviation[2, 0] > 2 * found.wander.measurements_alone[2, 0]
 
 
 def test_too_few_measurements_yield_no_drift():
     record = noisy(recording(60.0), 3)
-    found = looks_over_hours(record, platform(), 25.0, inertia_known=False)
+    found = metrics_over_hours(record, platform(), 25.0, inertia_known=False)
     assert len(found.t) == 2
     assert found.wander is None

@@ -12,22 +12,22 @@ from tests.support.builders import COM, MASS, move_at, noisy, platform, recordin
 
 
 @pytest.fixture(scope="module")
-def seen():
+def observed():
     return noisy(recording(120.0, move_at(60.0, 120.0), 5.0, 20.0), 1)
 
 
 TESTBED = platform(accuracy=1e-4, gyro=True)
 
 
-def test_an_unknown_method_names_the_nearest(seen):
+def test_an_unknown_method_names_the_nearest(observed):
     with pytest.raises(InputError, match="did you mean 'trajectory'"):
-        list(identify(seen, TESTBED, IdentifyOptions(method="trajektory")))
+        list(identify(observed, TESTBED, IdentifyOptions(method="trajektory")))
 
 
-def test_auto_goes_from_coarse_to_fine(seen):
+def test_auto_goes_from_coarse_to_fine(observed):
     """A look, then methods in their order; the last is the fit, and is right to 4 sd."""
-    steps = list(identify(seen, TESTBED, IdentifyOptions()))
-    assert [step.kind for step in steps] == ["look"] + ["estimate"] * (len(steps) - 1)
+    steps = list(identify(observed, TESTBED, IdentifyOptions()))
+    assert [step.kind for step in steps] == ["measurement"] + ["estimate"] * (len(steps) - 1)
     names = [step.estimate.method for step in steps[1:]]
     assert names == [name for name in COARSE_TO_FINE if name in names]
     assert names[-1] == "trajectory"
@@ -37,20 +37,20 @@ def test_auto_goes_from_coarse_to_fine(seen):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_a_method_can_be_requested(seen, method):
+def test_a_method_can_be_requested(observed, method):
     """One look, one estimate, whatever it can say."""
-    steps = list(identify(seen, TESTBED, IdentifyOptions(method=method)))
-    assert [step.kind for step in steps] == ["look", "estimate"]
+    steps = list(identify(observed, TESTBED, IdentifyOptions(method=method)))
+    assert [step.kind for step in steps] == ["measurement", "estimate"]
     assert steps[1].estimate.method == method
     assert steps[1].sentence.startswith(f"{method}: ")
 
 
-def test_the_tracker_says_where_the_centre_of_mass_is_at_the_end(seen):
+def test_the_tracker_says_where_the_centre_of_mass_is_at_the_end(observed):
     """After a move, the masses as they stand, and the inertia: within 4 sd.
 
     Known to 2 um and 2 % of J_zz, beforehand 100 um and 10 %.
     """
-    found = list(identify(seen, TESTBED, IdentifyOptions(method="tracker")))[-1].estimate
+    found = list(identify(observed, TESTBED, IdentifyOptions(method="tracker")))[-1].estimate
     names = (*END, *INERTIA)
     true = [
         *(COM + np.array([-10e-3, -10e-3, -50e-3]) * 0.0156 / MASS),

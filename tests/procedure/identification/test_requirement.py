@@ -12,7 +12,7 @@ from equipoise.procedure.identification.requirement import (
     verdict_answer,
 )
 
-ASKED = Requirement("the torque", 1e-5, "uN m", 1e6)
+REQUESTED = Requirement("the torque", 1e-5, "uN m", 1e6)
 
 
 @pytest.mark.parametrize(
@@ -26,23 +26,23 @@ ASKED = Requirement("the torque", 1e-5, "uN m", 1e6)
     ],
 )
 def test_bounds_decide(found, answer):
-    assert judged(ASKED, found).answer == answer
-    assert judged(ASKED, found).sentence.startswith(answer)
+    assert judged(REQUESTED, found).answer == answer
+    assert judged(REQUESTED, found).sentence.startswith(answer)
 
 
 def test_a_recording_too_poor_says_what_it_could_have_proven():
-    text = judged(ASKED, Bounded(9e-6, 0.0, 4e-5, 3e-5)).sentence
+    text = judged(REQUESTED, Bounded(9e-6, 0.0, 4e-5, 3e-5)).sentence
     assert "The floor of this recording is 30 uN m: even a perfect platform would not pass" in text
 
 
 def test_a_value_near_the_limit_says_so():
-    text = judged(ASKED, Bounded(9e-6, 8e-6, 1.1e-5, 1e-6)).sentence
+    text = judged(REQUESTED, Bounded(9e-6, 8e-6, 1.1e-5, 1e-6)).sentence
     assert "the torque is 9 uN m (95 %: 8 uN m to 11 uN m); at most 10 uN m is wanted" in text
     assert "too near to the limit" in text
 
 
 def test_numbers_of_the_bench_have_no_exponent():
-    assert "1234 uN m" in judged(ASKED, Bounded(1.234e-3, 1e-3, 2e-3, 0.0)).sentence
+    assert "1234 uN m" in judged(REQUESTED, Bounded(1.234e-3, 1e-3, 2e-3, 0.0)).sentence
 
 
 @pytest.mark.parametrize(

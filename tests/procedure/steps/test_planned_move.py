@@ -18,7 +18,7 @@ UNB = read_preset("unb")  # a stop errs by 1 um, and a look sees 0.05 um sideway
 BELOW = np.array([0.0, 0.0, -100.0]) * UM
 STEPS = 200 * np.array([mass.resolution for mass in UNB.masses])
 SPEED = np.array([mass.speed for mass in UNB.masses])
-LOOK = 15.0  # s
+MEASUREMENT = 15.0  # s
 
 
 def bed():
@@ -54,13 +54,13 @@ def test_while_holding_a_mass_away_from_home_takes_a_stop_along():
 def missed(seed):
     """By how much (m) a platform's second move misses what was predicted, and its covariance."""
     bench = SimulatedBench(UNB, seed)
-    known = learn(None, bench.read(LOOK), UNB)
+    known = learn(None, bench.read(MEASUREMENT), UNB)
     goal = displacements_for(UNB.masses, UNB.body.mass, np.zeros(3), BELOW - known.com)
     known = learn(known, moved(bench, goal), UNB)
     now = known.displacement
     targets = now - np.sign(now) * STEPS
-    belief = without_stops(known, UNB, targets != now)
-    move = planned_move(UNB, now, targets, belief, "test")
+    posterior = without_stops(known, UNB, targets != now)
+    move = planned_move(UNB, now, targets, posterior, "test")
     moved(bench, targets)
     return bench.truth().com - move.predicted_com, move.predicted_covariance
 
@@ -68,7 +68,7 @@ def missed(seed):
 def moved(bench, goal):
     """Send the masses and record until some time after the last has stopped."""
     bench.move({mass.name: float(d) for mass, d in zip(UNB.masses, goal, strict=True)})
-    return bench.read(float((0.05 / SPEED).max()) + LOOK)
+    return bench.read(float((0.05 / SPEED).max()) + MEASUREMENT)
 
 
 def test_a_second_move_is_predicted_as_well_as_it_says():
@@ -79,7 +79,7 @@ def test_a_second_move_is_predicted_as_well_as_it_says():
 
 
 def test_a_mass_that_has_not_moved_has_no_stop_to_leave():
-    known = learn(None, SimulatedBench(replace(UNB, truth=None), 1).read(LOOK), UNB)
+    known = learn(None, SimulatedBench(replace(UNB, truth=None), 1).read(MEASUREMENT), UNB)
     com, spread = without_stops(known, UNB, np.full(3, True))
     np.testing.assert_allclose(com, known.com)
     np.testing.assert_allclose(spread, known.covariance)

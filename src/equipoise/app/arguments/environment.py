@@ -67,8 +67,8 @@ def surroundings_of(exposure: Exposure) -> "Surroundings":
     from equipoise.app.text.units import PER_DEG, UM
     from equipoise.design.sizing.environment import Surroundings
 
-    told = asdict(exposure)
-    for name, value in told.items():
+    reported = asdict(exposure)
+    for name, value in reported.items():
         not_negative(f"--{name.replace('_', '-')}", value)
     return Surroundings(
         temperature=exposure.temperature_k,

@@ -27,4 +27,4 @@ class Seeking:
     prior: Flag = False
 
 
-NOTHING_TOLD = Seeking()
+NOTHING_STATED = Seeking()

@@ -26,11 +26,11 @@ A_LITTLE = 1e-3  # m: out and back
 UPSIDE = 90.0  # deg, chosen: no bench lets a platform tilt so far
 SLOW = 0.7  # of the stated rate of rows, chosen: below it a sensor is slower than stated
 LISTED = "; `equipoise devices` lists serial ports"
-ARRIVE, LOOK = 1.0, 0.05  # s, chosen: beyond the time that the way takes; between looks
+ARRIVE, MEASUREMENT = 1.0, 0.05  # s, chosen: beyond the time that the way takes; between looks
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class CheckResult:
     """One finding."""
 
     good: bool
@@ -39,11 +39,11 @@ class Told:
 
 def checked_bench(
     testbed: Testbed, streamed: float, agreed: Callable[[str], bool]
-) -> Iterator[Told]:
+) -> Iterator[CheckResult]:
     """Return what each device says; ``agreed`` asks a person before masses move."""
     missing = unreachable(hardware_of(testbed))
     if missing:
-        yield from (Told(False, f"{sentence}{LISTED}") for sentence in missing)
+        yield from (CheckResult(False, f"{sentence}{LISTED}") for sentence in missing)
         return
     keeper = keeper_of(testbed)
     bench = RealBench(keeper, WallClock())
@@ -57,22 +57,24 @@ def checked_bench(
             for mass in testbed.masses:
                 yield from _moved(bench, keeper, mass, agreed)
     except EquipoiseError as error:
-        yield Told(False, f"{error}")
+        yield CheckResult(False, f"{error}")
     finally:
         keeper.close()
 
 
-def _started(keeper: Keeper, bench: RealBench, agreed: Callable[[str], bool]) -> Iterator[Told]:
+def _started(
+    keeper: Keeper, bench: RealBench, agreed: Callable[[str], bool]
+) -> Iterator[CheckResult]:
     if keeper.links.boards and not agreed("The masses will go home. Is the way free?"):
-        yield Told(False, "masses stay where they are, their position is not known")
+        yield CheckResult(False, "masses stay where they are, their position is not known")
         return
     bench.start()
     for link in keeper.links.boards:
         names = ", ".join(axis.mass for axis in link.board.axes)
-        yield Told(True, f"board {link.board.name}: answers, agrees, {names} at home")
+        yield CheckResult(True, f"board {link.board.name}: answers, agrees, {names} at home")
 
 
-def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[Told]:
+def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[CheckResult]:
     """Tell for each sensor how many rows came, what was wrong with them, how its clock goes."""
     for link in keeper.links.sensors:
         for channel in link.unit.gives:
@@ -82,39 +84,41 @@ def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[
             wanted = 0.0 if stated is None else stated.rate * streamed
             text = f"sensor {link.unit.name}: {count} rows of {channel} in {streamed:g} s"
             slow = count < SLOW * wanted
-            yield Told(not slow, f"{text}, {wanted:.0f} are stated" if slow else text)
+            yield CheckResult(not slow, f"{text}, {wanted:.0f} are stated" if slow else text)
         health = link.health
         hint = "; look at cable and baud rate" if health.counts.corrupt else ""
-        yield Told(not health.wrong, health.sentence + hint)
+        yield CheckResult(not health.wrong, health.sentence + hint)
 
 
-def _frames(recording: Recording, testbed: Testbed) -> Iterator[Told]:
+def _frames(recording: Recording, testbed: Testbed) -> Iterator[CheckResult]:
     """Tell whether the platform is upright, and what else its rows show to be wrong."""
     if recording.attitude is not None:
         leaning = PER_DEG * float(np.median(tilt(recording.attitude.values, testbed.up)))
         text = f"the axis that should point up is {leaning:.1f} deg from up"
         wrong = "; is alignment or laboratory wrong in [[hardware.sensor]]?"
-        yield Told(leaning < UPSIDE, text + ("" if leaning < UPSIDE else wrong))
+        yield CheckResult(leaning < UPSIDE, text + ("" if leaning < UPSIDE else wrong))
     for finding in findings(recording, testbed):
         if finding.kind == "problem":
-            yield Told(False, finding.sentence)
+            yield CheckResult(False, finding.sentence)
 
 
 def _moved(
     bench: RealBench, keeper: Keeper, mass: SlidingMass, agreed: Callable[[str], bool]
-) -> Iterator[Told]:
+) -> Iterator[CheckResult]:
     """Move a mass out and back, and tell whether its board says that it went."""
     if not agreed(f"Move mass {mass.name} by {MM * A_LITTLE:g} mm and back?"):
-        yield Told(True, f"mass {mass.name}: not moved")
+        yield CheckResult(True, f"mass {mass.name}: not moved")
         return
     way = A_LITTLE if mass.travel[1] >= A_LITTLE else -A_LITTLE
     for goal in (way, 0.0):
         bench.move({mass.name: goal})
         latest = bench.time + A_LITTLE / mass.speed + ARRIVE
         while not keeper.ready and bench.time < latest:
-            bench.read(LOOK)
+            bench.read(MEASUREMENT)
         at = keeper.positions[mass.name]
         if abs(at - goal) > A_LITTLE / 2:
             found = f"sent to {MM * goal:g} mm, its board says {MM * at:.2f} mm"
             raise BenchStopped(f"mass {mass.name}: {found}")
-    yield Told(True, f"mass {mass.name}: went 1 mm out and back, as its board says; look at it")
+    yield CheckResult(
+        True, f"mass {mass.name}: went 1 mm out and back, as its board says; look at it"
+    )

@@ -53,14 +53,14 @@ class EmulatedBench:
         self.time = 0.0  # s, of the devices
         self._let_go = 0.0  # s, when
         self.leaning = 0.0  # rad, as last seen
-        self._seen: tuple[float, Quaternion] | None = None  # s, the attitude last seen
+        self._observed: tuple[float, Quaternion] | None = None  # s, the attitude last seen
         self.catch()
         if not boards:
             self._held = None
 
     def run(self, t: float) -> None:
         """Let time pass up to ``t`` s; what the host has sent is heard first."""
-        self._hear()
+        self._receive()
         if t <= self.time:
             return
         legs = [leg for station in self.boards for leg in self._ran(station, t)]
@@ -69,15 +69,15 @@ class EmulatedBench:
         rows = self._pass(legs, t)
         if rows.attitude is not None and len(rows.attitude):
             self.leaning = float(tilt(rows.attitude.values[-1], self.platform.testbed.up))
-            self._seen = (self.time, rows.attitude.values[-1])
+            self._observed = (self.time, rows.attitude.values[-1])
         for station in self.sensors:
-            for message in station.device.tell(rows):
+            for message in station.device.messages(rows):
                 station.wire.send(message)
 
     def catch(self) -> None:
         """Lead the platform back and hold it, until every mass has been away and come home."""
         self.platform = self._make()
-        self._held: HeldPlatform | None = HeldPlatform(self.platform, self._seen)
+        self._held: HeldPlatform | None = HeldPlatform(self.platform, self._observed)
         self._last: dict[str, Leg] = {}  # while it is held
         self._away: set[str] = set()
         self._ahead: list[Leg] = []  # that have not begun
@@ -101,7 +101,7 @@ class EmulatedBench:
         for station in (*self.boards, *self.sensors):
             station.wire.close()
 
-    def _hear(self) -> None:
+    def _receive(self) -> None:
         for station in (*self.boards, *self.sensors):
             data = station.wire.receive()
             if data:

@@ -14,11 +14,11 @@ def check_reachable(hardware: Hardware) -> None:
 
 def unreachable(hardware: Hardware) -> list[str]:
     """Return a sentence for each device whose port cannot be opened now."""
-    told: list[str] = []
+    reported: list[str] = []
     for kind, devices in (("board", hardware.boards), ("sensor", hardware.sensors)):
         for device in devices:
             try:
                 open_port(device.port).close()
             except PortLost as lost:
-                told.append(f"{kind} {device.name} cannot be reached: {lost}")
-    return told
+                reported.append(f"{kind} {device.name} cannot be reached: {lost}")
+    return reported

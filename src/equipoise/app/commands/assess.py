@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag, Triple
 from equipoise.app.console.terminal import busy, watched
@@ -11,7 +11,7 @@ from equipoise.app.console.terminal import busy, watched
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from equipoise.app.views.assess_views import Told
+    from equipoise.app.views.assess_views import AssessmentView
     from equipoise.model.recording import Recording
     from equipoise.model.step import Step
     from equipoise.model.testbed import Testbed
@@ -30,7 +30,7 @@ def assess(
     require_torque: float | None = None,
     require_offset_um: float | None = None,
     windows_s: float | None = None,
-    seeking: Seeking = NOTHING_TOLD,
+    seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
     json: Flag = False,
     out: Path | None = None,
@@ -82,42 +82,44 @@ def assess(
     recording = fitting_recording_of(file, reading, bed)
     earlier = None if before is None else fitting_recording_of(before, WHOLE, bed)
     with busy("assessing", announce=False):
-        from equipoise.app.views.assess_views import Told
+        from equipoise.app.views.assess_views import AssessmentView
         from equipoise.assessment.findings.record_findings import findings
         from equipoise.procedure.identification.assess import AssessOptions
 
         options = AssessOptions(goal, tilt, torque, offset, seeking.term, seeking.hold)
     done, steps = _carried_out(recording, bed, options)
     past = None if earlier is None else _carried_out(earlier, bed, options)[0]
-    hours = None if windows is None else _looked(done, windows)
-    told = Told(done, past, steps, findings(recording, bed), hours)
-    _tell(told, json, out)
+    hours = None if windows is None else _measured(done, windows)
+    reported = AssessmentView(done, past, steps, findings(recording, bed), hours)
+    _report(reported, json, out)
     verdict = steps[-1].verdict
     good = done.estimate.outcome.usable if verdict is None else verdict.passed
     return 0 if good else 1
 
 
-def _looked(done: "Assessment", seconds: float) -> "OverHours":
+def _measured(done: "Assessment", seconds: float) -> "OverHours":
     """Return looks along the recording, at the inertia that was found."""
-    from equipoise.procedure.identification.drift_metrics import looks_over_hours
+    from equipoise.procedure.identification.drift_metrics import metrics_over_hours
 
     with busy("looking again and again"):
-        return looks_over_hours(done.recording, done.testbed, seconds, done.estimate.outcome.usable)
+        return metrics_over_hours(
+            done.recording, done.testbed, seconds, done.estimate.outcome.usable
+        )
 
 
-def _tell(told: "Told", json: bool, out: Path | None) -> None:
+def _report(reported: "AssessmentView", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.report.write import write_account
     from equipoise.app.views.assess_json import document_of
     from equipoise.app.views.assess_views import account_of, show_result
 
-    document = document_of(told)
+    document = document_of(reported)
 
     def written(folder: Path) -> list[Path]:
-        return write_account(account_of(told), document, "assess", folder)
+        return write_account(account_of(reported), document, "assess", folder)
 
-    hand_over(document, lambda: show_result(told), written, json, out)
+    hand_over(document, lambda: show_result(reported), written, json, out)
 
 
 def _carried_out(

@@ -9,8 +9,8 @@ from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag, Triple, Whole
 from equipoise.app.commands.by_hand import (
     MOVED,
-    Asked,
     Manual,
+    Request,
     balance_by_hand,
     check_by_hand,
     is_by_hand,
@@ -38,7 +38,7 @@ def balance(
     testbed: str,
     /,
     *,
-    law: str = "look_and_move",
+    law: str = "measure_and_move",
     seed: Whole = 1,
     plan: Path | None = None,
     target_um: Triple = (0.0, 0.0, -100.0),
@@ -68,17 +68,18 @@ def balance(
         Seed of all that is drawn: the same seed gives the same run.
     plan
         Plan file: begin with its manoeuvre, then balance on all that was recorded. Of
-        look_and_move alone, without a hold.
+        measure_and_move alone, without a hold.
     target_um
         Where the centre of mass is wanted, from the centre of rotation, body axes.
     tolerance_um
         How near to the target is near enough, along each axis.
     max_moves
-        Moves of the masses before giving up: 3, or 10 before a hold. Of look_and_move alone.
+        Moves of the masses before giving up: 3, or 10 before a hold. Of measure_and_move alone.
     max_time_s
         Bench time before giving up: 120, or 600 before a hold or with another law.
     hold_min
-        Then follow the drift and hold the balance for so many minutes. After look_and_move, which
+        Then follow the drift and hold the balance for so many minutes. After measure_and_move,
+        which
         balances to a third of the tolerance before, since its errors stay; after momentum_buildup,
         whose masses follow the tilt too, by the sag that it found.
     json
@@ -99,7 +100,7 @@ def balance(
         from equipoise.app.runs.balancing import Goal
 
         goal, seed = Goal(*where), seed_of(seed)
-        return balance_by_hand(Asked(testbed, goal, seed, by_hand, reading, json, out))
+        return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
     bed, seed = testbed_of(testbed), seed_of(seed)
     planned = None if plan is None else _planned(plan, bed)
     if out is not None:
@@ -115,7 +116,7 @@ def balance(
         prepare(bed, goal, limits, on_bench)
     with let_go(bed, on_bench) if on_bench.bench else _simulated(bed, planned, seed) as bench:
         done = run(bench, goal, limits, None if json else show_step)
-    _tell(done, limits.law, seed, json, out)
+    _report(done, limits.law, seed, json, out)
     return 0 if done.verdict.passed else 1
 
 
@@ -140,7 +141,7 @@ def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> 
 def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:
     """Return the options given that are not for a balancing by hand."""
     moves, longest, hold = until
-    others = {"--law": law != "look_and_move", "--max-moves": moves is not None,
+    others = {"--law": law != "measure_and_move", "--max-moves": moves is not None,
               "--max-time-s": longest is not None, "--hold-min": hold > 0,
               "--plan": plan is not None}  # fmt: skip
     return [name for name, given in others.items() if given]
@@ -164,7 +165,7 @@ def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Gener
     yield bench
 
 
-def _tell(done: "Balancing", law: str, seed: int, json: bool, out: Path | None) -> None:
+def _report(done: "Balancing", law: str, seed: int, json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.logbook.output import hand_over, keep
     from equipoise.app.report.write import write_run

@@ -44,7 +44,7 @@ MOVED = Manual()
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class Request:
     """All that was asked."""
 
     testbed: str
@@ -75,31 +75,31 @@ def check_by_hand(by: Manual, reading: Reading, others: list[str]) -> None:
         raise InputError(", ".join(others), "--manual", "one of them: nothing moves by itself")
 
 
-def balance_by_hand(asked: Asked) -> int:
+def balance_by_hand(requested: Request) -> int:
     """Carry a balancing by hand out, or one step of it, and return the exit code."""
     from equipoise.app.arguments.checks import positive
     from equipoise.app.arguments.resolve import testbed_of
     from equipoise.io.files.atomic_folder import check_folder
     from equipoise.procedure.balancing.balance_manually import check
 
-    rounds = int(positive("--max-rounds", asked.by.max_rounds))
-    bed = testbed_of(asked.testbed)
+    rounds = int(positive("--max-rounds", requested.by.max_rounds))
+    bed = testbed_of(requested.testbed)
     check(bed)
-    if asked.out is not None:
-        check_folder(asked.out)
-    if asked.by.session is not None:
-        return _a_persons(asked, asked.by.session, bed, rounds)
+    if requested.out is not None:
+        check_folder(requested.out)
+    if requested.by.session is not None:
+        return _a_persons(requested, requested.by.session, bed, rounds)
     with busy("preparing the bench", announce=False):
         from equipoise.app.runs.manual_balancing import run
         from equipoise.app.views.balance_views import show_step
         from equipoise.simulation.hands import SimulatedHands
 
-        hands = SimulatedHands(bed, asked.seed)
-    done = run(hands, asked.goal, rounds, None if asked.json else show_step)
-    return _tell(done, {"testbed": bed.source, "seed": str(asked.seed)}, asked)
+        hands = SimulatedHands(bed, requested.seed)
+    done = run(hands, requested.goal, rounds, None if requested.json else show_step)
+    return _report(done, {"testbed": bed.source, "seed": str(requested.seed)}, requested)
 
 
-def _a_persons(asked: Asked, path: Path, bed: "Testbed", rounds: int) -> int:
+def _a_persons(requested: Request, path: Path, bed: "Testbed", rounds: int) -> int:
     """Take the next recording of a session, and say what to do next."""
     from equipoise.app.runs.manual_balancing import (
         begun,
@@ -114,20 +114,20 @@ def _a_persons(asked: Asked, path: Path, bed: "Testbed", rounds: int) -> int:
     from equipoise.io.files.atomic_file import check_writable
 
     check_writable(path)
-    filed = begun(asked.testbed, bed, asked.goal, rounds)
+    filed = begun(requested.testbed, bed, requested.goal, rounds)
     if path.exists():
         filed = opened(read_session(path), bed, filed.session, str(path))
-    if asked.by.recording is not None:
-        filed = with_recording(filed, asked.by.recording, asked.reading)
-    done, placed = resume(filed, asked.goal, None if asked.json else show_step)
+    if requested.by.recording is not None:
+        filed = with_recording(filed, requested.by.recording, requested.reading)
+    done, placed = resume(filed, requested.goal, None if requested.json else show_step)
     write_session(noted(filed, placed), path)
-    code = _tell(done, {"testbed": bed.source, "session": str(path)}, asked)
-    if not done.ended and not asked.json:
-        stdout().print(next_deed(asked.testbed, path, len(placed) + 1), markup=False)
+    code = _report(done, {"testbed": bed.source, "session": str(path)}, requested)
+    if not done.ended and not requested.json:
+        stdout().print(next_deed(requested.testbed, path, len(placed) + 1), markup=False)
     return code
 
 
-def _tell(done: "ByHand", of: dict[str, str], asked: Asked) -> int:
+def _report(done: "ByHand", of: dict[str, str], requested: Request) -> int:
     """Print the result, write it down if that is asked for, and return the exit code."""
     from equipoise.app.logbook.output import hand_over, keep
     from equipoise.app.report.write import write_run
@@ -140,7 +140,7 @@ def _tell(done: "ByHand", of: dict[str, str], asked: Asked) -> int:
         kept = kept_of(done.balancing, "by hand")
         return write_run(account_of(done, of), document, "balance", kept, folder)
 
-    hand_over(document, lambda: show_result(done), written, asked.json, asked.out)
-    if asked.out is None and done.ended:
+    hand_over(document, lambda: show_result(done), written, requested.json, requested.out)
+    if requested.out is None and done.ended:
         keep(written, "balance", done.balancing.testbed.name)
     return 0 if done.verdict is None or done.verdict.passed else 1

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag, Names
 from equipoise.app.console.terminal import busy, stdout
@@ -22,7 +22,7 @@ def calibrate(
     testbed: str,
     moves: Flag = False,
     reference: Names = (),
-    seeking: Seeking = NOTHING_TOLD,
+    seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
     write: Path | None = None,
     json: Flag = False,
@@ -52,7 +52,7 @@ def calibrate(
 
     bed = testbed_of(testbed)
     if moves:
-        return _tell_moves(bed, testbed)
+        return _report_moves(bed, testbed)
     if file is None:
         raise InputError("calibrate", "no recording", "a file, or --moves to see which to make")
     if write is not None:
@@ -60,7 +60,7 @@ def calibrate(
     seeking = spelt_out(seeking)
     options = CalibrateOptions(reference, seeking.term, seeking.hold, seeking.prior)
     found = _carried_out(file, bed, reading, options)
-    _tell(found, bed, json)
+    _report(found, bed, json)
     if not found.outcome.usable:
         return 1
     if write is not None:
@@ -81,7 +81,7 @@ def _carried_out(
         return procedure(recording, bed, options)
 
 
-def _tell(found: "Estimate", bed: "Testbed", json: bool) -> None:
+def _report(found: "Estimate", bed: "Testbed", json: bool) -> None:
     """Print the calibration."""
     from equipoise.app.text.json_document import dump, estimate_json
     from equipoise.app.views.calibration_views import show_calibration
@@ -106,7 +106,7 @@ def _write(found: "Estimate", bed: "Testbed", name: str, path: Path, quiet: bool
         stdout().print(f"wrote {path}", markup=False)
 
 
-def _tell_moves(bed: "Testbed", name: str) -> int:
+def _report_moves(bed: "Testbed", name: str) -> int:
     """Print the moves that show most, as a command for the simulated bench."""
     from equipoise.procedure.identification.calibration_moves import calibration_moves
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.types import Whole
-from equipoise.app.console.terminal import counted, stdout, tell_paths
+from equipoise.app.console.terminal import counted, show_paths, stdout
 
 
 def calibrate_camera(
@@ -54,5 +54,5 @@ def calibrate_camera(
     console.print(f"{found.views} pictures used, corners fit to {lens.rms:.3f} px")
     text = f"focal length {lens.fx:.1f} and {lens.fy:.1f} px, one sd {found.focal_sd:.1f} px"
     console.print(text)
-    tell_paths([out])
+    show_paths([out])
     return 0

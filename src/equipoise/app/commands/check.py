@@ -6,7 +6,7 @@ from equipoise.app.arguments.types import Flag
 from equipoise.app.console.terminal import busy, stdout
 
 if TYPE_CHECKING:
-    from equipoise.app.bench.bench_check import Told
+    from equipoise.app.bench.bench_check import CheckResult
 
 STREAMED = 2.0  # s of every sensor, as the usage says
 
@@ -29,11 +29,11 @@ def check(testbed: str, /, *, yes: Flag = False) -> int:
     from equipoise.app.console.confirm import agreed
 
     bed = testbed_of(testbed)
-    told: list[Told] = []
+    reported: list[CheckResult] = []
     with busy("talking to the devices", announce=False):
         steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else agreed)
         for line in steps:
             mark, style = ("ok     ", None) if line.good else ("PROBLEM", "bold red")
             stdout().print(f"{mark}  {line.sentence}", style=style, markup=False)
-            told.append(line)
-    return 0 if all(line.good for line in told) else 1
+            reported.append(line)
+    return 0 if all(line.good for line in reported) else 1

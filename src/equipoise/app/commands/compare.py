@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.law_comparison import AS_THEY_ARE, JudgingLaws
 from equipoise.app.arguments.types import Flag, Names, Whole
 from equipoise.app.console.terminal import busy
@@ -29,7 +29,7 @@ def compare(
     seed: Whole = 1,
     duration_s: float = 120.0,
     move: Names = (),
-    seeking: Seeking = NOTHING_TOLD,
+    seeking: Seeking = NOTHING_STATED,
     judging: JudgingLaws = AS_THEY_ARE,
     workers: Whole = 2,
     json: Flag = False,
@@ -88,9 +88,9 @@ def compare(
         cards = comparison.chosen(bed, kinds[1]) if laws else []
         scene = _scene(bed, duration, moves, seeking)
     measured = comparison.run_methods(scene, names, seeds, many) if methods else None
-    balanced = comparison.run(comparison.Asked(bed, cards, seeds, *goal), many) if laws else None
-    done = Compared(bed, _asked(seeds, duration, move, goal), measured, balanced)
-    _tell(done, json, out)
+    balanced = comparison.run(comparison.Request(bed, cards, seeds, *goal), many) if laws else None
+    done = Compared(bed, _requested(seeds, duration, move, goal), measured, balanced)
+    _report(done, json, out)
     return _code(done)
 
 
@@ -110,7 +110,7 @@ def _scene(bed: "Testbed", duration: float, moves: "Moves", seeking: Seeking) ->
     return Scene(bed, duration, moves, Options(seeking.term, seeking.hold, seeking.prior))
 
 
-def _asked(seeds: range, duration: float, moves: Names, goal: "Goal") -> dict[str, str]:
+def _requested(seeds: range, duration: float, moves: Names, goal: "Goal") -> dict[str, str]:
     """Return what was asked, as the report has it."""
     *_, torque, time = goal
     return {
@@ -134,7 +134,7 @@ def _goal(judging: JudgingLaws) -> "Goal":
     )
 
 
-def _tell(done: "Compared", json: bool, out: Path | None) -> None:
+def _report(done: "Compared", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.views.comparison_report import document, files_of, show

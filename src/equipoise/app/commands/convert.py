@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.console.terminal import stdout, tell_paths
+from equipoise.app.console.terminal import show_paths, stdout
 
 
 def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
@@ -29,5 +29,5 @@ def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
     write_recording(recording, out)
     for note in recording.notes:
         stdout().print(f"~ {note}", markup=False)
-    tell_paths([out])
+    show_paths([out])
     return 0

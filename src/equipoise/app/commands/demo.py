@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.types import Whole
-from equipoise.app.console.terminal import busy, stdout, tell_paths
+from equipoise.app.console.terminal import busy, show_paths, stdout
 
 
 def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
@@ -35,5 +35,5 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
         kept = kept_of(shown.balancing, OWN.name)
         paths = write_run(account_of(shown, seed), document, "balance", kept, out)
     stdout().print()
-    tell_paths(paths)
+    show_paths(paths)
     return 0 if shown.balancing.verdict.passed else 1

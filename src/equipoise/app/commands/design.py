@@ -72,11 +72,11 @@ def design(
 
         case = Case(bed, target, tilt, lengths[0], count, lean, around)
         found = sized(case, lengths, require_torque)
-    _tell(found, json, out)
+    _report(found, json, out)
     return 0 if found.outcome.usable else 1
 
 
-def _tell(found: "Sizing", json: bool, out: Path | None) -> None:
+def _report(found: "Sizing", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.views.design_views import design_json, show_design

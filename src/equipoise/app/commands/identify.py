@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag
 from equipoise.app.console.terminal import busy, watched
@@ -24,7 +24,7 @@ def identify(
     method: str = "auto",
     robust: Flag = False,
     plan: Path | None = None,
-    seeking: Seeking = NOTHING_TOLD,
+    seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
     json: Flag = False,
     out: Path | None = None,
@@ -68,7 +68,7 @@ def identify(
     options = IdentifyOptions(method, seeking.term, seeking.hold, seeking.prior, robust)
     done = _carried_out(recording, bed, options, quiet=json)
     done = replace(done, plan=planned)
-    _tell(done, json, out)
+    _report(done, json, out)
     return 0 if done.estimate.outcome.usable else 1
 
 
@@ -92,7 +92,7 @@ def _carried_out(
     return Identification(testbed, recording, [*found, *happened], steps)
 
 
-def _tell(done: "Identification", json: bool, out: Path | None) -> None:
+def _report(done: "Identification", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.logbook.output import hand_over, keep
     from equipoise.app.report.write import write_run

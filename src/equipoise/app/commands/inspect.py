@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import stdout, tell_paths
+from equipoise.app.console.terminal import show_paths, stdout
 
 if TYPE_CHECKING:
     from equipoise.model.finding import Finding
@@ -58,7 +58,7 @@ def inspect(
     for finding in found:
         stdout().print(finding_line(finding))
     if figure is not None:
-        tell_paths([figure])
+        show_paths([figure])
     return 0
 
 

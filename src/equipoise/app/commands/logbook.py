@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.run_filter import LATEST, WantedRuns, condition
 from equipoise.app.arguments.types import Flag, Listed
-from equipoise.app.console.terminal import busy, complain, stderr, stdout, tell_paths
+from equipoise.app.console.terminal import busy, complain, show_paths, stderr, stdout
 
 if TYPE_CHECKING:
     from equipoise.io.documents.logbook import Logbook
@@ -57,10 +57,10 @@ def logbook(
             complain(f"left out: {sentence}")
         shown = book.runs(*condition(wanted), wanted.last or None)
         if builds:
-            _tell_builds(book, wanted, json)
+            _report_builds(book, wanted, json)
         else:
             earlier = book.count(*condition(wanted)) - len(shown)
-            _tell(book, shown, earlier, compare, json)
+            _report(book, shown, earlier, compare, json)
         _write(book, shown, trend, export, json)
     return 0
 
@@ -75,7 +75,7 @@ def _check(path: Path | None, suffixes: str) -> None:
         check_writable(path)
 
 
-def _tell_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
+def _report_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
     from equipoise.app.logbook.testbed_history import builds_json, show_builds
     from equipoise.app.text.json_document import dump
 
@@ -86,7 +86,7 @@ def _tell_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
         show_builds(book, shown)
 
 
-def _tell(
+def _report(
     book: "Logbook", shown: "list[LoggedRun]", earlier: int, compare: Listed, json: bool
 ) -> None:
     from equipoise.app.console.rich_tables import show_sheet
@@ -125,4 +125,4 @@ def _write(
 
         write_export(book, shown, export)
     if paths:
-        tell_paths(paths, aside)
+        show_paths(paths, aside)

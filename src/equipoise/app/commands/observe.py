@@ -1,6 +1,6 @@
 """`equipoise observe`: what a recording can and cannot show, before any estimate is believed."""
 
-from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag
 from equipoise.app.console.terminal import busy
@@ -11,7 +11,7 @@ def observe(
     /,
     *,
     testbed: str,
-    seeking: Seeking = NOTHING_TOLD,
+    seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
     json: Flag = False,
 ) -> int:
@@ -34,21 +34,21 @@ def observe(
     recording = fitting_recording_of(file, reading, bed)
     with busy("following the motion"):
         from equipoise.estimation.information.filter_observability import filters_along
-        from equipoise.estimation.information.fisher_information import seen_along
+        from equipoise.estimation.information.fisher_information import information_along
         from equipoise.estimation.information.reference_motion import followed
         from equipoise.estimation.method_contract import Options
         from equipoise.estimation.methods.trajectory import params_of
         from equipoise.procedure.steps.clean_record import sound
 
-        sound_recording, as_seen = sound(recording, bed)
-        asked = params_of(bed, Options(seeking.term, seeking.hold, seeking.prior))
-        motion = followed(sound_recording, as_seen, asked)
-        seen, filters = seen_along(motion), filters_along(motion)
+        sound_recording, as_observed = sound(recording, bed)
+        requested = params_of(bed, Options(seeking.term, seeking.hold, seeking.prior))
+        motion = followed(sound_recording, as_observed, requested)
+        information, filters = information_along(motion), filters_along(motion)
     from equipoise.app.text.json_document import dump
     from equipoise.app.views.observe_views import observe_json, show_observability
 
     if json:
-        print(dump(observe_json(recording, seen, filters)))
+        print(dump(observe_json(recording, information, filters)))
     else:
-        show_observability(seen, filters)
+        show_observability(information, filters)
     return 0

@@ -45,18 +45,18 @@ class OnBench:
 SIMULATED = OnBench()
 
 
-def check_on_bench(asked: OnBench) -> None:
+def check_on_bench(requested: OnBench) -> None:
     """Raise InputError for what only a real bench takes, and for a record that cannot be."""
     from equipoise.io.files.append_file import check_new
 
-    given = {"--record": asked.record, "--foxglove": asked.foxglove, "--yes": asked.yes}
-    for option in (option for option, value in given.items() if value and not asked.bench):
+    given = {"--record": requested.record, "--foxglove": requested.foxglove, "--yes": requested.yes}
+    for option in (option for option, value in given.items() if value and not requested.bench):
         raise InputError(option, "no --bench", "a real bench")
-    if asked.record is not None:
-        check_new(asked.record)
+    if requested.record is not None:
+        check_new(requested.record)
 
 
-def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", asked: OnBench) -> None:
+def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", requested: OnBench) -> None:
     """Practise in simulation, say what comes of it, and ask whether the platform is held.
 
     Raises BenchStopped first where a device cannot be reached.
@@ -72,12 +72,12 @@ def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", asked: OnBench) -> N
     if verdict is not None and not verdict.passed:
         stderr().print(f"In practice, simulated: {verdict.sentence}", markup=False)
     question = "The masses will go home. Is the platform held level, and their way free?"
-    if not asked.yes and not agreed(question):
+    if not requested.yes and not agreed(question):
         raise InputError("the platform", "not ready", "somebody who holds it; then yes, or --yes")
 
 
 @contextmanager
-def let_go(bed: "Testbed", asked: OnBench) -> "Generator[Bench]":
+def let_go(bed: "Testbed", requested: OnBench) -> "Generator[Bench]":
     """Return the real platform, masses at home, let go, and every sensor giving rows."""
     from equipoise.app.bench.open_bench import Wanted, real_bench
 
@@ -86,6 +86,6 @@ def let_go(bed: "Testbed", asked: OnBench) -> "Generator[Bench]":
 
     with ExitStack() as held:
         with busy("the masses go home", announce=True):
-            wanted = Wanted(bed, asked.record, asked.foxglove)
+            wanted = Wanted(bed, requested.record, requested.foxglove)
             bench = held.enter_context(real_bench(wanted, say))
         yield bench

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Literal
 
-from equipoise.app.arguments.estimated_terms import NOTHING_TOLD, Seeking
+from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.types import Flag, Whole
 
 
@@ -12,12 +12,12 @@ def plan(
     /,
     *,
     duration_s: float = 120.0,
-    ask: Literal["J", "r", "both"] = "both",
+    quantity: Literal["J", "r", "both"] = "both",
     criterion: Literal["A", "D"] = "A",
     moves: Whole = 3,
     max_rate_deg_s: float = 10.0,
-    seen: Path | None = None,
-    seeking: Seeking = NOTHING_TOLD,
+    prior_record: Path | None = None,
+    seeking: Seeking = NOTHING_STATED,
     trials: Whole = 2400,
     seed: Whole = 1,
     json: Flag = False,
@@ -36,7 +36,7 @@ def plan(
         Testbed file, or a preset's name.
     duration_s
         Length of the record to plan.
-    ask
+    quantity
         What is to be known: J, the inertia; r, the centre of mass with masses at home; or both.
     criterion
         A: the mean square of sd, in 1 % of a moment and 1 um; D: the volume of the ellipsoid.
@@ -44,7 +44,7 @@ def plan(
         How many times masses are moved.
     max_rate_deg_s
         Greatest rate of the platform.
-    seen
+    prior_record
         A recording that was made before: what it tells is known, masses stand where it left them.
     trials
         How many manoeuvres to try.
@@ -69,16 +69,18 @@ def plan(
     from equipoise.app.text.json_document import dump
     from equipoise.app.views.plan_views import plan_json, show_plan
 
-    request = Request(bed, duration, ask, criterion, int(count), rate, seeking, seen, tries, seed)
+    request = Request(
+        bed, duration, quantity, criterion, int(count), rate, seeking, prior_record, tries, seed
+    )
     done = run(request)
     if json:
         print(dump(plan_json(done)))
     else:
         show_plan(done)
     if out is not None:
-        from equipoise.app.console.terminal import tell_paths
+        from equipoise.app.console.terminal import show_paths
         from equipoise.io.documents.plan_file import write_plan
 
         write_plan(plan_file_of(done), bed, out)
-        tell_paths([out], json)
+        show_paths([out], json)
     return 0 if done.planned.keeps else 1

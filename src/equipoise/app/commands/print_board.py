@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.types import Whole
-from equipoise.app.console.terminal import stdout, tell_paths
+from equipoise.app.console.terminal import show_paths, stdout
 
 
 def print_board(
@@ -59,9 +59,9 @@ def print_board(
         square = positive("--square-mm", square_mm)
         charuco = Charuco(dictionary, columns, rows, 1e-3 * square, 1e-3 * marker)
         write_paper(charuco_print(charuco, DPI), out)
-        tell_paths([out])
+        show_paths([out])
         return 0
-    told = {
+    reported = {
         "dictionary": dictionary,
         "columns": columns,
         "rows": rows,
@@ -69,11 +69,11 @@ def print_board(
         "marker_mm": marker,
         "gap_mm": gap_mm,
     }
-    board = board_of(told, "print-board")
+    board = board_of(reported, "print-board")
     write_paper(board_print(board, DPI), out)
     width, height = board.size
     stdout().print(f"{1e3 * width:g} x {1e3 * height:g} mm over all markers", markup=False)
     if keys is not None:
-        write_camera_keys(told, keys)
-    tell_paths([out] if keys is None else [out, keys])
+        write_camera_keys(reported, keys)
+    show_paths([out] if keys is None else [out, keys])
     return 0

@@ -51,7 +51,7 @@ def _record(bench: "Bench", out: Path, duration: float) -> None:
 
     begin = bench.time
     view = RecordingView(bench.testbed, out, begin, duration)
-    seen = watched_by(view, bench)
+    observed = watched_by(view, bench)
     with suppress(KeyboardInterrupt), busy("recording", above=view):
         while (passed := bench.time - begin) < duration:
-            seen.read(min(SLICE, duration - passed))
+            observed.read(min(SLICE, duration - passed))

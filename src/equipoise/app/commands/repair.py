@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.console.terminal import stdout, tell_paths
+from equipoise.app.console.terminal import show_paths, stdout
 
 if TYPE_CHECKING:
     from equipoise.io.mcap.mcap_repair import Repaired
@@ -30,7 +30,7 @@ def repair(file: str, /, *, out: Path) -> int:
     for sentence in _sentences(file, done):
         stdout().print(sentence, markup=False)
     if done.written:
-        tell_paths([out])
+        show_paths([out])
     return 0
 
 
@@ -40,15 +40,17 @@ def _sentences(file: str, done: "Repaired") -> list[str]:
         return [f"{file} is whole: {kept}. Nothing was written."]
     if done.whole:
         return [f"{file} is whole: {kept}. It has no index; the new file has one."]
-    told = [f"Saved: {kept}."]
+    reported = [f"Saved: {kept}."]
     if done.lost_places:
         places = f"{done.lost_bytes} bytes in {_counted(done.lost_places, 'place')}"
-        told.append(f"Lost: {places} that made no sense.")
+        reported.append(f"Lost: {places} that made no sense.")
     if done.lost_messages:
-        told.append(f"Lost: {_counted(done.lost_messages, 'message')}, as the file itself counts.")
+        reported.append(
+            f"Lost: {_counted(done.lost_messages, 'message')}, as the file itself counts."
+        )
     if not done.ended:
-        told.append("The file has no end: how many messages followed is not known.")
-    return told
+        reported.append("The file has no end: how many messages followed is not known.")
+    return reported
 
 
 def _counted(count: int, thing: str) -> str:

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.console.terminal import busy, tell_paths
+from equipoise.app.console.terminal import busy, show_paths
 
 
 def report(run: Path, /) -> int:
@@ -19,5 +19,5 @@ def report(run: Path, /) -> int:
         from equipoise.app.report.write import set_again
 
         paths = set_again(run)
-    tell_paths(paths)
+    show_paths(paths)
     return 0

@@ -39,11 +39,11 @@ def reproduce(
     if out is not None:
         check_folder(out)
     runs = _slews(seed)
-    _tell(runs, seed, json, out)
+    _report(runs, seed, json, out)
     return 0
 
 
-def _tell(runs: "list[Manoeuvre]", seed: int, json: bool, out: Path | None) -> None:
+def _report(runs: "list[Manoeuvre]", seed: int, json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.report.write import write_account

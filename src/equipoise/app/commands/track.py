@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import counted, stdout, tell_paths
+from equipoise.app.console.terminal import counted, show_paths, stdout
 
 if TYPE_CHECKING:
     from equipoise.app.runs.camera_tracking import Track
@@ -71,7 +71,7 @@ def track(
         else:
             found = camera_tracking.tracked(Path(source), unit, rate, so_far)
     recording = camera_tracking.recording_of_track(found, source)
-    _tell(found)
+    _report(found)
     if level:
         up, spread = camera_tracking.up_from(found, unit)
         for key, value in zip(("up_x", "up_y", "up_z"), up, strict=True):
@@ -79,11 +79,11 @@ def track(
         stdout().print(f"~ spread {math.degrees(spread):.3f} deg from picture to picture")
     if out is not None:
         write_recording(recording, out)
-        tell_paths([out])
+        show_paths([out])
     return 0
 
 
-def _tell(found: "Track") -> None:
+def _report(found: "Track") -> None:
     """Say how many pictures gave an attitude, and how well."""
     import numpy as np
 

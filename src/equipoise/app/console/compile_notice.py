@@ -8,7 +8,7 @@ from numba.core import event
 
 
 @contextmanager
-def heard(begun: Callable[[], None], ended: Callable[[], None]) -> Generator[None]:
+def compiler_notices(begun: Callable[[], None], ended: Callable[[], None]) -> Generator[None]:
     """Call when the compiler begins and when it has ended; kernels that are loaded do not count."""
 
     class Listener(event.Listener):

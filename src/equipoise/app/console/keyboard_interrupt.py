@@ -19,7 +19,7 @@ class Interruption:
     def __init__(self) -> None:
         self._pending = self._put_off = False
 
-    def ask(self, _signal: int, frame: FrameType | None) -> None:
+    def on_sigint(self, _signal: int, frame: FrameType | None) -> None:
         """Raise KeyboardInterrupt, unless it is put off or would hit the compiler."""
         if not self._put_off and not compiling(frame):
             raise KeyboardInterrupt
@@ -60,7 +60,7 @@ def held_back() -> Generator[Interruption]:
     if not own or before is not signal.default_int_handler:
         yield interruption
         return
-    signal.signal(signal.SIGINT, interruption.ask)
+    signal.signal(signal.SIGINT, interruption.on_sigint)
     try:
         yield interruption
         interruption.carry_out()

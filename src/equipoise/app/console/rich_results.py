@@ -20,7 +20,7 @@ from equipoise.model.verdict import Verdict
 MARKS = {"content": "  ", "motion": "  ", "problem": "! ", "mended": "~ "}
 FINDING_STYLE = {"content": "", "motion": "", "problem": "bold yellow", "mended": "dim"}
 STEP_STYLE = {
-    "look": "dim",
+    "measurement": "dim",
     "estimate": "",
     "move": "cyan",
     "place": "bold cyan",
@@ -80,8 +80,8 @@ def groups(estimate: Estimate) -> Iterator[tuple[str, list[Parameter]]]:
 
     yield "Centre of mass and inertia about P, masses at home", of(*COM, "inertia_P_")
     yield "Centre of mass, masses as they stand at the end", of("com_end_")
-    told = of("com_", "inertia_P_")
-    yield "Also estimated", [p for p in estimate.parameters if p not in told]
+    reported = of("com_", "inertia_P_")
+    yield "Also estimated", [p for p in estimate.parameters if p not in reported]
     yield "Ratios, which do not need the scale", list(estimate.ratios)
 
 
@@ -113,10 +113,10 @@ def noise_floor_line(verdict: Verdict) -> str:
     """Return which offsets the record of a verdict cannot tell from none; empty without one."""
     if verdict.noise_floor is None:
         return ""
-    told = (f"{axis} {significant(um, 2)} um" if math.isfinite(um) else f"{axis} not seen"
+    reported = (f"{axis} {significant(um, 2)} um" if math.isfinite(um) else f"{axis} not seen"
             for axis, um in zip("xyz", UM * verdict.noise_floor, strict=True))  # fmt: skip
     return (
-        f"Noise floor of this record (95 %): {', '.join(told)}. "
+        f"Noise floor of this record (95 %): {', '.join(reported)}. "
         "A smaller offset cannot be told from none."
     )
 

@@ -61,7 +61,7 @@ def busy(
     Cut off from a terminal, ``announce`` says whether it is told that it begins, and what would
     stand ``above`` is not shown.
     """
-    from equipoise.app.console.compile_notice import heard
+    from equipoise.app.console.compile_notice import compiler_notices
 
     sign = _SignOfLife(what, announce, above)
 
@@ -73,7 +73,7 @@ def busy(
         try:
             with interruption.put_off():
                 sign.begin()
-            with heard(lambda: sign.say(f"{what}: {COMPILING}"), ended):
+            with compiler_notices(lambda: sign.say(f"{what}: {COMPILING}"), ended):
                 yield
         finally:
             with interruption.put_off():
@@ -138,7 +138,7 @@ def watched(
         yield step
 
 
-def tell_paths(paths: "Sequence[Path]", aside: bool = False) -> None:
+def show_paths(paths: "Sequence[Path]", aside: bool = False) -> None:
     """Say what was written; aside from the results when those are a JSON document.
 
     Of a folder within the folder of the others only the number of its files.

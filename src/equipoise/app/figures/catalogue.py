@@ -79,8 +79,8 @@ def tracked(
     """
     rows = recording.attitude
     assert rows is not None
-    belief = tracker.belief_of(testbed, estimate)
-    state = tracker.first_state(float(rows.t[0]), rows.values[0], testbed, belief)
+    posterior = tracker.posterior_of(testbed, estimate)
+    state = tracker.first_state(float(rows.t[0]), rows.values[0], testbed, posterior)
     return tracker.track(recording, testbed, tracker.Params(moves), state)
 
 

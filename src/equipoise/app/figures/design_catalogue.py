@@ -6,14 +6,14 @@ from equipoise.app.figures.base.files import rendered
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.study import reach, torque_budget
 from equipoise.app.text.json_document import View, dump
-from equipoise.design.sizing.limits import worth_telling
+from equipoise.design.sizing.limits import worth_listing
 from equipoise.design.sizing.sizing import Sizing
 from equipoise.io.files.atomic_folder import write_folder
 
 
 def pictures_of(found: Sizing) -> tuple[Picture, Picture]:
     """Return the figures of a design."""
-    shown = worth_telling(found.budget, found.better)
+    shown = worth_listing(found.budget, found.better)
     return (
         Picture("reach", reach.CAPTION, reach.draw(found.reach, found.case)),
         Picture(

@@ -13,7 +13,7 @@ from equipoise.estimation.regression.formulations.averaged import as_printed, ce
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.study.lee import NEAR, Manoeuvre, angles_of, singular_times, true_values
-from equipoise.study.lee_course import Told, told_along
+from equipoise.study.lee_course import Course, course_of
 
 KG_CM = 100.0  # kg cm in a kg m
 SINGULAR = f" Grey: the gyros' measure is below {NEAR:g}."
@@ -33,14 +33,14 @@ UNBALANCE = "mass unbalance, kg cm"
 class Sides(NamedTuple):
     """The courses of one slew."""
 
-    printed: Told
-    corrected: Told
+    printed: Course
+    corrected: Course
 
 
 def courses_of(done: Manoeuvre) -> Sides:
     """Return how estimates grow along a slew."""
     record, bed = done.slew.recording, done.testbed
-    return Sides(told_along(as_printed, record, bed), told_along(centred_means, record, bed))
+    return Sides(course_of(as_printed, record, bed), course_of(centred_means, record, bed))
 
 
 def pictures_of(large: Manoeuvre, small: Manoeuvre) -> Iterator[Picture]:
@@ -109,7 +109,7 @@ def course_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
     yield estimates(
         "figure12_poi", "Products of inertia, kg m2", "POI, kg m$^2$", (done, sides), PRODUCTS
     )
-    total = [lee_course.Told(side.t, side.total[:, None]) for side in sides]
+    total = [lee_course.Curves(side.t, side.total[:, None]) for side in sides]
     drawn = lee_course.draw_indices(total, ("EI",), "total error index", wide=False)
     yield Picture("figure13_error_index", f"Lee Fig. 13. Total error index (Eq. 9).{BOTH}.", drawn)
     for name, what, unit, group in (
@@ -117,11 +117,11 @@ def course_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
         ("figure15_poi_index", "POI", "kg m$^2$", PRODUCTS),
         ("figure16_unbalance_index", "mass unbalance", "kg cm", COM),
     ):
-        told = [
-            lee_course.Told(side.t, picked(side.names, side.parameter, group, mass))
+        reported = [
+            lee_course.Curves(side.t, picked(side.names, side.parameter, group, mass))
             for side in sides
         ]
-        drawn = lee_course.draw_indices(told, labels_of(group), f"PEI of {what}, {unit}")
+        drawn = lee_course.draw_indices(reported, labels_of(group), f"PEI of {what}, {unit}")
         caption = (
             f"{number(name)}Parameter error index of {what} (Eq. 10), in its unit and no standard "
             f"deviation.{BOTH}."
@@ -149,9 +149,11 @@ def estimates(
     mass = done.testbed.body.mass
     truth = true_values(done.testbed)
     true = np.array([truth[k] for k in group]) * scale_of(group, mass)
-    told = [lee_course.Told(side.t, picked(side.names, side.values, group, mass)) for side in sides]
+    reported = [
+        lee_course.Curves(side.t, picked(side.names, side.values, group, mass)) for side in sides
+    ]
     air = 2.0 * float(np.abs(true).max()) if group == COM else 9.0
-    drawn = lee_course.draw_estimates(told, true, labels_of(group), ylabel, air)
+    drawn = lee_course.draw_estimates(reported, true, labels_of(group), ylabel, air)
     return Picture(name, f"{number(name)}{caption}.{DASHED}", drawn)
 
 

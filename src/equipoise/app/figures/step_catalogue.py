@@ -40,25 +40,25 @@ def pictures_of_steps(
     found: dict[Step, Picture] = {}
     before: Mark | None = None
     for number, step in enumerate(steps, first):
-        told = _told(step, frame, before) if len(found) < MOST else None
-        if told is not None:
-            found[step] = Picture(f"step{number:02d}_{step.kind}", *told)
-        before = _believed(step, frame) or before
+        reported = _reported(step, frame, before) if len(found) < MOST else None
+        if reported is not None:
+            found[step] = Picture(f"step{number:02d}_{step.kind}", *reported)
+        before = _estimated(step, frame) or before
     return found
 
 
-def _told(step: Step, frame: Frame, before: Mark | None) -> tuple[str, Figure] | None:
+def _reported(step: Step, frame: Frame, before: Mark | None) -> tuple[str, Figure] | None:
     """Return caption and figure of a step."""
-    recording, believed, testbed = step.recording, _believed(step, frame), frame.testbed
-    if step.kind == "look" and recording is not None:
+    recording, estimated, testbed = step.recording, _estimated(step, frame), frame.testbed
+    if step.kind == "measurement" and recording is not None:
         return measurement.CAPTION, measurement.draw(recording, testbed.up)
     if step.kind == "estimate" and _is_fit(step.estimate) and _has_camera(recording):
         after = predict(recording, testbed, step.estimate)
         noise = testbed.attitude.noise if testbed.attitude else None
         return attitude_residual.CAPTION, attitude_residual.draw(recording, after, noise)
-    if believed is None:
+    if estimated is None:
         return None
-    marks = [mark for mark in (before, believed) if mark is not None]
+    marks = [mark for mark in (before, estimated) if mark is not None]
     return step_com.caption(frame.at_home, frame.wanted), step_com.draw(marks, frame.wanted)
 
 
@@ -72,7 +72,7 @@ def _has_camera(recording: Recording | None) -> TypeGuard[Recording]:
     return recording is not None and recording.attitude is not None
 
 
-def _believed(step: Step, frame: Frame) -> Mark | None:
+def _estimated(step: Step, frame: Frame) -> Mark | None:
     """Return the centre of mass that a step found, or that it predicts."""
     if step.verdict is not None and step.verdict.com is not None:
         sd = step.verdict.sd

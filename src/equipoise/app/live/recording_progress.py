@@ -13,9 +13,9 @@ class RecordingView(TerminalView):
         super().__init__(testbed)
         self._file, self._begin, self._duration = file, begin, duration
 
-    def told(self) -> list[list[str]]:
+    def lines(self) -> list[list[str]]:
         """Return what is known, in groups: a name, and short texts."""
         share = min(max(self.newest.time - self._begin, 0.0) / self._duration, 1.0)
         done = ["record", f"{share:4.0%} of {self._duration:g} s", self._file.name]
         rows = [f"{name} {number}" for name, number in self.newest.counts.items()]
-        return [*super().told(), done, ["rows", *rows] if rows else []]
+        return [*super().lines(), done, ["rows", *rows] if rows else []]

@@ -76,13 +76,13 @@ class _Lines:
 
     def __init__(self, testbed: Testbed, console: Console) -> None:
         self._up, self._console = testbed.up, console
-        self._newest, self._told = Newest(), -np.inf
+        self._newest, self._reported = Newest(), -np.inf
 
     def rows(self, rows: Recording) -> None:
         """Print a line if a second has passed since the last."""
         self._newest = newest = after(self._newest, rows, self._up)
-        if newest.time - self._told < LINE * (1 - 1e-9):
+        if newest.time - self._reported < LINE * (1 - 1e-9):
             return
-        self._told = newest.time
+        self._reported = newest.time
         texts = (time_of(newest), tilt_of(newest), *masses_of(newest))
         self._console.print("  ".join(filter(None, texts)), markup=False)

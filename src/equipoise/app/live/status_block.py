@@ -14,7 +14,7 @@ from rich.text import Text
 from equipoise.app.console.terminal import stderr
 from equipoise.app.live.latest_rows import SPAN, Newest, after, tilt_of
 from equipoise.app.live.observed_bench import WatchedBench
-from equipoise.app.text.com_estimate import believed_after
+from equipoise.app.text.com_estimate import com_after
 from equipoise.app.text.numbers import fixed
 from equipoise.app.text.sparkline import BLOCKS, PLAIN, in_columns, sparkline
 from equipoise.app.text.units import MM, PER_DEG, UM
@@ -47,7 +47,7 @@ class TerminalView:
         if step.estimate is not None or step.verdict is not None:
             self._step = step
 
-    def told(self) -> list[list[str]]:
+    def lines(self) -> list[list[str]]:
         """Return what is known, in groups: a name, and short texts."""
         return [self._motion(), self._masses(), self._offset()]
 
@@ -62,21 +62,21 @@ class TerminalView:
             yield Text(line, no_wrap=True, overflow="crop")
 
     def _lines(self, width: int, plain: bool) -> list[str]:
-        lines = [line for group in self.told() if group for line in filled(group, width)]
+        lines = [line for group in self.lines() if group for line in filled(group, width)]
         return lines + self._course(width, plain)
 
     def _motion(self) -> list[str]:
         newest = self.newest
-        told = ["bench time", f"{newest.time:8.1f} s"]
+        reported = ["bench time", f"{newest.time:8.1f} s"]
         if newest.tilt is not None:
-            told.append(f"{tilt_of(newest)} (limit {self.testbed.tilt_limit * PER_DEG:g})")
+            reported.append(f"{tilt_of(newest)} (limit {self.testbed.tilt_limit * PER_DEG:g})")
         if newest.rate is not None:
-            told.append(f"rate {newest.rate * PER_DEG:6.2f} deg/s")
-        return told
+            reported.append(f"rate {newest.rate * PER_DEG:6.2f} deg/s")
+        return reported
 
     def _masses(self) -> list[str]:
-        told = [f"{name} {at * MM:6.2f}" for name, at in self.newest.masses.items()]
-        return ["masses, mm", *told] if told else []
+        reported = [f"{name} {at * MM:6.2f}" for name, at in self.newest.masses.items()]
+        return ["masses, mm", *reported] if reported else []
 
     def _course(self, width: int, plain: bool) -> list[str]:
         """Return the sparkline of the tilt with its greatest value; no line before there is one."""
@@ -91,12 +91,12 @@ class TerminalView:
 
     def _offset(self) -> list[str]:
         """Return the last that was told of the centre of mass, um."""
-        believed = None if self._step is None else believed_after(self._step)
-        if self._step is None or believed is None:
+        estimated = None if self._step is None else com_after(self._step)
+        if self._step is None or estimated is None:
             return []
-        pairs = zip(AXES, believed.com * UM, believed.sd * UM, strict=True)
-        told = [f"{axis} {_um(float(value), float(sd))}" for axis, value, sd in pairs]
-        return ["com, um", *told, f"at {self._step.time:.1f} s"]
+        pairs = zip(AXES, estimated.com * UM, estimated.sd * UM, strict=True)
+        reported = [f"{axis} {_um(float(value), float(sd))}" for axis, value, sd in pairs]
+        return ["com, um", *reported, f"at {self._step.time:.1f} s"]
 
 
 def filled(group: Sequence[str], width: int) -> list[str]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from equipoise.app.console.terminal import busy, stderr, tell_paths
+from equipoise.app.console.terminal import busy, show_paths, stderr
 from equipoise.app.logbook.run_folder import own_folder
 from equipoise.app.text.json_document import View, dump
 
@@ -23,7 +23,7 @@ def hand_over(
     if out is not None:
         with busy("drawing"):
             paths = write(out)
-        tell_paths(paths, json)
+        show_paths(paths, json)
 
 
 def keep(write: Callable[[Path], Sequence[Path]], kind: str, platform: str) -> None:

@@ -31,11 +31,11 @@ def letters(book: Logbook) -> Mapping[tuple[str, str], str]:
 
 def lettered(number: int) -> str:
     """Return A, B, ... Z, AA, AB, ... for 1, 2, ..."""
-    told = ""
+    letters = ""
     while number:
         number, last = divmod(number - 1, 26)
-        told = chr(ord("A") + last) + told
-    return told
+        letters = chr(ord("A") + last) + letters
+    return letters
 
 
 def show_builds(book: Logbook, shown: Sequence[Build]) -> None:
@@ -44,7 +44,7 @@ def show_builds(book: Logbook, shown: Sequence[Build]) -> None:
     for head in HEADS:
         justify = "right" if head == "runs" else "left"
         table.add_column(head, justify=justify, no_wrap=head not in (HEADS[0], HEADS[-1]))
-    for build, letter, changes in told(book, shown):
+    for build, letter, changes in described(book, shown):
         cells = (build.platform, letter, _day(build.first), _day(build.last), str(build.runs),
                  "\n".join(changes))  # fmt: skip
         table.add_row(*map(Text, cells))
@@ -66,12 +66,12 @@ def builds_json(book: Logbook, shown: Sequence[Build]) -> View:
                 "changed": list(changes),
                 "text": book.configuration(build.configuration),
             }
-            for build, letter, changes in told(book, shown)
+            for build, letter, changes in described(book, shown)
         ],
     }
 
 
-def told(book: Logbook, shown: Sequence[Build]) -> Iterator[tuple[Build, str, Sequence[str]]]:
+def described(book: Logbook, shown: Sequence[Build]) -> Iterator[tuple[Build, str, Sequence[str]]]:
     """Yield each build of those shown, its letter, what changed since the platform's one before."""
     before: dict[str, str] = {}
     wanted = {(build.platform, build.configuration): build for build in shown}

@@ -29,10 +29,12 @@ def write_trend(book: Logbook, runs: Sequence[LoggedRun], path: Path) -> None:
             "--trend", f"runs of {', '.join(platforms)}", "--platform with one of them"
         )
     rows = [_row(book, run) for run in runs]
-    told = [k for k, (values, _) in enumerate(rows) if np.isfinite(values).any()]
-    if len(told) < FEWEST:
-        raise InputError("--trend", f"{len(told)} runs with an estimate", "two or more")
-    write_figure(trend.draw(_trend(book, [runs[k] for k in told], [rows[k] for k in told])), path)
+    reported = [k for k, (values, _) in enumerate(rows) if np.isfinite(values).any()]
+    if len(reported) < FEWEST:
+        raise InputError("--trend", f"{len(reported)} runs with an estimate", "two or more")
+    write_figure(
+        trend.draw(_trend(book, [runs[k] for k in reported], [rows[k] for k in reported])), path
+    )
 
 
 Row = tuple[np.ndarray, np.ndarray]

@@ -10,7 +10,7 @@ from equipoise.app.text.json_document import View, parameter_json
 from equipoise.app.text.numbers import decimals_for, fixed, is_known
 from equipoise.app.text.sheet import Sheet
 from equipoise.app.text.units import unit_for
-from equipoise.assessment.metrics.normalised_difference import apart
+from equipoise.assessment.metrics.normalised_difference import normalised_difference
 from equipoise.io.documents.logbook import Logbook
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA, Parameter
@@ -84,8 +84,8 @@ def compared(book: Logbook, runs: Sequence[LoggedRun]) -> Sheet:
     for name in names:
         first, *others = (each[name] for each in numbers)
         unit = unit_for(name, first.unit)
-        told = [f"{_short(p)} ({_apart(p, first)})" for p in others]
-        lines.append([name, unit.name, _short(first), *told])
+        reported = [f"{_short(p)} ({_separation(p, first)})" for p in others]
+        lines.append([name, unit.name, _short(first), *reported])
     remarks = [f"{k}: {r.name}, {r.platform}, {r.method}" for k, r in enumerate(runs, 1)]
     return Sheet("Masses at home; in brackets: from the first, in sd", heads, lines, remarks)
 
@@ -94,9 +94,9 @@ def _by_name(book: Logbook, run: LoggedRun) -> dict[str, Parameter]:
     return {p.name: p for p in book.numbers(run.name, "home")}
 
 
-def _apart(parameter: Parameter, other: Parameter) -> str:
-    far = apart(parameter, other)
-    return f"{far:+.1f}" if math.isfinite(far) and far else "not seen"
+def _separation(parameter: Parameter, other: Parameter) -> str:
+    outlying = normalised_difference(parameter, other)
+    return f"{outlying:+.1f}" if math.isfinite(outlying) and outlying else "not seen"
 
 
 def runs_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
@@ -107,11 +107,19 @@ def runs_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
 def compared_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
     """Return several runs, and how far each is from the first."""
     first = _by_name(book, runs[0])
-    far = {
-        run.name: {n: apart(p, first[n]) for n, p in _by_name(book, run).items() if n in first}
+    outlying = {
+        run.name: {
+            n: normalised_difference(p, first[n])
+            for n, p in _by_name(book, run).items()
+            if n in first
+        }
         for run in runs[1:]
     }
-    return {"schema": COMPARED, "runs": [_run_json(book, r) for r in runs], "sd_from_first": far}
+    return {
+        "schema": COMPARED,
+        "runs": [_run_json(book, r) for r in runs],
+        "sd_from_first": outlying,
+    }
 
 
 def _run_json(book: Logbook, run: LoggedRun) -> View:

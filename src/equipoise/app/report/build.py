@@ -25,7 +25,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 
-ALL_SEEN = "Every quantity above was seen in the data or given beforehand."
+ALL_OBSERVED = "Every quantity above was seen in the data or given beforehand."
 
 
 def report(account: Account) -> Page:
@@ -52,8 +52,8 @@ def _change(account: Account) -> Iterator[Section]:
     yield Section("Before and after", (_grid(HEADS[:last], (line[:last] for line in lines)),))
 
 
-def _asked(account: Account) -> Iterator[Section]:
-    yield Section("What was asked", (_pairs(account.asked),))
+def _requested(account: Account) -> Iterator[Section]:
+    yield Section("What was asked", (_pairs(account.requested),))
 
 
 def _platform(account: Account) -> Iterator[Section]:
@@ -95,10 +95,10 @@ def _findings(account: Account) -> Iterator[Section]:
 
 def _steps(account: Account) -> Iterator[Section]:
     for title, steps in account.chapters.items():
-        yield Section(title, tuple(_told(steps, account.step_pictures)))
+        yield Section(title, tuple(_reported(steps, account.step_pictures)))
 
 
-def _told(steps: Sequence[Step], pictures: Mapping[Step, Picture]) -> Iterator[Block]:
+def _reported(steps: Sequence[Step], pictures: Mapping[Step, Picture]) -> Iterator[Block]:
     """Yield each step, and its figure if it has one."""
     for step in steps:
         yield Moment(f"{fixed(step.time, 1)} s", step.kind, step.sentence)
@@ -132,7 +132,7 @@ def _unseen(account: Account) -> Iterator[Section]:
 
 
 def _unseen_block(estimate: Estimate) -> Block:
-    return Items(tuple(estimate.unobservable)) if estimate.unobservable else Paragraph(ALL_SEEN)
+    return Items(tuple(estimate.unobservable)) if estimate.unobservable else Paragraph(ALL_OBSERVED)
 
 
 def _figures(account: Account) -> Iterator[Section]:
@@ -147,7 +147,7 @@ def _origin(account: Account) -> Iterator[Section]:
 SECTIONS = (
     _verdict,
     _change,
-    _asked,
+    _requested,
     _platform,
     _findings,
     _steps,

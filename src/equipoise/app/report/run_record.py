@@ -26,7 +26,7 @@ class Account:
     """What was asked, of what platform, what was done, and what came of it."""
 
     title: str
-    asked: Mapping[str, str]
+    requested: Mapping[str, str]
     testbed: Testbed
     chapters: Mapping[str, Sequence[Step]]  # each with its own clock
     origin: Mapping[str, str]

@@ -8,10 +8,10 @@ import numpy as np
 
 from equipoise.app.bench.recorded_bench import RecordedBench
 from equipoise.app.console.terminal import watched
-from equipoise.app.figures.balancing.balanced_com import Look
+from equipoise.app.figures.balancing.balanced_com import Marked
 from equipoise.app.live.status_block import TerminalView, watched_by
 from equipoise.app.text.before_after import Change
-from equipoise.app.text.com_estimate import Believed, believed_after
+from equipoise.app.text.com_estimate import ComEstimate, com_after
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError
@@ -49,7 +49,7 @@ class Balancing:
     recording: Recording | None = None  # all that the bench was read
     truth_before: MassProperties | None = None
     truths: Sequence[MassProperties] = ()
-    before: Believed | None = None  # as known otherwise; None: the first estimate's
+    before: ComEstimate | None = None  # as known otherwise; None: the first estimate's
 
     @property
     def simulated(self) -> bool:
@@ -82,7 +82,7 @@ class Limits:
 class Through:
     """How somebody looks on: what the procedure sees of the bench, how its steps are awaited."""
 
-    look_on: Callable[[Bench], Bench]
+    observe: Callable[[Bench], Bench]
     awaited: Callable[[Iterator[Step], str], Iterator[Step]]
 
 
@@ -113,7 +113,7 @@ def run(
     simulated = bench if isinstance(bench, SimulatedBench) else None
     before = None if simulated is None else simulated.truth()
     through = through or at_terminal(bench.testbed)
-    recorded = RecordedBench(through.look_on(bench))
+    recorded = RecordedBench(through.observe(bench))
     steps: list[Step] = []
     truths: list[MassProperties] = []
     try:
@@ -125,15 +125,15 @@ def run(
             if simulated is not None:
                 truths.append(simulated.truth())
     except KeyboardInterrupt as by_hand:
-        told = halted(bench)
+        reported = halted(bench)
         if simulated is not None:
-            raise KeyboardInterrupt(told) from by_hand
-        steps.append(stop_step(bench, f"stopped by hand: {told}"))
+            raise KeyboardInterrupt(reported) from by_hand
+        steps.append(stop_step(bench, f"stopped by hand: {reported}"))
         if show is not None:
             show(steps[-1])
     # A look of a law's may hold what is not known; its estimate is no belief to begin with.
     body, sd = bench.testbed.body, bench.testbed.com_sd
-    known = None if limits.law == OWN.name else Believed(body.com, sd)
+    known = None if limits.law == OWN.name else ComEstimate(body.com, sd)
     planned = limits.plan is not None and bool(truths)
     began = truths[0] if planned else before  # after the manoeuvre
     return Balancing(bench.testbed, goal, steps, recorded.recording(), began, truths, known)
@@ -184,10 +184,10 @@ def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
     return balanced_and_followed(limits.law, bench, own, limits.max_time, limits.hold)
 
 
-def looks(done: Balancing) -> list[Look]:
+def measurements(done: Balancing) -> list[Marked]:
     """Return time and centre of mass of every estimate and of the verdict."""
-    told = [(step.time, believed_after(step)) for step in done.steps]
-    return [(time, each.com, each.sd) for time, each in told if each is not None]
+    reported = [(step.time, com_after(step)) for step in done.steps]
+    return [(time, each.com, each.sd) for time, each in reported if each is not None]
 
 
 def inertia_known(done: Balancing) -> tuple[Matrix3, float]:
@@ -202,15 +202,15 @@ def inertia_known(done: Balancing) -> tuple[Matrix3, float]:
 
 def change_of(done: Balancing) -> Change | None:
     """Return before and after: the first estimate, and the verdict or else the last estimate."""
-    seen = looks(done)
-    if not seen:
+    observed = measurements(done)
+    if not observed:
         return None
     return Change(
         done.testbed,
         *inertia_known(done),
         done.goal.target,
-        done.before or Believed(*seen[0][1:]),
-        Believed(*seen[-1][1:]),
+        done.before or ComEstimate(*observed[0][1:]),
+        ComEstimate(*observed[-1][1:]),
         done.truth_before,
         done.truths[-1] if done.truths else None,
     )

@@ -31,7 +31,7 @@ from equipoise.model.hardware import Port, SensorUnit, Setting
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
-Told = Callable[[float], None]
+OnProgress = Callable[[float], None]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,7 +67,7 @@ def unit_of(testbed: Testbed | None, files: Sequence[Path], address: str) -> Sen
     return replace(unit, settings=keys)
 
 
-def tracked(source: Path, unit: SensorUnit, rate: float | None, told: Told) -> Track:
+def tracked(source: Path, unit: SensorUnit, rate: float | None, reported: OnProgress) -> Track:
     """Return the attitudes in a video or a folder of pictures."""
     eye = eye_of(unit.settings, "camera")
     sight = Sight(eye.board, eye.lens, "camera")
@@ -76,13 +76,13 @@ def tracked(source: Path, unit: SensorUnit, rate: float | None, told: Told) -> T
     unseen: list[Unseen] = []
     for taken in pictures_of(source, rate):
         _check_size(taken.grey.shape, eye, source)
-        pose = sight.looked(taken.grey)
+        pose = sight.observe(taken.grey)
         if isinstance(pose, Pose):
             t.append(taken.t)
             poses.append(pose)
         else:
             unseen.append(pose)
-        told(taken.share)
+        reported(taken.share)
     attitudes = [
         placed(unit, "attitude", from_matrix(eye.to_laboratory @ pose.turn)) for pose in poses
     ]
@@ -91,7 +91,7 @@ def tracked(source: Path, unit: SensorUnit, rate: float | None, told: Told) -> T
     return Track(t, attitudes, sds, len(unseen) - ambiguous, ambiguous)
 
 
-def watched_camera(unit: SensorUnit, duration: float, told: Told) -> Track:
+def watched_camera(unit: SensorUnit, duration: float, reported: OnProgress) -> Track:
     """Return the attitudes that a camera shows for so long (s); Ctrl-C ends it early."""
     driver = driver_named(DRIVERS, unit.driver, "sensor")(unit)
     link = SensorLink(unit, driver, Connection(unit.port, open_port), UNSTATED)
@@ -101,7 +101,7 @@ def watched_camera(unit: SensorUnit, duration: float, told: Told) -> Track:
             for row in link.turn(clock.now):
                 t.append(row.t)
                 attitudes.append(row.values)
-            told(min(clock.now / duration, 1.0))
+            reported(min(clock.now / duration, 1.0))
             clock.wait()
     except KeyboardInterrupt:
         pass

@@ -26,7 +26,7 @@ DEG = math.pi / 180
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Asked:
+class Request:
     """Which laws are to be compared, and how."""
 
     testbed: Testbed
@@ -70,16 +70,16 @@ def by_kind(only: Sequence[str], methods: bool, laws: bool) -> tuple[list[str], 
     return [n for n in names if methods and n in METHODS], [n for n in names if n in CARDS]
 
 
-def run(asked: Asked, workers: int) -> Comparison:
+def run(requested: Request, workers: int) -> Comparison:
     """Return the comparison; runs of one platform by all laws come one after the other."""
-    options = BalanceOptions(asked.target, asked.tolerance, FIRST_MOVES, asked.max_time)
-    tilt = asked.tilt_deg * DEG
+    options = BalanceOptions(requested.target, requested.tolerance, FIRST_MOVES, requested.max_time)
+    tilt = requested.tilt_deg * DEG
     tasks = [
-        Task(card.name, asked.testbed, seed, options, asked.max_time, tilt)
-        for seed in asked.seeds
-        for card in asked.cards
+        Task(card.name, requested.testbed, seed, options, requested.max_time, tilt)
+        for seed in requested.seeds
+        for card in requested.cards
     ]
-    return compared(tasks, asked.cards, asked.required, spread_over(workers, "balancing"))
+    return compared(tasks, requested.cards, requested.required, spread_over(workers, "balancing"))
 
 
 def run_methods(

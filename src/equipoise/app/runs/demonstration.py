@@ -22,7 +22,7 @@ from equipoise.model.testbed import Testbed
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.simulation.bench import SimulatedBench
 
-LOOK = 60.0  # s before and after the move, as in the issue's paper-like runs
+MEASURED = 60.0  # s before and after the move, as in the issue's paper-like runs
 MOVE = {"x1": -10 / MM, "y1": -10 / MM, "z1": -50 / MM}  # m, the paper's section 3
 GOAL = Goal(np.array([0.0, 0.0, -100.0]) / UM, np.array([2.0, 2.0, 3.0]) / UM)
 
@@ -50,7 +50,7 @@ def run_demo(testbed: Testbed, seed: int) -> Demonstration:
     console.print(f"{testbed.name}, simulated, seed {seed}", style="bold", markup=False)
     console.print("\n1  Identify: free motion, masses moved half way", style="bold")
     with busy("simulating"):
-        recording, truth = looked(SimulatedBench(testbed, seed))
+        recording, truth = measured(SimulatedBench(testbed, seed))
     steps: list[Step] = []
     for step in watched(identify(recording, testbed, IdentifyOptions()), "identifying"):
         show_step(step)
@@ -64,16 +64,16 @@ def run_demo(testbed: Testbed, seed: int) -> Demonstration:
     return Demonstration(recording, truth, steps, replace(done, before=at_home(estimate)))
 
 
-def looked(bench: SimulatedBench) -> tuple[Recording, TrueCourse]:
+def measured(bench: SimulatedBench) -> tuple[Recording, TrueCourse]:
     """Return a record across a known move, and the truth along it."""
-    first = bench.read(LOOK)
+    first = bench.read(MEASURED)
     before = bench.truth().com
     bench.move(MOVE)
-    second = bench.read(LOOK)
+    second = bench.read(MEASURED)
     after = bench.truth().com
     bed = bench.testbed
     travel = max(abs(d) / bed.mass_named(name).speed for name, d in MOVE.items())
-    t = np.array([0.0, LOOK, LOOK, LOOK + travel, 2 * LOOK])
+    t = np.array([0.0, MEASURED, MEASURED, MEASURED + travel, 2 * MEASURED])
     under_way = np.full(3, np.nan)  # the truth is asked for when masses stand
     return join(first, second), (t, np.array([before, before, under_way, after, after]))
 
@@ -103,7 +103,7 @@ def _pictures_of_steps(shown: Demonstration) -> Mapping[Step, Picture]:
 def pictures(shown: Demonstration) -> list[Picture]:
     """Return figures 6, 7, 8, 11, 12, 13, 14 and 15."""
     bed, recording, estimate = shown.balancing.testbed, shown.recording, shown.estimate
-    still = window(recording, 0.0, LOOK)
+    still = window(recording, 0.0, MEASURED)
     return [
         *of_fit(recording, bed, estimate),
         *of_tracking(still, bed, estimate, shown.truth[1][0]),

@@ -12,7 +12,7 @@ LEAST = 3  # squares each way, chosen: fewer have no corner in between
 
 
 def lens_from_files(
-    files: Sequence[Path], board: Charuco, told: Callable[[float], None]
+    files: Sequence[Path], board: Charuco, reported: Callable[[float], None]
 ) -> Calibration:
     """Return the lens; InputError if files are no pictures of one size, or do not tell it."""
     if min(board.columns, board.rows) < LEAST or not board.marker < board.square:
@@ -30,7 +30,7 @@ def lens_from_files(
                 wanted = "pictures of one size ({} x {} px)".format(*sizes[0])
                 raise InputError(str(path), "{} x {} px".format(*sizes[-1]), wanted)
             yield picture
-            told((k + 1) / len(paths))
+            reported((k + 1) / len(paths))
 
     views = [View(*points) for points in charuco_points(board, pictures())]
     return lens_from(views, sizes[0])

@@ -10,7 +10,7 @@ from equipoise.app.arguments.resolve import fitting_recording_of
 from equipoise.app.console.terminal import watched
 from equipoise.app.runs.balancing import Balancing, Goal
 from equipoise.app.runs.recorded_operator import FiledHands
-from equipoise.app.text.com_estimate import Believed
+from equipoise.app.text.com_estimate import ComEstimate
 from equipoise.app.text.units import UM
 from equipoise.io.documents.manual_session import Piles, Round, Session
 from equipoise.io.toml.write_toml import numbers
@@ -72,7 +72,7 @@ def run(hands: SimulatedHands, goal: Goal, rounds: int, show: Show) -> ByHand:
             show(step)
         steps.append(step)
         truths.append(hands.truth())
-    return told(hands, goal, steps, before, truths)
+    return summary(hands, goal, steps, before, truths)
 
 
 def resume(filed: Filed, goal: Goal, show: Show) -> tuple[ByHand, list[Ints]]:
@@ -87,7 +87,7 @@ def resume(filed: Filed, goal: Goal, show: Show) -> tuple[ByHand, list[Ints]]:
     if hands.swings < len(filed.recordings):
         wanted = f"no recording after the verdict, which came with number {hands.swings}"
         raise InputError("--recording", f"number {len(filed.recordings)}", wanted)
-    return told(hands, goal, steps, None, ()), hands.placed
+    return summary(hands, goal, steps, None, ()), hands.placed
 
 
 def until_awaited(steps: Iterator[Step]) -> Iterator[Step]:
@@ -98,7 +98,7 @@ def until_awaited(steps: Iterator[Step]) -> Iterator[Step]:
         return
 
 
-def told(
+def summary(
     hands: SimulatedHands | FiledHands,
     goal: Goal,
     steps: Sequence[Step],
@@ -107,7 +107,7 @@ def told(
 ) -> ByHand:
     """Return what was done."""
     bed = hands.testbed
-    known = Believed(bed.body.com, bed.com_sd)
+    known = ComEstimate(bed.body.com, bed.com_sd)
     done = Balancing(bed, goal, steps, None, before, truths, known)
     placings = [step.placing for step in steps if step.placing is not None]
     ended = any(step.verdict is not None for step in steps)
@@ -122,10 +122,10 @@ def begun(testbed: str, bed: Testbed, goal: Goal, rounds: int) -> Filed:
     return Filed(session, bed, (), ())
 
 
-def opened(session: Session, bed: Testbed, asked: Session, where: str) -> Filed:
+def opened(session: Session, bed: Testbed, requested: Session, where: str) -> Filed:
     """Return a session with its recordings; InputError if it was begun with something else."""
     for key in ("testbed", "target_um", "tolerance_um", "max_rounds"):
-        was, now = getattr(session, key), getattr(asked, key)
+        was, now = getattr(session, key), getattr(requested, key)
         if was != now:
             raise InputError(f"{where}: {key}", str(now), f"{was}, with which it was begun")
     recordings = [recording_of(each, bed, where) for each in session.round]

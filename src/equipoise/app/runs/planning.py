@@ -10,13 +10,13 @@ from equipoise.app.arguments.recording_window import WHOLE
 from equipoise.app.arguments.resolve import fitting_recording_of
 from equipoise.app.console.terminal import busy, counted
 from equipoise.app.text.units import PER_DEG
-from equipoise.design.manoeuvre.criterion import NAMES, Asked, Criterion
+from equipoise.design.manoeuvre.criterion import NAMES, Criterion, Quantity
 from equipoise.design.manoeuvre.manoeuvre_space import Space
 from equipoise.design.manoeuvre.plan import Wish, planned
 from equipoise.design.manoeuvre.predicted_sd import Promise, promise
-from equipoise.design.manoeuvre.prior_from_record import Seen, seen
+from equipoise.design.manoeuvre.prior_from_record import RecordPrior, record_prior
 from equipoise.design.manoeuvre.reference_manoeuvre import usual
-from equipoise.design.manoeuvre.scenario import beforehand
+from equipoise.design.manoeuvre.scenario import stated_prior
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.trajectory import METHOD, params_of
 from equipoise.estimation.output_error.trajectory import Params
@@ -33,19 +33,19 @@ class Request:
 
     testbed: Testbed
     duration: float  # s
-    asked: Asked
+    requested: Quantity
     criterion: Criterion
     moves: int
     rate_deg_s: float
     seeking: Seeking
-    seen: Path | None
+    prior_record: Path | None
     trials: int
     seed: int
 
     @property
     def names(self) -> tuple[str, ...]:
         """Return what is asked for, by name."""
-        return tuple(n for n in NAMES[self.asked] if n not in self.seeking.hold)
+        return tuple(n for n in NAMES[self.requested] if n not in self.seeking.hold)
 
     @property
     def params(self) -> Params:
@@ -69,14 +69,14 @@ def run(request: Request) -> Planning:
     testbed, params = request.testbed, request.params
     if testbed.attitude is None and testbed.gyro is None:
         raise InputError(testbed.name, "no sensor", "a camera or a gyro")
-    learnt = None if request.seen is None else learnt_from(request.seen, request)
-    belief = beforehand(testbed) if learnt is None else learnt.belief
+    learnt = None if request.prior_record is None else learnt_from(request.prior_record, request)
+    prior = stated_prior(testbed) if learnt is None else learnt.prior
     known, standing = (None, {}) if learnt is None else (learnt.known, learnt.standing)
-    wish = Wish(request.asked, request.criterion, params, belief, known)
+    wish = Wish(request.requested, request.criterion, params, prior, known)
     rate = request.rate_deg_s / PER_DEG
     space = Space(testbed, request.duration, request.moves, testbed.tilt_limit, rate, standing)
-    with counted("planning") as tell:
-        best = planned(space, wish, request.seed, request.trials, tell)
+    with counted("planning") as report:
+        best = planned(space, wish, request.seed, request.trials, report)
     before = usual(testbed, request.duration, standing)
     with busy("trying it on other platforms", announce=False):
         first, second = (promise(testbed, m, wish, request.seed, rate) for m in (before, best))
@@ -85,20 +85,20 @@ def run(request: Request) -> Planning:
     return Planning(request, first, second, alone)
 
 
-def learnt_from(file: Path, request: Request) -> Seen:
+def learnt_from(file: Path, request: Request) -> RecordPrior:
     """Return what an earlier recording tells, the testbed's body being its prior."""
     testbed, seeking = request.testbed, request.seeking
     recording = fitting_recording_of(str(file), WHOLE, testbed)
     with busy("identifying what was seen"):
-        rows, as_seen = sound(recording, testbed)
-        found = METHOD.run(rows, as_seen, Options(seeking.term, seeking.hold, use_prior=True))
-    return seen(recording, found, testbed)
+        rows, as_observed = sound(recording, testbed)
+        found = METHOD.run(rows, as_observed, Options(seeking.term, seeking.hold, use_prior=True))
+    return record_prior(recording, found, testbed)
 
 
 def plan_file_of(done: Planning) -> Plan:
     """Return the plan as it is written down, with what a fit of its record alone should find."""
     promised, bed = done.alone, done.request.testbed
     inertia, com = promised.sd_of(INERTIA), promised.sd_of(COM)
-    all_seen = bool(np.all(np.isfinite([*inertia, *com])))
-    said = (inertia, com) if all_seen else (None, None)
+    all_observed = bool(np.all(np.isfinite([*inertia, *com])))
+    said = (inertia, com) if all_observed else (None, None)
     return Plan(bed.name, promised.manoeuvre, *said)

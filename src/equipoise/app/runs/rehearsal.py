@@ -17,5 +17,5 @@ SEED = 0
 def practised(testbed: Testbed, goal: Goal, limits: Limits) -> Verdict | None:
     """Return the verdict on a simulated platform; None if the procedure ends without one."""
     steps = procedure(SimulatedBench(testbed, SEED), goal, limits)
-    told = (step.verdict for step in steps if step.verdict is not None)
-    return next(iter(deque(told, maxlen=1)), None)
+    reported = (step.verdict for step in steps if step.verdict is not None)
+    return next(iter(deque(reported, maxlen=1)), None)

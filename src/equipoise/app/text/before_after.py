@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.app.text.com_estimate import Believed
+from equipoise.app.text.com_estimate import ComEstimate
 from equipoise.app.text.numbers import decimals_for, fixed, is_known, with_sd
 from equipoise.app.text.units import MICRO, UM, Unit
 from equipoise.assessment.metrics.residual_torque import (
@@ -30,8 +30,8 @@ class Change:
     inertia_P: Matrix3  # kg m^2, as last estimated, else the testbed's
     inertia_sd: float  # -, relative
     target: Vector3  # m
-    before: Believed
-    after: Believed
+    before: ComEstimate
+    after: ComEstimate
     truth_before: MassProperties | None = None
     truth_after: MassProperties | None = None
 
@@ -59,18 +59,18 @@ def rows(change: Change) -> Iterator[Row]:
     yield _row("period of swing", Unit("s", 1.0), change, _period)
 
 
-Quantity = Callable[[Change, Believed, Matrix3], Uncertain]
+Quantity = Callable[[Change, ComEstimate, Matrix3], Uncertain]
 
 
-def _component(axis: int, change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
+def _component(axis: int, change: Change, at: ComEstimate, inertia: Matrix3) -> Uncertain:
     return Uncertain(float(at.com[axis]), float(at.sd[axis]))
 
 
-def _torque(change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
+def _torque(change: Change, at: ComEstimate, inertia: Matrix3) -> Uncertain:
     return level_torque(_weight(change), at.com, at.sd, change.testbed.up)
 
 
-def _period(change: Change, at: Believed, inertia: Matrix3) -> Uncertain:
+def _period(change: Change, at: ComEstimate, inertia: Matrix3) -> Uncertain:
     period = swing_period(_weight(change), at.com, at.sd, inertia, change.testbed.up)
     return with_doubtful_inertia(period, change.inertia_sd)
 
@@ -81,11 +81,11 @@ def _weight(change: Change) -> float:
 
 def _row(name: str, unit: Unit, change: Change, quantity: Quantity) -> Row:
     """Return one line: the truths and the target with the digits that the result bears."""
-    believed = [quantity(change, at, change.inertia_P) for at in (change.before, change.after)]
-    before, after = (Uncertain(n.value * unit.factor, n.sd * unit.factor) for n in believed)
+    estimated = [quantity(change, at, change.inertia_P) for at in (change.before, change.after)]
+    before, after = (Uncertain(n.value * unit.factor, n.sd * unit.factor) for n in estimated)
 
     def exact(com: Vector3, inertia: Matrix3) -> str:
-        value = quantity(change, Believed(com, np.zeros(3)), inertia).value * unit.factor
+        value = quantity(change, ComEstimate(com, np.zeros(3)), inertia).value * unit.factor
         return _exact(value, after)
 
     truths = (change.truth_before, change.truth_after)

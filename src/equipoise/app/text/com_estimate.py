@@ -10,33 +10,33 @@ from equipoise.model.step import Step
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Believed:
+class ComEstimate:
     """A centre of mass with the masses as they stand, m."""
 
     com: Vector3
     sd: Vector3
 
 
-def at_home(estimate: Estimate) -> Believed | None:
+def at_home(estimate: Estimate) -> ComEstimate | None:
     """Return the centre of mass with the masses at home."""
-    return _believed(estimate, COM)
+    return _com_estimate(estimate, COM)
 
 
-def as_it_stands(estimate: Estimate) -> Believed | None:
+def as_it_stands(estimate: Estimate) -> ComEstimate | None:
     """Return the centre of mass with the masses as they stood at the end of what was seen."""
-    return _believed(estimate, END) or at_home(estimate)
+    return _com_estimate(estimate, END) or at_home(estimate)
 
 
-def believed_after(step: Step) -> Believed | None:
+def com_after(step: Step) -> ComEstimate | None:
     """Return what a step says of it: its verdict, else its estimate; None if it says nothing."""
     verdict, estimate = step.verdict, step.estimate
     if verdict is not None and verdict.com is not None:
-        return Believed(verdict.com, np.zeros(3) if verdict.sd is None else verdict.sd)
+        return ComEstimate(verdict.com, np.zeros(3) if verdict.sd is None else verdict.sd)
     return None if estimate is None else as_it_stands(estimate)
 
 
-def _believed(estimate: Estimate, names: tuple[str, ...]) -> Believed | None:
+def _com_estimate(estimate: Estimate, names: tuple[str, ...]) -> ComEstimate | None:
     if not all(map(estimate.has, names)):
         return None
     sd = np.array([estimate.parameters[estimate.index(name)].sd for name in names])
-    return Believed(estimate.values(names), sd)
+    return ComEstimate(estimate.values(names), sd)

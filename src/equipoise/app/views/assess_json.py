@@ -1,9 +1,9 @@
 """An assessment as one JSON document, SI units."""
 
 from equipoise.app.text.json_document import View, estimate_json, numbers
-from equipoise.app.views.assess_views import Told
+from equipoise.app.views.assess_views import AssessmentView
 from equipoise.assessment.metrics.swing_height import Hanging
-from equipoise.estimation.regression.inverse_dynamics_torque import Felt
+from equipoise.estimation.regression.inverse_dynamics_torque import ResidualTorque
 from equipoise.model.estimate import COM, Estimate
 from equipoise.procedure.identification.assess import Assessment
 from equipoise.procedure.identification.drift_metrics import OverHours
@@ -12,9 +12,9 @@ from equipoise.procedure.identification.requirement import Judged
 SCHEMA = "equipoise/assess/1"
 
 
-def document_of(told: Told) -> View:
+def document_of(reported: AssessmentView) -> View:
     """Return the assessment; what the recording before showed beside it."""
-    done, before, verdict = told.done, told.before, told.steps[-1].verdict
+    done, before, verdict = reported.done, reported.before, reported.steps[-1].verdict
     return {
         "schema": SCHEMA,
         "verdict": None
@@ -23,14 +23,14 @@ def document_of(told: Told) -> View:
         "required": [judged_json(each) for each in done.judged],
         **platform_json(done),
         "before": None if before is None else platform_json(before),
-        "over_hours": None if told.hours is None else hours_json(told.hours),
-        "estimate": estimate_json(done.estimate, told.findings),
+        "over_hours": None if reported.hours is None else hours_json(reported.hours),
+        "estimate": estimate_json(done.estimate, reported.findings),
     }
 
 
 def platform_json(done: Assessment) -> View:
     """Return what one recording shows of the platform."""
-    looks, torque = done.looks, done.torque
+    metrics, torque = done.metrics, done.torque
     return {
         "com": {
             "value": numbers(done.com),
@@ -45,13 +45,13 @@ def platform_json(done: Assessment) -> View:
             "greatest_high": torque.worst_high,
         },
         "inertia_sd": done.inertia_sd,
-        "looks": {
-            "duration": looks.duration,
-            "window": looks.window,
-            "torque": felt_json(looks.torque, looks.torque_fit),
-            "energy": felt_json(looks.energy, looks.energy_fit),
-            "swings": [hanging_json(each, done.weight) for each in looks.hanging],
-            "no_period": looks.quiet,
+        "metrics": {
+            "duration": metrics.duration,
+            "window": metrics.window,
+            "torque": residual_torque_json(metrics.torque, metrics.torque_fit),
+            "energy": residual_torque_json(metrics.energy, metrics.energy_fit),
+            "swings": [hanging_json(each, done.weight) for each in metrics.hanging],
+            "no_period": metrics.quiet,
         },
     }
 
@@ -71,7 +71,7 @@ def hours_json(hours: OverHours) -> View:
             "span": numbers(wander.span),
             "deviation": numbers(wander.deviation),
             "relative_sd": numbers(wander.error),
-            "looks_alone": numbers(wander.looks_alone),
+            "measurements_alone": numbers(wander.measurements_alone),
         },
     }
 
@@ -86,16 +86,16 @@ def judged_json(judged: Judged) -> View:
     }
 
 
-def felt_json(seen: Felt | None, fit: Estimate | None) -> View | None:
+def residual_torque_json(observed: ResidualTorque | None, fit: Estimate | None) -> View | None:
     """Return what was felt, and the centre of mass that it tells, as the masses stand."""
-    if seen is None:
+    if observed is None:
         return None
     usable = fit is not None and fit.outcome.usable
     return {
-        "rms": seen.rms,
-        "rms_sd": seen.rms_sd,
-        "greatest": seen.greatest,
-        "noise": seen.noise,
+        "rms": observed.rms,
+        "rms_sd": observed.rms_sd,
+        "greatest": observed.greatest,
+        "noise": observed.noise,
         "com": numbers(fit.com) if usable and fit is not None else None,
         "com_covariance": numbers(fit.covariance_of(COM)) if usable and fit is not None else None,
     }

@@ -33,7 +33,7 @@ Row = tuple[str, str, str, str, str, str]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Told:
+class AssessmentView:
     """What is told of an assessment."""
 
     done: Assessment
@@ -45,8 +45,8 @@ class Told:
 
 def sheets_of(done: Assessment) -> list[Sheet]:
     """Return the tables of an assessment; where its fit cannot be used, of what was felt alone."""
-    usable = [range_sheet(done), looks_sheet(done)] if done.estimate.outcome.usable else []
-    return [*usable, felt_sheet(done)]
+    usable = [range_sheet(done), metrics_sheet(done)] if done.estimate.outcome.usable else []
+    return [*usable, residual_torque_sheet(done)]
 
 
 def range_sheet(done: Assessment) -> Sheet:
@@ -77,36 +77,36 @@ def bounds(found: Bounded, factor: float) -> tuple[str, str, str]:
     return value, f"{low} to {high}", floor
 
 
-def looks_sheet(done: Assessment) -> Sheet:
+def metrics_sheet(done: Assessment) -> Sheet:
     """Return the centre of mass as the fit and the simple looks have it."""
-    lines = [list(row) for row in look_rows(done)]
-    looks = done.looks
+    lines = [list(row) for row in metric_rows(done)]
+    metrics = done.metrics
     remarks = [
         "All at the inertia that the fit found. Off: from the fit, in sd of the difference.",
-        f"The looks see {looks.duration:.3g} s of swing since the masses stopped"
-        + (f"; no period: {looks.quiet}." if looks.quiet else "."),
+        f"The looks see {metrics.duration:.3g} s of swing since the masses stopped"
+        + (f"; no period: {metrics.quiet}." if metrics.quiet else "."),
     ]
-    for fit in (looks.torque_fit, looks.energy_fit):
+    for fit in (metrics.torque_fit, metrics.energy_fit):
         if fit is not None and not fit.outcome.usable:
             remarks.append(f"{fit.method}: {fit.outcome.sentence}")
     heads = ("", "com x, um", "y", "z", "distance from P, um", "off")
     return Sheet("Centre of mass, as the masses stand, by several looks", heads, lines, remarks)
 
 
-def look_rows(done: Assessment) -> Iterator[Row]:
+def metric_rows(done: Assessment) -> Iterator[Row]:
     """Yield a row a look."""
     yield ("trajectory fit", *components(done.com, done.com_unscaled),
            length_text(*distance(done.com, done.com_unscaled)), "")  # fmt: skip
-    looks = done.looks
-    named = ((f"torque, slopes over {looks.window:.3g} s", looks.torque_fit),
-             ("energy", looks.energy_fit))  # fmt: skip
+    metrics = done.metrics
+    named = ((f"torque, slopes over {metrics.window:.3g} s", metrics.torque_fit),
+             ("energy", metrics.energy_fit))  # fmt: skip
     for name, fit in named:
         if fit is not None and fit.outcome.usable:
             com, covariance = fit.com, fit.covariance_of(COM)
             off = (com - done.com) / np.sqrt(np.diag(covariance + done.com_unscaled))
             yield (name, *components(com, covariance), length_text(*distance(com, covariance)),
                    f"{np.abs(off).max():.1f}")  # fmt: skip
-    for hanging in looks.hanging:
+    for hanging in metrics.hanging:
         yield period_row(done, hanging)
 
 
@@ -139,20 +139,20 @@ def length_text(value: float, sd: float) -> str:
     return " ± ".join(with_sd(value * UM, sd * UM))
 
 
-def felt_sheet(done: Assessment) -> Sheet:
+def residual_torque_sheet(done: Assessment) -> Sheet:
     """Return what was felt along the record, with the noise of feeling it."""
     lines = list[list[str]]()
-    looks = done.looks
-    felt = (("torque felt", looks.torque, "uN m"), ("energy of motion", looks.energy, "uJ"))
-    for name, seen, unit in felt:
-        if seen is not None:
-            value, sd = with_sd(seen.rms * MICRO, seen.rms_sd * MICRO)
-            lines.append([name, f"{value} ± {sd}", significant(seen.greatest * MICRO),
-                          significant(seen.noise * MICRO, 2), unit])  # fmt: skip
+    metrics = done.metrics
+    response = (("torque felt", metrics.torque, "uN m"), ("energy of motion", metrics.energy, "uJ"))
+    for name, observed, unit in response:
+        if observed is not None:
+            value, sd = with_sd(observed.rms * MICRO, observed.rms_sd * MICRO)
+            lines.append([name, f"{value} ± {sd}", significant(observed.greatest * MICRO),
+                          significant(observed.noise * MICRO, 2), unit])  # fmt: skip
     heads = ("", "rms, noise taken off", "greatest", "noise", "unit")
     indices = [
         f"{fit.method} {fit.residual.error_index:.2g}"
-        for fit in (looks.torque_fit, looks.energy_fit)
+        for fit in (metrics.torque_fit, metrics.energy_fit)
         if fit is not None and fit.residual is not None and fit.residual.error_index is not None
     ]
     remarks = [f"Error indices (EI): {', '.join(indices)}."] if indices else []
@@ -161,20 +161,20 @@ def felt_sheet(done: Assessment) -> Sheet:
     return Sheet("Along the record: all torques together, and energy", heads, lines, remarks)
 
 
-def show_result(told: Told) -> None:
+def show_result(reported: AssessmentView) -> None:
     """Print what the recording holds, steps, tables and the verdict."""
-    console, done, steps = stdout(), told.done, told.steps
+    console, done, steps = stdout(), reported.done, reported.steps
     verdict = steps[-1].verdict
-    show_findings(told.findings)
+    show_findings(reported.findings)
     console.print()
     for step in steps[:-1]:
         console.print(step_line(step))
     for sheet in sheets_of(done):
         show_sheet(sheet)
-    if told.before is not None:
-        show_sheet(change_sheet(told.before, done))
-    if told.hours is not None:
-        show_sheet(hours_sheet(told.hours))
+    if reported.before is not None:
+        show_sheet(change_sheet(reported.before, done))
+    if reported.hours is not None:
+        show_sheet(hours_sheet(reported.hours))
     console.print()
     for sentence in done.estimate.unobservable:
         console.print(f"! {sentence}", style="yellow", markup=False)
@@ -213,10 +213,10 @@ def hours_sheet(hours: OverHours) -> Sheet:
         ["walk, um/sqrt(min)", *(significant(float(c) * root, 2) for c in wander.walk), ""],
     ]  # fmt: skip
     for span, deviation, alone, error in zip(
-        wander.span, wander.deviation, wander.looks_alone, wander.error, strict=True
+        wander.span, wander.deviation, wander.measurements_alone, wander.error, strict=True
     ):
-        told = (f"{d * UM:.2g} ({a * UM:.2g})" for d, a in zip(deviation, alone, strict=True))
-        lines.append([f"Allan deviation, {span:.4g} s, um", *told, f"{PERCENT * error:.0f} %"])
+        reported = (f"{d * UM:.2g} ({a * UM:.2g})" for d, a in zip(deviation, alone, strict=True))
+        lines.append([f"Allan deviation, {span:.4g} s, um", *reported, f"{PERCENT * error:.0f} %"])
     remarks = ["In brackets: what looks that only err would leave. Last: relative sd."]
     remarks += [left_out] if hours.left_out else []
     return Sheet(title, ("", "x", "y", "z", ""), lines, remarks)
@@ -232,44 +232,44 @@ def fall(before: Bounded, after: Bounded) -> str:
     return "no change that the recordings show"
 
 
-def account_of(told: Told) -> Account:
+def account_of(reported: AssessmentView) -> Account:
     """Return the assessment as a report."""
-    done, before, options = told.done, told.before, told.done.options
-    asked = {
+    done, before, options = reported.done, reported.before, reported.done.options
+    requested = {
         "recording": done.recording.source,
         "target": f"({', '.join(f'{UM * x:g}' for x in options.target)}) um",
         "range of tilts": f"{np.degrees(options.tilt):g} deg",
     }
     if before is not None:
-        asked["before"] = before.recording.source
-    asked |= {f"required {n}": each.sentence for n, each in enumerate(done.judged, 1)}
+        requested["before"] = before.recording.source
+    requested |= {f"required {n}": each.sentence for n, each in enumerate(done.judged, 1)}
     more = [] if before is None else [change_sheet(before, done)]
-    more += [] if told.hours is None else [hours_sheet(told.hours)]
+    more += [] if reported.hours is None else [hours_sheet(reported.hours)]
     return Account(
         title="Assessment",
-        asked=asked,
+        requested=requested,
         testbed=done.testbed,
-        chapters={"Steps": told.steps},
-        step_pictures=pictures_of_steps(told.steps, Frame(done.testbed)),
+        chapters={"Steps": reported.steps},
+        step_pictures=pictures_of_steps(reported.steps, Frame(done.testbed)),
         origin=origin(sha256=done.recording.sha256),
-        findings=told.findings,
+        findings=reported.findings,
         estimate=done.estimate,
-        verdict=told.steps[-1].verdict,
-        pictures=list(pictures_of(told)),
+        verdict=reported.steps[-1].verdict,
+        pictures=list(pictures_of(reported)),
         sheets=(*sheets_of(done), *more),
     )
 
 
-def pictures_of(told: Told) -> Iterator[Picture]:
+def pictures_of(reported: AssessmentView) -> Iterator[Picture]:
     """Yield the figures."""
-    done, hours = told.done, told.hours
+    done, hours = reported.done, reported.hours
     if done.estimate.outcome.usable:
         yield Picture("torque_in_range", torque_in_range.CAPTION, torque_in_range.draw(done))
-    if done.looks.torque is not None:
+    if done.metrics.torque is not None:
         yield Picture(
-            "torque_felt", residual_torque.CAPTION, residual_torque.draw(done.looks.torque)
+            "residual_torque", residual_torque.CAPTION, residual_torque.draw(done.metrics.torque)
         )
-    if done.looks.spectrum is not None:
+    if done.metrics.spectrum is not None:
         yield Picture("swing_spectrum", swing_spectrum.CAPTION, swing_spectrum.draw(done))
     if hours is not None and hours.wander is not None:
         drawn = com_over_hours.draw(hours, hours.wander)

@@ -10,7 +10,7 @@ from equipoise.app.figures.estimate.step_com import Wanted
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
 from equipoise.app.report.logbook_entry import Kept
 from equipoise.app.report.run_record import Account, origin
-from equipoise.app.runs.balancing import Balancing, Goal, change_of, looks
+from equipoise.app.runs.balancing import Balancing, Goal, change_of, measurements
 from equipoise.app.text.json_document import View, balance_json
 from equipoise.app.text.numbers import fixed
 from equipoise.app.text.units import UM
@@ -51,7 +51,7 @@ def account_of(done: Balancing, seed: int) -> Account:
     """Return the run as a report."""
     return Account(
         title="Balancing",
-        asked=asked(done),
+        requested=requested(done),
         testbed=done.testbed,
         chapters={"Steps": done.steps},
         origin=_origin(done, seed),
@@ -74,7 +74,7 @@ def _origin(done: Balancing, seed: int) -> dict[str, str]:
     return origin(testbed=done.testbed.source, **drawn)
 
 
-def asked(done: Balancing) -> dict[str, str]:
+def requested(done: Balancing) -> dict[str, str]:
     """Return target and tolerance as texts."""
     return {
         "target": _um(done.goal.target),
@@ -95,7 +95,7 @@ def pictures_of(done: Balancing) -> list[Picture]:
     recording = done.recording
     if recording is None or recording.attitude is None:
         return []
-    story = Story(looks(done), done.goal.target, done.goal.tolerance, true_course(done))
+    story = Story(measurements(done), done.goal.target, done.goal.tolerance, true_course(done))
     return list(of_balancing(recording, done.testbed, done.estimate, story))
 
 

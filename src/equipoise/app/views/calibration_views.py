@@ -99,10 +99,10 @@ def remarks_of(found: Estimate, testbed: Testbed) -> dict[str, str]:
             continue
         one, two = (found.parameters[found.index(f"across_{mass.name}_{k}")] for k in (1, 2))
         off = f"{said(one, PER_DEG)} and {said(two, PER_DEG)} deg off as stated"
-        told = {
+        reported = {
             "gain": said(found.parameters[found.index(f"gain_{mass.name}")], 1.0),
             "axis": off,
             "backlash_mm": said(found.parameters[found.index(f"backlash_{mass.name}")], 1e3),
         }
-        remarks |= {f"{key} {mass.name}": f"calibrated: {text}" for key, text in told.items()}
+        remarks |= {f"{key} {mass.name}": f"calibrated: {text}" for key, text in reported.items()}
     return remarks

@@ -31,21 +31,21 @@ class Compared:
     """What was compared; None: not asked for."""
 
     testbed: Testbed
-    asked: Mapping[str, str]
+    requested: Mapping[str, str]
     methods: MethodComparison | None
     laws: Comparison | None
 
 
 def advice(done: Compared) -> list[Advice]:
     """Return what is recommended."""
-    told = list[Advice]()
+    reported = list[Advice]()
     if done.methods is not None:
-        told.append(advised_method(done.methods.methods, "com"))
+        reported.append(advised_method(done.methods.methods, "com"))
         if any(method.inertia.stated.part for method in done.methods.methods):
-            told.append(advised_method(done.methods.methods, "inertia"))
+            reported.append(advised_method(done.methods.methods, "inertia"))
     if done.laws is not None:
-        told.append(advised_law(done.laws))
-    return told
+        reported.append(advised_law(done.laws))
+    return reported
 
 
 def all_sheets(done: Compared) -> Iterator[Sheet]:
@@ -98,7 +98,7 @@ def method_pictures(found: MethodComparison) -> Iterator[Picture]:
     if ratios:
         drawn = compared_accuracy.draw(ratios)
         yield Picture("methods_accuracy", compared_accuracy.CAPTION, drawn)
-    shares = [compared_coverage.Coverage(m.method, m.coverage.value, least_share(m.believed))
+    shares = [compared_coverage.Coverage(m.method, m.coverage.value, least_share(m.trusted))
               for m in order if m.coverage.of]  # fmt: skip
     if shares:
         drawn = compared_coverage.draw(shares)
@@ -108,16 +108,16 @@ def method_pictures(found: MethodComparison) -> Iterator[Picture]:
 def files_of(done: Compared) -> Files:
     """Return compare.json, methods.csv, laws.csv, the figures and the report."""
     drawn = list(pictures(done))
-    told = advice(done)
+    reported = advice(done)
     parts = {"records": done.methods, "laws": done.laws}
     left_out = {key for key, found in parts.items() if found is None}
     account = Account(
         title="Methods and laws compared",
-        asked={key: text for key, text in done.asked.items() if key not in left_out},
+        requested={key: text for key, text in done.requested.items() if key not in left_out},
         testbed=done.testbed,
         chapters={},
         origin=origin(),
-        verdict=Verdict(all(a.name for a in told), " ".join(a.sentence for a in told)),
+        verdict=Verdict(all(a.name for a in reported), " ".join(a.sentence for a in reported)),
         pictures=drawn,
         sheets=tuple(all_sheets(done)),
     )

@@ -14,9 +14,9 @@ from equipoise.design.sizing.budget import Budget
 from equipoise.design.sizing.case import Case
 from equipoise.design.sizing.contribution import Line
 from equipoise.design.sizing.environment import not_stated
-from equipoise.design.sizing.limits import plain, worth_telling
+from equipoise.design.sizing.limits import plain, worth_listing
 from equipoise.design.sizing.mass_steps import MassStep
-from equipoise.design.sizing.measurement_bound import Look
+from equipoise.design.sizing.measurement_bound import MeasurementBound
 from equipoise.design.sizing.reachable_set import furthest, tolerance, volume, weakest
 from equipoise.design.sizing.sensitivity import Bettered
 from equipoise.design.sizing.sizing import Sizing
@@ -70,7 +70,7 @@ def steps_table(steps: Sequence[MassStep], tilt: float) -> Group:
     return grid("The least that each mass can do", heads, rows)
 
 
-def looks_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Group:
+def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Group:
     """Return what records of several lengths tell, and what is left after them."""
     moments = np.diag(inertia_P)
     rows = [
@@ -106,7 +106,8 @@ def budget_table(found: Sizing) -> Group:
     rows.append(("together", "", plain(budget.torque * MICRO), "", ""))
     heads = ("", "x  y  z, um rms", "uN m rms", "of squares", "from")
     title = (
-        f"What is left after {found.case.moves} looks of {found.case.look_time:g} s and as many "
+        f"What is left after {found.case.moves} measurements of "
+        f"{found.case.measurement_time:g} s and as many "
         f"moves, within {found.case.tilt * PER_DEG:.3g} deg of level"
     )
     return grid(title, heads, rows)
@@ -131,7 +132,7 @@ def share(line: Line, budget: Budget) -> str:
 
 def better_table(found: Sizing) -> Group:
     """Return what would be left if one thing were better."""
-    shown = worth_telling(found.budget, found.better)
+    shown = worth_listing(found.budget, found.better)
     rows = [(b.name, plain(b.torque * MICRO), f"{PERCENT * b.within:.3g} %") for b in shown] or [
         ("nothing that is one step better changes it by 1 %", "", "")
     ]
@@ -146,7 +147,7 @@ def show_design(found: Sizing) -> None:
     for table in (
         reach_table(found),
         steps_table(found.steps, found.case.tilt),
-        looks_table(found.budgets, found.case.testbed.body.inertia_P),
+        measurement_table(found.budgets, found.case.testbed.body.inertia_P),
         budget_table(found),
         better_table(found),
     ):
@@ -171,14 +172,14 @@ def uncounted(case: Case) -> tuple[str, ...]:
 
 def cautions(found: Sizing) -> list[str]:
     """Return what is odd about the looks, each once, with their lengths."""
-    told: dict[str, list[str]] = {}
+    reported: dict[str, list[str]] = {}
     for budget in found.budgets:
-        for look in (budget.first, budget.last):
-            for caution in look.cautions:
-                lengths = told.setdefault(caution, [])
-                if f"{look.duration:g}" not in lengths:
-                    lengths.append(f"{look.duration:g}")
-    return [f"Records of {', '.join(lengths)} s: {text}" for text, lengths in told.items()]
+        for measurement in (budget.first, budget.last):
+            for caution in measurement.cautions:
+                lengths = reported.setdefault(caution, [])
+                if f"{measurement.duration:g}" not in lengths:
+                    lengths.append(f"{measurement.duration:g}")
+    return [f"Records of {', '.join(lengths)} s: {text}" for text, lengths in reported.items()]
 
 
 def design_json(found: Sizing) -> View:
@@ -193,7 +194,7 @@ def design_json(found: Sizing) -> View:
         "moves": case.moves,
         "reach": reach_json(found),
         "masses": [step_json(step) for step in found.steps],
-        "looks": [budget_json(budget) for budget in found.budgets],
+        "measurements": [budget_json(budget) for budget in found.budgets],
         "budget": [line_json(line) for line in found.budget.lines],
         "better": [bettered_json(b) for b in found.better],
         "limit": found.limit,
@@ -237,19 +238,19 @@ def budget_json(budget: Budget) -> View:
     """Return what a length of record comes to."""
     return {
         "record_s": budget.first.duration,
-        "first": look_json(budget.first),
-        "last": look_json(budget.last),
+        "first": measurement_json(budget.first),
+        "last": measurement_json(budget.last),
         "torque_N_m": budget.torque,
     }
 
 
-def look_json(look: Look) -> View:
+def measurement_json(measurement: MeasurementBound) -> View:
     """Return what a look tells."""
     return {
-        "com_sd_m": numbers(look.com_sd),
-        "com_covariance_m2": numbers(look.com),
-        "inertia_P_sd_kg_m2": numbers(look.inertia_sd),
-        "peak_tilt_rad": look.peak_tilt,
+        "com_sd_m": numbers(measurement.com_sd),
+        "com_covariance_m2": numbers(measurement.com),
+        "inertia_P_sd_kg_m2": numbers(measurement.inertia_sd),
+        "peak_tilt_rad": measurement.peak_tilt,
     }
 
 

@@ -89,7 +89,7 @@ def account_of(done: Identification) -> Account:
     """Return the identification as a report."""
     return Account(
         title="Mass properties from a recording",
-        asked={"recording": done.recording.source, "method": done.estimate.method},
+        requested={"recording": done.recording.source, "method": done.estimate.method},
         testbed=done.testbed,
         chapters={"Steps": done.steps},
         origin=origin(sha256=done.recording.sha256),

@@ -73,10 +73,12 @@ def sheet_of(done: Manoeuvre) -> Sheet:
         for name in SHOWN
     ]
     near = singular_times(done.slew)
-    told = "no singularity" if near is None else f"singular from {near[0]:.1f} to {near[1]:.1f} s"
+    reported = (
+        "no singularity" if near is None else f"singular from {near[0]:.1f} to {near[1]:.1f} s"
+    )
     angles = ", ".join(f"{angle:g}" for angle in done.start)
     remarks = [f"{name}: {estimate.outcome.sentence}" for name, estimate in done.estimates.items()]
-    title = f"From ({angles}) deg, {told}: value (sd) error; J in kg m2, m r in g cm"
+    title = f"From ({angles}) deg, {reported}: value (sd) error; J in kg m2, m r in g cm"
     return Sheet(title, ("", "truth", *done.estimates), lines, remarks)
 
 
@@ -140,7 +142,7 @@ def account_of(runs: Sequence[Manoeuvre], seed: int) -> Account:
     }
     return Account(
         title="Lee et al.'s simulation reproduced",
-        asked=simulated | methods,
+        requested=simulated | methods,
         testbed=large.testbed,
         chapters={},
         origin=origin(),

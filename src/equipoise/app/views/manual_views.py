@@ -5,7 +5,7 @@ import numpy as np
 from equipoise.app.console.rich_results import change_table
 from equipoise.app.console.terminal import stdout
 from equipoise.app.figures.balancing import rounds_com
-from equipoise.app.figures.balancing.balanced_com import Look, Story
+from equipoise.app.figures.balancing.balanced_com import Marked, Story
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
 from equipoise.app.report.run_record import Account, origin
@@ -13,7 +13,7 @@ from equipoise.app.runs.balancing import change_of
 from equipoise.app.runs.manual_balancing import ByHand
 from equipoise.app.text.com_estimate import as_it_stands
 from equipoise.app.text.json_document import View, balance_json
-from equipoise.app.views.balance_views import asked, wanted
+from equipoise.app.views.balance_views import requested, wanted
 from equipoise.model.arrays import Vector3
 
 TRIAL = (
@@ -59,7 +59,7 @@ def account_of(done: ByHand, of: dict[str, str]) -> Account:
     bench = "simulated hands" if balancing.truths else "a person's hands"
     return Account(
         title="Balancing by hand",
-        asked=asked(balancing) | {"bench": bench, "effort": effort(done)},
+        requested=requested(balancing) | {"bench": bench, "effort": effort(done)},
         testbed=balancing.testbed,
         chapters={"Steps": balancing.steps},
         origin=origin(**of),
@@ -75,18 +75,18 @@ def account_of(done: ByHand, of: dict[str, str]) -> Account:
 
 def pictures_of(done: ByHand) -> list[Picture]:
     """Return the centre of mass by recording."""
-    balancing, looks = done.balancing, list[Look]()
+    balancing, measurements = done.balancing, list[Marked]()
     truth: list[Vector3] = []
     estimates = [k for k, step in enumerate(balancing.steps) if step.kind == "estimate"]
     for number, k in enumerate(estimates, 1):
         estimate = balancing.steps[k].estimate
-        believed = None if estimate is None else as_it_stands(estimate)
-        if believed is not None:
-            looks.append((float(number), believed.com, believed.sd))
+        estimated = None if estimate is None else as_it_stands(estimate)
+        if estimated is not None:
+            measurements.append((float(number), estimated.com, estimated.sd))
         if balancing.truths:
             truth.append(balancing.truths[k].com)
-    if not looks:
+    if not measurements:
         return []
     course = (np.arange(1.0, len(truth) + 1), np.array(truth)) if truth else None
-    story = Story(looks, balancing.goal.target, balancing.goal.tolerance, course)
+    story = Story(measurements, balancing.goal.target, balancing.goal.tolerance, course)
     return [Picture("rounds_com", rounds_com.CAPTION, rounds_com.draw(story))]

@@ -137,8 +137,8 @@ def failures(found: MethodComparison) -> Iterator[str]:
     reasons = dict[str, list[str]]()
     for method in found.methods:
         if method.failed:
-            told = f"{method.method} ({method.failed})"
-            reasons.setdefault(beginning(method.why), []).append(told)
+            reported = f"{method.method} ({method.failed})"
+            reasons.setdefault(beginning(method.why), []).append(reported)
     for reason, methods in reasons.items():
         yield f"Failed: {', '.join(methods)}: {reason}"
 
@@ -151,8 +151,10 @@ def beginning(text: str) -> str:
 def com_sheet(found: MethodComparison) -> Sheet:
     """Return bias and sd of the centre of mass along each axis and RMSE of the whole, um."""
     heads = ("", *(f"{what} {axis}" for axis in "xyz" for what in ("bias", "sd")), "RMSE")
-    bound = [seen_text(b * UM) for b in found.bound[:3]]
-    lines = [["bound", "", bound[0], "", bound[1], "", bound[2], seen_text(norm(found.bound) * UM)]]
+    bound = [observed_text(b * UM) for b in found.bound[:3]]
+    lines = [
+        ["bound", "", bound[0], "", bound[1], "", bound[2], observed_text(norm(found.bound) * UM)]
+    ]
     for method in shown_order(found):
         columns = np.stack([method.bias[:3], method.sd[:3]], axis=1) * UM
         if np.any(np.isfinite(method.rmse[:3])):
@@ -176,7 +178,7 @@ def inertia_sheet(found: MethodComparison) -> Sheet:
     part = slice(3, 9)
     factor = PERCENT / element_sizes(found.scene.testbed.body.inertia_P)
     heads = ("", *(name[-2:] for name in JUDGED[part]), "bias / bound")
-    lines = [["bound", *map(seen_text, found.bound[part] * factor), ""]]
+    lines = [["bound", *map(observed_text, found.bound[part] * factor), ""]]
     for method in shown_order(found):
         if method.inertia.stated.part:
             cells = map(figure, method.rmse[part] * factor)
@@ -184,7 +186,7 @@ def inertia_sheet(found: MethodComparison) -> Sheet:
     return Sheet("RMSE of the inertia about P, percent of sqrt(J_ii J_jj)", heads, lines)
 
 
-def seen_text(bound: float) -> str:
+def observed_text(bound: float) -> str:
     """Return a bound; infinite: some records do not show it, nan: it was held."""
     return "not seen" if np.isinf(bound) else "held" if np.isnan(bound) else figure(bound)
 

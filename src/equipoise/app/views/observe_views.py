@@ -23,14 +23,14 @@ PERCENT = 100.0
 Row = tuple[str, str, str, str, str]
 
 
-def rows_of(seen: Observability, names: Sequence[str]) -> Iterator[Row]:
+def rows_of(information: Observability, names: Sequence[str]) -> Iterator[Row]:
     """Return name, bound, its share of J, what is stated beforehand, and unit."""
-    sizes = dict(zip(INERTIA, element_sizes(seen.inertia_P), strict=True))
+    sizes = dict(zip(INERTIA, element_sizes(information.inertia_P), strict=True))
     for name in names:
-        k = seen.names.index(name)
-        unit, sd = unit_for(name, seen.units[k]), float(seen.sd[k])
+        k = information.names.index(name)
+        unit, sd = unit_for(name, information.units[k]), float(information.sd[k])
         share = shared(sd, sizes[name]) if name in sizes else ""
-        before = float(seen.before[k])
+        before = float(information.before[k])
         stated = with_sd(0.0, before * unit.factor)[1] if math.isfinite(before) else ""
         yield name, with_sd(0.0, sd * unit.factor)[1], share, stated, unit.name
 
@@ -40,16 +40,16 @@ def shared(sd: float, size: float) -> str:
     return f"{PERCENT * sd / size:.2g} %" if 0 < sd < math.inf else ""
 
 
-def bound_table(title: str, seen: Observability, names: Sequence[str]) -> Group:
+def bound_table(title: str, information: Observability, names: Sequence[str]) -> Group:
     """Return bounds of some parameters."""
     table = quiet_table()
     heads = ("", "least sd", "of J", "testbed's sd", "unit")
-    rows = list(rows_of(seen, names))
+    rows = list(rows_of(information, names))
     shown = [k for k in range(len(heads)) if k == 0 or any(row[k] for row in rows)]
     for k in shown:
         table.add_column(heads[k], justify="right" if 0 < k < 4 else "left")
     for row in rows:
-        style = "dim" if seen.hidden[seen.names.index(row[0])] else ""
+        style = "dim" if information.hidden[information.names.index(row[0])] else ""
         table.add_row(*(Text(row[k]) for k in shown), style=style)
     return titled(title, table)
 
@@ -80,75 +80,78 @@ def filter_table(filters: Sequence[FilterView]) -> Group:
     return titled("What filters see of their state along this motion", table)
 
 
-def sweep_line(seen: Observability) -> str:
+def sweep_line(information: Observability) -> str:
     """Say how far the platform tilts and gravity moves in the body."""
-    low, high = (angle * PER_DEG for angle in seen.tilt)
-    away = math.asin(min(math.sqrt(seen.gravity_sweep), 1.0)) * PER_DEG
+    low, high = (angle * PER_DEG for angle in information.tilt)
+    away = math.asin(min(math.sqrt(information.gravity_sweep), 1.0)) * PER_DEG
     return (
         f"Tilt from {low:.3g} to {high:.3g} deg; gravity leaves its mean direction in the body by "
-        f"{away:.3g} deg rms (least eigenvalue of its sweep {seen.gravity_sweep:.2g})."
+        f"{away:.3g} deg rms (least eigenvalue of its sweep {information.gravity_sweep:.2g})."
     )
 
 
-def rank_line(seen: Observability) -> str:
+def rank_line(information: Observability) -> str:
     """Say how much of what is sought is seen."""
-    number = f"{seen.condition:.2g}" if math.isfinite(seen.condition) else "infinite"
+    number = f"{information.condition:.2g}" if math.isfinite(information.condition) else "infinite"
     return (
-        f"{seen.rank} of {seen.size} unknowns, or mixtures of them, are seen; condition number of "
+        f"{information.rank} of {information.size} unknowns, or mixtures of them, are observable; "
+        "condition number of "
         f"the information: {number}."
     )
 
 
-def show_observability(seen: Observability, filters: Sequence[FilterView]) -> None:
+def show_observability(information: Observability, filters: Sequence[FilterView]) -> None:
     """Print bounds, filters, and what is not seen."""
     console = stdout()
-    others = [name for name in seen.names if name not in BODY]
+    others = [name for name in information.names if name not in BODY]
     tables = [
-        bound_table("Centre of mass and inertia about P, masses at home", seen, BODY),
-        bound_table("Also sought", seen, others),
-        *([ratio_table(seen.ratios)] if seen.ratios else []),
+        bound_table("Centre of mass and inertia about P, masses at home", information, BODY),
+        bound_table("Also sought", information, others),
+        *([ratio_table(information.ratios)] if information.ratios else []),
         filter_table(filters),
     ]
     for table in tables:
         console.print(table)
         console.print()
-    for caution in seen.cautions:
+    for caution in information.cautions:
         console.print(f"! {caution}", style="yellow", markup=False)
-    for sentence in seen.sentences:
+    for sentence in information.sentences:
         console.print(f"! {sentence}", style="yellow", markup=False)
-    console.print(sweep_line(seen), markup=False)
-    console.print(rank_line(seen), markup=False, style="bold")
+    console.print(sweep_line(information), markup=False)
+    console.print(rank_line(information), markup=False, style="bold")
 
 
-def observe_json(recording: Recording, seen: Observability, filters: Sequence[FilterView]) -> View:
+def observe_json(
+    recording: Recording, information: Observability, filters: Sequence[FilterView]
+) -> View:
     """Return what a recording can show, schema equipoise/observe/1."""
     return {
         "schema": SCHEMA,
         "source": recording.source,
         "sha256": recording.sha256,
-        "parameters": [bound_json(seen, k) for k in range(len(seen.names))],
-        "ratios": [parameter_json(ratio) for ratio in seen.ratios],
-        "rank": seen.rank,
-        "size": seen.size,
-        "condition": seen.condition,
-        "gravity_sweep": seen.gravity_sweep,
-        "tilt_rad": list(seen.tilt),
-        "inertia_P_kg_m2": numbers(seen.inertia_P),
-        "unobservable": list(seen.sentences),
-        "cautions": list(seen.cautions),
+        "parameters": [bound_json(information, k) for k in range(len(information.names))],
+        "ratios": [parameter_json(ratio) for ratio in information.ratios],
+        "rank": information.rank,
+        "size": information.size,
+        "condition": information.condition,
+        "gravity_sweep": information.gravity_sweep,
+        "tilt_rad": list(information.tilt),
+        "inertia_P_kg_m2": numbers(information.inertia_P),
+        "unobservable": list(information.sentences),
+        "cautions": list(information.cautions),
         "filters": [filter_json(view) for view in filters],
     }
 
 
-def bound_json(seen: Observability, k: int) -> View:
+def bound_json(information: Observability, k: int) -> View:
     """Return one bound, SI."""
     return {
-        "name": seen.names[k],
-        "unit": seen.units[k],
-        "sd": float(seen.sd[k]),
-        "testbed_sd": float(seen.before[k]),
-        "observable": not bool(seen.hidden[k]),
-        "held": bool(seen.held[k]),
+        "name": information.names[k],
+        "unit": information.units[k],
+        "sd": float(information.sd[k]),
+        "testbed_sd": float(information.before[k]),
+        "observable": not bool(information.hidden[k]),
+        "held": bool(information.held[k]),
     }
 
 

@@ -53,10 +53,10 @@ def promise_table(done: Planning) -> Group:
         unit = unit_for(name, "m" if name in COM else "kg m2")
         texts = [sd_text(p, name, unit) for p in (done.usual, done.planned)]
         ratio = float(times_better(done.usual, done.planned, (name,))[0])
-        asked = name in done.request.names
+        requested = name in done.request.names
         shown = f"{ratio:.2g}" if math.isfinite(ratio) and "held" not in texts else ""
-        table.add_row(name, *texts, shown, unit.name, style="" if asked else "dim")
-    after = ", known what was seen" if done.request.seen else ""
+        table.add_row(name, *texts, shown, unit.name, style="" if requested else "dim")
+    after = ", known what was seen" if done.request.prior_record else ""
     return titled(f"Predicted sd over {done.planned.platforms} platforms that may be there{after}",
                   table)  # fmt: skip
 
@@ -158,9 +158,9 @@ def verdict(done: Planning) -> str:
         return text
     advice = (
         "a shorter record or more --trials may keep it"
-        if done.request.seen
+        if done.request.prior_record
         else "too little is known of the centre of mass: record a short swing, halted before the "
-        "limit, and plan again with --seen"
+        "limit, and plan again with --prior-record"
     )
     kept = f"{done.planned.kept} of {done.planned.tried}"
     return f"{text} The limits are kept by {kept} platforms only; {advice}."
@@ -173,7 +173,7 @@ def plan_json(done: Planning) -> View:
     return {
         "schema": SCHEMA,
         "testbed": request.testbed.name,
-        "asked": list(request.names),
+        "requested": list(request.names),
         "criterion": request.criterion,
         "sizes": {"com_m": OF_COM, "inertia_relative": OF_MOMENT},
         "duration_s": m.duration,

@@ -57,8 +57,10 @@ def method_cells(row: MethodRow) -> list[str]:
 
 def members(lines: Sequence[Sequence[str]], rows: Sequence[MethodRow]) -> list[str]:
     """Say which methods are in which row."""
-    told = [f"{line[0]}: {', '.join(row.methods)}" for line, row in zip(lines, rows, strict=True)]
-    return ["; ".join(told) + "."]
+    reported = [
+        f"{line[0]}: {', '.join(row.methods)}" for line, row in zip(lines, rows, strict=True)
+    ]
+    return ["; ".join(reported) + "."]
 
 
 def laws_sheet(laws: Sequence[LawSummary], testbed: str) -> Sheet:

@@ -18,8 +18,8 @@ UNCLEAR_STEP = "A touch would explain it about as well: intervals allow for eith
 
 def event_findings(estimate: Estimate) -> list[Finding]:
     """Return the events that an estimate steps over, and what its model leaves open."""
-    told = [_impulse(e) if e.kind == "impulse" else _step(e) for e in estimate.events]
-    return told + [Finding("content", sentence) for sentence in estimate.unexplained]
+    reported = [_impulse(e) if e.kind == "impulse" else _step(e) for e in estimate.events]
+    return reported + [Finding("content", sentence) for sentence in estimate.unexplained]
 
 
 def span_of(event: Event) -> tuple[float, float]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from equipoise.assessment.findings.unknown_names import stranger_findings
+from equipoise.assessment.findings.unknown_names import unknown_name_findings
 from equipoise.model.arrays import Series1
 from equipoise.model.finding import Finding
 from equipoise.model.recording import Recording
@@ -16,7 +16,7 @@ def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[F
     masses = recording.masses
     if masses is None or not len(masses):
         return [Finding("content", "No mass positions were recorded: the scale stays open.")]
-    found = stranger_findings("mass", recording.mass_names, known)
+    found = unknown_name_findings("mass", recording.mass_names, known)
     moves = [
         move
         for i, name in enumerate(recording.mass_names)

@@ -34,9 +34,9 @@ def most_upright(attitude: Samples) -> str:
     return min(AXES, key=lambda name: float(np.median(tilt(attitude.values, AXES[name]))))
 
 
-def _tilt(angles: np.ndarray, guess: str, told: bool) -> Finding:
+def _tilt(angles: np.ndarray, guess: str, reported: bool) -> Finding:
     low, high = math.degrees(angles.min()), math.degrees(angles.max())
-    of = "" if told else f" of body axis {guess}, the most upright one"
+    of = "" if reported else f" of body axis {guess}, the most upright one"
     return Finding("motion", f"tilt{of}: {low:.3g} to {high:.3g} deg.")
 
 

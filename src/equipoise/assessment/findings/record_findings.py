@@ -5,7 +5,7 @@ import numpy as np
 from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.mass_moves import move_findings
 from equipoise.assessment.findings.motion_range import motion_findings
-from equipoise.assessment.findings.unknown_names import stranger_findings
+from equipoise.assessment.findings.unknown_names import unknown_name_findings
 from equipoise.assessment.record_checks.attitude_noise import noise_findings
 from equipoise.assessment.record_checks.clock_offset import offset_findings
 from equipoise.assessment.record_checks.exposure_averaging import averaging_findings
@@ -27,7 +27,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
     return (
         *content_findings(recording),
         *move_findings(recording, masses),
-        *stranger_findings("device", recording.device_names, devices),
+        *unknown_name_findings("device", recording.device_names, devices),
         *motion_findings(recording.attitude, up),
         *noise_findings(recording.attitude),
         *averaging_findings(recording, sensors[0]),

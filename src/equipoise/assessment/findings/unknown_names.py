@@ -4,7 +4,7 @@ from equipoise.model.errors import nearest
 from equipoise.model.finding import Finding
 
 
-def stranger_findings(
+def unknown_name_findings(
     kind: str, names: tuple[str, ...], known: tuple[str, ...] | None
 ) -> list[Finding]:
     """Return a problem for each mass or device that is not known; None: nothing is."""

@@ -29,7 +29,7 @@ class Wander:
     span: Floats  # (k,) s, over which looks are averaged
     deviation: Floats  # (k, 3) m, Allan's
     error: Floats  # (k,) relative sd of it
-    looks_alone: Floats  # (k, 3) m, what looks that only err would leave
+    measurements_alone: Floats  # (k, 3) m, what looks that only err would leave
     drift: Vector3  # m/s
     drift_sd: Vector3  # m/s
     walk: Vector3  # m/sqrt(s)
@@ -45,7 +45,7 @@ def allan_deviation(r: Series3, m: int) -> Vector3:
 
 def wander_of(t: Series1, r: Series3, sd: Series3) -> Wander:
     """Return drift, walk and Allan deviation of looks r (n, 3) m with their sd, at times t (s)."""
-    n, apart = len(t), float(np.median(np.diff(t)))
+    n, separation = len(t), float(np.median(np.diff(t)))
     sizes = [2**k for k in range(n.bit_length()) if 2 * 2**k <= n]
     deviation = np.array([allan_deviation(r, m) for m in sizes])
     freedom = np.array([n / m - 1 for m in sizes])
@@ -53,10 +53,10 @@ def wander_of(t: Series1, r: Series3, sd: Series3) -> Wander:
     alone = typical / np.sqrt(np.array(sizes, float))[:, None]
     slope, slope_sd = lines_through(t, r, sd)
     steps: Floats = np.diff(r, axis=0) - np.diff(t)[:, None] * slope
-    excess: Floats = (steps**2 - sd[1:] ** 2 - sd[:-1] ** 2).mean(axis=0) / apart
+    excess: Floats = (steps**2 - sd[1:] ** 2 - sd[:-1] ** 2).mean(axis=0) / separation
     walk: Vector3 = np.sqrt(np.maximum(excess, 0.0))
     wide = np.sqrt(slope_sd**2 + 1.2 * walk**2 / float(t[-1] - t[0]))
-    return Wander(apart * np.array(sizes, float), deviation, 1 / np.sqrt(2 * freedom), alone,
+    return Wander(separation * np.array(sizes, float), deviation, 1 / np.sqrt(2 * freedom), alone,
                   slope, wide, walk)  # fmt: skip
 
 

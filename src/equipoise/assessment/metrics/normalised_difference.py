@@ -5,7 +5,7 @@ import math
 from equipoise.model.estimate import Parameter
 
 
-def apart(parameter: Parameter, other: Parameter) -> float:
+def normalised_difference(parameter: Parameter, other: Parameter) -> float:
     """Return (a - b) / sqrt(sd_a^2 + sd_b^2); NaN where neither has an sd.
 
     Beyond 2 to 3 the quantity has changed, or one of the two sd is too small. An estimate that

@@ -101,8 +101,8 @@ def is_swing(t: Series1, s: Series, unknowns: Floats) -> bool:
     amplitude = amplitudes(t, s, unknowns)[0]
     pairs = unknowns.reshape(-1, 2)
     f, d = pairs[-1]
-    apart = np.all(np.abs(pairs[:-1, 0] - f) * t[-1] > 0.5)
-    return bool(f * t[-1] >= LEAST_TURNS and d < 2 * f and -d < 1 / t[-1] and apart
+    separation = np.all(np.abs(pairs[:-1, 0] - f) * t[-1] > 0.5)
+    return bool(f * t[-1] >= LEAST_TURNS and d < 2 * f and -d < 1 / t[-1] and separation
                 and amplitude[-1] > WORTH * amplitude[0])  # fmt: skip
 
 

@@ -22,7 +22,7 @@ from equipoise.assessment.metrics.period import Swing
 from equipoise.assessment.metrics.swing_modes import moment_for, swing_axes, swing_rates
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 
-APART = 1.0  # resolution widths, chosen: swings nearer than that are one
+RESOLVED = 1.0  # resolution widths, chosen: swings nearer than that are one
 ALIKE = 0.8  # chosen: of a swing's direction along its axis, to be named by it
 AGREE = 4.0  # sd, chosen: beyond, two peaks are not the two swings
 
@@ -53,9 +53,9 @@ def named(
         pair = tuple(
             by_mode(swing, mode, inertia_P, down, spin) for mode, swing in enumerate(swings)
         )
-        apart = abs(pair[0].moment - pair[1].moment)
+        separation = abs(pair[0].moment - pair[1].moment)
         doubt = 1 / (duration * swings[0].frequency) * pair[0].moment
-        if apart < AGREE * np.hypot(pair[0].sd, pair[1].sd) or apart < doubt:
+        if separation < AGREE * np.hypot(pair[0].sd, pair[1].sd) or separation < doubt:
             return pair
     if not swings:
         return ()
@@ -80,7 +80,7 @@ def alone(swing: Swing, duration: float, inertia_P: Matrix3, down: Vector3, spin
         return slow if np.isfinite(slow.moment) else quick
     rates = swing_rates(middle, inertia_P, down, spin)
     share = shares(swing, middle, inertia_P, down)
-    if (rates[1] - rates[0]) / (2 * np.pi) * duration > APART and share.max() > ALIKE:
+    if (rates[1] - rates[0]) / (2 * np.pi) * duration > RESOLVED and share.max() > ALIKE:
         return (slow, quick)[int(np.argmax(share))]
     moment = float(share @ [slow.moment, quick.moment])
     sd = float(np.hypot(max(slow.sd, quick.sd), 0.5 * abs(slow.moment - quick.moment)))

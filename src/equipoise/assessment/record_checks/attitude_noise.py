@@ -36,8 +36,8 @@ def attitude_noise(attitude: Samples) -> float | None:
     even = np.abs(duration / attitude.period - 1) < EVEN
     turn = np.where(even[:, None], turn, np.nan)  # a difference across a gap is no difference
     found = [_scatter(turn, order) for order in ORDERS]
-    told = [noise for noise in found if noise is not None]
-    return min(told, default=None)
+    reported = [noise for noise in found if noise is not None]
+    return min(reported, default=None)
 
 
 def _scatter(turn: Series3, order: int) -> float | None:

@@ -49,12 +49,12 @@ def offset_findings(
     gyro: Gyro | None,
 ) -> list[Finding]:
     """Return the lag, and whether it is what the testbed's delays and averaging make of it."""
-    told = None if attitude is None or rate is None else clock_offset(attitude, rate)
-    if told is None:
+    reported = None if attitude is None or rate is None else clock_offset(attitude, rate)
+    if reported is None:
         return []
     wanted = _middle(camera) - _middle(gyro)
-    wrong = abs(told.lag - wanted) > max(SURE_SD * told.sd, MATTERS)
-    ms = f"{told.lag * 1e3:.3g} ms (sd {told.sd * 1e3:.2g} ms)"
+    wrong = abs(reported.lag - wanted) > max(SURE_SD * reported.sd, MATTERS)
+    ms = f"{reported.lag * 1e3:.3g} ms (sd {reported.sd * 1e3:.2g} ms)"
     text = f"the attitude is stamped {ms} later than the gyro"
     if wrong:
         text += f"; by the testbed it would be {wanted * 1e3:.3g} ms" if camera or gyro else ""
@@ -92,12 +92,12 @@ class _Pairs:
 
     start: Series1  # s
     end: Series1  # s
-    seen: Series3  # rad/s
+    observed: Series3  # rad/s
 
     @property
     def centred(self) -> Series3:
         """Return the mean rates without what is common to all."""
-        return self.seen - self.seen.mean(axis=0)
+        return self.observed - self.observed.mean(axis=0)
 
     @staticmethod
     def of(attitude: Samples, rate: Samples) -> "_Pairs":
@@ -114,8 +114,8 @@ class _Pairs:
 def _left(pairs: _Pairs, rate: Samples, lag: float) -> Series3:
     """Return what gyro and zero leave of the turns, rad/s."""
     length = (pairs.end - pairs.start)[:, None]
-    felt = (integral(rate, pairs.end - lag) - integral(rate, pairs.start - lag)) / length
-    left = pairs.seen - felt
+    response = (integral(rate, pairs.end - lag) - integral(rate, pairs.start - lag)) / length
+    left = pairs.observed - response
     return left - left.mean(axis=0)
 
 

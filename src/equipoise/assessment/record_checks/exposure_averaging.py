@@ -55,11 +55,16 @@ class RowAveraging:
 
 def averaging_findings(recording: Recording, sensor: AttitudeSensor | None) -> list[Finding]:
     """Return the window, whether it is what the testbed states, and the rows that have another."""
-    told = row_averaging(recording.attitude, recording.attitude_norm)
-    if told is None or recording.attitude is None:
+    reported = row_averaging(recording.attitude, recording.attitude_norm)
+    if reported is None or recording.attitude is None:
         return []
     t = recording.attitude.t
-    return [_window(told), *_stated(told, sensor), *_unsteady(told), *_odd_rows(told, recording, t)]
+    return [
+        _window(reported),
+        *_stated(reported, sensor),
+        *_unsteady(reported),
+        *_odd_rows(reported, recording, t),
+    ]
 
 
 def row_averaging(attitude: Samples | None, lengths: Samples | None) -> RowAveraging | None:
@@ -131,30 +136,31 @@ def _odd(short: Series1, expected: Floats, scatter: float) -> NDArray[np.bool_]:
     return off > np.maximum(ODD * scatter, OTHER * expected)
 
 
-def _window(told: RowAveraging) -> Finding:
+def _window(averaging: RowAveraging) -> Finding:
     text = (
-        f"each attitude row is the mean over {told.window:.3g} s (sd {told.sd:.1g} s): its "
-        f"quaternion is {told.shortness:.2g} short. Taken as moments, the rows put inertia off by "
-        f"the order of {told.damping:.1%}."
+        f"each attitude row is the mean over {averaging.window:.3g} s (sd {averaging.sd:.1g} s): "
+        f"its quaternion is {averaging.shortness:.2g} short. Taken as moments, the rows put "
+        "inertia off by "
+        f"the order of {averaging.damping:.1%}."
     )
     return Finding("content", text)
 
 
-def _stated(told: RowAveraging, sensor: AttitudeSensor | None) -> list[Finding]:
+def _stated(averaging: RowAveraging, sensor: AttitudeSensor | None) -> list[Finding]:
     """Return a problem if the testbed states another window, and the difference matters."""
-    if sensor is None or abs(told.window - sensor.averaging) < SURE * told.sd:
+    if sensor is None or abs(averaging.window - sensor.averaging) < SURE * averaging.sd:
         return []
-    if told.damping * abs(1.0 - (sensor.averaging / told.window) ** 2) < MATTERS:
+    if averaging.damping * abs(1.0 - (sensor.averaging / averaging.window) ** 2) < MATTERS:
         return []
     text = (
         f"the testbed states averaging_s = {sensor.averaging:.3g} for the attitude; the record "
-        f"shows {told.window:.3g} s."
+        f"shows {averaging.window:.3g} s."
     )
     return [Finding("problem", text)]
 
 
-def _unsteady(told: RowAveraging) -> list[Finding]:
-    if told.steady:
+def _unsteady(averaging: RowAveraging) -> list[Finding]:
+    if averaging.steady:
         return []
     text = (
         "the lengths of the quaternions do not follow the rate: rows may be means over windows of "
@@ -163,7 +169,7 @@ def _unsteady(told: RowAveraging) -> list[Finding]:
     return [Finding("problem", text)]
 
 
-def _odd_rows(told: RowAveraging, recording: Recording, t: Series1) -> list[Finding]:
+def _odd_rows(averaging: RowAveraging, recording: Recording, t: Series1) -> list[Finding]:
     lengths = recording.attitude_norm
     assert lengths is not None  # a window was told from them
     norm = dict(zip(lengths.t.tolist(), lengths.values[:, 0].tolist(), strict=True))
@@ -171,12 +177,14 @@ def _odd_rows(told: RowAveraging, recording: Recording, t: Series1) -> list[Find
         Finding(
             "problem",
             f"row {k + 1} at {t[k]:.6g} s is not a mean as the others are: its quaternion has the "
-            f"length {norm[float(t[k])]:.6f}, theirs {1 - told.shortness:.6f}.",
+            f"length {norm[float(t[k])]:.6f}, theirs {1 - averaging.shortness:.6f}.",
             (float(t[k]), float(t[k])),
             "no mean",
         )
-        for k in told.odd[:NAMED]
+        for k in averaging.odd[:NAMED]
     ]
-    if len(told.odd) > NAMED:
-        found.append(Finding("problem", f"{len(told.odd) - NAMED} further rows are no such means."))
+    if len(averaging.odd) > NAMED:
+        found.append(
+            Finding("problem", f"{len(averaging.odd) - NAMED} further rows are no such means.")
+        )
     return found

@@ -46,13 +46,13 @@ def odd_row_findings(recording: Recording) -> list[Finding]:
     found: list[Finding] = []
     if recording.attitude is not None and len(recording.attitude) > 1:
         odd = odd_attitudes(recording.attitude)
-        found += _told("attitude", "deg", recording.attitude, odd)
+        found += _reported("attitude", "deg", recording.attitude, odd)
     if recording.rate is not None and len(recording.rate) > 1:
-        found += _told("gyro", "deg/s", recording.rate, odd_rates(recording.rate))
+        found += _reported("gyro", "deg/s", recording.rate, odd_rates(recording.rate))
     return found
 
 
-def _told(name: str, unit: str, channel: Samples, odd: OddRows) -> list[Finding]:
+def _reported(name: str, unit: str, channel: Samples, odd: OddRows) -> list[Finding]:
     return [
         *_outlying(name, unit, channel, odd.outlying, odd.outlying.mask & ~odd.frozen),
         *_frozen(name, channel, odd.frozen),
@@ -62,13 +62,14 @@ def _told(name: str, unit: str, channel: Samples, odd: OddRows) -> list[Finding]
 def _outlying(
     name: str, unit: str, channel: Samples, odd: OutlyingRows, mask: NDArray[np.bool_]
 ) -> list[Finding]:
-    far = np.degrees(np.linalg.norm(odd.away, axis=1))
+    outlying = np.degrees(np.linalg.norm(odd.away, axis=1))
     rows = np.flatnonzero(mask)
-    named = np.sort(rows[np.argsort(-far[rows], kind="stable")][:NAMED])
+    named = np.sort(rows[np.argsort(-outlying[rows], kind="stable")][:NAMED])
     found = [
         Finding(
             "problem",
-            f"{name}: row {k + 1} at {channel.t[k]:.6g} s is {far[k]:.2g} {unit} off the motion of "
+            f"{name}: row {k + 1} at {channel.t[k]:.6g} s is {outlying[k]:.2g} {unit} off the "
+            "motion of "
             f"its neighbours (they scatter by {math.degrees(odd.scale):.2g} {unit} per axis).",
             (float(channel.t[k]), float(channel.t[k])),
             "off",

@@ -30,18 +30,18 @@ def agreement_findings(attitude: Samples | None, rate: Samples | None) -> list[F
     """Return disagreements of sign, axis, scale and zero, or that there are none."""
     if attitude is None or rate is None or min(len(attitude), len(rate)) < FEWEST:
         return []
-    seen, felt = rate_pairs(attitude, rate)
-    if len(seen) < FEWEST:
+    camera, gyro = rate_pairs(attitude, rate)
+    if len(camera) < FEWEST:
         return [Finding("problem", "gyro and attitude hardly overlap in time.")]
-    if _repeats(seen, felt):
+    if _repeats(camera, gyro):
         text = "the rates are differences of the attitude to the last digit: not a second sensor."
         return [Finding("problem", text)]
-    likeness = correlation(felt, seen)
-    turned = np.std(felt, axis=0) > ABOVE * _noise(attitude)
-    wrong = [f for axis in np.flatnonzero(turned) for f in _axis(int(axis), likeness, seen, felt)]
+    likeness = correlation(gyro, camera)
+    turned = np.std(gyro, axis=0) > ABOVE * _noise(attitude)
+    wrong = [f for axis in np.flatnonzero(turned) for f in _axis(int(axis), likeness, camera, gyro)]
     if wrong:
         return wrong
-    return _zero(likeness, seen, felt)
+    return _zero(likeness, camera, gyro)
 
 
 def rate_pairs(attitude: Samples, rate: Samples) -> tuple[Series3, Series3]:
@@ -52,13 +52,13 @@ def rate_pairs(attitude: Samples, rate: Samples) -> tuple[Series3, Series3]:
     covered = (start >= rate.t[0]) & (end <= rate.t[-1])
     covered &= duration < GAP * np.median(duration)
     covered &= ~across_gap(rate, start, end)
-    felt = (integral(rate, end) - integral(rate, start)) / duration[:, None]
-    return (turn / duration[:, None])[covered], felt[covered]
+    gyro = (integral(rate, end) - integral(rate, start)) / duration[:, None]
+    return (turn / duration[:, None])[covered], gyro[covered]
 
 
-def correlation(felt: Series3, seen: Series3) -> Matrix3:
+def correlation(gyro: Series3, camera: Series3) -> Matrix3:
     """Return the correlation of each gyro axis (row) with each attitude axis (column)."""
-    a, b = felt - felt.mean(axis=0), seen - seen.mean(axis=0)
+    a, b = gyro - gyro.mean(axis=0), camera - camera.mean(axis=0)
     scale = np.outer(np.linalg.norm(a, axis=0), np.linalg.norm(b, axis=0))
     return (a.T @ b) / np.where(scale > 0, scale, np.inf)
 
@@ -99,11 +99,11 @@ def _noise(attitude: Samples) -> float:
     return math.sqrt(2) * (attitude_noise(attitude) or 0.0) / (lag_of(attitude) * attitude.period)
 
 
-def _repeats(seen: Series3, felt: Series3) -> bool:
-    return bool(np.abs(seen - felt).max() < 1e-9 * np.abs(seen).max())
+def _repeats(camera: Series3, gyro: Series3) -> bool:
+    return bool(np.abs(camera - gyro).max() < 1e-9 * np.abs(camera).max())
 
 
-def _axis(axis: int, likeness: Matrix3, seen: Series3, felt: Series3) -> list[Finding]:
+def _axis(axis: int, likeness: Matrix3, camera: Series3, gyro: Series3) -> list[Finding]:
     """Return what is wrong with one gyro axis."""
     name, row = "xyz"[axis], likeness[axis]
     other = int(np.argmax(np.abs(row)))
@@ -112,25 +112,25 @@ def _axis(axis: int, likeness: Matrix3, seen: Series3, felt: Series3) -> list[Fi
     elif other != axis and abs(row[other]) > SURE and abs(row[axis]) < UNSURE:
         sign = "" if row[other] > 0 else "minus "
         text = f"gyro {name} follows {sign}attitude {'xyz'[other]} (correlation {row[other]:.2f})."
-    elif row[axis] > SURE and abs(_slope(axis, seen, felt) - 1) > OFF:
-        text = f"gyro {name} is {_slope(axis, seen, felt):.3g} times what the attitude tells."
+    elif row[axis] > SURE and abs(_slope(axis, camera, gyro) - 1) > OFF:
+        text = f"gyro {name} is {_slope(axis, camera, gyro):.3g} times what the attitude tells."
     else:
         return []
     return [Finding("problem", text)]
 
 
-def _slope(axis: int, seen: Series3, felt: Series3) -> float:
+def _slope(axis: int, camera: Series3, gyro: Series3) -> float:
     """Return the gyro's scale against the attitude's."""
-    return float(np.std(felt[:, axis]) / np.std(seen[:, axis]))
+    return float(np.std(gyro[:, axis]) / np.std(camera[:, axis]))
 
 
-def _zero(likeness: Matrix3, seen: Series3, felt: Series3) -> list[Finding]:
+def _zero(likeness: Matrix3, camera: Series3, gyro: Series3) -> list[Finding]:
     """Return the gyro's zero and that its axes agree, if the motion is enough to tell."""
-    offset = np.median(felt - seen, axis=0)
-    told = [name for name, c in zip("xyz", np.diag(likeness), strict=True) if c > SURE]
-    agree = f"gyro and attitude agree about {', '.join(told)}" if told else ""
-    found = [Finding("content", f"{agree}.")] if told else []
-    if not told:
+    offset = np.median(gyro - camera, axis=0)
+    reported = [name for name, c in zip("xyz", np.diag(likeness), strict=True) if c > SURE]
+    agree = f"gyro and attitude agree about {', '.join(reported)}" if reported else ""
+    found = [Finding("content", f"{agree}.")] if reported else []
+    if not reported:
         found.append(Finding("content", "the motion is too small to compare gyro and attitude."))
     if np.abs(offset).max() > ZERO_OFF:
         x, y, z = np.degrees(offset)

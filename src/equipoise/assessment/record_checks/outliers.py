@@ -127,11 +127,11 @@ def _outlying(t: Series1, vectors: Vectors, least: Vector3, platform: Platform) 
     for first in range(0, max(n, 1), PIECE):
         keep = every[max(0, first - BESIDE) : first + PIECE + BESIDE]
         inside = (every >= first) & (every < first + PIECE)
-        scales.append(_look_at_piece(sensor, keep, inside, off, rough))
+        scales.append(_piece_scale(sensor, keep, inside, off, rough))
     return OutlyingRows(np.any(off != 0, axis=1).reshape(n), off, float(np.median(scales)), rough)
 
 
-def _look_at_piece(
+def _piece_scale(
     sensor: _Sensor, keep: Ints, inside: NDArray[np.bool_], off: Series3, rough: Series3
 ) -> float:
     """Write how far off the odd rows inside a piece are and what is left of all; return the scale.
@@ -165,8 +165,10 @@ def _reach(fit: LocalFit, span: Span) -> float:
     """
     if not len(fit.rows):
         return np.inf
-    told = {span.half: _free_of_bends(span), 0: float(np.median(fit.free[:, 0]))}
-    return sum(float(np.linalg.norm(_spread(fit, at))) / share**0.5 for at, share in told.items())
+    reported = {span.half: _free_of_bends(span), 0: float(np.median(fit.free[:, 0]))}
+    return sum(
+        float(np.linalg.norm(_spread(fit, at))) / share**0.5 for at, share in reported.items()
+    )
 
 
 @cache

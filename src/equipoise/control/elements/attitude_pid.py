@@ -56,7 +56,7 @@ class Pid(NamedTuple):
     """What is carried from step to step."""
 
     total: Vector3  # rad s, of the error
-    asked: Vector3  # N m, at the last step
+    requested: Vector3  # N m, at the last step
     t: float | None  # s, of the last step; None: there was none
 
 
@@ -81,28 +81,28 @@ def error_of(q: Quaternion, target: Quaternion) -> Vector3:
     return 2.0 * np.copysign(1.0, turn[0]) * turn[1:]
 
 
-def integrated(pid: Pid, error: Vector3, seen: Sample, gains: Gains) -> Vector3:
+def integrated(pid: Pid, error: Vector3, sample: Sample, gains: Gains) -> Vector3:
     """Return the integral (rad s) at this sample, unwound by what was not delivered."""
     if pid.t is None or gains.integral == 0:
         return pid.total
     slope = gains.frequency * gains.integral
-    missed = np.linalg.solve(gains.inertia_P, seen.torque - pid.asked)
-    total = pid.total + (seen.t - pid.t) * (error + missed / slope)
+    missed = np.linalg.solve(gains.inertia_P, sample.torque - pid.requested)
+    total = pid.total + (sample.t - pid.t) * (error + missed / slope)
     most = gains.most / (np.diag(gains.inertia_P) * gains.frequency * slope)
     return np.clip(total, -most, most)
 
 
 def torque(
-    pid: Pid, seen: Sample, reference: Reference, gains: Gains, moment: Vector3
+    pid: Pid, sample: Sample, reference: Reference, gains: Gains, moment: Vector3
 ) -> tuple[Pid, Vector3]:
     """Return the torque to ask for, N m; ``moment`` (kg m) is m r, as believed, for its weight."""
-    J, w, w_n = gains.inertia_P, seen.rate, gains.frequency
-    e = error_of(seen.q, reference.q)
-    total = integrated(pid, e, seen, gains)
+    J, w, w_n = gains.inertia_P, sample.rate, gains.frequency
+    e = error_of(sample.q, reference.q)
+    total = integrated(pid, e, sample, gains)
     a = (
         reference.acceleration
         + 2.0 * gains.damping * w_n * (reference.rate - w)
         + w_n**2 * (e + gains.integral * total)
     )
-    u = np.cross(w, J @ w + seen.momentum) - np.cross(moment, seen.gravity) + J @ a
-    return Pid(total, u, seen.t), u
+    u = np.cross(w, J @ w + sample.momentum) - np.cross(moment, sample.gravity) + J @ a
+    return Pid(total, u, sample.t), u

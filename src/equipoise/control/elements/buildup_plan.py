@@ -65,6 +65,6 @@ def foreseen(stages: tuple[Stage, ...], testbed: Testbed, book: Book, pace: Pace
     """Return the account at the end of a plan; its covariance and times are what counts."""
     samples = samples_of(stages, level(testbed.up), testbed.gravity, pace)
     ledger = opened(testbed, book, next(samples))
-    for seen in samples:
-        ledger = entered(ledger, seen, book)
+    for sample in samples:
+        ledger = entered(ledger, sample, book)
     return ledger

@@ -22,7 +22,7 @@ import numpy as np
 from equipoise.control.plant.pendulum import Hanging, shift_for
 from equipoise.control.sample import Sample
 from equipoise.model.arrays import Vector3
-from equipoise.model.command import Command, Look
+from equipoise.model.command import Command, Measurement
 from equipoise.model.estimate import COM, Estimate
 
 SWING = 0.06  # rad, chosen: 7 degrees from side to side
@@ -31,7 +31,7 @@ BEFORE = 5.0  # s, chosen: of rest, in the record of a look
 SURE = 3.0  # sds, chosen
 SHALLOW = 1e-5  # m, chosen: a swing of a minute or two
 CLOSE = 1e-6  # m, chosen: one sd of the height at which no further look is needed
-MOST_LOOKS = 4  # chosen: a look takes the sd to a third or less
+MOST_MEASUREMENTS = 4  # chosen: a look takes the sd to a third or less
 TINY = 1e-9  # m, chosen: a step of masses that have none
 ARRIVED = 2.0  # motor steps, chosen
 PATIENCE = 5.0  # s, chosen: beyond twice the travel, for fine masses that are slower
@@ -43,7 +43,7 @@ class Height:
 
     along: float  # m, the shift along u
     depth: float  # m, as believed
-    looks: int = 0
+    measurements: int = 0
     known: bool = False  # to CLOSE, or as well as it will be
 
 
@@ -55,18 +55,18 @@ class Sent(NamedTuple):
     late: float  # s, when they should long have arrived
 
 
-def sees(seen: Estimate) -> bool:
+def sees(estimate: Estimate) -> bool:
     """Say whether a look shows the centre of mass."""
-    return seen.outcome.usable and seen.sees(COM)
+    return estimate.outcome.usable and estimate.sees(COM)
 
 
-def raised(plant: Hanging, height: Height, seen: Estimate, target: Vector3) -> Height:
+def raised(plant: Hanging, height: Height, estimate: Estimate, target: Vector3) -> Height:
     """Return where to level next, after a look that sees the centre of mass."""
-    up, looks = plant.up, height.looks + 1
-    sd = float(np.sqrt(up @ seen.covariance_of(COM) @ up))
-    known = sd <= CLOSE or looks >= MOST_LOOKS
+    up, measurements = plant.up, height.measurements + 1
+    sd = float(np.sqrt(up @ estimate.covariance_of(COM) @ up))
+    known = sd <= CLOSE or measurements >= MOST_MEASUREMENTS
     depth = SHALLOW if known else max(SURE * sd, SHALLOW)
-    return Height(float(up @ (target - seen.com)) - depth, depth, looks, known)
+    return Height(float(up @ (target - estimate.com)) - depth, depth, measurements, known)
 
 
 def last_shift(plant: Hanging, height: Height, level: Vector3, target: Vector3) -> Vector3:
@@ -77,34 +77,34 @@ def last_shift(plant: Hanging, height: Height, level: Vector3, target: Vector3) 
 
 
 def once_level(
-    plant: Hanging, height: Height, seen: Sample, level: Vector3, target: Vector3
+    plant: Hanging, height: Height, sample: Sample, level: Vector3, target: Vector3
 ) -> Sent:
     """Return what follows where the shift ``level`` (m) levels the platform: a look, or the end."""
     if height.known:
         last = last_shift(plant, height, level, target)
-        return sent(plant, seen, last, Command(shift=last, finished="level, and at the target"))
+        return sent(plant, sample, last, Command(shift=last, finished="level, and at the target"))
     kick = shift_for(plant, np.full(2, SWING * height.depth / np.sqrt(2)))
-    since = max(seen.t - BEFORE, 0.0)
-    look = Look(DURATION, "trajectory", hold=plant.still, use_prior=True, since=since)
+    since = max(sample.t - BEFORE, 0.0)
+    measurement = Measurement(DURATION, "trajectory", hold=plant.still, use_prior=True, since=since)
     note = f"level; swings by {np.degrees(SWING):.1f} deg for a look at its height"
-    return sent(plant, seen, level + kick, Command(look=look, note=note))
+    return sent(plant, sample, level + kick, Command(measurement=measurement, note=note))
 
 
-def unseen(plant: Hanging, look: Estimate, way: Sent, level: Vector3) -> Sent:
+def unseen(plant: Hanging, measurement: Estimate, way: Sent, level: Vector3) -> Sent:
     """Return the way back to level, and the end, where a look does not show the centre of mass."""
-    why = f"level; its height was not seen: {look.outcome.sentence}"
+    why = f"level; its height was not seen: {measurement.outcome.sentence}"
     longest = DURATION + 2 * float(np.linalg.norm(way.goal - level)) / plant.slew + PATIENCE
     return Sent(level, Command(shift=level, finished=why), way.late + longest)
 
 
-def sent(plant: Hanging, seen: Sample, goal: Vector3, then: Command) -> Sent:
+def sent(plant: Hanging, sample: Sample, goal: Vector3, then: Command) -> Sent:
     """Return masses on their way to a shift (m)."""
-    longest = 2 * float(np.linalg.norm(goal - seen.shift)) / plant.slew + PATIENCE
-    return Sent(goal, then, seen.t + longest)
+    longest = 2 * float(np.linalg.norm(goal - sample.shift)) / plant.slew + PATIENCE
+    return Sent(goal, then, sample.t + longest)
 
 
-def on_the_way(plant: Hanging, way: Sent, seen: Sample) -> Command:
+def on_the_way(plant: Hanging, way: Sent, sample: Sample) -> Command:
     """Return the same again until the masses have arrived; then what follows."""
-    off = float(np.linalg.norm(seen.shift - way.goal))
-    there = off <= ARRIVED * max(plant.step, TINY) or seen.t >= way.late
+    off = float(np.linalg.norm(sample.shift - way.goal))
+    there = off <= ARRIVED * max(plant.step, TINY) or sample.t >= way.late
     return way.then if there else Command(shift=way.goal)

@@ -104,28 +104,28 @@ def torques_at(w: Vector3, g: Vector3, t: float, mass: float) -> Floats:
     return out
 
 
-def rows_at(seen: Sample, book: Book, begin: float) -> Floats:
+def rows_at(sample: Sample, book: Book, begin: float) -> Floats:
     """Return the torque (N m, laboratory axes) of r, of each c, and of the weight at s."""
-    g, w = seen.gravity, seen.rate
-    regress = torques_at(w, g, seen.t - begin, book.mass)
+    g, w = sample.gravity, sample.rate
+    regress = torques_at(w, g, sample.t - begin, book.mass)
     weight = -book.mass * np.cross(np.eye(3), g)  # its row i is -m e_i x g
-    known = book.mass * np.cross(seen.shift, g)
+    known = book.mass * np.cross(sample.shift, g)
     columns = np.column_stack([-weight.T, regress[:, book.columns], known])
-    return to_matrix(seen.q) @ columns
+    return to_matrix(sample.q) @ columns
 
 
-def opened(testbed: Testbed, book: Book, seen: Sample) -> Ledger:
+def opened(testbed: Testbed, book: Book, sample: Sample) -> Ledger:
     """Return the account at the first sample; the testbed's first guess is its beginning."""
     priors = [typical(term) for term in book.terms]
     sd = np.concatenate(
         [np.full(3, 1.0), np.full(3, PLAY_SD), np.full(3, BIAS_SD), testbed.com_sd, priors]
     )
     x = np.zeros(len(sd))
-    R = to_matrix(seen.q)
-    x[:3] = R @ (book.inertia_P @ seen.rate + seen.momentum)
+    R = to_matrix(sample.q)
+    x[:3] = R @ (book.inertia_P @ sample.rate + sample.momentum)
     x[COM:TERM] = testbed.body.com
-    return Ledger(x, np.diag(sd**2), rows_at(seen, book, seen.t), R, seen.shift, seen.shift,
-                  seen.t, seen.t)  # fmt: skip
+    return Ledger(x, np.diag(sd**2), rows_at(sample, book, sample.t), R, sample.shift, sample.shift,
+                  sample.t, sample.t)  # fmt: skip
 
 
 def stop_variance(change: Vector3, book: Book) -> Vector3:
@@ -137,10 +137,10 @@ def stop_variance(change: Vector3, book: Book) -> Vector3:
     return variance
 
 
-def predicted(ledger: Ledger, seen: Sample, book: Book) -> Ledger:
+def predicted(ledger: Ledger, sample: Sample, book: Book) -> Ledger:
     """Return the account carried on to a sample."""
-    dt = seen.t - ledger.t
-    rows, R = rows_at(seen, book, ledger.begin), to_matrix(seen.q)
+    dt = sample.t - ledger.t
+    rows, R = rows_at(sample, book, ledger.begin), to_matrix(sample.q)
     mean = 0.5 * dt * (ledger.rows + rows)
     stay = float(np.exp(-dt / PLAY_TIME))
     F = np.eye(len(ledger.x))
@@ -154,7 +154,7 @@ def predicted(ledger: Ledger, seen: Sample, book: Book) -> Ledger:
     P[play, play] += PLAY_SD**2 * (1 - stay**2)
     com = np.arange(COM, TERM)
     P[com, com] += book.creep**2 * dt
-    return ledger._replace(x=x, P=P, rows=rows, R=R, shift=seen.shift, t=seen.t)
+    return ledger._replace(x=x, P=P, rows=rows, R=R, shift=sample.shift, t=sample.t)
 
 
 def arrived(ledger: Ledger, book: Book) -> Ledger:
@@ -167,35 +167,35 @@ def arrived(ledger: Ledger, book: Book) -> Ledger:
     return ledger._replace(P=P, stood=ledger.shift)
 
 
-def noise_of(seen: Sample, R: Matrix3, dt: float, book: Book) -> Matrix3:
+def noise_of(sample: Sample, R: Matrix3, dt: float, book: Book) -> Matrix3:
     """Return the covariance of z, (N m s)^2."""
     RJ = R @ book.inertia_P
     white = book.gyro_sd**2 / dt * RJ @ RJ.T + 2 * book.momentum_sd**2 * np.eye(3)
-    wrong = book.inertia_sd * float(np.linalg.norm(book.inertia_P @ seen.rate))
+    wrong = book.inertia_sd * float(np.linalg.norm(book.inertia_P @ sample.rate))
     return white + wrong**2 * SAME_TURN / dt * np.eye(3)
 
 
-def corrected(ledger: Ledger, seen: Sample, dt: float, book: Book) -> Ledger:
+def corrected(ledger: Ledger, sample: Sample, dt: float, book: Book) -> Ledger:
     """Return the account with a sample's momentum entered."""
     RJ = ledger.R @ book.inertia_P
     H = np.zeros((3, len(ledger.x)))
     H[:, :3], H[:, BIAS:COM] = np.eye(3), RJ
     PHt = ledger.P @ H.T
-    S = H @ PHt + noise_of(seen, ledger.R, dt, book)
+    S = H @ PHt + noise_of(sample, ledger.R, dt, book)
     K = np.linalg.solve(S, PHt.T).T
-    z = RJ @ seen.rate + ledger.R @ seen.momentum
+    z = RJ @ sample.rate + ledger.R @ sample.momentum
     P = ledger.P - K @ PHt.T
     return ledger._replace(x=ledger.x + K @ (z - H @ ledger.x), P=0.5 * (P + P.T))
 
 
-def entered(ledger: Ledger, seen: Sample, book: Book) -> Ledger:
+def entered(ledger: Ledger, sample: Sample, book: Book) -> Ledger:
     """Return the account after one more sample."""
-    dt = seen.t - ledger.t
+    dt = sample.t - ledger.t
     if dt <= 0:
         return ledger
-    still = float(np.linalg.norm(seen.shift - ledger.shift)) <= STANDS
-    ahead = predicted(ledger, seen, book)
-    return corrected(arrived(ahead, book), seen, dt, book) if still else ahead
+    still = float(np.linalg.norm(sample.shift - ledger.shift)) <= STANDS
+    ahead = predicted(ledger, sample, book)
+    return corrected(arrived(ahead, book), sample, dt, book) if still else ahead
 
 
 def com_map(ledger: Ledger, book: Book, ahead: float = 0.0) -> Floats:

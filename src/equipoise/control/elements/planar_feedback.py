@@ -40,7 +40,7 @@ Variant = Literal["linear", "sine"]
 
 DAMPING = 0.7  # chosen: of critical, where coils are not saturated
 MARGIN = 0.5  # chosen: fields lean, and A is a running mean
-APART = 0.2  # chosen: w_i of w_n, which is a seventh of where it is unsettled
+SEPARATION = 0.2  # chosen: w_i of w_n, which is a seventh of where it is unsettled
 
 
 class Plant(NamedTuple):
@@ -65,9 +65,9 @@ class Loop(NamedTuple):
 def loop_for(plant: Plant, depth: float, variant: Variant) -> Loop:
     """Return the gains for a centre of mass ``depth`` (m) below the pivot."""
     w_n = (plant.weight * depth / plant.inertia) ** 0.5
-    calm = MARGIN / APART * plant.coils / (plant.weight * depth)
+    calm = MARGIN / SEPARATION * plant.coils / (plant.weight * depth)
     k_d = 2 * DAMPING * w_n * plant.inertia
-    return Loop(k_d, APART * w_n * depth, w_n, depth, calm, variant)
+    return Loop(k_d, SEPARATION * w_n * depth, w_n, depth, calm, variant)
 
 
 def lean(gravity: Vector3, up: Vector3) -> Vector3:

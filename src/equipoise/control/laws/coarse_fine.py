@@ -5,7 +5,8 @@
               one up to COARSE below the pivot
     fine      looks and moves to the target, until one finds it within SURE sds, at most MOST
 
-Between coarse and fine the known way frees r of the factor that it shares with J (``swing_looks``).
+Between coarse and fine the known way frees r of the factor that it shares with J
+(``swing_estimates``).
 The target is never higher than SAFE below the pivot: what is left of balance keeps the platform
 upright when the law has gone.
 
@@ -26,10 +27,10 @@ from equipoise.control.elements.slew import moment_across
 from equipoise.control.law import Law, LawCard
 from equipoise.control.plant import move_timing
 from equipoise.control.plant.move_timing import Waiting
-from equipoise.control.plant.swing_estimates import METHOD, Shown, believed, held, shown, shows
+from equipoise.control.plant.swing_estimates import METHOD, Shown, combined, held, shown, shows
 from equipoise.control.sample import Sample
 from equipoise.model.arrays import Vector3
-from equipoise.model.command import Command, Look
+from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.testbed import Testbed
@@ -65,9 +66,9 @@ class State:
     """How far it has come."""
 
     shift: Vector3  # m, asked for
-    seen_shift: Vector3 | None = None  # m, at the last sample
+    observed_shift: Vector3 | None = None  # m, at the last sample
     stood: float = 0.0  # s, since when the masses stand
-    looks: tuple[Shown, ...] = ()
+    measurements: tuple[Shown, ...] = ()
     missed: int = 0  # looks that showed nothing
     finished: str = ""
     waiting: Waiting | None = None
@@ -97,57 +98,61 @@ def levelling(state: State, r: Vector3, params: Params) -> State:
     return replace(state, waiting=waiting, rise=-COARSE * params.up - r)
 
 
-def waited(state: State, seen: Sample, params: Params) -> State:
+def waited(state: State, sample: Sample, params: Params) -> State:
     """Return the state that goes on waiting, or makes the move at a good moment."""
     assert state.waiting is not None
-    waiting, shift = move_timing.watched(state.waiting, seen, params.up, state.shift)
+    waiting, shift = move_timing.watched(state.waiting, sample, params.up, state.shift)
     if all(waiting.done):
-        return replace(state, shift=shift, waiting=None, stood=seen.t)
+        return replace(state, shift=shift, waiting=None, stood=sample.t)
     return replace(state, waiting=waiting, shift=shift)
 
 
-def after_look(state: State, seen: Estimate, params: Params) -> State:
+def after_measurement(state: State, estimate: Estimate, params: Params) -> State:
     """Return the state after a look, with the move that it asks for."""
-    state = replace(state, seen_shift=None)  # the clock has gone on
-    if not shows(seen):
-        text = f"Looks did not show the centre of mass: {seen.outcome.sentence}"
+    state = replace(state, observed_shift=None)  # the clock has gone on
+    if not shows(estimate):
+        text = f"Looks did not show the centre of mass: {estimate.outcome.sentence}"
         missed = state.missed + 1
         return replace(state, missed=missed, finished=text if missed == MISSES else "")
-    looks = (*state.looks, shown(seen, state.shift))
-    r, sd, _ = believed(looks, params.up, params.inertia_sd)
-    if len(looks) == 1:
-        return levelling(replace(state, looks=looks), r, params)
+    measurements = (*state.measurements, shown(estimate, state.shift))
+    r, sd, _ = combined(measurements, params.up, params.inertia_sd)
+    if len(measurements) == 1:
+        return levelling(replace(state, measurements=measurements), r, params)
     off: Vector3 = r + state.shift - params.target
     there = bool(np.all(np.abs(off) < np.maximum(SURE * sd, SMALL)) and np.all(sd < ENOUGH))
-    text = f"At its place after {len(looks)} looks." if there or len(looks) == MOST else ""
-    return replace(state, looks=looks, shift=state.shift - off, finished=text)
+    text = (
+        f"At its place after {len(measurements)} looks."
+        if there or len(measurements) == MOST
+        else ""
+    )
+    return replace(state, measurements=measurements, shift=state.shift - off, finished=text)
 
 
-def watched(state: State, seen: Sample) -> State:
+def watched(state: State, sample: Sample) -> State:
     """Return the state that knows since when the masses stand."""
-    before = state.seen_shift
-    stands = before is not None and bool(np.linalg.norm(seen.shift - before) <= STANDS)
-    return replace(state, seen_shift=seen.shift, stood=state.stood if stands else seen.t)
+    before = state.observed_shift
+    stands = before is not None and bool(np.linalg.norm(sample.shift - before) <= STANDS)
+    return replace(state, observed_shift=sample.shift, stood=state.stood if stands else sample.t)
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and the command: a move, and a look once the masses stand."""
-    if isinstance(seen, Estimate):
-        state = after_look(state, seen, params)
+    if isinstance(sample, Estimate):
+        state = after_measurement(state, sample, params)
         return state, Command(shift=state.shift)
-    state = watched(state, seen)
+    state = watched(state, sample)
     if state.waiting is not None:
-        state = waited(state, seen, params)
+        state = waited(state, sample, params)
         return state, Command(shift=state.shift)
-    if seen.t < state.stood + ARRIVED:
+    if sample.t < state.stood + ARRIVED:
         return state, Command(shift=state.shift)
     if state.rise is not None:
-        state = replace(state, shift=state.rise, rise=None, stood=seen.t)
+        state = replace(state, shift=state.rise, rise=None, stood=sample.t)
         return state, Command(shift=state.shift)
     if state.finished:
         return state, Command(shift=state.shift, finished=state.finished)
-    look = Look(LONG if state.looks else SHORT, METHOD, params.held)
-    return state, Command(shift=state.shift, look=look)
+    measurement = Measurement(LONG if state.measurements else SHORT, METHOD, params.held)
+    return state, Command(shift=state.shift, measurement=measurement)
 
 
 LAW = Law(

@@ -75,18 +75,20 @@ def shift_at(following: Following, down: Vector3, t: float) -> Vector3:
     return moved + trimming_shift(following.sag, following.trim, down)
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the state and the command: the shift for this attitude and time, and what holds it."""
-    assert isinstance(seen, Sample)  # no look is ever asked for
-    bed, down = params.testbed, seen.gravity / params.testbed.gravity
+    assert isinstance(sample, Sample)  # no look is ever asked for
+    bed, down = params.testbed, sample.gravity / params.testbed.gravity
     if state.way is None:
-        state = replace(state, way=slew(seen.q, levelled(seen.q, bed.up), seen.t, params.pace))
+        state = replace(
+            state, way=slew(sample.q, levelled(sample.q, bed.up), sample.t, params.pace)
+        )
     assert state.way is not None
-    reference = reference_at(state.way, seen.t)
+    reference = reference_at(state.way, sample.t)
     weight = bed.body.mass * params.target
-    pid, u = torque(state.pid, seen, reference, params.gains, weight)
-    over = "masses followed tilt and drift" if seen.t >= params.end else ""
-    shift = shift_at(params.following, down, seen.t)
+    pid, u = torque(state.pid, sample, reference, params.gains, weight)
+    over = "masses followed tilt and drift" if sample.t >= params.end else ""
+    shift = shift_at(params.following, down, sample.t)
     return replace(state, pid=pid), Command(shift=shift, torque=u, finished=over)
 
 

@@ -105,7 +105,7 @@ class State:
     """Where the law stands."""
 
     shift: Vector3  # m, s
-    seen: Matrix3  # s, int (E - n n^T) dt
+    observed: Matrix3  # s, int (E - n n^T) dt
     start: float | None = None  # s
     gravity: Vector3 | None = None  # m/s^2, at the last step
     rest: Vector3 | None = None  # N m s, e - j w at the last step
@@ -176,31 +176,31 @@ def cone_for(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
     return angle
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and what is wanted."""
-    assert isinstance(seen, Sample)  # it asks for no look
-    start = seen.t if state.start is None else state.start
-    down = seen.gravity / float(np.linalg.norm(seen.gravity))
+    assert isinstance(sample, Sample)  # it asks for no look
+    start = sample.t if state.start is None else state.start
+    down = sample.gravity / float(np.linalg.norm(sample.gravity))
     if -params.sweep.axes[:, 2] @ down < np.cos(params.tilt_limit):
         return state, Command(finished="Stopped: the platform tilts beyond its limit.")
-    want = wanted(params.sweep, seen.t - start, down, seen.rate)
-    own = params.inertia @ seen.rate
+    want = wanted(params.sweep, sample.t - start, down, sample.rate)
+    own = params.inertia @ sample.rate
     error = own - params.inertia @ want.rate
-    asked = np.cross(seen.rate, own + seen.momentum) - params.gain * error
-    asked += steering(params, seen, seen.t - start, want)
-    rest = error - mean_moment(params) * seen.rate
-    ahead = adapted(state, seen, rest, params) - seen.shift
-    shift = seen.shift + limited(ahead, params.lead)
-    told = state.seen + params.period * (np.eye(3) - np.outer(down, down))
-    after = State(shift, told, start, seen.gravity, rest, asked)
-    return after, Command(shift, asked, finished=why_over(after, seen.t - start, params))
+    requested = np.cross(sample.rate, own + sample.momentum) - params.gain * error
+    requested += steering(params, sample, sample.t - start, want)
+    rest = error - mean_moment(params) * sample.rate
+    ahead = adapted(state, sample, rest, params) - sample.shift
+    shift = sample.shift + limited(ahead, params.lead)
+    reported = state.observed + params.period * (np.eye(3) - np.outer(down, down))
+    after = State(shift, reported, start, sample.gravity, rest, requested)
+    return after, Command(shift, requested, finished=why_over(after, sample.t - start, params))
 
 
-def steering(params: Params, seen: Sample, past: float, want: Wanted) -> Vector3:
+def steering(params: Params, sample: Sample, past: float, want: Wanted) -> Vector3:
     """Return H_d' - m r* x g_b (N m) in the middle of the period for which a torque is asked."""
     half = params.period / 2
-    gravity = seen.gravity + half * np.cross(seen.gravity, seen.rate)
-    rate = seen.rate + half * want.slope
+    gravity = sample.gravity + half * np.cross(sample.gravity, sample.rate)
+    rate = sample.rate + half * want.slope
     slope = wanted(params.sweep, past + half, gravity / float(np.linalg.norm(gravity)), rate).slope
     return params.inertia @ slope - params.mass * np.cross(params.target, gravity)
 
@@ -210,14 +210,14 @@ def mean_moment(params: Params) -> float:
     return float(np.trace(params.inertia)) / 3
 
 
-def adapted(state: State, seen: Sample, rest: Vector3, params: Params) -> Vector3:
+def adapted(state: State, sample: Sample, rest: Vector3, params: Params) -> Vector3:
     """Return s (m) a step on."""
     if state.gravity is None or state.rest is None or state.torque is None:
         return state.shift
-    if float(np.linalg.norm(state.torque - seen.torque)) > params.short:
+    if float(np.linalg.norm(state.torque - sample.torque)) > params.short:
         return state.shift
-    turned = mean_moment(params) * (seen.gravity - state.gravity)
-    middle = np.cross(state.gravity, state.rest) + np.cross(seen.gravity, rest)
+    turned = mean_moment(params) * (sample.gravity - state.gravity)
+    middle = np.cross(state.gravity, state.rest) + np.cross(sample.gravity, rest)
     total = turned + params.period / 2 * middle
     return state.shift - params.adaption * params.mass * total
 
@@ -231,9 +231,9 @@ def fading(params: Params) -> float:
 
 def why_over(state: State, past: float, params: Params) -> str:
     """Return why the law ends here, or nothing."""
-    values, vectors = np.linalg.eigh(state.seen)
-    told = float(values[0]) * fading(params)
-    if told >= ENOUGH:
+    values, vectors = np.linalg.eigh(state.observed)
+    reported = float(values[0]) * fading(params)
+    if reported >= ENOUGH:
         return f"Gravity has swept all directions, the least of them for {values[0]:.3g} s."
     if params.sweep.angle > 0 or past * params.gain < QUIET:
         return ""

@@ -118,7 +118,7 @@ class State:
     phase: Literal["settle", "window", "leave"]
     place: int  # in the schedule, rounds counted on
     since: float | None  # s, when the place was taken
-    asked: Vector3  # m, shift
+    requested: Vector3  # m, shift
     information: Matrix3  # sum A^T A
     score: Vector3  # sum A^T b
     windows: int = 0  # closed at this place
@@ -145,8 +145,8 @@ def weakest_jet(testbed: Testbed) -> float:
 
 def likely_weight(testbed: Testbed) -> float:
     """Return the torque (N m) of an offset that few exceed."""
-    far = np.linalg.norm(testbed.body.com) + LIKELY * np.linalg.norm(testbed.com_sd)
-    return float(testbed.body.mass * testbed.gravity * far)
+    outlying = np.linalg.norm(testbed.body.com) + LIKELY * np.linalg.norm(testbed.com_sd)
+    return float(testbed.body.mass * testbed.gravity * outlying)
 
 
 def refuse(found: str, wanted: str) -> InputError:
@@ -178,11 +178,11 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 # --- Jets ------------------------------------------------------------------------------------
 
 
-def impulse_for(seen: Sample, vertical: Vector3, params: Params) -> Vector3 | None:
+def impulse_for(sample: Sample, vertical: Vector3, params: Params) -> Vector3 | None:
     """Return the impulse (N m s) that gives the rate back to ``vertical``; None within the band."""
-    n = -seen.gravity / float(np.linalg.norm(seen.gravity))
+    n = -sample.gravity / float(np.linalg.norm(sample.gravity))
     wanted = limited(RETURN * np.cross(vertical, n), FASTEST)
-    off: Vector3 = wanted - seen.rate
+    off: Vector3 = wanted - sample.rate
     off = np.where(np.abs(off) > params.dead, off, 0.0)
     return params.inertia @ off if off.any() else None
 
@@ -190,113 +190,115 @@ def impulse_for(seen: Sample, vertical: Vector3, params: Params) -> Vector3 | No
 # --- The account -----------------------------------------------------------------------------
 
 
-def momentum_of(seen: Sample, R: Matrix3, params: Params) -> Vector3:
+def momentum_of(sample: Sample, R: Matrix3, params: Params) -> Vector3:
     """Return L, N m s, laboratory axes."""
-    L: Vector3 = R @ (params.inertia @ seen.rate + seen.momentum)
+    L: Vector3 = R @ (params.inertia @ sample.rate + sample.momentum)
     return L
 
 
-def opened(seen: Sample, params: Params) -> Window:
+def opened(sample: Sample, params: Params) -> Window:
     """Return a window that begins now."""
-    R = to_matrix(seen.q)
-    return Window(seen.t, momentum_of(seen, R, params), np.zeros((3, 3)), np.zeros(3))
+    R = to_matrix(sample.q)
+    return Window(sample.t, momentum_of(sample, R, params), np.zeros((3, 3)), np.zeros(3))
 
 
-def summed(window: Window, before: Before, seen: Sample, params: Params) -> Window:
+def summed(window: Window, before: Before, sample: Sample, params: Params) -> Window:
     """Return the window with the step up to this sample added."""
-    R, half = to_matrix(seen.q), params.mass * (seen.t - before.t) / 2
-    first, last = before.R @ skew(before.gravity), R @ skew(seen.gravity)
-    weight = -half * (first @ before.shift + last @ seen.shift)
-    jets = 0.5 * (before.R + R) @ seen.impulse
+    R, half = to_matrix(sample.q), params.mass * (sample.t - before.t) / 2
+    first, last = before.R @ skew(before.gravity), R @ skew(sample.gravity)
+    weight = -half * (first @ before.shift + last @ sample.shift)
+    jets = 0.5 * (before.R + R) @ sample.impulse
     A = window.A - half * (first + last)
     return window._replace(A=A, given=window.given + weight + jets)
 
 
-def told(window: Window, seen: Sample, params: Params) -> Vector3:
+def unbalance_impulse(window: Window, sample: Sample, params: Params) -> Vector3:
     """Return b at the end of a window, N m s."""
-    now = momentum_of(seen, to_matrix(seen.q), params)
+    now = momentum_of(sample, to_matrix(sample.q), params)
     return now - window.momentum - window.given
 
 
 def fed_back(window: Window, b: Vector3, shift: Vector3, params: Params) -> Vector3:
     """Return s - k r_perp, m: the part along gravity is left alone."""
     inverse = np.linalg.pinv(window.A, rcond=FLAT)
-    seen_of: Vector3 = inverse @ (b + window.A @ (shift - params.target))
-    return limited(shift - GAIN * seen_of, params.reach)
+    observed_of: Vector3 = inverse @ (b + window.A @ (shift - params.target))
+    return limited(shift - GAIN * observed_of, params.reach)
 
 
-def closed(state: State, seen: Sample, params: Params) -> State:
+def closed(state: State, sample: Sample, params: Params) -> State:
     """Return the state after a window: what it told, and the masses sent on."""
     assert state.window is not None
-    A, b = state.window.A, told(state.window, seen, params)
-    shift = fed_back(state.window, b, state.asked, params)
+    A, b = state.window.A, unbalance_impulse(state.window, sample, params)
+    shift = fed_back(state.window, b, state.requested, params)
     state = replace(
         state,
         information=state.information + A.T @ A,
         score=state.score + A.T @ b,
-        asked=shift,
+        requested=shift,
         windows=state.windows + 1,
-        window=opened(seen, params),
+        window=opened(sample, params),
     )
-    return state if state.windows < WINDOWS else moved_on(state, seen, params)
+    return state if state.windows < WINDOWS else moved_on(state, sample, params)
 
 
-def moved_on(state: State, seen: Sample, params: Params) -> State:
+def moved_on(state: State, sample: Sample, params: Params) -> State:
     """Return the state at the next place of the schedule, or on the way out."""
     place = state.place + 1
-    state = replace(state, phase="settle", place=place, since=seen.t, windows=0, window=None)
+    state = replace(state, phase="settle", place=place, since=sample.t, windows=0, window=None)
     if place % len(params.verticals):
         return state
     r = np.linalg.solve(state.information, state.score)
-    state = replace(state, asked=limited(params.target - r, params.reach))
+    state = replace(state, requested=limited(params.target - r, params.reach))
     return replace(state, phase="leave") if place == ROUNDS * len(params.verticals) else state
 
 
 # --- Step ------------------------------------------------------------------------------------
 
 
-def forward(state: State, seen: Sample, params: Params) -> State:
+def forward(state: State, sample: Sample, params: Params) -> State:
     """Return the state after a sample, before anything is commanded."""
-    since = seen.t if state.since is None else state.since
+    since = sample.t if state.since is None else state.since
     state = replace(state, since=since)
-    if state.phase == "settle" and seen.t - since >= SETTLING:
-        return replace(state, phase="window", window=opened(seen, params))
+    if state.phase == "settle" and sample.t - since >= SETTLING:
+        return replace(state, phase="window", window=opened(sample, params))
     if state.phase == "window":
         assert state.window is not None
         assert state.before is not None
-        window = summed(state.window, state.before, seen, params)
+        window = summed(state.window, state.before, sample, params)
         state = replace(state, window=window)
-        if seen.t - window.begin >= WINDOW - PERIOD / 2:
-            return closed(state, seen, params)
+        if sample.t - window.begin >= WINDOW - PERIOD / 2:
+            return closed(state, sample, params)
     return state
 
 
-def has_left(state: State, seen: Sample, params: Params) -> bool:
+def has_left(state: State, sample: Sample, params: Params) -> bool:
     """Say whether the platform is level again and the masses have arrived."""
     assert state.since is not None
-    there = float(np.linalg.norm(seen.shift - state.asked)) <= params.step + 1e-9
-    return state.phase == "leave" and seen.t - state.since >= SETTLING and there
+    there = float(np.linalg.norm(sample.shift - state.requested)) <= params.step + 1e-9
+    return state.phase == "leave" and sample.t - state.since >= SETTLING and there
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command; the law asks for no look."""
-    assert isinstance(seen, Sample)
+    assert isinstance(sample, Sample)
     old = state
-    state = forward(state, seen, params)
-    before = Before(seen.t, to_matrix(seen.q), seen.gravity, seen.shift)
+    state = forward(state, sample, params)
+    before = Before(sample.t, to_matrix(sample.q), sample.gravity, sample.shift)
     state = replace(state, before=before)
     vertical = params.verticals[state.place % len(params.verticals)]
-    impulse = impulse_for(seen, vertical, params)
-    if has_left(state, seen, params):
-        return state, Command(shift=state.asked, finished="seen at all attitudes and moved there")
-    return state, Command(shift=state.asked, impulse=impulse, note=telling(old, state, params))
+    impulse = impulse_for(sample, vertical, params)
+    if has_left(state, sample, params):
+        return state, Command(
+            shift=state.requested, finished="seen at all attitudes and moved there"
+        )
+    return state, Command(shift=state.requested, impulse=impulse, note=note_of(old, state, params))
 
 
-def telling(old: State, state: State, params: Params) -> str:
+def note_of(old: State, state: State, params: Params) -> str:
     """Return what people should know of this step."""
-    if state.asked is old.asked:
+    if state.requested is old.requested:
         return ""
-    shift: Floats = (state.asked - old.asked) * 1e6
+    shift: Floats = (state.requested - old.requested) * 1e6
     return "moved on by (" + ", ".join(f"{x:.2f}" for x in shift) + ") um by what the jets spent"
 
 

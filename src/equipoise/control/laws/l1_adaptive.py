@@ -66,7 +66,7 @@ from equipoise.control.plant.pendulum import (
     tilt_of,
     turned,
 )
-from equipoise.control.plant.settling import Bounds, Rest, Seen, at_depth, bounds, is_quiet, settle
+from equipoise.control.plant.settling import Bounds, Rest, Sums, at_depth, bounds, is_quiet, settle
 from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.command import Command
@@ -198,8 +198,8 @@ def closed(axis: Axis, frequency: float, late: int) -> Square:
     w = axis.predictor
     new_s = s - PERIOD * w**3 * (0.5 * new_e[0] + 0.5 / w * new_e[1])
     new_u = u_ad + axis.share * (-s - u_ad)
-    asked = u_ad - 2 * DAMPING * axis.wanted * x[1]
-    rows = [new_x, new_e, new_s[None], new_u[None], asked[None], np.eye(size)[6:-1]]
+    requested = u_ad - 2 * DAMPING * axis.wanted * x[1]
+    rows = [new_x, new_e, new_s[None], new_u[None], requested[None], np.eye(size)[6:-1]]
     return np.concatenate(rows).astype(np.float64)
 
 
@@ -242,9 +242,9 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 # --- Step ------------------------------------------------------------------------------------
 
 
-def frequencies(state: State, seen: Sample, plant: Hanging) -> Floats:
+def frequencies(state: State, sample: Sample, plant: Hanging) -> Floats:
     """Return w0 about both axes while masses raise or lower the platform, rad/s."""
-    above = float(plant.up @ seen.shift) - state.height.along
+    above = float(plant.up @ sample.shift) - state.height.along
     return np.sqrt(plant.gain * max(state.height.depth - above, FLATTEST * plant.depth))
 
 
@@ -255,12 +255,12 @@ def turned_about_up(x: Floats, spin: float, params: Params) -> Floats:
     return spin * np.array([[tilt_2, one * rate_2], [-tilt_1, two * rate_1]])
 
 
-def learnt(state: State, x: Floats, seen: Sample, params: Params) -> State:
+def learnt(state: State, x: Floats, sample: Sample, params: Params) -> State:
     """Return the state with the error of the prediction for now, and what that teaches."""
     before, plant = state.before, params.plant
     if before is None:
         return replace(state, e=np.zeros((2, 2)))
-    v = turned(plant, (before.shift + seen.shift) / 2)
+    v = turned(plant, (before.shift + sample.shift) / 2)
     th, s, e = np.zeros((2, 2)), np.zeros(2), np.zeros((2, 2))
     turning = turned_about_up(before.x, before.spin, params)
     for i, axis in enumerate(params.axes):
@@ -294,45 +294,45 @@ def controlled(state: State, x: Floats, w0: Floats, params: Params) -> Vector3:
     return shift_for(plant, limited(v, plant.reach)) + state.height.along * plant.up
 
 
-def sample_step(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+def sample_step(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next state and command after a sample."""
     plant = params.plant
-    tilt, rate = tilt_of(plant, seen), rate_of(plant, seen)
-    x, w0 = np.column_stack([tilt, rate]), frequencies(state, seen, plant)
-    spin = float(plant.up @ seen.rate)
-    state = learnt(state, x, seen, params)
+    tilt, rate = tilt_of(plant, sample), rate_of(plant, sample)
+    x, w0 = np.column_stack([tilt, rate]), frequencies(state, sample, plant)
+    spin = float(plant.up @ sample.rate)
+    state = learnt(state, x, sample, params)
     state = replace(state, u_ad=filtered(state, x, params))
-    now = Seen(seen.t, tilt, rate, seen.shift)
+    now = Sums(sample.t, tilt, rate, sample.shift)
     quiet = at_depth(params.quiet, plant.depth, state.height.depth)
     rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
-    state = replace(state, rest=rest, before=Before(x, w0, seen.shift, spin))
-    if not is_quiet(rest, seen.t, quiet):
+    state = replace(state, rest=rest, before=Before(x, w0, sample.shift, spin))
+    if not is_quiet(rest, sample.t, quiet):
         return state, Command(shift=controlled(state, x, w0, params))
-    way = once_level(plant, state.height, seen, rest.shift, params.target)
+    way = once_level(plant, state.height, sample, rest.shift, params.target)
     return replace(state, level=rest.shift, way=way), Command(shift=way.goal)
 
 
-def look_step(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
+def measurement_step(state: State, estimate: Estimate, params: Params) -> tuple[State, Command]:
     """Return what follows a look."""
     assert state.level is not None
-    if not sees(seen):
+    if not sees(estimate):
         assert state.way is not None
-        way = unseen(params.plant, seen, state.way, state.level)
+        way = unseen(params.plant, estimate, state.way, state.level)
         return replace(state, way=way), Command(shift=way.goal)
-    height = raised(params.plant, state.height, seen, params.target)
+    height = raised(params.plant, state.height, estimate, params.target)
     shift = shift_for(params.plant, turned(params.plant, state.level))
     note = f"raised to {height.depth * 1e6:.3g} um below the target"
     state = replace(state, height=height, rest=Rest(), way=None, before=None)
     return state, Command(shift=shift + height.along * params.plant.up, note=note)
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command."""
-    if isinstance(seen, Estimate):
-        return look_step(state, seen, params)
+    if isinstance(sample, Estimate):
+        return measurement_step(state, sample, params)
     if state.way is not None:
-        return state, on_the_way(params.plant, state.way, seen)
-    return sample_step(state, seen, params)
+        return state, on_the_way(params.plant, state.way, sample)
+    return sample_step(state, sample, params)
 
 
 LAW = Law(CARD, begin, step)

@@ -168,21 +168,21 @@ def off_goal(
     return G @ ledger.x + shift, G @ ledger.P @ G.T
 
 
-def unloading(ledger: Ledger, seen: Sample, params: Params) -> Vector3:
+def unloading(ledger: Ledger, sample: Sample, params: Params) -> Vector3:
     """Return how far (m) off the goal gravity takes the horizontal momentum out."""
     outward = -UNLOAD * np.array([ledger.x[0], ledger.x[1], 0.0])
-    g = seen.gravity
-    off = np.cross(g, to_matrix(seen.q).T @ outward) / (params.book.mass * (g @ g))
+    g = sample.gravity
+    off = np.cross(g, to_matrix(sample.q).T @ outward) / (params.book.mass * (g @ g))
     size = float(np.linalg.norm(off))
     return off * min(1.0, params.reach / max(size, 1e-12))
 
 
-def weight_moment(ledger: Ledger, seen: Sample, params: Params) -> Vector3:
+def weight_moment(ledger: Ledger, sample: Sample, params: Params) -> Vector3:
     """Return m (r + s + C n) as believed, kg m, for the feed-forward."""
     book = params.book
-    down = seen.gravity / float(np.linalg.norm(seen.gravity))
+    down = sample.gravity / float(np.linalg.norm(sample.gravity))
     com = com_map(ledger, book) @ ledger.x
-    return book.mass * (com + seen.shift + sag_of(ledger, book) @ down)
+    return book.mass * (com + sample.shift + sag_of(ledger, book) @ down)
 
 
 def home_to_goal(ledger: Ledger, params: Params) -> tuple[Vector3, Matrix3]:
@@ -191,18 +191,18 @@ def home_to_goal(ledger: Ledger, params: Params) -> tuple[Vector3, Matrix3]:
     return -off, covariance
 
 
-def shift_for(state: State, seen: Sample, params: Params) -> State:
+def shift_for(state: State, sample: Sample, params: Params) -> State:
     """Return the state with the shift that this step asks for."""
     assert state.ledger is not None
     follows = state.unloading or params.stages[state.stage].follows
-    if not follows or seen.t < state.followed + FOLLOW:
+    if not follows or sample.t < state.followed + FOLLOW:
         return state
-    wanted = home_to_goal(state.ledger, params)[0] + unloading(state.ledger, seen, params)
-    return replace(state, shift=wanted, followed=seen.t)
+    wanted = home_to_goal(state.ledger, params)[0] + unloading(state.ledger, sample, params)
+    return replace(state, shift=wanted, followed=sample.t)
 
 
 def retrimmed(
-    state: State, seen: Sample, params: Params, doubt: float, late: bool = False
+    state: State, sample: Sample, params: Params, doubt: float, late: bool = False
 ) -> State:
     """Return the state with the masses sent to the goal, if the change is beyond their errors.
 
@@ -210,7 +210,7 @@ def retrimmed(
     """
     assert state.ledger is not None
     wanted, covariance = home_to_goal(state.ledger, params)
-    change: Vector3 = wanted - seen.shift
+    change: Vector3 = wanted - sample.shift
     stops = float(np.sum(stop_variance(change, params.book)))
     unsure = stops + doubt**2 * float(np.trace(covariance))
     if (late and stops > COARSE**2) or change @ change < unsure:
@@ -218,7 +218,7 @@ def retrimmed(
     return replace(state, shift=wanted)
 
 
-def guarded(state: State, seen: Sample, params: Params) -> State:
+def guarded(state: State, sample: Sample, params: Params) -> State:
     """Return the state with the unloading begun, gone on with, or ended; the hold waits for it.
 
     What a turn borrows of the wheels' momentum comes back by itself and does not count.
@@ -229,62 +229,62 @@ def guarded(state: State, seen: Sample, params: Params) -> State:
         return replace(state, unloading=size > FULL)
     if size > EMPTY:
         return replace(state, due=state.due + PERIOD)
-    return retrimmed(replace(state, unloading=False), seen, params, 0.0)
+    return retrimmed(replace(state, unloading=False), sample, params, 0.0)
 
 
-def entered_stage(state: State, seen: Sample, params: Params) -> State:
+def entered_stage(state: State, sample: Sample, params: Params) -> State:
     """Return the state at the beginning of its stage: the turn there, the masses to the goal."""
     stage = params.stages[state.stage]
-    base = state.level if state.level is not None else levelled(seen.q, params.testbed.up)
-    here = seen.q if state.turn is None else reference_at(state.turn, np.inf).q
-    way = slew(here, turned(base, stage.turn), seen.t, params.pace)
+    base = state.level if state.level is not None else levelled(sample.q, params.testbed.up)
+    here = sample.q if state.turn is None else reference_at(state.turn, np.inf).q
+    way = slew(here, turned(base, stage.turn), sample.t, params.pace)
     state = replace(state, level=base, turn=way, due=end_of(way) + stage.seconds)
     late = state.stage >= len(params.stages) - LATE
-    return state if stage.follows else retrimmed(state, seen, params, DOUBT, late)
+    return state if stage.follows else retrimmed(state, sample, params, DOUBT, late)
 
 
-def advanced(state: State, seen: Sample, params: Params) -> State:
+def advanced(state: State, sample: Sample, params: Params) -> State:
     """Return the state in the stage that this time is in."""
     if state.turn is None:
-        return entered_stage(state, seen, params)
-    if seen.t < state.due or state.closing is not None:
+        return entered_stage(state, sample, params)
+    if sample.t < state.due or state.closing is not None:
         return state
     if state.stage + 1 < len(params.stages):
-        return entered_stage(replace(state, stage=state.stage + 1), seen, params)
-    return closed(state, seen, params)
+        return entered_stage(replace(state, stage=state.stage + 1), sample, params)
+    return closed(state, sample, params)
 
 
-def closed(state: State, seen: Sample, params: Params) -> State:
+def closed(state: State, sample: Sample, params: Params) -> State:
     """Return the state with the last move asked for, or the last pair of holds taken once more.
 
     That is when the goal is left in more doubt than is wanted, or would be by the move: masses of
     coarse steps stop where they will, now or when wheels were unloaded late. After it only fine
     ones have to move.
     """
-    moved = retrimmed(state, seen, params, 0.0)
+    moved = retrimmed(state, sample, params, 0.0)
     assert moved.shift is not None
     assert state.ledger is not None
-    stops = stop_variance(moved.shift - seen.shift, params.book)
+    stops = stop_variance(moved.shift - sample.shift, params.book)
     doubt = np.diag(home_to_goal(state.ledger, params)[1])
     if state.again or float((stops + doubt).max()) <= CLEAR**2:
-        return homeward(moved, seen, params)
-    return entered_stage(replace(moved, again=True, stage=state.stage - 1), seen, params)
+        return homeward(moved, sample, params)
+    return entered_stage(replace(moved, again=True, stage=state.stage - 1), sample, params)
 
 
-def homeward(state: State, seen: Sample, params: Params) -> State:
+def homeward(state: State, sample: Sample, params: Params) -> State:
     """Return the state on its way back to level, where a swing proves most; sag is least there."""
     assert state.turn is not None
     assert state.level is not None
-    way = slew(reference_at(state.turn, np.inf).q, state.level, seen.t, params.pace)
+    way = slew(reference_at(state.turn, np.inf).q, state.level, sample.t, params.pace)
     return replace(state, turn=way, closing=end_of(way))
 
 
-def ended(state: State, seen: Sample) -> bool:
+def ended(state: State, sample: Sample) -> bool:
     """Say whether the last move is made, or is waited for no longer."""
-    if state.closing is None or state.ledger is None or seen.t < state.closing + SETTLED:
+    if state.closing is None or state.ledger is None or sample.t < state.closing + SETTLED:
         return False
-    stands = bool(np.linalg.norm(seen.shift - state.ledger.stood) <= STANDS)
-    return stands or seen.t > state.closing + PATIENCE
+    stands = bool(np.linalg.norm(sample.shift - state.ledger.stood) <= STANDS)
+    return stands or sample.t > state.closing + PATIENCE
 
 
 def following(ledger: Ledger, params: Params) -> Following:
@@ -303,24 +303,24 @@ def report(ledger: Ledger, shift: Vector3, params: Params) -> str:
     return f"The centre of mass is ({text}) um off what was wanted."
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and the command: torque at every step, masses when they should move."""
-    assert isinstance(seen, Sample)  # no look is ever asked for
+    assert isinstance(sample, Sample)  # no look is ever asked for
     ledger = state.ledger
-    ledger = opened(params.testbed, params.book, seen) if ledger is None else entered(
-        ledger, seen, params.book)  # fmt: skip
-    state = advanced(replace(state, ledger=ledger), seen, params)
+    ledger = opened(params.testbed, params.book, sample) if ledger is None else entered(
+        ledger, sample, params.book)  # fmt: skip
+    state = advanced(replace(state, ledger=ledger), sample, params)
     if state.closing is None:
-        state = shift_for(guarded(state, seen, params), seen, params)
+        state = shift_for(guarded(state, sample, params), sample, params)
     assert state.turn is not None
-    reference = reference_at(state.turn, seen.t)
-    moment = weight_moment(ledger, seen, params)
-    pid, u = torque(state.pid, seen, reference, params.gains, moment)
-    asked = Command(shift=state.shift, torque=u)
-    if ended(state, seen):
-        said = report(ledger, seen.shift, params)
-        asked = replace(asked, finished=said, following=following(ledger, params))
-    return replace(state, pid=pid), asked
+    reference = reference_at(state.turn, sample.t)
+    moment = weight_moment(ledger, sample, params)
+    pid, u = torque(state.pid, sample, reference, params.gains, moment)
+    requested = Command(shift=state.shift, torque=u)
+    if ended(state, sample):
+        said = report(ledger, sample.shift, params)
+        requested = replace(requested, finished=said, following=following(ledger, params))
+    return replace(state, pid=pid), requested
 
 
 LAW = Law(

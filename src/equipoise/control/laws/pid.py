@@ -67,7 +67,7 @@ from equipoise.control.plant.pendulum import (
     tilt_of,
     turned,
 )
-from equipoise.control.plant.settling import Bounds, Rest, Seen, at_depth, bounds, is_quiet, settle
+from equipoise.control.plant.settling import Bounds, Rest, Sums, at_depth, bounds, is_quiet, settle
 from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.command import Command
@@ -79,7 +79,9 @@ PERIOD = 0.25  # s, chosen: a fiftieth of a swing
 LATE = 0.5  # chosen: the share of the lead that masses and sensors may be late in the relay's cycle
 STEPS = 4  # chosen: motor steps in the relay's amplitude, at the least
 PATIENCE = 3.0  # chosen: of the calculated time, before the relay is given up
-FAR = 2.0  # chosen: a measured gain further than this factor from the calculated one is not taken
+IMPLAUSIBLE = (
+    2.0  # chosen: a measured gain further than this factor from the calculated one is not taken
+)
 MARGIN = 2.0  # chosen: the gains may be wrong by this factor
 RAISED = 0.1  # chosen: of the swing's frequency, for a platform that has been raised
 ROUGH = 0.005  # chosen: of the depth, an offset that counts as none before the first look
@@ -119,7 +121,7 @@ class State:
     gains: tuple[Gains, Gains]
     rest: Rest
     height: Height
-    asked: Vector3 | None = None  # m, the last shift
+    requested: Vector3 | None = None  # m, the last shift
     integral: Floats | None = None  # (2,) m
     relays: tuple[Relay, Relay] = (Relay(), Relay())
     started: float = 0.0  # s, the relay
@@ -179,42 +181,42 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 # --- Step ------------------------------------------------------------------------------------
 
 
-def asked_shift(state: State, plant: Hanging, v: Floats) -> Vector3:
+def requested_shift(state: State, plant: Hanging, v: Floats) -> Vector3:
     """Return the shift (m) that gives v within reach, and the height that is wanted."""
     return shift_for(plant, limited(v, plant.reach)) + state.height.along * plant.up
 
 
-def damping(state: State, seen: Sample, params: Params) -> Floats:
+def damping(state: State, sample: Sample, params: Params) -> Floats:
     """Return -f K_d rate, m."""
-    rate = rate_of(params.plant, seen)
+    rate = rate_of(params.plant, sample)
     d = np.array([gains.derivative for gains in state.gains])
     return -spared(params.plant, 0 * d, d, np.zeros(2), rate) * d * rate
 
 
-def settle_phase(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+def settle_phase(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next step of the first phase."""
     plant = params.plant
-    now = Seen(seen.t, tilt_of(plant, seen), rate_of(plant, seen), seen.shift)
+    now = Sums(sample.t, tilt_of(plant, sample), rate_of(plant, sample), sample.shift)
     rest = settle(state.rest, now, PERIOD, params.calm)
-    v = damping(state, seen, params)
+    v = damping(state, sample, params)
     state = replace(state, rest=rest)
     note = ""
-    if is_quiet(rest, seen.t, params.calm):
-        state = replace(state, phase="relay", started=seen.t)
+    if is_quiet(rest, sample.t, params.calm):
+        state = replace(state, phase="relay", started=sample.t)
         note = "hangs at rest; the relay experiment begins"
-    return state, Command(shift=asked_shift(state, plant, v), note=note)
+    return state, Command(shift=requested_shift(state, plant, v), note=note)
 
 
-def relay_v(state: State, seen: Sample, params: Params) -> tuple[State, Floats]:
+def relay_v(state: State, sample: Sample, params: Params) -> tuple[State, Floats]:
     """Return the relays after a sample, and v (m)."""
-    tilt = tilt_of(params.plant, seen) - state.rest.tilt
-    rate = rate_of(params.plant, seen)
-    relays, v = list(state.relays), damping(state, seen, params)
+    tilt = tilt_of(params.plant, sample) - state.rest.tilt
+    rate = rate_of(params.plant, sample)
+    relays, v = list(state.relays), damping(state, sample, params)
     for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
         if not has_settled(relay):
             band = band_of(loop, params.cycles[i])
             sigma = float(tilt[i] + loop.lead * rate[i])
-            relays[i] = relay_step(relay, seen.t, sigma, band)
+            relays[i] = relay_step(relay, sample.t, sigma, band)
             v[i] = relays[i].output * loop.relay
     return replace(state, relays=(relays[0], relays[1])), v
 
@@ -225,7 +227,7 @@ def tuned(state: State, params: Params) -> tuple[tuple[Gains, Gains], str]:
     for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
         cycle = measured(relay, loop.relay) if has_settled(relay) else None
         expected = params.cycles[i]
-        if cycle is None or not 1 / FAR < cycle.gain / expected.gain < FAR:
+        if cycle is None or not 1 / IMPLAUSIBLE < cycle.gain / expected.gain < IMPLAUSIBLE:
             found.append(params.gains[i])
             notes.append("no cycle to be trusted, calculated gains")
         else:
@@ -237,65 +239,65 @@ def tuned(state: State, params: Params) -> tuple[tuple[Gains, Gains], str]:
     return (found[0], found[1]), "; ".join(notes)
 
 
-def relay_phase(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+def relay_phase(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next step of the experiment."""
-    state, v = relay_v(state, seen, params)
+    state, v = relay_v(state, sample, params)
     note = ""
     longest = max(cycle.period for cycle in params.cycles)
-    late = seen.t - state.started > PATIENCE * (CYCLES_IN + CYCLES_USED + 1) * longest
+    late = sample.t - state.started > PATIENCE * (CYCLES_IN + CYCLES_USED + 1) * longest
     if late or all(has_settled(relay) for relay in state.relays):
         gains, note = tuned(state, params)
         state = replace(state, phase="level", gains=gains, rest=Rest(), integral=np.zeros(2))
-    shift = asked_shift(state, params.plant, v)
-    return replace(state, asked=shift), Command(shift=shift, note=note)
+    shift = requested_shift(state, params.plant, v)
+    return replace(state, requested=shift), Command(shift=shift, note=note)
 
 
-def level_phase(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+def level_phase(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next step of the PID."""
     plant = params.plant
-    tilt, rate = tilt_of(plant, seen), rate_of(plant, seen)
+    tilt, rate = tilt_of(plant, sample), rate_of(plant, sample)
     assert state.integral is not None
-    assert state.asked is not None
+    assert state.requested is not None
     p, i, d = np.array(state.gains).T
     i = i * (state.height.depth / plant.depth) ** 0.5
     f = spared(plant, p, d, tilt, rate)
-    undelivered = turned(plant, seen.shift - state.asked)
+    undelivered = turned(plant, sample.shift - state.requested)
     integral = state.integral + PERIOD * (f * i * tilt - undelivered * i / p)
-    shift = asked_shift(state, plant, -f * (p * tilt + d * rate) - integral)
-    now = Seen(seen.t, tilt, rate, seen.shift)
-    wanted = params.quiet if state.height.looks else params.rough
+    shift = requested_shift(state, plant, -f * (p * tilt + d * rate) - integral)
+    now = Sums(sample.t, tilt, rate, sample.shift)
+    wanted = params.quiet if state.height.measurements else params.rough
     quiet = at_depth(wanted, plant.depth, state.height.depth)
     rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
-    state = replace(state, integral=integral, asked=shift, rest=rest)
-    if not is_quiet(rest, seen.t, quiet):
+    state = replace(state, integral=integral, requested=shift, rest=rest)
+    if not is_quiet(rest, sample.t, quiet):
         return state, Command(shift=shift)
-    way = once_level(plant, state.height, seen, rest.shift, params.target)
+    way = once_level(plant, state.height, sample, rest.shift, params.target)
     return replace(state, level=rest.shift, way=way), Command(shift=way.goal)
 
 
-def look_phase(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
+def measurement_phase(state: State, estimate: Estimate, params: Params) -> tuple[State, Command]:
     """Return what follows a look."""
     assert state.level is not None
-    if not sees(seen):
+    if not sees(estimate):
         assert state.way is not None
-        way = unseen(params.plant, seen, state.way, state.level)
+        way = unseen(params.plant, estimate, state.way, state.level)
         return replace(state, way=way), Command(shift=way.goal)
-    height = raised(params.plant, state.height, seen, params.target)
+    height = raised(params.plant, state.height, estimate, params.target)
     state = replace(state, phase="level", height=height, rest=Rest(), way=None)
     assert state.integral is not None
-    shift = asked_shift(state, params.plant, -state.integral)
+    shift = requested_shift(state, params.plant, -state.integral)
     note = f"raised to {height.depth * 1e6:.3g} um below the target"
-    return replace(state, asked=shift), Command(shift=shift, note=note)
+    return replace(state, requested=shift), Command(shift=shift, note=note)
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command."""
-    if isinstance(seen, Estimate):
-        return look_phase(state, seen, params)
+    if isinstance(sample, Estimate):
+        return measurement_phase(state, sample, params)
     if state.way is not None:
-        return state, on_the_way(params.plant, state.way, seen)
+        return state, on_the_way(params.plant, state.way, sample)
     phases = {"settle": settle_phase, "relay": relay_phase, "level": level_phase}
-    return phases[state.phase](state, seen, params)
+    return phases[state.phase](state, sample, params)
 
 
 LAW = Law(CARD, begin, step)

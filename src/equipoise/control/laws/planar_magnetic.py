@@ -12,7 +12,7 @@
 
 The first look takes the swing as it finds it; where one shows nothing, there is feedback and a kick
 before the next. The way between the two depths is known, and frees r of the factor that it
-shares with J (``swing_looks``).
+shares with J (``swing_measurements``).
 
 (Bahu and Modenini 2020; the note of 2022 for coils. They fit J and r_z under constraints that could
 not be read. Here what a small swing does not show of J is held, and the least
@@ -37,11 +37,11 @@ from equipoise.control.elements.slew import moment_across
 from equipoise.control.law import Law, LawCard
 from equipoise.control.plant import move_timing
 from equipoise.control.plant.move_timing import Waiting
-from equipoise.control.plant.swing_estimates import METHOD, Shown, believed, held, shown, shows
+from equipoise.control.plant.swing_estimates import METHOD, Shown, combined, held, shown, shows
 from equipoise.control.sample import Sample
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Vector3
-from equipoise.model.command import Command, Look
+from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.testbed import Testbed
@@ -93,10 +93,10 @@ class State:
     since: float | None = None  # s, when the phase began
     lean: float = UNREST  # rad, running mean of the tilt
     swing: float = UNREST  # rad, running mean of |w across the vertical| / w_n
-    seen_shift: Vector3 = field(default_factory=lambda: np.zeros(3))
+    observed_shift: Vector3 = field(default_factory=lambda: np.zeros(3))
     stood: float = 0.0  # s, since when the masses stand
     t: float = 0.0
-    looks: tuple[Shown, ...] = ()
+    measurements: tuple[Shown, ...] = ()
     failed: int = 0  # looks that showed nothing
     waiting: Waiting | None = None  # to level the platform
     flat: Vector3 | None = None  # m, the shift before the last kick
@@ -129,31 +129,31 @@ def coils_of(testbed: Testbed) -> float:
     return min(coil.max_dipole for coil in coils) * float(np.linalg.norm(field.field_N))
 
 
-def watched(state: State, seen: Sample, params: Params) -> State:
+def watched(state: State, sample: Sample, params: Params) -> State:
     """Return the state with this sample in its running means."""
     began = state.since is not None
-    n = seen.gravity / float(np.linalg.norm(seen.gravity))
-    swing = float(np.linalg.norm(np.cross(seen.rate, n))) / state.loop.swing
-    tilt = float(np.linalg.norm(lean(seen.gravity, params.up)))
-    share = 1.0 - float(np.exp(-(seen.t - state.t) / MEAN)) if began else 0.0
-    moved = bool(np.linalg.norm(seen.shift - state.seen_shift) > STANDS)
+    n = sample.gravity / float(np.linalg.norm(sample.gravity))
+    swing = float(np.linalg.norm(np.cross(sample.rate, n))) / state.loop.swing
+    tilt = float(np.linalg.norm(lean(sample.gravity, params.up)))
+    share = 1.0 - float(np.exp(-(sample.t - state.t) / MEAN)) if began else 0.0
+    moved = bool(np.linalg.norm(sample.shift - state.observed_shift) > STANDS)
     return replace(
         state,
-        since=state.since if began else seen.t,
+        since=state.since if began else sample.t,
         lean=state.lean + share * (tilt - state.lean),
         swing=state.swing + share * (swing - state.swing),
-        stood=state.stood if began and not moved else seen.t,
-        seen_shift=seen.shift,
-        t=seen.t,
+        stood=state.stood if began and not moved else sample.t,
+        observed_shift=sample.shift,
+        t=sample.t,
     )
 
 
-def fed_back(state: State, seen: Sample, params: Params, dt: float) -> State:
+def fed_back(state: State, sample: Sample, params: Params, dt: float) -> State:
     """Return the state with the masses told to follow the tilt, unless they are behind."""
-    behind = float(np.linalg.norm(state.shift - seen.shift))
+    behind = float(np.linalg.norm(state.shift - sample.shift))
     if behind > LAG * params.speed:
         return state
-    speed = creep(seen.gravity, params.up, state.swing, state.loop)
+    speed = creep(sample.gravity, params.up, state.swing, state.loop)
     return replace(state, shift=state.shift + dt * speed)
 
 
@@ -183,30 +183,30 @@ def is_level(state: State, enough: float) -> bool:
     return state.lean + state.swing < enough or state.t > state.since + LONGEST
 
 
-def after_look(state: State, seen: Estimate, params: Params) -> State:
+def after_measurement(state: State, estimate: Estimate, params: Params) -> State:
     """Return the state after a look: levelled and calmed down where it is."""
     state = replace(state, since=None)  # the clock has gone on
-    if not shows(seen):
+    if not shows(estimate):
         state = replace(state, failed=state.failed + 1)
         if state.flat is None:
             return into(state, "feedback", state.shift)
         back = Waiting(state.flat, state.loop.swing)
         return into(replace(state, waiting=back), "level", state.shift)
-    looks, up = (*state.looks, shown(seen, state.shift)), params.up
-    r, sd, _ = believed(looks, up, params.inertia_sd)
+    measurements, up = (*state.measurements, shown(estimate, state.shift)), params.up
+    r, sd, _ = combined(measurements, up, params.inertia_sd)
     depth = -float(up @ (r + state.shift))
-    last = len(looks) == MOST or (len(looks) > 1 and bool(np.all(sd < ENOUGH)))
+    last = len(measurements) == MOST or (len(measurements) > 1 and bool(np.all(sd < ENOUGH)))
     loop = loop_for(params.plant, max(depth, FLOOR), params.variant)
     goal = params.target - r if last else None
     waiting = Waiting(-depth * up - r, loop.swing)
-    state = replace(state, looks=looks, loop=loop, goal=goal, waiting=waiting)
+    state = replace(state, measurements=measurements, loop=loop, goal=goal, waiting=waiting)
     return into(state, "level", state.shift)
 
 
-def levelled(state: State, seen: Sample, params: Params) -> State:
+def levelled(state: State, sample: Sample, params: Params) -> State:
     """Return the state that waits for the moment to level the platform, or does it."""
     assert state.waiting is not None
-    waiting, shift = move_timing.watched(state.waiting, seen, params.up, state.shift)
+    waiting, shift = move_timing.watched(state.waiting, sample, params.up, state.shift)
     if all(waiting.done):
         return into(replace(state, waiting=None), "calm", shift)
     return replace(state, waiting=waiting, shift=shift)
@@ -220,7 +220,7 @@ def after_calm(state: State, params: Params) -> State:
         rise = float(params.up @ (state.goal - state.shift))
         return into(state, "end", state.shift + aside + rise * params.up)
     loop = loop_for(params.plant, FLOOR, params.variant)
-    r = believed(state.looks, params.up, params.inertia_sd).com
+    r = combined(state.measurements, params.up, params.inertia_sd).com
     return kicked(replace(state, loop=loop, shift=-FLOOR * params.up - r), params)
 
 
@@ -235,32 +235,32 @@ def next_of(state: State, params: Params) -> State:
     return state
 
 
-def asked(state: State, seen: Sample, params: Params) -> Command:
+def requested(state: State, sample: Sample, params: Params) -> Command:
     """Return the command of a phase."""
     if state.phase == "kick":
-        look = Look(SWING, METHOD, params.held) if has_arrived(state) else None
-        return Command(shift=state.shift, look=look)
+        measurement = Measurement(SWING, METHOD, params.held) if has_arrived(state) else None
+        return Command(shift=state.shift, measurement=measurement)
     done = state.phase == "end" and has_arrived(state)
-    text = f"Level, and at its height after {len(state.looks)} looks." if done else ""
-    coils = damping_torque(seen.rate, state.loop)
+    text = f"Level, and at its height after {len(state.measurements)} looks." if done else ""
+    coils = damping_torque(sample.rate, state.loop)
     return Command(shift=state.shift, magnetic=coils, finished=text)
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and the command."""
-    if isinstance(seen, Estimate):
-        state = after_look(state, seen, params)
-        lost = f"{MISSES} looks did not show the centre of mass: {seen.outcome.sentence}"
+    if isinstance(sample, Estimate):
+        state = after_measurement(state, sample, params)
+        lost = f"{MISSES} looks did not show the centre of mass: {sample.outcome.sentence}"
         return state, Command(shift=state.shift, finished=lost if state.failed == MISSES else "")
-    dt = seen.t - state.t if state.since is not None else 0.0
-    state = watched(state, seen, params)
+    dt = sample.t - state.t if state.since is not None else 0.0
+    state = watched(state, sample, params)
     if state.phase in ("feedback", "calm"):
-        state = fed_back(state, seen, params, dt)
+        state = fed_back(state, sample, params, dt)
     if state.phase == "level":
-        state = levelled(state, seen, params)
+        state = levelled(state, sample, params)
         return state, Command(shift=state.shift)
     state = next_of(state, params)
-    return state, asked(state, seen, params)
+    return state, requested(state, sample, params)
 
 
 LAW = Law(

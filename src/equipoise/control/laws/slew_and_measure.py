@@ -44,7 +44,7 @@ from equipoise.control.plant.wheel_capacity import capacity
 from equipoise.control.sample import Sample
 from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
 from equipoise.model.arrays import Quaternion, Vector3
-from equipoise.model.command import Command, Look
+from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, Estimate
 from equipoise.model.testbed import Testbed
@@ -90,7 +90,7 @@ class State:
     began: float = 0.0  # s, of this round's turns
     t: float = 0.0  # s, of the last sample
     shift: Vector3 | None = None  # m, asked for
-    seen_shift: Vector3 | None = None  # m, at the last sample
+    observed_shift: Vector3 | None = None  # m, at the last sample
     stood: float = 0.0  # s, since when the masses stand
     moving: bool = False  # the masses are on their way
     finished: str = ""
@@ -123,7 +123,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError where wheels cannot take gravity's torque for so long."""
     can, J = capacity(testbed), testbed.body.inertia_P
     if can.torque <= 0 or not testbed.masses:
-        raise InputError("slew_and_look", "a testbed without them",
+        raise InputError("slew_and_measure", "a testbed without them",
                          "sliding masses, and wheels or gyros along all axes")  # fmt: skip
     pace = pace_for(float(np.linalg.eigvalsh(J)[-1]), can)
     turns, held = attitudes(testbed), of_group(testbed, "drift")
@@ -131,7 +131,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     needed = testbed.body.mass * testbed.gravity * lasting  # N m s per m
     bearable = can.momentum / needed
     if bearable < CLOSE:
-        raise InputError("slew_and_look", f"wheels or gyros that store {can.momentum:.3g} N m s",
+        raise InputError("slew_and_measure", f"wheels or gyros that store {can.momentum:.3g} N m s",
                          f"{needed * CLOSE:.3g} N m s: m g {1e6 * CLOSE:g} um while the turns last"
                          )  # fmt: skip
     loop = gains_for(J, can.torque)
@@ -142,42 +142,42 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     return State(testbed.body.com, round=0, shift=lowered, moving=True), params
 
 
-def turning(state: State, seen: Sample, params: Params) -> State:
+def turning(state: State, sample: Sample, params: Params) -> State:
     """Return the state on its way to the turn that is due; ``at`` past the last: all are made."""
     turned = state.way is not None and state.way.duration > 0  # or held while masses travelled
     if state.way is not None and turned:
-        if seen.t < end_of(state.way) + REST:
+        if sample.t < end_of(state.way) + REST:
             return state
         state = replace(state, at=state.at + 1)
     if state.at == len(params.turns):
         return state
-    base = levelled(seen.q, params.testbed.up) if state.base is None else state.base
-    here = seen.q if state.way is None else reference_at(state.way, np.inf).q
-    way = slew(here, multiply(base, params.turns[state.at]), seen.t, params.pace)
-    began = seen.t if state.at == 0 else state.began
+    base = levelled(sample.q, params.testbed.up) if state.base is None else state.base
+    here = sample.q if state.way is None else reference_at(state.way, np.inf).q
+    way = slew(here, multiply(base, params.turns[state.at]), sample.t, params.pace)
+    began = sample.t if state.at == 0 else state.began
     return replace(state, base=base, way=way, began=began)
 
 
-def driven(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+def driven(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the state and the command that follows the turn, or holds after it."""
     assert state.way is not None
-    reference = reference_at(state.way, seen.t)
-    moment = params.testbed.body.mass * (state.com + seen.shift)
-    pid, u = torque(state.pid, seen, reference, params.gains, moment)
+    reference = reference_at(state.way, sample.t)
+    moment = params.testbed.body.mass * (state.com + sample.shift)
+    pid, u = torque(state.pid, sample, reference, params.gains, moment)
     return replace(state, pid=pid), Command(shift=state.shift, torque=u)
 
 
-def after_swing(state: State, seen: Estimate, params: Params) -> State:
+def after_swing(state: State, estimate: Estimate, params: Params) -> State:
     """Return the state with the masses on their way closer to the target; to it, if that will do.
 
     Wheels hold the platform meanwhile, and let it go again to swing.
     """
     swings, up = state.swings + 1, params.testbed.up
-    state = replace(state, seen_shift=None, pid=unwound(), way=None, swings=swings)
-    if not shows(seen):
-        text = f"The swing did not show the centre of mass: {seen.outcome.sentence}"
+    state = replace(state, observed_shift=None, pid=unwound(), way=None, swings=swings)
+    if not shows(estimate):
+        text = f"The swing did not show the centre of mass: {estimate.outcome.sentence}"
         return replace(state, finished=text if swings == SWINGS else "")
-    sd = float(np.sqrt(np.trace(seen.covariance_of(COM))))
+    sd = float(np.sqrt(np.trace(estimate.covariance_of(COM))))
     will_do = sd <= params.bearable
     text = (
         f"After {swings} swings r is known to {1e6 * sd:.2g} um, {1e6 * params.bearable:.2g} asked."
@@ -185,70 +185,72 @@ def after_swing(state: State, seen: Estimate, params: Params) -> State:
     below = 0.0 if will_do else SURE * sd
     return replace(
         state,
-        com=seen.com,
-        shift=params.target - seen.com - below * up,
+        com=estimate.com,
+        shift=params.target - estimate.com - below * up,
         moving=True,
         round=1 if will_do else 0,
         finished=text if swings == SWINGS and not will_do else "",
     )
 
 
-def after_look(state: State, seen: Estimate, params: Params) -> State:
+def after_measurement(state: State, estimate: Estimate, params: Params) -> State:
     """Return the state with the masses on their way to the target."""
-    state = replace(state, seen_shift=None, pid=unwound(), way=None, at=0, round=state.round + 1)
-    if not shows(seen):
+    state = replace(
+        state, observed_shift=None, pid=unwound(), way=None, at=0, round=state.round + 1
+    )
+    if not shows(estimate):
         return replace(state, finished=f"The turns did not show the centre of mass: "
-                       f"{seen.outcome.sentence}")  # fmt: skip
+                       f"{estimate.outcome.sentence}")  # fmt: skip
     done = f"At its place after {ROUNDS} rounds of turns." if state.round > ROUNDS else ""
-    com: Vector3 = seen.com + (state.t + AFTER - state.began) * drift_of(seen)
+    com: Vector3 = estimate.com + (state.t + AFTER - state.began) * drift_of(estimate)
     return replace(state, com=com, shift=params.target - com, moving=True, finished=done)
 
 
-def drift_of(seen: Estimate) -> Vector3:
+def drift_of(estimate: Estimate) -> Vector3:
     """Return how fast the centre of mass moves by itself (m/s); a record's com is at its start."""
     names = ("drift_x", "drift_y", "drift_z")
-    return np.array([float(seen.values((n,))[0]) if seen.has(n) else 0.0 for n in names])
+    return np.array([float(estimate.values((n,))[0]) if estimate.has(n) else 0.0 for n in names])
 
 
-def watched(state: State, seen: Sample) -> State:
+def watched(state: State, sample: Sample) -> State:
     """Return the state that knows whether the masses still travel."""
-    before = state.seen_shift
-    stands = before is not None and bool(np.linalg.norm(seen.shift - before) <= STANDS)
-    stood = state.stood if stands else seen.t
-    return replace(state, seen_shift=seen.shift, stood=stood, t=seen.t,
-                   moving=state.moving and seen.t < stood + ARRIVED)  # fmt: skip
+    before = state.observed_shift
+    stands = before is not None and bool(np.linalg.norm(sample.shift - before) <= STANDS)
+    stood = state.stood if stands else sample.t
+    return replace(state, observed_shift=sample.shift, stood=stood, t=sample.t,
+                   moving=state.moving and sample.t < stood + ARRIVED)  # fmt: skip
 
 
-def look_back(state: State, params: Params) -> Look:
+def slew_measurement(state: State, params: Params) -> Measurement:
     """Return the look at all turns of this round."""
-    return Look(AFTER, METHOD, hold=of_group(params.testbed, "sag"), since=state.began)
+    return Measurement(AFTER, METHOD, hold=of_group(params.testbed, "sag"), since=state.began)
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and the command: torque while turning, then a look at all of it."""
-    if isinstance(seen, Estimate):
-        state = (after_look if state.round else after_swing)(state, seen, params)
+    if isinstance(sample, Estimate):
+        state = (after_measurement if state.round else after_swing)(state, sample, params)
         return state, Command(shift=state.shift)
-    state = watched(state, seen)
+    state = watched(state, sample)
     if state.finished and not state.moving:
         return state, Command(shift=state.shift, finished=state.finished)
     if state.way is None and (state.moving or state.finished):
-        state = replace(state, way=Slew(seen.q, np.zeros(3), seen.t, 0.0))
+        state = replace(state, way=Slew(sample.q, np.zeros(3), sample.t, 0.0))
     if state.moving or state.finished:
-        return driven(state, seen, params)
+        return driven(state, sample, params)
     if state.round == 0:
         return state, Command(
-            shift=state.shift, look=Look(SWING, FREE, params.held, use_prior=True)
+            shift=state.shift, measurement=Measurement(SWING, FREE, params.held, use_prior=True)
         )
-    state = turning(state, seen, params)
+    state = turning(state, sample, params)
     if state.at == len(params.turns):
-        return state, Command(shift=state.shift, look=look_back(state, params))
-    return driven(state, seen, params)
+        return state, Command(shift=state.shift, measurement=slew_measurement(state, params))
+    return driven(state, sample, params)
 
 
 LAW = Law(
     LawCard(
-        "slew_and_look",
+        "slew_and_measure",
         "Turns far by wheels or gyros, and fits the whole record with what they stored.",
         "Lee et al. Eqs. 1-3 and sections IV, V, with errata L1-L4",
         ("masses", "momentum", "gyro", "attitude"),

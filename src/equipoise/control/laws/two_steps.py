@@ -54,7 +54,7 @@ from equipoise.control.plant.offset_bounds import (
 from equipoise.control.plant.swing_estimates import of_group
 from equipoise.control.sample import Sample
 from equipoise.model.arrays import Vector3
-from equipoise.model.command import Command, Look
+from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, Estimate
 from equipoise.model.testbed import Testbed
@@ -65,7 +65,7 @@ PAY = 0.3  # chosen: of the masses' speed
 MEAN = 1.0  # s, chosen: at the end of a follow, over which the rest is averaged
 PUSH = 1.0  # s
 BACK = 10.0  # s, chosen: masses that are not back by then stand still
-LOOK = 20.0  # s
+MEASURED = 20.0  # s
 SWING = 0.4  # of the tilt limit, chosen
 ACROSS = 2e-6  # m, chosen: com_sd across up at which ukf_4 may be believed
 LATE = 2.0  # motor steps, chosen: masses farther than that from where they should be are late
@@ -74,7 +74,7 @@ GAIN = 0.8  # chosen: a round that leaves more than that of the one before is no
 LEAST = 1e-7  # m, chosen: what masses without steps may leave
 ROUNDS = 6  # chosen
 
-Phase = Literal["follow", "push", "back", "look"]
+Phase = Literal["follow", "push", "back", "measurement"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,7 +82,7 @@ class Params:
     """What does not change from step to step."""
 
     gains: Gains
-    look: Look
+    measurement: Measurement
     push: float  # m, by which the masses go aside
     follow: int  # steps until the platform rests
     tolerance: float  # m, what a motor step leaves
@@ -103,7 +103,7 @@ class State:
     owed: Vector3 | None = None  # m, what rh has yet to get for the tilt at which the round began
     phase: Phase = "follow"
     step: int = 0  # of the phase
-    asked: Vector3 | None = None  # m, shift at the last step
+    requested: Vector3 | None = None  # m, shift at the last step
     rest: Vector3 | None = None  # m, sum of shifts asked in the last second of a follow
     level: Vector3 | None = None  # sum of P_up g_b / g then
     since: float = 0.0  # s, when the push began
@@ -112,14 +112,14 @@ class State:
     ending: str = ""  # why this follow is the last
 
 
-def method_for(testbed: Testbed) -> Look:
+def method_for(testbed: Testbed) -> Measurement:
     """Return the look that this testbed allows; InputError if there is none."""
     spread = across(testbed.up) @ testbed.com_sd
     if testbed.attitude is None or testbed.gyro is None:
         raise InputError(testbed.name, "no gyro, or no attitude sensor", "both")
     if float(np.linalg.norm(spread)) <= ACROSS:
-        return Look(LOOK, "ukf_4")
-    return Look(LOOK, "trajectory", hold=of_group(testbed, "drift"), use_prior=True)
+        return Measurement(MEASURED, "ukf_4")
+    return Measurement(MEASURED, "trajectory", hold=of_group(testbed, "drift"), use_prior=True)
 
 
 def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Params]:
@@ -145,39 +145,41 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
 
 def push_for(testbed: Testbed) -> float:
     """Return how far (m) the centre of mass goes aside for a swing of the wanted size."""
-    rate = SWING * testbed.tilt_limit / LOOK
+    rate = SWING * testbed.tilt_limit / MEASURED
     wanted = rate * level_inertia(testbed) / (testbed.body.mass * testbed.gravity * PUSH)
     return min(wanted, greatest_slew(testbed) * PUSH)
 
 
-def step(state: State, seen: Sample | Estimate, params: Params) -> tuple[State, Command]:
+def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and what is wanted."""
-    if isinstance(seen, Estimate):
-        return trimmed(state, seen, params)
-    if tilt_of(seen, params.gains) > params.tilt_limit:
+    if isinstance(sample, Estimate):
+        return trimmed(state, sample, params)
+    if tilt_of(sample, params.gains) > params.tilt_limit:
         return state, Command(finished="Stopped: the platform tilts beyond its limit.")
     if state.phase == "follow":
-        return follow(state, seen, params)
-    return swing(state, seen, params)
+        return follow(state, sample, params)
+    return swing(state, sample, params)
 
 
-def tilt_of(seen: Sample, gains: Gains) -> float:
+def tilt_of(sample: Sample, gains: Gains) -> float:
     """Return the tilt, rad."""
-    return float(np.arccos(np.clip(-gains.up @ seen.gravity / gains.gravity, -1.0, 1.0)))
+    return float(np.arccos(np.clip(-gains.up @ sample.gravity / gains.gravity, -1.0, 1.0)))
 
 
-def follow(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+def follow(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Level the platform; at the end, push it."""
     gains = params.gains
-    held, owing = held_now(state, seen, params)
+    held, owing = held_now(state, sample, params)
     upward = state.height * gains.up
-    shift = shift_for(gains, held, seen.gravity, seen.rate) + upward
+    shift = shift_for(gains, held, sample.gravity, sample.rate) + upward
     paid = float(np.linalg.norm(owing)) < params.tolerance
     count = state.step + 1 if paid else 0
-    state = replace(state, held=held, gravity=seen.gravity, owed=owing, asked=shift, step=count)
+    state = replace(
+        state, held=held, gravity=sample.gravity, owed=owing, requested=shift, step=count
+    )
     if state.step > params.follow - round(MEAN / PERIOD):
-        still = shift_for(gains, held, seen.gravity, np.zeros(3)) + upward
-        tilt = across(gains.up) @ seen.gravity / gains.gravity
+        still = shift_for(gains, held, sample.gravity, np.zeros(3)) + upward
+        tilt = across(gains.up) @ sample.gravity / gains.gravity
         state = replace(state, rest=added(state.rest, still), level=added(state.level, tilt))
     if state.step < params.follow:
         return state, Command(shift=shift)
@@ -185,18 +187,18 @@ def follow(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
     assert state.rest is not None
     assert state.level is not None
     state = replace(state, rest=state.rest / n, level=state.level / n, phase="push", step=0,
-                    since=seen.t)  # fmt: skip
+                    since=sample.t)  # fmt: skip
     if state.ending:
         return state, Command(shift=state.rest, finished=state.ending)
     return state, Command(shift=state.rest, note="Levelled; now a push, and a look at the swing.")
 
 
-def held_now(state: State, seen: Sample, params: Params) -> tuple[Vector3, Vector3]:
+def held_now(state: State, sample: Sample, params: Params) -> tuple[Vector3, Vector3]:
     """Return rh (m), begun anew at the first sample of a round, and what is still owed (m)."""
-    if state.gravity is None or state.asked is None or state.owed is None:
-        return state.held, owed(params.gains, seen.gravity)
-    late = float(np.linalg.norm(state.asked - seen.shift)) > params.late
-    held = followed(params.gains, state.held, state.gravity, seen.gravity, late)
+    if state.gravity is None or state.requested is None or state.owed is None:
+        return state.held, owed(params.gains, sample.gravity)
+    late = float(np.linalg.norm(state.requested - sample.shift)) > params.late
+    held = followed(params.gains, state.held, state.gravity, sample.gravity, late)
     paid = limited(state.owed, params.pay)
     return held + paid, state.owed - paid
 
@@ -206,7 +208,7 @@ def added(total: Vector3 | None, vector: Vector3) -> Vector3:
     return vector if total is None else total + vector
 
 
-def swing(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
+def swing(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Push, come back, and look."""
     assert state.rest is not None
     count = state.step + 1
@@ -215,25 +217,25 @@ def swing(state: State, seen: Sample, params: Params) -> tuple[State, Command]:
         ends = count >= round(PUSH / PERIOD)
         state = replace(state, phase="back" if ends else "push", step=0 if ends else count)
         return state, Command(shift=state.rest + params.push * aside)
-    arrived = float(np.linalg.norm(seen.shift - state.rest)) <= params.late
+    arrived = float(np.linalg.norm(sample.shift - state.rest)) <= params.late
     if count == 1 or (not arrived and count < round(BACK / PERIOD)):
         return replace(state, step=count), Command(shift=state.rest)
-    return replace(state, phase="look", rest=seen.shift), Command(
-        look=replace(params.look, since=state.since)
+    return replace(state, phase="measurement", rest=sample.shift), Command(
+        measurement=replace(params.measurement, since=state.since)
     )
 
 
-def trimmed(state: State, seen: Estimate, params: Params) -> tuple[State, Command]:
+def trimmed(state: State, estimate: Estimate, params: Params) -> tuple[State, Command]:
     """Move along up by what the look says is missing, or finish."""
     assert state.rest is not None
     assert state.level is not None
     rounds = state.rounds + 1
-    if not seen.outcome.usable:
+    if not estimate.outcome.usable:
         again = replace(state, rounds=rounds, phase="push", step=0)
-        text = f"The look cannot be used: {seen.outcome.sentence}"
+        text = f"The look cannot be used: {estimate.outcome.sentence}"
         over = text if rounds >= params.rounds else ""
         return again, Command(shift=state.rest, finished=over, note=text)
-    above = height_in(seen, params.gains.up) + float(params.gains.up @ state.rest)
+    above = height_in(estimate, params.gains.up) + float(params.gains.up @ state.rest)
     missing = params.target - above
     sideways = abs(above) * float(np.linalg.norm(state.level))
     left = float(np.hypot(missing, sideways))
@@ -248,14 +250,14 @@ def trimmed(state: State, seen: Estimate, params: Params) -> tuple[State, Comman
     return onward, Command(shift=state.rest + missing * up, note="" if over else text)
 
 
-def height_in(seen: Estimate, up: Vector3) -> float:
+def height_in(estimate: Estimate, up: Vector3) -> float:
     """Return the centre of mass along up (m), masses at home; some methods tell no more."""
-    if all(seen.has(name) for name in COM):
-        return float(up @ seen.com)
+    if all(estimate.has(name) for name in COM):
+        return float(up @ estimate.com)
     k = int(np.argmax(np.abs(up)))
-    if seen.has(COM[k]):
-        return float(np.sign(up[k]) * seen.values((COM[k],))[0])
-    return float(seen.values(("com_up",))[0])
+    if estimate.has(COM[k]):
+        return float(np.sign(up[k]) * estimate.values((COM[k],))[0])
+    return float(estimate.values(("com_up",))[0])
 
 
 def why_over(left: float, state: State, params: Params) -> str:

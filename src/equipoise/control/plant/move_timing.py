@@ -42,22 +42,24 @@ def across(up: Vector3) -> Series:
     return to_matrix(level(up))[:2]
 
 
-def amplitudes(seen: Sample, up: Vector3, swing: float) -> Floats:
+def amplitudes(sample: Sample, up: Vector3, swing: float) -> Floats:
     """Return what the swings along both axes would be about level, (2,) rad."""
-    n = -seen.gravity / float(np.linalg.norm(seen.gravity))
-    return np.hypot(across(up) @ n, across(up) @ np.cross(n, seen.rate) / swing)
+    n = -sample.gravity / float(np.linalg.norm(sample.gravity))
+    return np.hypot(across(up) @ n, across(up) @ np.cross(n, sample.rate) / swing)
 
 
-def watched(waiting: Waiting, seen: Sample, up: Vector3, shift: Vector3) -> tuple[Waiting, Vector3]:
+def watched(
+    waiting: Waiting, sample: Sample, up: Vector3, shift: Vector3
+) -> tuple[Waiting, Vector3]:
     """Return what is remembered, and the shift to ask for (m), ``shift`` being the last."""
-    since = seen.t if waiting.since is None else waiting.since
-    swings = (seen.t - since) * waiting.swing / (2 * np.pi)
-    asked, least, done = shift, list(waiting.least), list(waiting.done)
-    for k, now in enumerate(amplitudes(seen, up, waiting.swing)):
+    since = sample.t if waiting.since is None else waiting.since
+    swings = (sample.t - since) * waiting.swing / (2 * np.pi)
+    requested, least, done = shift, list(waiting.least), list(waiting.done)
+    for k, now in enumerate(amplitudes(sample, up, waiting.swing)):
         good = swings > WATCH and now < max(NEAR * least[k], SMALL)
         if not done[k] and (good or swings > PATIENCE):
             axis = across(up)[k]
-            asked, done[k] = asked + axis * (axis @ (waiting.shift - asked)), True
+            requested, done[k] = requested + axis * (axis @ (waiting.shift - requested)), True
         least[k] = min(float(now), least[k])
     remembered = waiting._replace(since=since, least=(least[0], least[1]), done=(done[0], done[1]))
-    return remembered, waiting.shift if all(done) else asked
+    return remembered, waiting.shift if all(done) else requested

@@ -70,15 +70,15 @@ def level_axes(up: Vector3) -> Series:
     return np.vstack([first, second])
 
 
-def tilt_of(plant: Hanging, seen: Sample) -> Floats:
+def tilt_of(plant: Hanging, sample: Sample) -> Floats:
     """Return the tilt theta about both axes, rad."""
-    vertical = -seen.gravity / float(np.linalg.norm(seen.gravity))
+    vertical = -sample.gravity / float(np.linalg.norm(sample.gravity))
     return plant.axes @ np.cross(vertical, plant.up)
 
 
-def rate_of(plant: Hanging, seen: Sample) -> Floats:
+def rate_of(plant: Hanging, sample: Sample) -> Floats:
     """Return the rate about both axes, rad/s."""
-    return plant.axes @ seen.rate
+    return plant.axes @ sample.rate
 
 
 def shift_for(plant: Hanging, v: Floats) -> Vector3:

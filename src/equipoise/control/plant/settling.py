@@ -41,7 +41,7 @@ class Rest:
     since: float = np.inf  # s
 
 
-class Seen(NamedTuple):
+class Sums(NamedTuple):
     """What goes into the means."""
 
     t: float  # s
@@ -65,7 +65,7 @@ def at_depth(bounds: Bounds, before: float, now: float) -> Bounds:
     return bounds._replace(tilt=bounds.tilt * share, rate=bounds.rate * share**0.5)
 
 
-def settle(rest: Rest, now: Seen, step: float, bounds: Bounds, aim: Floats | None = None) -> Rest:
+def settle(rest: Rest, now: Sums, step: float, bounds: Bounds, aim: Floats | None = None) -> Rest:
     """Return the means after another step (s); ``aim`` is the tilt (rad) sought.
 
     Without one, any tilt will do, and any rate that goes with it: a tilted platform that turns

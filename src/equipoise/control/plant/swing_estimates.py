@@ -56,32 +56,38 @@ def of_group(testbed: Testbed, group: str) -> tuple[str, ...]:
     return tuple(term for term in testbed.disturbances if term in GROUPS[group])
 
 
-def shows(seen: Estimate) -> bool:
+def shows(estimate: Estimate) -> bool:
     """Say whether a look showed the centre of mass."""
-    return seen.outcome.usable and seen.sees(COM)
+    return estimate.outcome.usable and estimate.sees(COM)
 
 
-def shown(seen: Estimate, shift: Vector3) -> Shown:
+def shown(estimate: Estimate, shift: Vector3) -> Shown:
     """Return what a look said that was taken at a shift (m)."""
-    return Shown(seen.com, np.sqrt(np.diag(seen.covariance_of(COM))), shift)
+    return Shown(estimate.com, np.sqrt(np.diag(estimate.covariance_of(COM))), shift)
 
 
-def line_of(looks: tuple[Shown, ...], up: Vector3, inertia_sd: float) -> tuple[Floats, Square]:
+def line_of(
+    measurements: tuple[Shown, ...], up: Vector3, inertia_sd: float
+) -> tuple[Floats, Square]:
     """Return h (m) and k, and their covariance."""
-    way = np.array([up @ (look.shift - looks[-1].shift) for look in looks])
-    z = np.array([up @ (look.com + look.shift) for look in looks])
-    weight = np.array([1.0 / max(float(np.abs(up) @ look.sd), LEAST) ** 2 for look in looks])
+    way = np.array(
+        [up @ (measurement.shift - measurements[-1].shift) for measurement in measurements]
+    )
+    z = np.array([up @ (measurement.com + measurement.shift) for measurement in measurements])
+    weight = np.array(
+        [1.0 / max(float(np.abs(up) @ measurement.sd), LEAST) ** 2 for measurement in measurements]
+    )
     sure = 1.0 / max(inertia_sd, LEAST_SCALE) ** 2
-    A = np.column_stack([np.ones(len(looks)), way])
+    A = np.column_stack([np.ones(len(measurements)), way])
     information = (A * weight[:, None]).T @ A + np.diag([0.0, sure])
     covariance = inverse_spd(information)
     return covariance @ ((A * weight[:, None]).T @ z + np.array([0.0, sure])), covariance
 
 
-def believed(looks: tuple[Shown, ...], up: Vector3, inertia_sd: float) -> Shown:
+def combined(measurements: tuple[Shown, ...], up: Vector3, inertia_sd: float) -> Shown:
     """Return r (m) with the masses at home and its sd, by all looks, freed of their factor."""
-    (h, k), covariance = line_of(looks, up, inertia_sd)
-    last, height = looks[-1], h / k
+    (h, k), covariance = line_of(measurements, up, inertia_sd)
+    last, height = measurements[-1], h / k
     across: Vector3 = last.com + last.shift - (up @ (last.com + last.shift)) * up
     slope = np.array([1.0, -height]) / k
     sd = float(np.sqrt(slope @ covariance @ slope))

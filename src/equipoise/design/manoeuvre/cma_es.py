@@ -48,8 +48,8 @@ class Evolution:
 
     def go_on(self, worth: Callable[[Floats], float]) -> int:
         """Try one generation, and return how many trials that took."""
-        asked = [self.strategy.ask() for _ in range(self.strategy.population_size)]
-        tried = [Tried(worth(numbers), numbers) for numbers in asked]
+        requested = [self.strategy.ask() for _ in range(self.strategy.population_size)]
+        tried = [Tried(worth(numbers), numbers) for numbers in requested]
         self.strategy.tell([(each.numbers, each.worth) for each in tried])
         self.best = min(self.best, *tried, key=lambda each: each.worth)
         self.trials += len(tried)
@@ -67,20 +67,20 @@ def least(
     first: Sequence[Floats],
     trials: int,
     seed: int,
-    tell: Callable[[float], None],
+    on_progress: Callable[[float], None],
 ) -> Floats:
-    """Return the best numbers found; ``tell`` hears what share of the trials is done."""
+    """Return the best numbers found; ``on_progress`` hears what share of the trials is done."""
     tried: list[Tried] = []
     for numbers in first:
         tried.append(Tried(worth(numbers), numbers))
-        tell(len(tried) / max(trials, len(first)))
+        on_progress(len(tried) / max(trials, len(first)))
     tried.sort(key=lambda each: each.worth)
     running = [begun(each, seed + k) for k, each in enumerate(tried[:SIDE_BY_SIDE])]
     done = len(tried)
     while done < trials and (going := [each for each in running if not each.settled]):
         young = [each for each in going if each.trials < SHARE * trials]
         done += (young or [best_of(going)])[0].go_on(worth)
-        tell(min(done / trials, 1.0))
+        on_progress(min(done / trials, 1.0))
     return best_of(running).best.numbers
 
 

@@ -20,8 +20,8 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties
 
 Criterion = Literal["A", "D"]
-Asked = Literal["J", "r", "both"]
-NAMES: dict[Asked, tuple[str, ...]] = {"J": INERTIA, "r": COM, "both": (*INERTIA, *COM)}
+Quantity = Literal["J", "r", "both"]
+NAMES: dict[Quantity, tuple[str, ...]] = {"J": INERTIA, "r": COM, "both": (*INERTIA, *COM)}
 OF_MOMENT, OF_COM = 0.01, 1e-6  # -, m, chosen: what laboratories ask for
 
 

@@ -74,9 +74,9 @@ def rehearsal(
     known: Known | None = None,
 ) -> Rehearsal:
     """Return a manoeuvre to be tried on several platforms."""
-    seen = imagined(testbed, expected.body, manoeuvre)
-    problem = posed(seen, testbed, params, known)
-    point = true_point(seen, expected.body, manoeuvre, problem.layout)
+    observed = imagined(testbed, expected.body, manoeuvre)
+    problem = posed(observed, testbed, params, known)
+    point = true_point(observed, expected.body, manoeuvre, problem.layout)
     return Rehearsal(problem, point, manoeuvre, testbed.up)
 
 
@@ -107,7 +107,7 @@ def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:
     return Peaks(float(tilt(motion.q, tried.up).max()), rate)
 
 
-def told(tried: Rehearsal, truth: Unknowns, known: Known | None) -> Square:
+def covariance_of(tried: Rehearsal, truth: Unknowns, known: Known | None) -> Square:
     """Return the covariance of all unknowns; what is not seen is as wide as the fit's anchor."""
     normal = informed(tried.problem, truth, known).at.normal
     return inverse_where(normal, ~tried.problem.prior.held)

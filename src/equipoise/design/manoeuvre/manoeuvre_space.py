@@ -137,9 +137,9 @@ def times_of(space: Space, numbers: Floats) -> list[float]:
     masses = space.testbed.masses
     longest = max((float(np.ptp(range_of(space, m))) / m.speed for m in masses), default=0.0)
     count, last = len(numbers), LATE * space.duration - longest
-    apart = min(longest, max(last - EARLY, 0.0) / max(count, 1))
-    room = max(last - EARLY - (count - 1) * apart, 0.0)
-    return [float(round(EARLY + k * apart + room * x)) for k, x in enumerate(np.sort(numbers))]
+    separation = min(longest, max(last - EARLY, 0.0) / max(count, 1))
+    room = max(last - EARLY - (count - 1) * separation, 0.0)
+    return [float(round(EARLY + k * separation + room * x)) for k, x in enumerate(np.sort(numbers))]
 
 
 def targets_of(space: Space, shares: Floats) -> dict[str, float]:

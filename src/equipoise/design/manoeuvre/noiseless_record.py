@@ -26,7 +26,7 @@ from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 from equipoise.simulation import actuator
 from equipoise.simulation.camera_and_gyro import Sensor
 from equipoise.simulation.clock import samples, tick_one
@@ -81,32 +81,32 @@ def known_side(testbed: Testbed, manoeuvre: Manoeuvre) -> Recording:
     sensor = testbed.gyro or testbed.attitude
     devices = device_rows(testbed, manoeuvre, row_times(sensor, manoeuvre.duration))
     names = tuple(recorded_name(device) for device in testbed.devices)
-    told = Recording(
+    reported = Recording(
         mass_names=testbed.mass_names,
         masses=mass_track(testbed, manoeuvre),
         device_names=names if devices else (),
         devices=devices,
         source=SOURCE,
     )
-    return replace(told, momentum=stored_momentum(told, testbed))
+    return replace(reported, momentum=stored_momentum(reported, testbed))
 
 
 def imagined(testbed: Testbed, body: MassProperties, manoeuvre: Manoeuvre) -> Imagined:
     """Return the noiseless recording of a manoeuvre by a platform with this body."""
-    told = known_side(testbed, manoeuvre)
+    reported = known_side(testbed, manoeuvre)
     camera, gyro = testbed.attitude, testbed.gyro
     t_q, t_w = (row_times(sensor, manoeuvre.duration) for sensor in (camera, gyro))
     fastest = float(np.linalg.norm(manoeuvre.rate))
     line = timeline(
-        seen_at(t_q, camera), seen_at(t_w, gyro), told.masses, len(testbed.masses),
-        longest_step(testbed, fastest, len(t_q) + len(t_w)), told.momentum,
+        measured_at(t_q, camera), measured_at(t_w, gyro), reported.masses, len(testbed.masses),
+        longest_step(testbed, fastest, len(t_q) + len(t_w)), reported.momentum,
     )  # fmt: skip
     maps = mass_maps(testbed.masses)
     rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment)
     q0 = leaning(testbed.up, manoeuvre.low_side, manoeuvre.tilt)
     motion = propagate(rigid, maps, line, q0, manoeuvre.rate)
     recording = replace(
-        told,
+        reported,
         attitude=Samples(t_q, motion.q[line.attitude_node]) if camera else None,
         rate=Samples(t_w, motion.rate[line.rate_node]) if gyro else None,
     )

@@ -20,20 +20,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.design.manoeuvre.cma_es import least
-from equipoise.design.manoeuvre.criterion import NAMES, Asked, Criterion, score, size_of
+from equipoise.design.manoeuvre.criterion import NAMES, Criterion, Quantity, score, size_of
 from equipoise.design.manoeuvre.initial_population import first_choices
 from equipoise.design.manoeuvre.limit_check import (
     Peaks,
     Rehearsal,
+    covariance_of,
     for_search,
     peaks,
     rehearsal,
     started,
-    told,
 )
 from equipoise.design.manoeuvre.manoeuvre_space import Space, chosen
 from equipoise.design.manoeuvre.predicted_information import Known
-from equipoise.design.manoeuvre.scenario import Belief, Scenario, scenarios
+from equipoise.design.manoeuvre.scenario import Prior, Scenario, scenarios
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.model.arrays import Floats
 from equipoise.model.manoeuvre import Manoeuvre
@@ -54,10 +54,10 @@ TRIALS = 2400  # chosen: some two minutes for sputnix on one core of its own
 class Wish:
     """What is asked for, and what is known."""
 
-    asked: Asked
+    requested: Quantity
     criterion: Criterion
     params: Params
-    belief: Belief
+    prior: Prior
     known: Known | None = None
 
 
@@ -74,14 +74,14 @@ class Search:
     @property
     def names(self) -> tuple[str, ...]:
         """Return what is asked for, by name; what is held is not sought."""
-        return tuple(n for n in NAMES[self.wish.asked] if n not in self.wish.params.hold)
+        return tuple(n for n in NAMES[self.wish.requested] if n not in self.wish.params.hold)
 
 
 def search_for(space: Space, wish: Wish, seed: int) -> Search:
     """Return a search, its platforms drawn."""
     rng = np.random.default_rng(seed)
-    drawn = scenarios(wish.belief, SCENARIOS, rng)
-    guarded = scenarios(wish.belief, GUARDED + 1, rng)[1:]
+    drawn = scenarios(wish.prior, SCENARIOS, rng)
+    guarded = scenarios(wish.prior, GUARDED + 1, rng)[1:]
     return Search(space, for_search(space.testbed), wish, drawn, guarded)
 
 
@@ -115,8 +115,8 @@ def merit(search: Search, manoeuvre: Manoeuvre) -> float:
         return NOTHING + STIFF * beyond
     truths = [started(tried, scenario) for scenario in search.scenarios]
     where = [tried.problem.layout.names.index(name) for name in names]
-    size = size_of(wish.belief.body, names)
-    each = [told(tried, truth, wish.known)[np.ix_(where, where)] for truth in truths]
+    size = size_of(wish.prior.body, names)
+    each = [covariance_of(tried, truth, wish.known)[np.ix_(where, where)] for truth in truths]
     return score(np.mean(each, axis=0), size, wish.criterion) + STIFF * beyond
 
 
@@ -129,13 +129,13 @@ def planned(
     wish: Wish,
     seed: int,
     trials: int = TRIALS,
-    tell: Callable[[float], None] = silent,
+    on_progress: Callable[[float], None] = silent,
 ) -> Manoeuvre:
-    """Return the best manoeuvre found; ``tell`` hears what share of the search is done."""
+    """Return the best manoeuvre found; ``on_progress`` hears what share of the search is done."""
     search = search_for(space, wish, seed)
     first = first_choices(space, max(int(FIRST_TRIED * trials), 1), np.random.default_rng(seed))
 
     def worth(numbers: Floats) -> float:
         return merit(search, chosen(space, numbers))
 
-    return chosen(space, least(worth, first, trials, seed, tell))
+    return chosen(space, least(worth, first, trials, seed, on_progress))

@@ -70,26 +70,26 @@ def predicted(
     known: Known | None = None,
 ) -> Predicted:
     """Return what a manoeuvre of a platform with this body will tell."""
-    seen = imagined(testbed, body, manoeuvre)
-    problem = posed(seen, testbed, params, known)
-    return prediction(at_truth(problem, seen, body, manoeuvre, known), seen, testbed)
+    observed = imagined(testbed, body, manoeuvre)
+    problem = posed(observed, testbed, params, known)
+    return prediction(at_truth(problem, observed, body, manoeuvre, known), observed, testbed)
 
 
 def followed_truth(
     testbed: Testbed, body: MassProperties, manoeuvre: Manoeuvre, params: Params
 ) -> Followed:
-    """Return the motion as ``fisher.seen_along`` takes it."""
-    seen = imagined(testbed, body, manoeuvre)
-    fitted = at_truth(posed(seen, testbed, params, None), seen, body, manoeuvre, None)
+    """Return the motion as ``fisher.observed_along`` takes it."""
+    observed = imagined(testbed, body, manoeuvre)
+    fitted = at_truth(posed(observed, testbed, params, None), observed, body, manoeuvre, None)
     return Followed(fitted, testbed, params, ())
 
 
-def posed(seen: Imagined, testbed: Testbed, params: Params, known: Known | None) -> Problem:
+def posed(observed: Imagined, testbed: Testbed, params: Params, known: Known | None) -> Problem:
     """Return the problem of a noiseless recording.
 
     What is known already fixes the scale too; nothing is held then but what is asked.
     """
-    problem = problem_of(seen.recording, testbed, with_plumb(seen, testbed, params))
+    problem = problem_of(observed.recording, testbed, with_plumb(observed, testbed, params))
     if known is None or not problem.scale_open:
         return problem
     held = np.isin(problem.layout.names, params.hold)
@@ -98,29 +98,29 @@ def posed(seen: Imagined, testbed: Testbed, params: Params, known: Known | None)
 
 def at_truth(
     problem: Problem,
-    seen: Imagined,
+    observed: Imagined,
     body: MassProperties,
     manoeuvre: Manoeuvre,
     known: Known | None,
 ) -> Fitted:
     """Return the fit of a noiseless recording, which ends where the truth is."""
-    point = true_point(seen, body, manoeuvre, problem.layout)
+    point = true_point(observed, body, manoeuvre, problem.layout)
     return informed(problem, point, known)
 
 
-def with_plumb(seen: Imagined, testbed: Testbed, params: Params) -> Params:
+def with_plumb(observed: Imagined, testbed: Testbed, params: Params) -> Params:
     """Return what is asked with the camera's vertical free where it may lean, as in any fit."""
-    if not is_plumb_open(seen.recording, testbed):
+    if not is_plumb_open(observed.recording, testbed):
         return params
     return replace(params, sensor=sensor_terms.among((*params.sensor, *PLUMB)))
 
 
 def true_point(
-    seen: Imagined, body: MassProperties, manoeuvre: Manoeuvre, layout: Layout
+    observed: Imagined, body: MassProperties, manoeuvre: Manoeuvre, layout: Layout
 ) -> Unknowns:
     """Return the truth as a point of the search: masses where told, sensors without fault."""
     return Unknowns(
-        seen.motion.q[0], manoeuvre.rate, pseudo_inertia.from_inertia(body.inertia_C), body.com,
+        observed.motion.q[0], manoeuvre.rate, pseudo_inertia.from_inertia(body.inertia_C), body.com,
         np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(len(layout.errors)), np.zeros(3),
     )  # fmt: skip
 
@@ -137,23 +137,23 @@ def informed(problem: Problem, point: Unknowns, known: Known | None) -> Fitted:
     return Fitted(problem, point, at, True, 1, np.zeros((0, 1)))
 
 
-def prediction(fitted: Fitted, seen: Imagined, testbed: Testbed) -> Predicted:
+def prediction(fitted: Fitted, observed: Imagined, testbed: Testbed) -> Predicted:
     """Return what a fit at the truth says of itself, with the limits of its motion."""
     problem: Problem = fitted.problem
     layout, held = problem.layout, problem.prior.held
     view = visibility_of(fitted, physical(fitted.point, problem.mass, layout))
-    told = held if not problem.scale_open else np.zeros_like(held)
+    reported = held if not problem.scale_open else np.zeros_like(held)
     sd = np.sqrt(np.maximum(np.diag(view.covariance), 0.0))
     return Predicted(
         layout.names,
         layout.units,
-        np.where(view.hidden, np.inf, np.where(told, 0.0, sd)),
+        np.where(view.hidden, np.inf, np.where(reported, 0.0, sd)),
         view.covariance,
         view.hidden,
         view.sentences,
-        float(tilt(seen.motion.q, testbed.up).max()),
-        largest(seen.motion.rate),
-        0.0 if seen.recording.momentum is None else largest(seen.recording.momentum.values),
+        float(tilt(observed.motion.q, testbed.up).max()),
+        largest(observed.motion.rate),
+        0.0 if observed.recording.momentum is None else largest(observed.recording.momentum.values),
     )
 
 

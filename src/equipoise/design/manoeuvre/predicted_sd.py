@@ -76,7 +76,7 @@ def peaks_of(
     testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, rng: np.random.Generator
 ) -> list[Peaks]:
     """Return how far platforms go that no search has seen."""
-    expected, *others = scenarios(wish.belief, TRIED + 1, rng)
+    expected, *others = scenarios(wish.prior, TRIED + 1, rng)
     tried = rehearsal(for_search(testbed), expected, manoeuvre, wish.params, wish.known)
     return [peaks(tried, started(tried, scenario)) for scenario in others]
 
@@ -104,7 +104,7 @@ def promise(
     ``rate_limit`` in rad/s; the limit of tilt is the testbed's.
     """
     rng = np.random.default_rng(seed + FRESH)
-    drawn = scenarios(wish.belief, PLATFORMS + 1, rng)
+    drawn = scenarios(wish.prior, PLATFORMS + 1, rng)
     said = [
         predicted(testbed, s.body, met(manoeuvre, s, testbed.up), wish.params, wish.known)
         for s in drawn
@@ -115,7 +115,7 @@ def promise(
         manoeuvre,
         (*INERTIA, *COM),
         np.array([one.sd_of((*INERTIA, *COM)) for one in others]),
-        wish.belief.body,
+        wish.prior.body,
         expected,
         len(tilts),
         int(np.sum((tilts <= testbed.tilt_limit) & (rates <= rate_limit))),

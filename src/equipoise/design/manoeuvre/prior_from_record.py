@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.design.manoeuvre.predicted_information import Known
-from equipoise.design.manoeuvre.scenario import Belief
+from equipoise.design.manoeuvre.scenario import Prior
 from equipoise.maths.linalg import inverse_spd, symmetrise
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA, Estimate
@@ -23,15 +23,15 @@ from equipoise.model.testbed import Testbed
 BODY = (*INERTIA, *COM)
 
 
-class Seen(NamedTuple):
+class RecordPrior(NamedTuple):
     """What is known after a recording."""
 
-    belief: Belief
+    prior: Prior
     known: Known
     standing: dict[str, float]  # m
 
 
-def seen(recording: Recording, estimate: Estimate, testbed: Testbed) -> Seen:
+def record_prior(recording: Recording, estimate: Estimate, testbed: Testbed) -> RecordPrior:
     """Return what a recording tells; InputError where its estimate is not usable.
 
     The estimate is to have the testbed's body as prior: then all of it has a covariance.
@@ -40,11 +40,11 @@ def seen(recording: Recording, estimate: Estimate, testbed: Testbed) -> Seen:
     if not estimate.outcome.usable or not estimate.sees(BODY):
         raise InputError(where, estimate.outcome.sentence, "a recording that can be identified")
     body = MassProperties(testbed.body.mass, estimate.com, estimate.inertia_P)
-    belief = Belief(body, symmetrise(estimate.covariance_of(BODY)))
+    prior = Prior(body, symmetrise(estimate.covariance_of(BODY)))
     standing = stands(recording, testbed)
     errors = {last: f"error_{mass}_1" for mass, last in last_stops(estimate, standing, testbed)}
     information = inverse_spd(symmetrise(estimate.covariance_of((*BODY, *errors))))
-    return Seen(belief, Known((*BODY, *errors.values()), information), standing)
+    return RecordPrior(prior, Known((*BODY, *errors.values()), information), standing)
 
 
 def stands(recording: Recording, testbed: Testbed) -> dict[str, float]:

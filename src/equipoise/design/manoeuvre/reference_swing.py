@@ -25,7 +25,7 @@ class Swing(NamedTuple):
     """A manoeuvre, and the recording that it would give without noise."""
 
     manoeuvre: Manoeuvre
-    seen: Imagined
+    observed: Imagined
     peak_tilt: float  # rad
 
 
@@ -43,8 +43,8 @@ def usual_swing(testbed: Testbed, duration: float) -> Swing:
 
 def followed(manoeuvre: Manoeuvre, testbed: Testbed) -> Swing:
     """Return what a manoeuvre does to the platform as stated."""
-    seen = imagined(testbed, testbed.body, manoeuvre)
-    return Swing(manoeuvre, seen, float(tilt(seen.motion.q, testbed.up).max()))
+    observed = imagined(testbed, testbed.body, manoeuvre)
+    return Swing(manoeuvre, observed, float(tilt(observed.motion.q, testbed.up).max()))
 
 
 def in_time(manoeuvre: Manoeuvre, testbed: Testbed) -> Manoeuvre:

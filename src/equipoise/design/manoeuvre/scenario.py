@@ -20,7 +20,7 @@ TRIES = 1000  # chosen: draws of a body before what is known counts as impossibl
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Belief:
+class Prior:
     """What is known of inertia and centre of mass: a normal distribution in ``unknowns.CORE``."""
 
     body: MassProperties
@@ -36,28 +36,28 @@ class Scenario:
     push: Vector3  # -
 
 
-def beforehand(testbed: Testbed) -> Belief:
+def stated_prior(testbed: Testbed) -> Prior:
     """Return what a testbed states of its platform."""
     inertia_sd = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
-    return Belief(testbed.body, np.diag(np.concatenate([inertia_sd, testbed.com_sd]) ** 2))
+    return Prior(testbed.body, np.diag(np.concatenate([inertia_sd, testbed.com_sd]) ** 2))
 
 
-def scenarios(belief: Belief, count: int, rng: np.random.Generator) -> list[Scenario]:
+def scenarios(prior: Prior, count: int, rng: np.random.Generator) -> list[Scenario]:
     """Return what is expected, and further draws."""
     zero = np.zeros(3)
     drawn = [
-        Scenario(drawn_body(belief, rng), rng.standard_normal(3), rng.standard_normal(3))
+        Scenario(drawn_body(prior, rng), rng.standard_normal(3), rng.standard_normal(3))
         for _ in range(count - 1)
     ]
-    return [Scenario(belief.body, zero, zero), *drawn]
+    return [Scenario(prior.body, zero, zero), *drawn]
 
 
-def drawn_body(belief: Belief, rng: np.random.Generator) -> MassProperties:
+def drawn_body(prior: Prior, rng: np.random.Generator) -> MassProperties:
     """Return a body that can be, with the masses at home; the expected one if none is found."""
-    mean = core_of(belief.body)
+    mean = core_of(prior.body)
     for _ in range(TRIES):
-        core: Floats = rng.multivariate_normal(mean, belief.covariance)
-        body = MassProperties(belief.body.mass, core[6:], unpack_symmetric(core[:6]))
+        core: Floats = rng.multivariate_normal(mean, prior.covariance)
+        body = MassProperties(prior.body.mass, core[6:], unpack_symmetric(core[:6]))
         if is_possible(body):
             return body
-    return belief.body
+    return prior.body

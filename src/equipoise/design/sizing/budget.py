@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.design.sizing.case import Case
-from equipoise.design.sizing.contribution import ASKED, TESTBED, Line
+from equipoise.design.sizing.contribution import REQUESTED, TESTBED, Line
 from equipoise.design.sizing.environment import surrounding_lines
 from equipoise.design.sizing.expected_torque import expected_torque
 from equipoise.design.sizing.likely_offsets import (
@@ -34,7 +34,7 @@ from equipoise.design.sizing.likely_offsets import (
     with_covariance,
     within_reach,
 )
-from equipoise.design.sizing.measurement_bound import Look, first_look, later_look
+from equipoise.design.sizing.measurement_bound import MeasurementBound, first_bound, later_bound
 from equipoise.design.sizing.move_error import Left, Standing, at_home, move
 from equipoise.design.sizing.reachable_set import Reach, reach_of, tolerance
 from equipoise.model.arrays import Bools, Matrix3, Series, Series3
@@ -46,8 +46,8 @@ FEWEST = 32  # chosen: offsets within reach that tell what a move leaves
 class Balanced(NamedTuple):
     """Looks, and what the last of the moves left of each platform."""
 
-    first: Look
-    last: Look
+    first: MeasurementBound
+    last: MeasurementBound
     standing: Standing
     left: Left
 
@@ -59,8 +59,8 @@ class Budget:
     lines: tuple[Line, ...]  # the largest first
     torque: float  # N m, rms, of all together
     within: float  # share of platforms, as stated, that the masses can bring to the target
-    first: Look
-    last: Look
+    first: MeasurementBound
+    last: MeasurementBound
     standing: Standing  # after the last move
     left: Left
 
@@ -74,7 +74,7 @@ def budget_of(case: Case) -> Budget:
     left, beyond = done.left, done.standing.error @ across
     of_offsets = [
         offset_line(case, "out of reach", "What no mass can shift", mean_square(beyond)),
-        offset_line(case, "look", "What the sensors tell of the centre of mass",
+        offset_line(case, "measurement", "What the sensors tell of the centre of mass",
                     along @ done.last.com @ along),
         offset_line(case, "steps", "The least step of the masses", mean_square(left.steps @ along)),
         offset_line(case, "stops", "The accuracy with which masses stop", mean_square(left.stops)),
@@ -107,19 +107,19 @@ def balanced(case: Case, reach: Reach) -> Balanced:
     start, rest = normals[:, : 3 + 2 * k], normals[:, 3 + 2 * k :]
     kept, offsets = platforms(case, reach, start[:, :3])
     draws = np.split(rest[kept], case.moves, axis=1)
-    first = last = first_look(testbed, case.look_time)
+    first = last = first_bound(testbed, case.measurement_time)
     standing = at_home(testbed, offsets, start[kept, 3:], case.rail_lean)
     found = offsets + with_covariance(draws[0][:, :3], first.com)
     standing, left = move(testbed, standing, found, draws[0][:, 3:], case.rail_lean)
     for draw in draws[1:]:
         before = mean_square(standing.error)
-        last = later_look(testbed, case.look_time, case.target, replace(last, com=before))
-        found = seen(standing.error, before, last.com, draw[:, :3])
+        last = later_bound(testbed, case.measurement_time, case.target, replace(last, com=before))
+        found = estimated(standing.error, before, last.com, draw[:, :3])
         standing, left = move(testbed, standing, found, draw[:, 3:], case.rail_lean)
     return Balanced(first, last, standing, left)
 
 
-def seen(error: Series3, before: Matrix3, after: Matrix3, normals: Series) -> Series3:
+def estimated(error: Series3, before: Matrix3, after: Matrix3, normals: Series) -> Series3:
     """Return what a look finds of errors of one covariance that leaves them another, m^2."""
     share: Matrix3 = np.eye(3) - np.linalg.solve(before, after)
     return error @ share + with_covariance(normals, after @ share)
@@ -149,5 +149,9 @@ def target_line(case: Case) -> Line:
     moment: Matrix3 = np.outer(case.target, case.target)
     torque = expected_torque(case.testbed, moment, case.tilt)
     return Line(
-        "target", "The distance of the target from the centre of rotation", torque, moment, ASKED
+        "target",
+        "The distance of the target from the centre of rotation",
+        torque,
+        moment,
+        REQUESTED,
     )

@@ -14,7 +14,7 @@ class Case:
     testbed: Testbed
     target: Vector3  # m, where the centre of mass is wanted
     tilt: float  # rad, torque counts over directions within it of level
-    look_time: float  # s, of each record
+    measurement_time: float  # s, of each record
     moves: int
     rail_lean: float = 0.0  # rad, one sd about both axes across a rail
     around: Surroundings = field(default_factory=Surroundings)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from equipoise.model.arrays import Matrix3
 
-TESTBED, ASKED, PARTLY, ASSUMED = "testbed", "stated", "partly assumed", "assumed"
+TESTBED, REQUESTED, PARTLY, ASSUMED = "testbed", "stated", "partly assumed", "assumed"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.design.sizing.contribution import ASKED, ASSUMED, PARTLY, TESTBED, Line
+from equipoise.design.sizing.contribution import ASSUMED, PARTLY, REQUESTED, TESTBED, Line
 from equipoise.design.sizing.expected_torque import expected_torque
 from equipoise.dynamics.sag_trim import downs, residual_torque, trimmed_com
 from equipoise.model.arrays import Matrix3, Vector3
@@ -62,7 +62,7 @@ def surrounding_lines(testbed: Testbed, around: Surroundings, tilt: float) -> It
         left, cause = sag_left(testbed, around, tilt), "What the best trim leaves of the deck's sag"
         yield Line("sag", cause, left, None, basis_of(around, "bending_share"))
     form = weight * around.form_error
-    yield Line("sphericity", "The form error of the bearing", form, None, ASKED)
+    yield Line("sphericity", "The form error of the bearing", form, None, REQUESTED)
     lift, cause = (
         any_way(testbed, buoyancy(testbed, around), tilt),
         "The changed density of the air",
@@ -71,15 +71,15 @@ def surrounding_lines(testbed: Testbed, around: Surroundings, tilt: float) -> It
     across = gradient(testbed, tilt)
     yield Line("gravity gradient", "The Earth's gravity gradient", across, None, TESTBED)
     turning = float(np.linalg.eigvalsh(testbed.body.inertia_P)[-1]) * around.slew * EARTH_RATE
-    yield Line("Earth's rate", "The Earth's rate", turning, None, ASKED)
-    air = ASSUMED if around.air == PLAIN.air else ASKED
+    yield Line("Earth's rate", "The Earth's rate", turning, None, REQUESTED)
+    air = ASSUMED if around.air == PLAIN.air else REQUESTED
     yield Line("air", "The air of room and bearing", around.air, None, air)
 
 
 def basis_of(around: Surroundings, *names: str) -> str:
     """Say whether some of the numbers behind a line were left as they are assumed."""
     left = any(getattr(around, name) == getattr(PLAIN, name) for name in names)
-    return PARTLY if left else ASKED
+    return PARTLY if left else REQUESTED
 
 
 def not_stated(around: Surroundings) -> tuple[str, ...]:

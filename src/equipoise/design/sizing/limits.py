@@ -37,15 +37,15 @@ def limit_sentence(case: Case, budget: Budget, better: tuple[Bettered, ...]) -> 
 def detail(case: Case, line: Line) -> str:
     """Return numbers of the masses that a line is about, in brackets, or nothing."""
     if line.name == "steps":
-        return f" ({told_of_masses(case, 'resolution')})"
+        return f" ({mass_figures(case, 'resolution')})"
     if line.name == "stops":
-        return f" ({told_of_masses(case, 'accuracy')})"
+        return f" ({mass_figures(case, 'accuracy')})"
     if line.name == "backlash":
-        return f" ({told_of_masses(case, 'backlash')})"
-    return f" in {case.look_time:g} s" if line.name == "look" else ""
+        return f" ({mass_figures(case, 'backlash')})"
+    return f" in {case.measurement_time:g} s" if line.name == "measurement" else ""
 
 
-def told_of_masses(case: Case, quantity: str) -> str:
+def mass_figures(case: Case, quantity: str) -> str:
     """Return a length of each mass in mm, those of one length together."""
     groups: dict[float, list[str]] = {}
     for mass in case.testbed.masses:
@@ -113,7 +113,7 @@ def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]
     return Outcome(False, f"{missed} {found} uN m are expected; {ways}.")
 
 
-def worth_telling(budget: Budget, better: tuple[Bettered, ...]) -> tuple[Bettered, ...]:
+def worth_listing(budget: Budget, better: tuple[Bettered, ...]) -> tuple[Bettered, ...]:
     """Return the changes that bring something: less torque, or more platforms within reach."""
     return tuple(
         change

@@ -40,13 +40,13 @@ UNSEEN = "The record does not show the centre of mass; it stays as uncertain as 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Look:
+class MeasurementBound:
     """What a record of a length tells."""
 
     duration: float  # s
     com: Matrix3  # m^2, covariance, masses as they stand at the end
     inertia: Square  # (6, 6) kg^2 m^4, covariance of that about P, xx yy zz xy xz yz
-    inertia_seen: bool
+    inertia_observable: bool
     peak_tilt: float  # rad
     cautions: tuple[str, ...]
 
@@ -58,19 +58,21 @@ class Look:
     @property
     def inertia_sd(self) -> Floats:
         """Return one sd of each element, kg m^2; infinite: not all are seen."""
-        return np.sqrt(np.diag(self.inertia)) if self.inertia_seen else np.full(6, np.inf)
+        return np.sqrt(np.diag(self.inertia)) if self.inertia_observable else np.full(6, np.inf)
 
 
-def first_look(testbed: Testbed, duration: float) -> Look:
+def first_bound(testbed: Testbed, duration: float) -> MeasurementBound:
     """Return what a record of this length (s) with a known move will tell."""
     swing = usual_swing(testbed, duration)
-    problem = posed(swing.seen, testbed, sought(testbed), None)
-    fitted = at_truth(problem, swing.seen, testbed.body, swing.manoeuvre, None)
+    problem = posed(swing.observed, testbed, sought(testbed), None)
+    fitted = at_truth(problem, swing.observed, testbed.body, swing.manoeuvre, None)
     end = end_rows(fitted, None)
-    told = prediction(fitted, swing.seen, testbed)
-    com, stated = rows_of(told, COM) if end is None else end[1], np.diag(testbed.com_sd**2)
-    look = told_of(testbed, duration, told, com, stated)
-    return replace(look, cautions=(*look.cautions, *shortening(testbed, swing.manoeuvre)))
+    reported = prediction(fitted, swing.observed, testbed)
+    com, stated = rows_of(reported, COM) if end is None else end[1], np.diag(testbed.com_sd**2)
+    measurement = bound_of(testbed, duration, reported, com, stated)
+    return replace(
+        measurement, cautions=(*measurement.cautions, *shortening(testbed, swing.manoeuvre))
+    )
 
 
 def shortening(testbed: Testbed, manoeuvre: Manoeuvre) -> tuple[str, ...]:
@@ -89,19 +91,21 @@ def longest(manoeuvre: Manoeuvre) -> float:
     return max((abs(d) for _, goals in manoeuvre.moves for d in goals.values()), default=0.0)
 
 
-def later_look(testbed: Testbed, duration: float, target: Vector3, before: Look) -> Look:
+def later_bound(
+    testbed: Testbed, duration: float, target: Vector3, before: MeasurementBound
+) -> MeasurementBound:
     """Return what a record of this length (s) will tell of a platform near the target (m).
 
     ``before`` is what is known of it: inertia from a look, centre of mass after a move.
     """
     body = from_centre(testbed.body.mass, target, testbed.body.inertia_C)
-    names = (*COM, *INERTIA) if before.inertia_seen else COM
+    names = (*COM, *INERTIA) if before.inertia_observable else COM
     known = np.zeros((9, 9))
     known[:3, :3], known[3:, 3:] = inverse_spd(before.com), inverse_spd(before.inertia)
     known = known[: len(names), : len(names)]
     manoeuvre = gentle_swing(testbed, duration)
-    told = predicted(testbed, body, manoeuvre, sought(testbed), Known(names, known))
-    return told_of(testbed, duration, told, rows_of(told, COM), before.com)
+    reported = predicted(testbed, body, manoeuvre, sought(testbed), Known(names, known))
+    return bound_of(testbed, duration, reported, rows_of(reported, COM), before.com)
 
 
 def sought(testbed: Testbed) -> Params:
@@ -113,32 +117,32 @@ def sought(testbed: Testbed) -> Params:
     return Params(terms, use_prior=True)
 
 
-def rows_of(told: Predicted, names: tuple[str, ...]) -> Floats:
+def rows_of(reported: Predicted, names: tuple[str, ...]) -> Floats:
     """Return rows that choose some unknowns from all."""
-    return np.eye(len(told.names))[[told.names.index(name) for name in names]]
+    return np.eye(len(reported.names))[[reported.names.index(name) for name in names]]
 
 
-def told_of(
-    testbed: Testbed, duration: float, told: Predicted, com: Floats, before: Matrix3
-) -> Look:
+def bound_of(
+    testbed: Testbed, duration: float, reported: Predicted, com: Floats, before: Matrix3
+) -> MeasurementBound:
     """Return a look; ``com`` leads from all unknowns to the centre of mass, known ``before``."""
-    unseen = bool(np.any(np.abs(com[:, told.hidden]) > 0))
-    moments = rows_of(told, INERTIA)
-    return Look(
+    unseen = bool(np.any(np.abs(com[:, reported.hidden]) > 0))
+    moments = rows_of(reported, INERTIA)
+    return MeasurementBound(
         duration,
-        before if unseen else com @ told.covariance @ com.T,
-        moments @ told.covariance @ moments.T,
-        not np.any(moments[:, told.hidden]),
-        told.peak_tilt,
-        cautions(told, testbed, unseen),
+        before if unseen else com @ reported.covariance @ com.T,
+        moments @ reported.covariance @ moments.T,
+        not np.any(moments[:, reported.hidden]),
+        reported.peak_tilt,
+        cautions(reported, testbed, unseen),
     )
 
 
-def cautions(told: Predicted, testbed: Testbed, unseen: bool) -> tuple[str, ...]:
+def cautions(reported: Predicted, testbed: Testbed, unseen: bool) -> tuple[str, ...]:
     """Say what is not seen, and whether the platform would touch on its way."""
     found = [UNSEEN] if unseen else []
-    if told.peak_tilt > testbed.tilt_limit:
-        peak, limit = np.degrees(told.peak_tilt), np.degrees(testbed.tilt_limit)
+    if reported.peak_tilt > testbed.tilt_limit:
+        peak, limit = np.degrees(reported.peak_tilt), np.degrees(testbed.tilt_limit)
         found.append(
             f"A free swing would tilt the platform by {peak:.0f} deg, beyond its limit of "
             f"{limit:.0f} deg; bounds are those of a bearing without one."

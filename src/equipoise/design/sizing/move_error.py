@@ -41,7 +41,7 @@ class Standing(NamedTuple):
     """Platforms and their masses as they stand, one row each."""
 
     error: Series3  # m, centre of mass from where it is wanted
-    told: Series  # (n, k) m, where masses were told to go
+    commanded: Series  # (n, k) m, where masses were told to go
     play: Series  # (n, k) m, where they stand in their play
     slip: Series  # (n, k) m, by how much they stopped elsewhere
     lean: Floats  # (n, k, 3) -, shift of the centre of mass across each rail, by travel
@@ -77,7 +77,7 @@ def move(
 ) -> tuple[Standing, Left]:
     """Return platforms after a move that should undo what was ``found`` (m), and what it left."""
     gain = gains(testbed)
-    best = allocated(testbed, now.told, found)
+    best = allocated(testbed, now.commanded, found)
     change = best * is_worth_it(testbed, now, found, best, rail_lean)[:, None]
     half = 0.5 * np.array([mass.backlash for mass in testbed.masses])
     play = np.clip(now.play - change, -half, half)
@@ -92,14 +92,14 @@ def move(
         change != 0,
     )
     error = now.error - found + left.steps + left.stops + left.backlash + left.rails
-    return Standing(error, now.told + change, play, slip, now.lean), left
+    return Standing(error, now.commanded + change, play, slip, now.lean), left
 
 
-def allocated(testbed: Testbed, told: Series, found: Series3) -> Series:
+def allocated(testbed: Testbed, reported: Series, found: Series3) -> Series:
     """Return the changes (m) of where masses are told to go that undo what was found best."""
-    rails, wanted = rails_of(testbed.masses, testbed.body.mass), told @ gains(testbed) - found
-    goals = [allocate(rails, here, shift) for here, shift in zip(told, wanted, strict=True)]
-    return np.array(goals) - told
+    rails, wanted = rails_of(testbed.masses, testbed.body.mass), reported @ gains(testbed) - found
+    goals = [allocate(rails, here, shift) for here, shift in zip(reported, wanted, strict=True)]
+    return np.array(goals) - reported
 
 
 def is_worth_it(

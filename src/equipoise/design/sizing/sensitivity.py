@@ -67,21 +67,25 @@ def sensor_changes(case: Case) -> Iterator[Change]:
     testbed = case.testbed
     camera, gyro = testbed.attitude, testbed.gyro
 
-    def seen_by(**sensors: AttitudeSensor | Gyro) -> Case:
+    def observed_by(**sensors: AttitudeSensor | Gyro) -> Case:
         return replace(case, testbed=replace(testbed, **sensors))
 
     if camera is not None:
         sharper = replace(camera, noise=HALF * camera.noise)
-        yield Change("half the camera's noise", "look", seen_by(attitude=sharper))
+        yield Change("half the camera's noise", "measurement", observed_by(attitude=sharper))
         if camera.plumb_sd > 0:
             plumb = replace(camera, plumb_sd=HALF * camera.plumb_sd)
-            yield Change("a camera twice as level", "look", seen_by(attitude=plumb))
+            yield Change("a camera twice as level", "measurement", observed_by(attitude=plumb))
     if gyro is None:
-        yield Change("a good MEMS gyro", "look", seen_by(gyro=GYRO))
+        yield Change("a good MEMS gyro", "measurement", observed_by(gyro=GYRO))
     else:
         quieter = replace(gyro, noise=HALF * gyro.noise)
-        yield Change("half the gyro's noise", "look", seen_by(gyro=quieter))
-    yield Change("records twice as long", "look", replace(case, look_time=2 * case.look_time))
+        yield Change("half the gyro's noise", "measurement", observed_by(gyro=quieter))
+    yield Change(
+        "records twice as long",
+        "measurement",
+        replace(case, measurement_time=2 * case.measurement_time),
+    )
 
 
 def surrounding_changes(case: Case) -> Iterator[Change]:

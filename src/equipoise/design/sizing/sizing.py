@@ -37,7 +37,7 @@ class Sizing:
 
 def sized(case: Case, records: Sequence[float], required: float | None) -> Sizing:
     """Return the design of a case, for records of several lengths (s)."""
-    cases = [replace(case, look_time=length) for length in sorted(records)]
+    cases = [replace(case, measurement_time=length) for length in sorted(records)]
     budgets = tuple(budget_of(each) for each in cases)
     judged, better = cases[0], what_to_buy(cases[0])
     reach = reach_of(case.testbed.masses, case.testbed.body.mass)

@@ -110,9 +110,9 @@ def calibrate(recording: Recording, testbed: Testbed, options: CalibrateOptions)
     check_sensors(recording, testbed)
     doubted = in_doubt(testbed, options.reference)
     terms = (*options.terms, *soft_terms(testbed), *sensor_terms_for(recording))
-    asked = Options(terms, options.hold, options.use_prior)
-    about = drives_found(recording, doubted, params_of(doubted, asked))
-    fitted = run(recording, about, asked)
+    requested = Options(terms, options.hold, options.use_prior)
+    about = drives_found(recording, doubted, params_of(doubted, requested))
+    fitted = run(recording, about, requested)
     lost = nothing(fitted)
     if lost is not None:
         return lost
@@ -201,14 +201,18 @@ def concluded(
     F = slopes(wanted.of, x)
     covariance = F @ fitted.covariance @ F.T
     sd = np.sqrt(np.maximum(np.diag(covariance), 0.0))
-    seen = ~np.any(np.abs(F[:, hidden]) > 0, axis=1)
+    observed = ~np.any(np.abs(F[:, hidden]) > 0, axis=1)
     alike = together(drives, fitted.covariance)
     for i, drive in enumerate(drives):
         part = slice(NUMBERS * i, NUMBERS * (i + 1))
-        seen[part] &= shown(drive, sd[part], [k for k, each in alike.items() if i in chain(*each)])
+        observed[part] &= shown(
+            drive, sd[part], [k for k, each in alike.items() if i in chain(*each)]
+        )
     found = [
         Parameter(name, unit, float(value), float(s) if ok else float("inf"), bool(ok))
-        for (name, unit), value, s, ok in zip(wanted.labels, wanted.of(x), sd, seen, strict=True)
+        for (name, unit), value, s, ok in zip(
+            wanted.labels, wanted.of(x), sd, observed, strict=True
+        )
     ]
     scatters = [scatter_of(d, fitted, float(np.linalg.norm(pull(d, x)))) for d in drives]
     n, m = len(found), len(scatters)

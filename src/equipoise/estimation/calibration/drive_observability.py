@@ -43,8 +43,8 @@ def prior_of(drive: Drive, kind: str) -> float:
 def without_scale(P: Floats) -> Floats:
     """Return a covariance of gains without what they share."""
     n = len(P)
-    apart = np.eye(n) - np.full((n, n), 1 / n)
-    return apart @ P @ apart
+    separation = np.eye(n) - np.full((n, n), 1 / n)
+    return separation @ P @ separation
 
 
 def groups(P: Floats, owner: Ints) -> list[tuple[int, ...]]:

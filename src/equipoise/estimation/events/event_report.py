@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.events.event_times import moment_errors, rows_of
-from equipoise.estimation.events.record_model import Believed, Happening, refitted
+from equipoise.estimation.events.record_model import Happening, RecordModel, refitted
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.problem import forward_of
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
@@ -35,24 +35,24 @@ def azimuth_of(impulse_N: Vector3, sd: float, R: Matrix3, up: Vector3) -> float 
     return float(np.arctan2(place @ np.cross(up, forward), place @ forward))
 
 
-def told(belief: Believed) -> tuple[Event, ...]:
+def reported_events(model: RecordModel) -> tuple[Event, ...]:
     """Return the events of a belief in order of time, each as if its kind were clear."""
-    if not belief.events:
+    if not model.events:
         return ()
-    order = sorted(belief.events, key=lambda event: event.t)
+    order = sorted(model.events, key=lambda event: event.t)
     clear = tuple(replace(event, unclear=False) for event in order)
-    single = replace(belief, events=clear)
+    single = replace(model, events=clear)
     single = refitted(single) if any(event.unclear for event in order) else single
     fit, after = single.fitted, smooth_at(single.fitted)
     rows = zip(order, rows_of(fit, clear), moment_errors(single)[1], strict=True)
     return tuple(
-        told_one(belief, event, fit, after, k, float(np.hypot(s, event.aside)))
+        reported_event(model, event, fit, after, k, float(np.hypot(s, event.aside)))
         for event, k, s in rows
     )
 
 
-def told_one(
-    belief: Believed, event: Happening, fit: Fitted, after: Smoothed, k: int, sd: float
+def reported_event(
+    model: RecordModel, event: Happening, fit: Fitted, after: Smoothed, k: int, sd: float
 ) -> Event:
     """Return the event at inner cut ``k`` of a fit."""
     jump, spread = fit.jumps[k, :3], after.jump_covariance[k, :3, :3]
@@ -62,7 +62,7 @@ def told_one(
         return found
     point = unknowns_of(after.points[k + 1])
     R = to_matrix(point.q0)
-    turn: Matrix3 = R @ point.body(belief.testbed.body.mass).inertia_P
+    turn: Matrix3 = R @ point.body(model.testbed.body.mass).inertia_P
     size, covariance = turn @ jump, turn @ spread @ turn.T
-    where = azimuth_of(size, float(np.sqrt(np.trace(covariance) / 3)), R, belief.testbed.up)
+    where = azimuth_of(size, float(np.sqrt(np.trace(covariance) / 3)), R, model.testbed.up)
     return replace(found, kind="impulse", size=size, covariance=covariance, azimuth=where)

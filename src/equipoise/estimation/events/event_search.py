@@ -7,8 +7,8 @@ import numpy as np
 from equipoise.estimation.events.detection_threshold import KINDS, threshold
 from equipoise.estimation.events.event_times import later, rows_of, timed
 from equipoise.estimation.events.record_model import (
-    Believed,
     Happening,
+    RecordModel,
     farther,
     nearest,
     refitted,
@@ -20,129 +20,129 @@ from equipoise.model.arrays import Floats
 
 NEAR = 1.6  # spacings, chosen: with process noise, events nearer than this may be one
 CLEAR = 9.0  # chosen: 2 ln of how much likelier one kind is than another, to be told apart
-FAR = (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)  # of the time within which a swing turns by a radian
+OUTLYING = (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)  # of the time within which a swing turns by a radian
 SWINGS = 3.0  # of the same time, chosen: without process noise, events nearer than this may be one
 DOUBTFUL = 4.0  # thresholds, chosen: an event so sure is not put to the test
 
 
-def with_kind(belief: Believed, k: int, kind: str) -> Believed:
+def with_kind(model: RecordModel, k: int, kind: str) -> RecordModel:
     """Return the belief with one event of that kind."""
-    event = Happening(belief.events[k].t, kind)
-    return refitted(replace(belief, events=(*belief.events[:k], event, *belief.events[k + 1 :])))
+    event = Happening(model.events[k].t, kind)
+    return refitted(replace(model, events=(*model.events[:k], event, *model.events[k + 1 :])))
 
 
-def of_either_kind(belief: Believed, k: int) -> Believed:
+def of_either_kind(model: RecordModel, k: int) -> RecordModel:
     """Return the belief with one event of the kind, and at the moment, that explain most."""
-    models = [timed(with_kind(belief, k, kind), k) for kind in KINDS]
+    models = [timed(with_kind(model, k, kind), k) for kind in KINDS]
     return nearest(models)
 
 
-def doubted(belief: Believed) -> Believed:
+def doubted(model: RecordModel) -> RecordModel:
     """Return the belief with all that may jump at events that may as well be of another kind.
 
     Without a swing behind them a touch and a part that shifts look alike; what follows for the
     centre of mass does not.
     """
-    for k, event in enumerate(belief.events):
+    for k, event in enumerate(model.events):
         others = [other for other in KINDS if other != event.kind]
-        models = [timed(with_kind(belief, k, other), k) for other in others]
+        models = [timed(with_kind(model, k, other), k) for other in others]
         rival = nearest(models)
-        if farther(rival, belief) < CLEAR:
+        if farther(rival, model) < CLEAR:
             open_to = replace(event, unclear=True, aside=rival.events[k].t - event.t)
-            events = (*belief.events[:k], open_to, *belief.events[k + 1 :])
-            belief = replace(belief, events=events)
-    return refitted(belief) if any(event.unclear for event in belief.events) else belief
+            events = (*model.events[:k], open_to, *model.events[k + 1 :])
+            model = replace(model, events=events)
+    return refitted(model) if any(event.unclear for event in model.events) else model
 
 
-def joined(belief: Believed, k: int) -> Believed:
+def joined(model: RecordModel, k: int) -> RecordModel:
     """Return the belief with one event for two neighbours, of the kind and moment that are best."""
-    one, two = belief.events[k : k + 2]
-    models: list[Believed] = []
+    one, two = model.events[k : k + 2]
+    models: list[RecordModel] = []
     for t in (one.t, 0.5 * (one.t + two.t), two.t):
-        events = (*belief.events[:k], replace(one, t=t), *belief.events[k + 2 :])
-        either = [with_kind(replace(belief, events=events), k, kind) for kind in KINDS]
+        events = (*model.events[:k], replace(one, t=t), *model.events[k + 2 :])
+        either = [with_kind(replace(model, events=events), k, kind) for kind in KINDS]
         models.append(timed(nearest(either), k))
     return timed(nearest(models))
 
 
-def merged(belief: Believed) -> Believed:
+def merged(model: RecordModel) -> RecordModel:
     """Return the belief with neighbouring events as one, where one explains as much as two.
 
     A touch between two cuts first shows as an event at either; one that was put at a wrong moment
     draws another near, which mends that.
     """
-    reach = NEAR * belief.spacing if belief.wanders else SWINGS * slowest(belief)
-    belief = replace(belief, events=tuple(sorted(belief.events, key=lambda event: event.t)))
+    reach = NEAR * model.spacing if model.wanders else SWINGS * slowest(model)
+    model = replace(model, events=tuple(sorted(model.events, key=lambda event: event.t)))
     k = 0
-    while k + 1 < len(belief.events):
-        if belief.events[k + 1].t - belief.events[k].t < reach:
-            one = joined(belief, k)
-            if farther(one, belief) < threshold(belief.spacing):
-                belief, k = one, max(k - 1, 0)
+    while k + 1 < len(model.events):
+        if model.events[k + 1].t - model.events[k].t < reach:
+            one = joined(model, k)
+            if farther(one, model) < threshold(model.spacing):
+                model, k = one, max(k - 1, 0)
                 continue
         k += 1
-    return belief
+    return model
 
 
-def surprises_of(belief: Believed) -> Floats:
+def surprises_of(model: RecordModel) -> Floats:
     """Return the chi-square (of 3) with which each event differs from nothing."""
-    fit, after = belief.fitted, smooth_at(belief.fitted)
-    rows = rows_of(fit, belief.events)
+    fit, after = model.fitted, smooth_at(model.fitted)
+    rows = rows_of(fit, model.events)
     jump, spread = fit.jumps[rows, :3], after.jump_covariance[rows, :3, :3]
     return np.einsum("ka,ka->k", jump, np.linalg.solve(spread, jump[..., None])[..., 0])
 
 
-def colour_of(belief: Believed) -> float:
+def colour_of(model: RecordModel) -> float:
     """Return the peak of the spectral density of what is left, over its mean."""
-    at = belief.fitted.at
+    at = model.fitted.at
     return max(spectral_peak(left) for left in (at.left_q, at.left_w))
 
 
-def without(belief: Believed, k: int) -> Believed:
+def without(model: RecordModel, k: int) -> RecordModel:
     """Return the belief without one event, all others where they are then best."""
-    events = belief.events[:k] + belief.events[k + 1 :]
-    return timed(refitted(replace(belief, events=events)))
+    events = model.events[:k] + model.events[k + 1 :]
+    return timed(refitted(replace(model, events=events)))
 
 
-def pruned(belief: Believed, colour: float = 1.0) -> Believed:
+def pruned(model: RecordModel, colour: float = 1.0) -> RecordModel:
     """Return the belief without the events that do not earn their place.
 
     An event may owe its surprise to another at a wrong moment: those of doubt are judged by what is
     lost without them when all others have moved. Where what is left is not white, a surprise by
     chance is greater: at most by its ``colour``, the peak of its spectral density.
     """
-    price = threshold(belief.spacing) * colour
-    while belief.events:
-        worth = surprises_of(belief)
+    price = threshold(model.spacing) * colour
+    while model.events:
+        worth = surprises_of(model)
         doubtful = [k for k in np.argsort(worth) if worth[k] < DOUBTFUL * price]
-        trials = (without(belief, k) for k in doubtful)
-        lost = (t for t in trials if farther(t, belief) < price)
+        trials = (without(model, k) for k in doubtful)
+        lost = (t for t in trials if farther(t, model) < price)
         simpler = next(lost, None)
         if simpler is None:
             break
-        belief = simpler
-    return belief
+        model = simpler
+    return model
 
 
-def relocated(belief: Believed, k: int) -> Believed:
+def relocated(model: RecordModel, k: int) -> RecordModel:
     """Return the belief with one event within a swing of where it is, as what explains most.
 
     What explains it best may lie at several moments of a swing; Newton steps find the nearest. A
     part that shifts bends the swing behind it as a touch half a swing before or later would.
     """
-    row = np.arange(len(belief.events)) == k
-    moved = [later(belief, share * slowest(belief) * row) for share in FAR]
+    row = np.arange(len(model.events)) == k
+    moved = [later(model, share * slowest(model) * row) for share in OUTLYING]
     trials = [with_kind(one, k, kind) for one in moved for kind in KINDS]
     best = timed(nearest(trials))
-    return nearest([belief, best])
+    return nearest([model, best])
 
 
-def settled(belief: Believed) -> Believed:
+def settled(model: RecordModel) -> RecordModel:
     """Return the belief with its events in their place and none that is not needed."""
-    if not belief.events:
-        return belief
-    belief = timed(merged(belief))
-    if not belief.wanders:
-        for k in range(len(belief.events)):
-            belief = relocated(belief, k)
-    return pruned(belief)
+    if not model.events:
+        return model
+    model = timed(merged(model))
+    if not model.wanders:
+        for k in range(len(model.events)):
+            model = relocated(model, k)
+    return pruned(model)

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.events.event_times import later, moment_errors
-from equipoise.estimation.events.record_model import Believed, farther
+from equipoise.estimation.events.record_model import RecordModel, farther
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.estimation.output_error.trajectory import METHOD
 from equipoise.model.arrays import Floats
@@ -38,14 +38,14 @@ def columns_of(
     return moved.reshape(len(found), len(shifted)) / np.sqrt(np.maximum(rise, 1.0))
 
 
-def with_moments(concluded: Estimate, belief: Believed) -> Estimate:
+def with_moments(concluded: Estimate, record_model: RecordModel) -> Estimate:
     """Return an estimate whose intervals count that the moments of its events are not known."""
-    if not belief.events:
+    if not record_model.events:
         return concluded
-    _, sd = moment_errors(belief)
-    models = [later(belief, row) for row in np.diag(sd)]
-    shifted = [conclude(model.fitted, METHOD, belief.recording) for model in models]
-    rise = np.array([farther(model, belief) for model in models])
+    _, sd = moment_errors(record_model)
+    models = [later(record_model, row) for row in np.diag(sd)]
+    shifted = [conclude(model.fitted, METHOD, record_model.recording) for model in models]
+    rise = np.array([farther(model, record_model) for model in models])
     columns = columns_of(concluded.parameters, [one.parameters for one in shifted], rise)
     ratios = columns_of(concluded.ratios, [one.ratios for one in shifted], rise)
     return replace(

@@ -17,8 +17,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.jump_test import TOLD
-from equipoise.estimation.events.record_model import Believed, Happening, refitted
+from equipoise.estimation.events.jump_test import INFORMATIVE
+from equipoise.estimation.events.record_model import Happening, RecordModel, refitted
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
 from equipoise.estimation.parameters.fit_parameters import RATE, TURN, unknowns_of
 from equipoise.maths.attitude import to_matrix
@@ -30,7 +30,7 @@ FARTHEST = {False: 8.0, True: 1.0}  # spacings a step, without and with process 
 STEPS = 12
 SHARES = (1.0, 0.3)  # of a step that are tried
 CLOSE = 0.1  # sd, chosen: a moment that is off by less is found
-APART = 0.25  # spacings, chosen: two events are not told apart any nearer
+SEPARATION = 0.25  # spacings, chosen: two events are not told apart any nearer
 
 
 def rows_of(fit: Fitted, events: tuple[Happening, ...]) -> list[int]:
@@ -39,58 +39,58 @@ def rows_of(fit: Fitted, events: tuple[Happening, ...]) -> list[int]:
     return [at[round(event.t, 9)] for event in events]
 
 
-def lateness(belief: Believed, kind: str, jump: Vector3, flat: Floats) -> tuple[slice, Vector3]:
+def lateness(model: RecordModel, kind: str, jump: Vector3, flat: Floats) -> tuple[slice, Vector3]:
     """Return d and the coordinates it is about, from the state behind the event."""
     if kind == "impulse":
         return TURN, -jump
     here = unknowns_of(flat)
-    body = here.body(belief.testbed.body.mass)
-    weight = body.mass * belief.testbed.gravity
+    body = here.body(model.testbed.body.mass)
+    weight = body.mass * model.testbed.gravity
     torque: Vector3 = weight * np.cross(jump, to_matrix(here.q0).T @ DOWN_N)
     return RATE, -inverse_spd(body.inertia_P) @ torque
 
 
-def moment_errors(belief: Believed) -> tuple[Floats, Floats]:
+def moment_errors(model: RecordModel) -> tuple[Floats, Floats]:
     """Return by how much each event came later than believed, and the sd, s; no h: 0 and 0."""
-    fit, after = belief.fitted, smooth_at(belief.fitted)
-    late, sd = np.zeros((2, len(belief.events)))
-    for i, k in enumerate(rows_of(fit, belief.events)):
-        kind = belief.events[i].kind
-        B, d = lateness(belief, kind, fit.jumps[k, :3], after.points[k + 1])
+    fit, after = model.fitted, smooth_at(model.fitted)
+    late, sd = np.zeros((2, len(model.events)))
+    for i, k in enumerate(rows_of(fit, model.events)):
+        kind = model.events[i].kind
+        B, d = lateness(model, kind, fit.jumps[k, :3], after.points[k + 1])
         P, C, p = after.information[k + 1], after.covariance[k + 1], after.score[k + 1]
         behind, across = d @ P[B, B] @ d, P[:, B] @ d
         h = behind - across @ C @ across
-        if h > TOLD * behind:
+        if h > INFORMATIVE * behind:
             late[i], sd[i] = d @ p[B] / h, h**-0.5
     return late, sd
 
 
-def later(belief: Believed, shifts: Floats) -> Believed:
+def later(model: RecordModel, shifts: Floats) -> RecordModel:
     """Return the belief with each event later by ``shifts`` (s), where there is room for it."""
-    start, end = belief.recording.span
-    events = list(belief.events)
-    for k, event in enumerate(belief.events):
+    start, end = model.recording.span
+    events = list(model.events)
+    for k, event in enumerate(model.events):
         t = event.t + float(shifts[k])
         others = (e.t for j, e in enumerate(events) if j != k)
-        free = all(abs(t - other) > APART * belief.spacing for other in others)
-        if free and start + belief.spacing < t < end - belief.spacing:
+        free = all(abs(t - other) > SEPARATION * model.spacing for other in others)
+        if free and start + model.spacing < t < end - model.spacing:
             events[k] = replace(event, t=t)
-    return refitted(replace(belief, events=tuple(events)), belief.events)
+    return refitted(replace(model, events=tuple(events)), model.events)
 
 
-def timed(belief: Believed, only: int | None = None) -> Believed:
+def timed(model: RecordModel, only: int | None = None) -> RecordModel:
     """Return the belief with its events (or one) at the moments that explain most."""
-    most = FARTHEST[belief.wanders] * belief.spacing
-    chosen = np.ones(len(belief.events)) if only is None else np.arange(len(belief.events)) == only
+    most = FARTHEST[model.wanders] * model.spacing
+    chosen = np.ones(len(model.events)) if only is None else np.arange(len(model.events)) == only
     for _ in range(STEPS):
-        late, sd = moment_errors(belief)
+        late, sd = moment_errors(model)
         step = chosen * np.clip(late, -most, most)
         if np.all(np.abs(step) <= CLOSE * sd):
             break
-        trials = (later(belief, share * step) for share in SHARES)
-        better = (t for t in trials if t.fitted.at.cost < belief.fitted.at.cost)
+        trials = (later(model, share * step) for share in SHARES)
+        better = (t for t in trials if t.fitted.at.cost < model.fitted.at.cost)
         nearer = next(better, None)
         if nearer is None:
             break
-        belief = nearer
-    return belief
+        model = nearer
+    return model

@@ -21,7 +21,7 @@ import numpy as np
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.model.arrays import Floats, Series1
 
-TOLD = 1e-6  # chosen: a smaller share of the information behind a cut is rounding
+INFORMATIVE = 1e-6  # chosen: a smaller share of the information behind a cut is rounding
 
 
 class Disturbances(NamedTuple):
@@ -42,7 +42,9 @@ def disturbances(smoothed: Smoothed, coordinates: slice) -> Disturbances:
     finite = np.isfinite(all_rows).all(axis=(1, 2)) & np.isfinite(p).all(axis=1)
     all_rows = np.where(finite[:, None, None], all_rows, 0.0)
     p = np.where(finite[:, None], p, 0.0)
-    told = finite & (np.linalg.eigvalsh(all_rows)[:, 0] > TOLD * np.einsum("kaa->k", behind))
-    D = np.where(told[:, None, None], all_rows, np.eye(all_rows.shape[1]))
-    jump = np.where(told[:, None], np.linalg.solve(D, p[..., None])[..., 0], 0.0)
+    reported = finite & (
+        np.linalg.eigvalsh(all_rows)[:, 0] > INFORMATIVE * np.einsum("kaa->k", behind)
+    )
+    D = np.where(reported[:, None, None], all_rows, np.eye(all_rows.shape[1]))
+    jump = np.where(reported[:, None], np.linalg.solve(D, p[..., None])[..., 0], 0.0)
     return Disturbances(np.einsum("ka,ka->k", jump, p), jump, D, p)

@@ -18,7 +18,7 @@ from scipy.stats import chi2
 from equipoise.estimation.events.detection_threshold import KINDS
 from equipoise.estimation.events.jump_test import disturbances
 from equipoise.estimation.events.record_model import (
-    Believed,
+    RecordModel,
     improbability,
     misfits,
     refitted,
@@ -40,32 +40,32 @@ LEAST = 1e-3  # chosen: of the greatest process noise, so that no sd is zero
 PRICE = 9.0  # chosen: -2 ln probability that process noise about three axes must gain
 
 
-def quiet(belief: Believed, cuts: Series1) -> Bools:
+def quiet(model: RecordModel, cuts: Series1) -> Bools:
     """Return which cuts are away from every event."""
-    far = np.ones(len(cuts), dtype=bool)
-    for event in belief.events:
-        far &= np.abs(cuts - event.t) > 0.75 * belief.spacing
-    return far
+    outlying = np.ones(len(cuts), dtype=bool)
+    for event in model.events:
+        outlying &= np.abs(cuts - event.t) > 0.75 * model.spacing
+    return outlying
 
 
-def surprises(far: Bools, after: Smoothed) -> dict[str, Floats]:
+def surprises(outlying: Bools, after: Smoothed) -> dict[str, Floats]:
     """Return the surprise of every cut for each kind of event; events themselves surprise not."""
     tests = {kind: disturbances(after, columns) for kind, columns in KINDS.items()}
-    return {kind: np.where(far, test.surprise, 0.0) for kind, test in tests.items()}
+    return {kind: np.where(outlying, test.surprise, 0.0) for kind, test in tests.items()}
 
 
-def first_walk(belief: Believed) -> float:
+def first_walk(model: RecordModel) -> float:
     """Return process noise that bends the motion by the misfit within ten cuts, N m sqrt(s)."""
-    fit = belief.fitted
+    fit = model.fitted
     camera, gyro = misfits(fit)
-    sd = fit.problem.seen.attitude_sd if len(camera) else fit.problem.seen.rate_sd
+    sd = fit.problem.observed.attitude_sd if len(camera) else fit.problem.observed.rate_sd
     left = float(np.sqrt(np.median(camera if len(camera) else gyro))) * sd
-    moment = float(np.trace(belief.testbed.body.inertia_P)) / 3
-    span = 10 * belief.spacing
+    moment = float(np.trace(model.testbed.body.inertia_P)) / 3
+    span = 10 * model.spacing
     return moment * left / span ** (1.5 if len(camera) else 0.5)
 
 
-def noise_factors(belief: Believed, fit: Fitted, after: Smoothed) -> tuple[float, float]:
+def noise_factors(model: RecordModel, fit: Fitted, after: Smoothed) -> tuple[float, float]:
     """Return by how much the camera's and the gyro's noise are off, by the median row."""
     camera, gyro = misfits(fit)
     rows = 3 * (len(camera) + len(gyro))
@@ -82,9 +82,9 @@ def is_known(factor: float, rows: int) -> bool:
     return abs(np.log(factor)) < max(CALM, CHANCE / np.sqrt(max(rows, 1)))
 
 
-def noisier(belief: Believed, camera: float, gyro: float) -> Testbed:
+def noisier(model: RecordModel, camera: float, gyro: float) -> Testbed:
     """Return the testbed with its noise changed by these factors, within reason."""
-    testbed, stated = belief.testbed, belief.stated
+    testbed, stated = model.testbed, model.stated
     attitude, rate = testbed.attitude, testbed.gyro
     least_q = BEST * stated.attitude.noise if stated.attitude else 0.0
     least_w = BEST * stated.gyro.noise if stated.gyro else 0.0
@@ -95,71 +95,71 @@ def noisier(belief: Believed, camera: float, gyro: float) -> Testbed:
     )
 
 
-def excesses(after: Smoothed, far: Bools) -> Vector3:
+def excesses(after: Smoothed, outlying: Bools) -> Vector3:
     """Return, for each body axis, the median score of the cuts over what it should be."""
     test = disturbances(after, RATE)
     square = test.score**2 / np.einsum("kaa->ka", test.information)
-    return np.sqrt(np.median(square[far], axis=0) / MEDIAN_1)
+    return np.sqrt(np.median(square[outlying], axis=0) / MEDIAN_1)
 
 
-def calibrated(belief: Believed) -> tuple[Believed, dict[str, Floats], Fitted]:
+def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitted]:
     """Return the belief with process noise and sensor noise as the record has them."""
     for calibration in count():
-        belief = refitted(belief)
-        fit, after = smoothed(belief)
-        far = quiet(belief, np.array([jump.t for jump in fit.problem.jumps]))
-        surprise, excess = surprises(far, after), excesses(after, far)
-        factors = noise_factors(belief, fit, after)
-        steady = not belief.wanders or bool(np.all(np.abs(np.log(np.maximum(excess, 1e-9))) < CALM))
+        model = refitted(model)
+        fit, after = smoothed(model)
+        outlying = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
+        surprise, excess = surprises(outlying, after), excesses(after, outlying)
+        factors = noise_factors(model, fit, after)
+        steady = not model.wanders or bool(np.all(np.abs(np.log(np.maximum(excess, 1e-9))) < CALM))
         camera, gyro = (len(rows) for rows in (fit.at.left_q, fit.at.left_w))
         known = is_known(factors[0], camera) and is_known(factors[1], gyro)
         if (steady and known) or calibration >= CALIBRATIONS:
-            return belief, surprise, fit
+            return model, surprise, fit
         bold = np.clip(excess, 1 / BOLDEST, BOLDEST)
-        testbed = noisier(belief, *np.clip(factors, 1 / BOLDEST, BOLDEST))
-        belief = replace(belief, walk=belief.walk * bold, testbed=testbed)
+        testbed = noisier(model, *np.clip(factors, 1 / BOLDEST, BOLDEST))
+        model = replace(model, walk=model.walk * bold, testbed=testbed)
     raise AssertionError  # counting does not end
 
 
-def likelier(belief: Believed) -> Believed:
+def likelier(model: RecordModel) -> RecordModel:
     """Return the belief with noise and process noise one step nearer to the likeliest.
 
     What a variance explains over what it is free to: sum u^2 / sd^2 over sum (1 - C / sd^2) for
     jumps u of smoothed covariance C, and sum e^2 over the rows less all that was sought (the
     fixed point of restricted maximum likelihood; MacKay 1992, Helmert 1924).
     """
-    fit, after = smoothed(belief)
+    fit, after = smoothed(model)
     noise = [jump.is_noise for jump in fit.problem.jumps]
     if not any(noise):
-        return belief
+        return model
     sd = np.array([jump.sd for jump, one in zip(fit.problem.jumps, noise, strict=True) if one])
     u, spread = fit.jumps[noise, :3], np.einsum("kaa->ka", after.jump_covariance[noise, :3, :3])
-    told = np.maximum(np.sum(1 - spread / sd**2, axis=0), 1e-9)
-    walk = belief.walk * np.sqrt(np.sum(u**2 / sd**2, axis=0) / told)
+    reported = np.maximum(np.sum(1 - spread / sd**2, axis=0), 1e-9)
+    walk = model.walk * np.sqrt(np.sum(u**2 / sd**2, axis=0) / reported)
     walk = np.maximum(walk, LEAST * walk.max())
     camera, gyro = misfits(fit)
     share = 1 - (freedom(fit, after) + fit.problem.layout.size) / (3 * (len(camera) + len(gyro)))
     factors = [
         float(np.sqrt(np.mean(e) / 3 / max(share, 0.1))) if len(e) else 1.0 for e in (camera, gyro)
     ]
-    return refitted(replace(belief, walk=walk, testbed=noisier(belief, *factors)))
+    return refitted(replace(model, walk=walk, testbed=noisier(model, *factors)))
 
 
-def weighed(belief: Believed) -> Believed:
+def weighed(record_model: RecordModel) -> RecordModel:
     """Return the belief with the likeliest noise and process noise, or without the latter.
 
     The search begins at less process noise than the calibration left: of two that explain the
     record, the one that leaves more to the sensors is as a rule the likelier.
     """
-    if not belief.wanders:
-        return belief
-    trial = refitted(replace(belief, walk=0.3 * belief.walk))
+    if not record_model.wanders:
+        return record_model
+    trial = refitted(replace(record_model, walk=0.3 * record_model.walk))
     for _ in range(STEPS):
         trial = likelier(trial)
     bare = refitted(replace(trial, walk=np.zeros(3)))
     for _ in range(3):
         fit, after = smoothed(bare)
         bare = refitted(replace(bare, testbed=noisier(bare, *noise_factors(bare, fit, after))))
-    worth = [improbability(model) for model in (belief, trial, bare)]
+    worth = [improbability(model) for model in (record_model, trial, bare)]
     worth[2] -= PRICE
-    return (belief, trial, bare)[int(np.argmin(worth))]
+    return (record_model, trial, bare)[int(np.argmin(worth))]

@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import chi2
 
-from equipoise.estimation.events.record_model import Believed, refitted
+from equipoise.estimation.events.record_model import RecordModel, refitted
 from equipoise.model.arrays import Floats
 
 BLOCKS = 8  # chosen: with fewer a mean square says nothing
@@ -48,14 +48,14 @@ def densest(u: Floats, blocks: int = BLOCKS) -> Floats:
     return found
 
 
-def coloured(belief: Believed) -> Believed:
+def coloured(model: RecordModel) -> RecordModel:
     """Return the belief with process noise as dense as it is at the frequency where it is most."""
-    if not belief.wanders:
-        return belief
-    jumps, values = belief.fitted.problem.jumps, belief.fitted.jumps
+    if not model.wanders:
+        return model
+    jumps, values = model.fitted.problem.jumps, model.fitted.jumps
     noise = [jump.is_noise for jump in jumps]
     sd = np.array([jump.sd[:3] for jump, one in zip(jumps, noise, strict=True) if one])
     ratio = densest(values[noise, :3] / sd)
     if np.all(ratio == 1.0):
-        return belief
-    return refitted(replace(belief, walk=belief.walk * np.sqrt(ratio)))
+        return model
+    return refitted(replace(model, walk=model.walk * np.sqrt(ratio)))

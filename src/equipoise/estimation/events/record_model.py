@@ -46,7 +46,7 @@ class Happening:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Believed:
+class RecordModel:
     """A model of a record, and the fit in it."""
 
     recording: Recording
@@ -70,69 +70,69 @@ class Believed:
         return float(self.cuts[1] - self.cuts[0]) if len(self.cuts) > 1 else 1.0
 
 
-def jumps_of(belief: Believed, cuts: Series1) -> tuple[Jump, ...]:
+def jumps_of(model: RecordModel, cuts: Series1) -> tuple[Jump, ...]:
     """Return the jumps of a model: process noise, events, and cuts where nothing may jump."""
-    at_event = [event.t for event in belief.events]
+    at_event = [event.t for event in model.events]
     plain = cuts[[all(abs(t - s) > 1e-9 for s in at_event) for t in cuts]]
-    if belief.wanders:
-        moments = np.diag(belief.testbed.body.inertia_P)
-        sd = belief.walk * np.sqrt(belief.spacing) / moments
+    if model.wanders:
+        moments = np.diag(model.testbed.body.inertia_P)
+        sd = model.walk * np.sqrt(model.spacing) / moments
         noise = walk(plain, RATE, sd)
     else:
         noise = tuple(Jump(float(t), (), ()) for t in plain)
-    return inside((*noise, *(event.jump for event in belief.events)), *belief.recording.span)
+    return inside((*noise, *(event.jump for event in model.events)), *model.recording.span)
 
 
 def fitted_in(
-    belief: Believed, cuts: Series1, most: int, moved: tuple[Happening, ...] = ()
+    model: RecordModel, cuts: Series1, most: int, moved: tuple[Happening, ...] = ()
 ) -> Fitted:
     """Return the optimum of a model with these cuts, from where the belief stands.
 
     ``moved``: where the events were in the fit that the belief holds, if elsewhere.
     """
-    jumps = jumps_of(belief, cuts)
-    params = replace(belief.params, jumps=jumps)
-    problem = problem_of(belief.recording, belief.testbed, params)
-    before = belief.fitted
-    now = {old.t: event.t for old, event in zip(moved, belief.events, strict=bool(moved))}
+    jumps = jumps_of(model, cuts)
+    params = replace(model.params, jumps=jumps)
+    problem = problem_of(model.recording, model.testbed, params)
+    before = model.fitted
+    now = {old.t: event.t for old, event in zip(moved, model.events, strict=bool(moved))}
     old = tuple(replace(jump, t=now.get(jump.t, jump.t)) for jump in before.problem.jumps)
     first = carried(old, before.jumps, problem.jumps)
     return settle_pinned(problem, before.point, first, most)
 
 
-def refitted(belief: Believed, moved: tuple[Happening, ...] = ()) -> Believed:
+def refitted(model: RecordModel, moved: tuple[Happening, ...] = ()) -> RecordModel:
     """Return the belief at its optimum, with a cut only where something may jump."""
-    return replace(belief, fitted=fitted_in(belief, active(belief), EACH, moved))
+    return replace(model, fitted=fitted_in(model, active(model), EACH, moved))
 
 
-def active(belief: Believed) -> Series1:
+def active(model: RecordModel) -> Series1:
     """Return the cuts at which something may jump."""
-    return belief.cuts if belief.wanders else np.zeros(0)
+    return model.cuts if model.wanders else np.zeros(0)
 
 
-def smoothed(belief: Believed) -> tuple[Fitted, Smoothed]:
+def smoothed(model: RecordModel) -> tuple[Fitted, Smoothed]:
     """Return the fit with every cut in it, and what is known of every stretch."""
-    fit = fitted_in(belief, belief.cuts, 1)
+    fit = fitted_in(model, model.cuts, 1)
     return fit, smooth_at(fit)
 
 
-def nearest(models: Iterable[Believed]) -> Believed:
+def nearest(models: Iterable[RecordModel]) -> RecordModel:
     """Return the model that explains the record best, whatever it took."""
     return min(models, key=lambda model: model.fitted.at.cost)
 
 
-def farther(model: Believed, other: Believed) -> float:
+def farther(model: RecordModel, other: RecordModel) -> float:
     """Return the chi-square by which a model is farther from the record than another."""
     return 2.0 * (model.fitted.at.cost - other.fitted.at.cost)
 
 
-def slowest(belief: Believed) -> float:
+def slowest(model: RecordModel) -> float:
     """Return the time (s) within which gravity must tell: that of the swing, over 2 pi."""
-    body = belief.fitted.point.body(belief.testbed.body.mass)
-    stiffness = body.mass * belief.testbed.gravity * float(np.linalg.norm(body.com))
-    start, end = belief.recording.span
+    body = model.fitted.point.body(model.testbed.body.mass)
+    stiffness = body.mass * model.testbed.gravity * float(np.linalg.norm(body.com))
+    start, end = model.recording.span
     swing = float(np.sqrt(np.trace(body.inertia_P) / 3 / max(stiffness, 1e-12)))
-    return float(np.clip(swing, belief.spacing, end - start))
+    return float(np.clip(swing, model.spacing, end - start))
 
 
 def misfits(fit: Fitted) -> tuple[Floats, Floats]:
@@ -148,10 +148,10 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
     An event has no prior to speak of: all else is as informed as if it were known, and it costs
     ``price``, the surprise that it must exceed.
     """
-    seen, prior = fit.problem.seen, fit.problem.prior
+    observed, prior = fit.problem.observed, fit.problem.prior
     loose = (prior.weight > 0) & ~prior.held
     total = 2.0 * fit.at.cost + log_det(fit.at.normal) - float(np.sum(np.log(prior.weight[loose])))
-    for rows, sd in ((seen.attitude, seen.attitude_sd), (seen.rate, seen.rate_sd)):
+    for rows, sd in ((observed.attitude, observed.attitude_sd), (observed.rate, observed.rate_sd)):
         total += 6.0 * len(rows) * float(np.log(sd))
     cuts, jumps = posed(fit.problem).cuts, fit.problem.jumps
     for k, (jump, free, weight) in enumerate(zip(jumps, cuts.free, cuts.weight, strict=True)):
@@ -166,9 +166,9 @@ def evidence(fit: Fitted, after: Smoothed, price: float) -> float:
     return total
 
 
-def improbability(belief: Believed) -> float:
+def improbability(model: RecordModel) -> float:
     """Return -2 ln of how probable the record is in a model, its events at the usual price."""
-    return evidence(*smoothed(belief), threshold(belief.spacing))
+    return evidence(*smoothed(model), threshold(model.spacing))
 
 
 def log_det(matrix: Square) -> float:

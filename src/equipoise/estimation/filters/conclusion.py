@@ -16,7 +16,7 @@ is told where it is more than the rest, beside the rule |w|^2 dJ / (m g).
 
 import numpy as np
 
-from equipoise.estimation.filters.driver import State, advance, begin, told
+from equipoise.estimation.filters.driver import State, advance, begin, reported
 from equipoise.estimation.filters.model import Kind
 from equipoise.estimation.filters.rows import Rows, camera_rows, gyro_rows
 from equipoise.estimation.method_contract import Card, origin_of, refused
@@ -40,7 +40,7 @@ def fault(kind: Kind, recording: Recording, testbed: Testbed) -> str:
         return "It needs a camera, in the record and in the testbed."
     if not kind.attitude and (recording.rate is None or testbed.gyro is None):
         return "It needs a gyro, in the record and in the testbed."
-    if kind.told == 12 and not drives(recording):
+    if kind.estimated == 12 and not drives(recording):
         return (
             "It needs a known torque, stored momentum or move that changes: free motion shows "
             "inertia and centre of mass by their ratio only."
@@ -84,14 +84,14 @@ def standing_covariance(rows: Rows, recording: Recording, testbed: Testbed) -> M
 
 def leaning(state: State, testbed: Testbed) -> Matrix3:
     """Return what a camera whose vertical leans adds to the covariance of com, m^2: it turns it."""
-    com = state.belief[7:10]
+    com = state.mean[7:10]
     sd = testbed.attitude.plumb_sd if testbed.attitude else 0.0
     return sd**2 * (com @ com * np.eye(3) - np.outer(com, com))
 
 
 def at_home(state: State, unseen: Matrix3) -> Floats:
     """Return the covariance of what is told, com with the masses at home."""
-    out, shown = told(state)[1].copy(), state.shown[:3, :3]
+    out, shown = reported(state)[1].copy(), state.shown[:3, :3]
     size = len(shown)
     out[:size, :size] += shown @ unseen @ shown.T
     return out
@@ -99,7 +99,7 @@ def at_home(state: State, unseen: Matrix3) -> Floats:
 
 def parameters_of(state: State, covariance: Floats) -> tuple[Parameter, ...]:
     """Return what is told."""
-    values, sd = told(state)[0], np.sqrt(np.diag(covariance))
+    values, sd = reported(state)[0], np.sqrt(np.diag(covariance))
     units = ["kg m2" if name in INERTIA else "m" for name in state.names]
     return tuple(
         Parameter(name, unit, float(value), float(spread))
@@ -117,8 +117,11 @@ def left_out(state: State, rows: Rows, testbed: Testbed) -> str:
     if by < rest:
         return ""
     moments = np.linalg.eigvalsh(body.inertia_P)
-    square, apart = float(np.sum(rows.seen**2)) / len(rows.seen), moments[-1] - moments[0]
-    rule = square * float(apart) / (body.mass * testbed.gravity)
+    square, separation = (
+        float(np.sum(rows.observed**2)) / len(rows.observed),
+        moments[-1] - moments[0],
+    )
+    rule = square * float(separation) / (body.mass * testbed.gravity)
     return (
         f" The gyroscopic torque and products of inertia that the simplified model leaves out move "
         f"com by some {1e6 * by:.2g} um (|w|^2 dJ / m g: {1e6 * rule:.2g} um), more than all "
@@ -129,8 +132,8 @@ def left_out(state: State, rows: Rows, testbed: Testbed) -> str:
 
 def outcome_of(surprise: Series1, text: str) -> Outcome:
     """Return whether the numbers may be used."""
-    seen = surprise[np.isfinite(surprise)]
-    ratio = float(np.mean(seen)) / 3 if len(seen) else np.nan
+    observed = surprise[np.isfinite(surprise)]
+    ratio = float(np.mean(observed)) / 3 if len(observed) else np.nan
     first = f"Filtered to the last row; innovations are {ratio:.2g} times what they should be"
     if not ratio < SURPRISED:
         return Outcome(
@@ -141,16 +144,16 @@ def outcome_of(surprise: Series1, text: str) -> Outcome:
 
 def broken(state: State) -> bool:
     """Say whether a belief is none: not a number, or an inertia that is not positive."""
-    if not np.all(np.isfinite(state.belief)):
+    if not np.all(np.isfinite(state.mean)):
         return True
-    return bool(np.linalg.eigvalsh(unpack_symmetric(state.belief[10:]))[0] <= 0)
+    return bool(np.linalg.eigvalsh(unpack_symmetric(state.mean[10:]))[0] <= 0)
 
 
 def possible(state: State, testbed: Testbed) -> bool:
     """Say whether some body can have what was found; J that is not told is not found."""
-    com, inertia = state.belief[7:10], unpack_symmetric(state.belief[10:])
+    com, inertia = state.mean[7:10], unpack_symmetric(state.mean[10:])
     found = MassProperties(testbed.body.mass, com, inertia)
-    return state.kind.told < 12 or is_possible(found)
+    return state.kind.estimated < 12 or is_possible(found)
 
 
 def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> Estimate:

@@ -22,12 +22,12 @@ from equipoise.model.arrays import Floats
 
 
 @part
-def innovation(model: Model, now: Now, belief: Floats, q: Floats, seen: Floats) -> Triple:
+def innovation(model: Model, now: Now, mean: Floats, q: Floats, observed: Floats) -> Triple:
     """Return measured minus predicted."""
     if model.attitude:
-        return turn(belief, q)
-    w = rate_of(now, belief)
-    return (seen[0] - w[0], seen[1] - w[1], seen[2] - w[2])
+        return turn(mean, q)
+    w = rate_of(now, mean)
+    return (observed[0] - w[0], observed[1] - w[1], observed[2] - w[2])
 
 
 @part
@@ -53,7 +53,7 @@ def surprise_of(z: Triple, work: Work) -> float:
 
 
 @part
-def weigh(told: int, z: Triple, P: Floats, aside: int, work: Work) -> None:
+def weigh(estimated: int, z: Triple, P: Floats, aside: int, work: Work) -> None:
     """Write K and x = K z."""
     V, K, x = work.inverse, work.K, work.x
     for i in range(P.shape[0]):
@@ -62,7 +62,7 @@ def weigh(told: int, z: Triple, P: Floats, aside: int, work: Work) -> None:
             s = P[i, aside]
             a, b, d = a - s * P[0, aside], b - s * P[1, aside], d - s * P[2, aside]
         for c in range(3):
-            K[i, c] = a * V[0, c] + b * V[1, c] + d * V[2, c] if i < told else 0.0
+            K[i, c] = a * V[0, c] + b * V[1, c] + d * V[2, c] if i < estimated else 0.0
         x[i] = K[i, 0] * z[0] + K[i, 1] * z[1] + K[i, 2] * z[2]
 
 
@@ -84,39 +84,39 @@ def shrink(noise: float, P: Floats, work: Work) -> None:
 
 
 @part
-def apply(model: Model, now: Now, belief: Floats, x: Floats) -> None:
+def apply(model: Model, now: Now, mean: Floats, x: Floats) -> None:
     """Write the belief moved by the error state."""
     n, row = x.shape[0], 3 if model.attitude else 0
-    w, a = rate_of(now, belief), now.inertia
+    w, a = rate_of(now, mean), now.inertia
     w = (w[0] + x[row], w[1] + x[row + 1], w[2] + x[row + 2])
     if model.attitude:
-        belief[0], belief[1], belief[2], belief[3] = turned(belief, x[0], x[1], x[2])
+        mean[0], mean[1], mean[2], mean[3] = turned(mean, x[0], x[1], x[2])
     for k in range(min(3, n - row - 3)):
         for j in range(3):
-            belief[COM + j] += model.axes[j, k] * x[row + 3 + k]
+            mean[COM + j] += model.axes[j, k] * x[row + 3 + k]
     if n >= row + 12:
         for j in range(6):
-            belief[INERTIA + j] += x[row + 6 + j]
+            mean[INERTIA + j] += x[row + 6 + j]
         k = row + 6
         a = (a[0] + x[k], a[1] + x[k + 1], a[2] + x[k + 2],
              a[3] + x[k + 3], a[4] + x[k + 4], a[5] + x[k + 5])  # fmt: skip
     H = times(a, w)
     for j in range(3):
-        belief[4 + j] = H[j] + now.momentum[j]
+        mean[4 + j] = H[j] + now.momentum[j]
 
 
 @part
 def correct(
-    model: Model, now: Now, q: Floats, seen: Floats, belief: Floats, P: Floats, work: Work
+    model: Model, now: Now, q: Floats, observed: Floats, mean: Floats, P: Floats, work: Work
 ) -> float:
     """Correct belief and covariance by a row; return the squared innovation over its covariance."""
-    z = innovation(model, now, belief, q, seen)
+    z = innovation(model, now, mean, q, observed)
     expect(model.noise, P, -1, work)
     surprise, aside = surprise_of(z, work), -1
     if not model.gyroscopic:
         aside = P.shape[0] - 1
         expect(model.noise, P, aside, work)
-    weigh(model.told, z, P, aside, work)
+    weigh(model.estimated, z, P, aside, work)
     shrink(model.noise, P, work)
-    apply(model, now, belief, work.x)
+    apply(model, now, mean, work.x)
     return surprise

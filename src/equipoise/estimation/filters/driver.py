@@ -14,8 +14,8 @@ from equipoise.estimation.filters.model import (
     Walks,
     axes_of,
     column_of,
-    first_belief,
     first_covariance,
+    initial_state,
     model_of,
 )
 from equipoise.estimation.filters.predict import work_of
@@ -36,7 +36,7 @@ class State:
     model: Model
     names: tuple[str, ...]  # of what is told
     shown: Floats  # (names, 9) com and J to what is told
-    belief: Floats  # (16,) q, H (N m s), com (m), J (kg m^2), masses at home
+    mean: Floats  # (16,) q, H (N m s), com (m), J (kg m^2), masses at home
     covariance: Square  # (n, n) of the error state, see ``model``
 
 
@@ -55,31 +55,31 @@ def shown_of(kind: Kind, testbed: Testbed) -> tuple[tuple[str, ...], Floats]:
         name, sign = one
         along = sign * axes_of(kind, testbed.up)[:, 0]
         return (name,), np.concatenate([along, np.zeros(6)])[None, :]
-    return ((*COM, *INERTIA), np.eye(9)) if kind.told == 12 else (COM, np.eye(9)[:3])
+    return ((*COM, *INERTIA), np.eye(9)) if kind.estimated == 12 else (COM, np.eye(9)[:3])
 
 
 def begin(kind: Kind, testbed: Testbed, noise: float, walks: Walks = DEFAULT) -> State:
     """Return what is believed before the first row; ``noise`` (rad or rad/s): one sd of a row."""
     model = model_of(kind, testbed, noise**2, walks)
-    belief, covariance = first_belief(kind, testbed), first_covariance(kind, model, testbed)
-    return State(kind, model, *shown_of(kind, testbed), belief, covariance)
+    mean, covariance = initial_state(kind, testbed), first_covariance(kind, model, testbed)
+    return State(kind, model, *shown_of(kind, testbed), mean, covariance)
 
 
 def advance(state: State, rows: Rows) -> tuple[State, Passed]:
     """Return the state after some more rows, and what was believed after each."""
-    belief, P = state.belief.copy(), state.covariance.copy()
+    mean, P = state.mean.copy(), state.covariance.copy()
     out = np.empty((len(rows.node), NOTED))
-    follow(state.model, rows.drive, rows.node, rows.fresh, rows.seen, belief, P, work_of(len(P)),
+    follow(state.model, rows.drive, rows.node, rows.fresh, rows.observed, mean, P, work_of(len(P)),
            out)  # fmt: skip
     t, values, sd, surprise = np.split(out, [1, 10, 19], axis=1)
     # summed row by row, so that a row is the same number however many come with it
     shown = np.sum(values[:, None, :] * state.shown, axis=2)
     course = Course(state.names, t[:, 0], shown, sd[:, : len(state.names)])
-    after = State(state.kind, state.model, state.names, state.shown, belief, P)
+    after = State(state.kind, state.model, state.names, state.shown, mean, P)
     return after, Passed(course, surprise[:, 0])
 
 
-def told(state: State) -> tuple[Floats, Square]:
+def reported(state: State) -> tuple[Floats, Square]:
     """Return values of what is told and their covariance, SI."""
     row, n = 6 if state.kind.attitude else 3, len(state.names)
-    return state.shown @ state.belief[7:], state.covariance[row : row + n, row : row + n]
+    return state.shown @ state.mean[7:], state.covariance[row : row + n, row : row + n]

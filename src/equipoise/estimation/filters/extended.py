@@ -83,13 +83,13 @@ def carry(rows: int, P: Floats, work: Work) -> None:
 
 
 @part
-def extended(model: Model, drive: Drive, i: int, belief: Floats, P: Floats, work: Work) -> None:
+def extended(model: Model, drive: Drive, i: int, mean: Floats, P: Floats, work: Work) -> None:
     """Carry belief and covariance over step i by the linearised model."""
-    rigid = placed_at(model, belief)
+    rigid = placed_at(model, mean)
     ends = ends_of(model, drive, i, rigid)
     dt, rows = drive.t[i + 1] - drive.t[i], 6 if model.attitude else 3
     for j in range(7):
-        work.y[j] = belief[j]
+        work.y[j] = mean[j]
     for last in range(2):
         if last:
             stride(model, drive, i, rigid, ends, work)
@@ -97,4 +97,4 @@ def extended(model: Model, drive: Drive, i: int, belief: Floats, P: Floats, work
     transition(dt, rows, work)
     carry(rows, P, work)
     add_walks(model, ends[1].inverse, dt, P)
-    write_back(model, drive, i, belief, work.y)
+    write_back(model, drive, i, mean, work.y)

@@ -154,8 +154,8 @@ def write_jacobian(
         a = accelerated(full, w, push, not model.gyroscopic)
         write_inertia(full, w, a, row, Y, Z, F)
         if n > row + 12:
-            told = accelerated(now, w, push, False)
+            estimated = accelerated(now, w, push, False)
             for j in range(3):
-                F[row + j, row + 12] = a[j] - told[j]
+                F[row + j, row + 12] = a[j] - estimated[j]
     if model.attitude:
         write_attitude(now, w, g, F)

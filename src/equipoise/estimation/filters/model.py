@@ -8,7 +8,7 @@ g_B with it. dw is the rate (rad/s), dc the centre of mass (m) in the axes of th
 inertia about P (xx yy zz xy xz yz), both with the masses at home. mu = m r with m known: a state r
 is a state mu but for the unit.
 
-The first ``told`` elements are estimated. What stands behind them is considered (Schmidt): its
+The first ``reported`` elements are estimated. What stands behind them is considered (Schmidt): its
 covariance and its correlation with the rest are carried along, its gain is nought. So a filter that
 takes J as known knows how well: with P in blocks of the told x and the considered p,
 
@@ -35,7 +35,7 @@ import numpy as np
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.dynamics.rigid_body import Body, Six
-from equipoise.estimation.tracker.tracker import belief_of
+from equipoise.estimation.tracker.tracker import posterior_of
 from equipoise.maths.linalg import pack_symmetric, skew
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3, Vector6
 from equipoise.model.testbed import Testbed
@@ -48,7 +48,7 @@ class Kind(NamedTuple):
     """Which filter: what is a state, what is estimated of it, and how it is carried ahead."""
 
     attitude: bool  # the attitude is a state and a camera sees it; else an input, and a gyro sees w
-    told: int  # leading elements of the error state that are estimated
+    estimated: int  # leading elements of the error state that are estimated
     gyroscopic: bool = True  # False: the simplified model
     unscented: bool = False
     upright: bool = False  # com in axes of which the first is the testbed's up
@@ -71,7 +71,7 @@ class Model(NamedTuple):
     attitude: bool
     gyroscopic: bool
     unscented: bool
-    told: int
+    estimated: int
     noise: float  # variance of a row, an axis: rad^2 or (rad/s)^2
     torque_walk: float  # N m sqrt(s)
     com_walk: float  # m/sqrt(s)
@@ -99,11 +99,11 @@ def model_of(kind: Kind, testbed: Testbed, noise: float, walks: Walks) -> Model:
     return Model(
         body_of(body.mass, testbed.gravity, six, body.first_moment),
         stacked(mass_maps(testbed.masses)), axes_of(kind, testbed.up), cast("Six", left_out),
-        kind.attitude, kind.gyroscopic, kind.unscented, kind.told, noise, *walks,
+        kind.attitude, kind.gyroscopic, kind.unscented, kind.estimated, noise, *walks,
     )  # fmt: skip
 
 
-def first_belief(kind: Kind, testbed: Testbed) -> Floats:
+def initial_state(kind: Kind, testbed: Testbed) -> Floats:
     """Return q, H, com (m), J as one array (16); q and H are set at the first row."""
     return np.concatenate(
         [[1.0, 0, 0, 0], np.zeros(3), testbed.body.com, inertia_in(testbed, kind)]
@@ -112,7 +112,7 @@ def first_belief(kind: Kind, testbed: Testbed) -> Floats:
 
 def first_covariance(kind: Kind, model: Model, testbed: Testbed) -> Square:
     """Return the covariance before the first row, without what is known and not estimated."""
-    body = belief_of(testbed).covariance
+    body = posterior_of(testbed).covariance
     body[:3, :3] = model.axes.T @ body[:3, :3] @ model.axes
     o = 3 if kind.attitude else 0
     size = o + 12 if kind.gyroscopic else o + 13
@@ -120,7 +120,7 @@ def first_covariance(kind: Kind, model: Model, testbed: Testbed) -> Square:
     covariance[o + 3 : o + 12, o + 3 : o + 12] = body
     covariance[o + 12 :, o + 12 :] = 1.0
     unsure = np.flatnonzero(np.diag(covariance) > 0)
-    n = max(kind.told, int(unsure.max(initial=0)) + 1)
+    n = max(kind.estimated, int(unsure.max(initial=0)) + 1)
     return np.ascontiguousarray(covariance[:n, :n])
 
 

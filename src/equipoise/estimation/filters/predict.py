@@ -71,9 +71,9 @@ class Work(NamedTuple):
 
 
 @part
-def placed_at(model: Model, belief: Floats) -> Body:
+def placed_at(model: Model, mean: Floats) -> Body:
     """Return the body with the centre of mass and the inertia of a belief."""
-    return placed(model.body, belief[COM:])
+    return placed(model.body, mean[COM:])
 
 
 @part
@@ -145,13 +145,13 @@ def add_walks(model: Model, inverse: Six, dt: float, P: Floats) -> None:
 
 
 @part
-def write_back(model: Model, drive: Drive, i: int, belief: Floats, y: Floats) -> None:
+def write_back(model: Model, drive: Drive, i: int, mean: Floats, y: Floats) -> None:
     """Write q and H after step i."""
     for j in range(7):
-        belief[j] = y[j]
+        mean[j] = y[j]
     if not model.attitude:
         for j in range(4):
-            belief[j] = drive.q[i + 1, j]
+            mean[j] = drive.q[i + 1, j]
 
 
 def work_of(n: int) -> Work:

@@ -23,7 +23,7 @@ from equipoise.maths.attitude import continuous
 from equipoise.model.arrays import Bools, Floats, Ints, Series1, Series3, Series4
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 
 LONGEST = 0.25 * LONGEST_STEP  # s, chosen: Phi is good to (w dt)^3 / 6, 1e-3 at 45 deg/s
 
@@ -34,7 +34,7 @@ class Rows(NamedTuple):
     drive: Drive
     node: Ints  # (n,) of each row
     fresh: Bools  # (n,) a piece begins here
-    seen: Series3  # (n, 3) rad/s, of a gyro
+    observed: Series3  # (n, 3) rad/s, of a gyro
 
 
 def grid_of(recording: Recording, testbed: Testbed, t: Series1) -> Timeline:
@@ -93,7 +93,7 @@ def camera_rows(recording: Recording, testbed: Testbed) -> Rows | None:
     attitude = recording.attitude
     if attitude is None or len(attitude) < 2:
         return None
-    t = seen_at(attitude.t, testbed.attitude)
+    t = measured_at(attitude.t, testbed.attitude)
     w = np.zeros((len(t), 3))
     motion = LedMotion(t, attitude.values, w, pieces_of(t))
     return assembled(recording, testbed, motion, False)
@@ -105,4 +105,4 @@ def taken(rows: Rows, first: int, end: int) -> Rows:
     nodes = slice(start, int(rows.node[end - 1]) + 1)
     part = slice(first, end)
     drive = Drive(*(values[nodes] for values in rows.drive))
-    return Rows(drive, rows.node[part] - start, rows.fresh[part], rows.seen[part])
+    return Rows(drive, rows.node[part] - start, rows.fresh[part], rows.observed[part])

@@ -45,7 +45,7 @@ def root(P: Floats, weight: float, L: Floats) -> None:
 
 
 @part
-def shifted(model: Model, belief: Floats, column: int, sign: float, work: Work) -> None:
+def shifted(model: Model, mean: Floats, column: int, sign: float, work: Work) -> None:
     """Write the belief moved by a column of L into work.point, its rate in place of H.
 
     ``work.point`` holds the mean rate there beforehand.
@@ -53,18 +53,18 @@ def shifted(model: Model, belief: Floats, column: int, sign: float, work: Work) 
     L, point, n = work.L, work.point, work.L.shape[0]
     row = 3 if model.attitude else 0
     for j in range(4):
-        point[j] = belief[j]
+        point[j] = mean[j]
     if model.attitude:
         point[0], point[1], point[2], point[3] = turned(
-            belief, sign * L[0, column], sign * L[1, column], sign * L[2, column]
+            mean, sign * L[0, column], sign * L[1, column], sign * L[2, column]
         )
     for j in range(3):
         point[4 + j] = work.x[j] + sign * L[row + j, column]
-        point[COM + j] = belief[COM + j]
+        point[COM + j] = mean[COM + j]
         for k in range(min(3, n - row - 3)):
             point[COM + j] += model.axes[j, k] * sign * L[row + 3 + k, column]
     for j in range(6):
-        point[INERTIA + j] = belief[INERTIA + j]
+        point[INERTIA + j] = mean[INERTIA + j]
         if row + 6 + j < n:
             point[INERTIA + j] += sign * L[row + 6 + j, column]
 
@@ -130,14 +130,14 @@ def gather(rows: int, P: Floats, work: Work) -> None:
 
 
 @part
-def unscented(model: Model, drive: Drive, i: int, belief: Floats, P: Floats, work: Work) -> None:
+def unscented(model: Model, drive: Drive, i: int, mean: Floats, P: Floats, work: Work) -> None:
     """Carry belief and covariance over step i by points."""
     n, rows = P.shape[0], 6 if model.attitude else 3
-    here, end = ends_of(model, drive, i, placed_at(model, belief))
+    here, end = ends_of(model, drive, i, placed_at(model, mean))
     root(P, 1.0 * n, work.L)
-    work.x[0], work.x[1], work.x[2] = rate_of(here, belief)
+    work.x[0], work.x[1], work.x[2] = rate_of(here, mean)
     for which in range(2 * n):
-        shifted(model, belief, which // 2, 1.0 - 2.0 * (which % 2), work)
+        shifted(model, mean, which // 2, 1.0 - 2.0 * (which % 2), work)
         carry_point(model, drive, i, which, work)
     w = centre(model, 2 * n, work)
     gather(rows, P, work)
@@ -145,4 +145,4 @@ def unscented(model: Model, drive: Drive, i: int, belief: Floats, P: Floats, wor
     H = times(end.inertia, w)
     for j in range(3):
         work.y[4 + j] = H[j] + end.momentum[j]
-    write_back(model, drive, i, belief, work.y)
+    write_back(model, drive, i, mean, work.y)

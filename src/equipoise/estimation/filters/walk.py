@@ -20,17 +20,15 @@ NOTED = 1 + 9 + 9 + 1  # t; com, J; sd of c and J; surprise
 
 
 @part
-def standing(
-    model: Model, drive: Drive, node: int, belief: Floats, t: Floats, known: Floats
-) -> Now:
+def standing(model: Model, drive: Drive, node: int, mean: Floats, t: Floats, known: Floats) -> Now:
     """Return the platform at a node as if nothing changed there; t and known are room for that."""
     for j in range(known.shape[1]):
         known[0, j] = known[1, j] = drive.known[node, j]
-    return body_at(placed_at(model, belief), model.maps, t, known, 0, 0.0)
+    return body_at(placed_at(model, mean), model.maps, t, known, 0, 0.0)
 
 
 @part
-def restart(model: Model, now: Now, q: Floats, belief: Floats, P: Floats) -> None:
+def restart(model: Model, now: Now, q: Floats, mean: Floats, P: Floats) -> None:
     """Forget attitude and rate; what was seen of the attitude is all that is known of it."""
     n, rows = P.shape[0], 6 if model.attitude else 3
     for i in range(rows):
@@ -40,9 +38,9 @@ def restart(model: Model, now: Now, q: Floats, belief: Floats, P: Floats) -> Non
         P[rows - 3 + k, rows - 3 + k] = FIRST_RATE**2
         if model.attitude:
             P[k, k] = model.noise
-        belief[4 + k] = now.momentum[k]
+        mean[4 + k] = now.momentum[k]
     for j in range(4):
-        belief[j] = q[j]
+        mean[j] = q[j]
 
 
 @part
@@ -68,26 +66,26 @@ def add_drift(model: Model, dt: float, P: Floats) -> None:
 
 
 @part
-def note(model: Model, t: float, belief: Floats, P: Floats, surprise: float, out: Floats) -> None:
+def note(model: Model, t: float, mean: Floats, P: Floats, surprise: float, out: Floats) -> None:
     """Write a row: t; com, J; the sd of c and J; surprise."""
     row, n = 6 if model.attitude else 3, P.shape[0]
     out[0], out[NOTED - 1] = t, surprise
     for j in range(9):
         at = row + j
-        out[1 + j] = belief[COM + j]
+        out[1 + j] = mean[COM + j]
         out[10 + j] = P[at, at] ** 0.5 if at < n else 0.0
 
 
 @part
 def arrive(
-    model: Model, drive: Drive, first: int, last: int, belief: Floats, P: Floats, work: Work
+    model: Model, drive: Drive, first: int, last: int, mean: Floats, P: Floats, work: Work
 ) -> None:
     """Carry a belief from one node to another."""
     for i in range(first, last):
         if model.unscented:
-            unscented(model, drive, i, belief, P, work)
+            unscented(model, drive, i, mean, P, work)
         else:
-            extended(model, drive, i, belief, P, work)
+            extended(model, drive, i, mean, P, work)
         add_stops(model, drive.stopped[i + 1], P)
 
 
@@ -97,8 +95,8 @@ def follow(
     drive: Drive,
     node: Ints,
     fresh: Bools,
-    seen: Floats,
-    belief: Floats,
+    observed: Floats,
+    mean: Floats,
     P: Floats,
     work: Work,
     out: Floats,
@@ -111,13 +109,13 @@ def follow(
             add_drift(model, drive.t[last] - drive.t[here], P)
             for i in range(here + 1, last + 1):
                 add_stops(model, drive.stopped[i], P)
-            now = standing(model, drive, last, belief, t, known)
-            restart(model, now, drive.q[last], belief, P)
+            now = standing(model, drive, last, mean, t, known)
+            restart(model, now, drive.q[last], mean, P)
             if not model.attitude:
-                correct(model, now, drive.q[last], seen[r], belief, P, work)
+                correct(model, now, drive.q[last], observed[r], mean, P, work)
         else:
-            arrive(model, drive, here, last, belief, P, work)
-            now = body_at(placed_at(model, belief), model.maps, drive.t, drive.known, last - 1, 1.0)
-            surprise = correct(model, now, drive.q[last], seen[r], belief, P, work)
-        note(model, drive.t[last], belief, P, surprise, out[r])
+            arrive(model, drive, here, last, mean, P, work)
+            now = body_at(placed_at(model, mean), model.maps, drive.t, drive.known, last - 1, 1.0)
+            surprise = correct(model, now, drive.q[last], observed[r], mean, P, work)
+        note(model, drive.t[last], mean, P, surprise, out[r])
         here = last

@@ -47,7 +47,7 @@ from equipoise.estimation.information.linearised_filters import (
 )
 from equipoise.estimation.information.reference_motion import Followed, halfway
 from equipoise.estimation.parameters.fit_parameters import CORE, JP, RATE, TURN, Layout, R, core_of
-from equipoise.estimation.parameters.observability import ALONG, SEEN, describe, natural_sizes
+from equipoise.estimation.parameters.observability import ALONG, OBSERVABLE, describe, natural_sizes
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.estimate import COM, INERTIA
 
@@ -230,9 +230,11 @@ def rows_at(nodes: Ints, count: int) -> Series1:
 
 def view_of(model: Model, course: Course, motion: Followed) -> FilterView:
     """Return what one filter sees along a motion."""
-    seen = motion.fitted.problem.seen
+    observed = motion.fitted.problem.observed
     nodes, sd = (
-        (seen.attitude_node, seen.attitude_sd) if model.camera else (seen.rate_node, seen.rate_sd)
+        (observed.attitude_node, observed.attitude_sd)
+        if model.camera
+        else (observed.rate_node, observed.rate_sd)
     )
     outputs, size = output_sensitivities(model, course), sizes_of(model, motion)
     count = len(outputs.stack)
@@ -240,7 +242,7 @@ def view_of(model: Model, course: Course, motion: Followed) -> FilterView:
     possible = len(size) - unseen.shape[1]
     if len(nodes):
         weight = np.sqrt(rows_at(nodes, count)) / sd
-        unseen = unseen_of(joined(outputs, weight, size), SEEN**0.5)
+        unseen = unseen_of(joined(outputs, weight, size), OBSERVABLE**0.5)
         rank = len(size) - unseen.shape[1]
     words = in_words(unseen, scale_in(model, motion), model.states)
     measures = "camera" if model.camera else "gyro"

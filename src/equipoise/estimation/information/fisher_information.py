@@ -65,12 +65,12 @@ class Observability:
     inertia_P: Matrix3  # kg m^2, of the motion
 
 
-def seen_by(recording: Recording, testbed: Testbed, params: Params) -> Observability:
+def information_by(recording: Recording, testbed: Testbed, params: Params) -> Observability:
     """Return what a recording can show, bounds in SI units."""
-    return seen_along(followed(recording, testbed, params))
+    return information_along(followed(recording, testbed, params))
 
 
-def seen_along(motion: Followed) -> Observability:
+def information_along(motion: Followed) -> Observability:
     """Return what a motion that was followed can show, bounds in SI units."""
     fitted = motion.fitted
     problem, layout = fitted.problem, fitted.problem.layout

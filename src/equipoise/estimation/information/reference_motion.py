@@ -15,7 +15,7 @@ import numpy as np
 from equipoise.dynamics.propagation import Motion, body_of, propagate
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.dynamics.timeline import Timeline
-from equipoise.estimation.events.record_model import Believed
+from equipoise.estimation.events.record_model import RecordModel
 from equipoise.estimation.model_selection.decimation import condensed
 from equipoise.estimation.model_selection.dense_record import FINE, first_gap
 from equipoise.estimation.model_selection.initial_model import plainly
@@ -56,11 +56,11 @@ def followed(recording: Recording, testbed: Testbed, params: Params) -> Followed
         raise InputError(recording.source or "recording", f"{rows} rows", f"at least {FEWEST}")
     recording, testbed, richer, fitted = searched(recording, testbed, params)
     still = np.zeros(0)
-    belief = Believed(recording, testbed, richer, still, np.zeros(3), (), fitted, testbed)
+    model = RecordModel(recording, testbed, richer, still, np.zeros(3), (), fitted, testbed)
     if np.isfinite(fitted.at.cost):
-        belief = levelled(belief)
-    told = cautions(belief.fitted, damped=richer.terms != params.terms)
-    return Followed(belief.fitted, testbed, belief.params, told)
+        model = levelled(model)
+    reported = cautions(model.fitted, damped=richer.terms != params.terms)
+    return Followed(model.fitted, testbed, model.params, reported)
 
 
 def searched(

@@ -7,7 +7,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-KIND = Kind(attitude=False, told=12)
+KIND = Kind(attitude=False, estimated=12)
 
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:

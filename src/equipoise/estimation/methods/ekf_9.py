@@ -7,7 +7,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-KIND = Kind(attitude=True, told=9)
+KIND = Kind(attitude=True, estimated=9)
 
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:

@@ -30,12 +30,12 @@ def shift_at_end(recording: Recording, testbed: Testbed) -> Vector3:
     return com_shift(mass_maps(testbed.masses), testbed.body.mass, last)
 
 
-def parameters_of(belief: tracker.Belief, shift: Vector3) -> tuple[Parameter, ...]:
+def parameters_of(posterior: tracker.Posterior, shift: Vector3) -> tuple[Parameter, ...]:
     """Return what is believed, com with the masses as they stand."""
-    values = [*(belief.com + shift), *pack_symmetric(belief.inertia_P)]
+    values = [*(posterior.com + shift), *pack_symmetric(posterior.inertia_P)]
     names = (*(END if shift.any() else COM), *INERTIA)
     units = ["m"] * len(COM) + ["kg m2"] * len(INERTIA)
-    sds = np.sqrt(np.diag(belief.covariance))
+    sds = np.sqrt(np.diag(posterior.covariance))
     return tuple(
         Parameter(name, unit, float(value), float(sd))
         for name, unit, value, sd in zip(names, units, values, sds, strict=True)
@@ -62,12 +62,12 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     recording, first = arranged(recording, testbed.mass_names), recording.attitude
     state = tracker.first_state(float(first.t[0]), first.values[0], testbed)
     track = tracker.track(recording, testbed, tracker.Params(), state)
-    belief = track.end.belief
+    posterior = track.end.posterior
     return Estimate(
         METHOD.card.name,
         outcome_of(track),
-        parameters_of(belief, shift_at_end(recording, testbed)),
-        belief.covariance,
+        parameters_of(posterior, shift_at_end(recording, testbed)),
+        posterior.covariance,
         provenance=origin_of(recording),
         course=Course(COM, track.t, track.com, track.com_sd),
     )

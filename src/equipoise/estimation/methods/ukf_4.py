@@ -7,7 +7,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-KIND = Kind(attitude=False, told=4, unscented=True, upright=True)
+KIND = Kind(attitude=False, estimated=4, unscented=True, upright=True)
 
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:

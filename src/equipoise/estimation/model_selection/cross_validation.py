@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.record_model import Believed, active, jumps_of, smoothed
+from equipoise.estimation.events.record_model import RecordModel, active, jumps_of, smoothed
 from equipoise.estimation.output_error.problem import Problem, evaluate
 from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import settle
@@ -24,12 +24,12 @@ EVALUATIONS = 8  # chosen: from the optimum of all rows it takes three or four
 BLOCKS = 8  # chosen: enough that each is short against the record
 
 
-def posed_in(belief: Believed, recording: Recording) -> tuple[Problem, Floats]:
+def posed_in(model: RecordModel, recording: Recording) -> tuple[Problem, Floats]:
     """Return the problem of a model on a record or a part of it, and where its jumps stand."""
-    whole = replace(belief, recording=recording)
-    params = replace(belief.params, jumps=jumps_of(whole, active(belief)))
-    problem = problem_of(recording, belief.testbed, params)
-    before = belief.fitted
+    whole = replace(model, recording=recording)
+    params = replace(model.params, jumps=jumps_of(whole, active(model)))
+    problem = problem_of(recording, model.testbed, params)
+    before = model.fitted
     return problem, carried(before.problem.jumps, before.jumps, problem.jumps)
 
 
@@ -43,13 +43,13 @@ def without(channel: Samples | None, held: Bools, edges: Floats) -> Samples | No
     return Samples(channel.t[keep], channel.values[keep])
 
 
-def missed(belief: Believed, held: Bools, edges: Floats) -> float:
+def missed(model: RecordModel, held: Bools, edges: Floats) -> float:
     """Return the sum of squared residuals (sd) of held-out blocks, fitted to the other rows."""
-    recording = belief.recording
+    recording = model.recording
     attitude, rate = (without(c, held, edges) for c in (recording.attitude, recording.rate))
-    problem, jumps = posed_in(belief, replace(recording, attitude=attitude, rate=rate))
-    found = settle(problem, belief.fitted.point, jumps, EVALUATIONS)
-    problem, _ = posed_in(belief, recording)
+    problem, jumps = posed_in(model, replace(recording, attitude=attitude, rate=rate))
+    found = settle(problem, model.fitted.point, jumps, EVALUATIONS)
+    problem, _ = posed_in(model, recording)
     at, total = evaluate(problem, found.point, found.jumps), 0.0
     for channel, left in ((recording.attitude, at.left_q), (recording.rate, at.left_w)):
         if channel is not None and len(channel):
@@ -58,48 +58,48 @@ def missed(belief: Believed, held: Bools, edges: Floats) -> float:
     return total
 
 
-def bridged(belief: Believed) -> float:
+def bridged(model: RecordModel) -> float:
     """Return the sum of squared residuals (sd) of all blocks, each bridged by what is around it."""
-    edges = np.linspace(*belief.recording.span, BLOCKS + 1)
+    edges = np.linspace(*model.recording.span, BLOCKS + 1)
     folds = [np.arange(BLOCKS) % (BLOCKS // 2) == fold for fold in range(BLOCKS // 2)]
-    return sum(missed(belief, held, edges) for held in folds)
+    return sum(missed(model, held, edges) for held in folds)
 
 
-def halves(belief: Believed) -> tuple[tuple[Recording, Unknowns], ...]:
+def halves(model: RecordModel) -> tuple[tuple[Recording, Unknowns], ...]:
     """Return both halves of the record, each with a state near its beginning."""
-    fit, after = smoothed(belief)
-    start, end = belief.recording.span
+    fit, after = smoothed(model)
+    start, end = model.recording.span
     k = len(fit.problem.jumps) // 2
     middle = fit.problem.jumps[k].t
-    first, second = (window(belief.recording, *ends) for ends in ((start, middle), (middle, end)))
+    first, second = (window(model.recording, *ends) for ends in ((start, middle), (middle, end)))
     there = unknowns_of(after.points[k + 1])
-    late = float(problem_of(second, belief.testbed, belief.params).line.t[0]) - middle
+    late = float(problem_of(second, model.testbed, model.params).line.t[0]) - middle
     there = replace(there, q0=multiply(there.q0, exponential(late * there.w0)))
-    return (first, belief.fitted.point), (second, there)
+    return (first, model.fitted.point), (second, there)
 
 
 def unexplained(
-    belief: Believed, learnt: tuple[Recording, Unknowns], asked: tuple[Recording, Unknowns]
+    model: RecordModel, learnt: tuple[Recording, Unknowns], requested: tuple[Recording, Unknowns]
 ) -> float:
     """Return twice the cost of one part with everything but state and jumps learnt from another."""
-    problem, jumps = posed_in(belief, learnt[0])
+    problem, jumps = posed_in(model, learnt[0])
     known = settle(problem, at_rest(problem, learnt[1]), jumps, EVALUATIONS).point
-    problem, jumps = posed_in(belief, asked[0])
+    problem, jumps = posed_in(model, requested[0])
     held = np.ones(problem.layout.size, dtype=bool)
     held[TURN], held[RATE] = False, False
     held[problem.layout.size - 3 * problem.layout.bias :] = False
     problem = replace(problem, prior=replace(problem.prior, held=held))
-    guess = replace(known, q0=asked[1].q0, w0=asked[1].w0)
+    guess = replace(known, q0=requested[1].q0, w0=requested[1].w0)
     return 2.0 * settle(problem, at_rest(problem, guess), jumps, EVALUATIONS).at.cost
 
 
-def carried_over(belief: Believed) -> float:
+def carried_over(model: RecordModel) -> float:
     """Return twice the cost of both halves, each with what the other has taught."""
-    first, second = halves(belief)
-    return unexplained(belief, first, second) + unexplained(belief, second, first)
+    first, second = halves(model)
+    return unexplained(model, first, second) + unexplained(model, second, first)
 
 
-def predicts_better(poorer: Believed, richer: Believed) -> bool:
+def predicts_better(poorer: RecordModel, richer: RecordModel) -> bool:
     """Say whether the richer model is nearer to rows that it has not seen."""
     score = carried_over if poorer.wanders else bridged
     return score(richer) < score(poorer)

@@ -163,5 +163,5 @@ def condensed(recording: Recording, testbed: Testbed) -> Condensed | None:
         gyro = averaged(gyro, k_w, rate.period)
         rate = mean_rows(rate, k_w)
     few = replace(recording, attitude=attitude, rate=rate, attitude_norm=None)
-    seen = replace(testbed, attitude=camera, gyro=gyro)
-    return Condensed(with_few_bends(few, seen), seen, k_q, k_w)
+    observed = replace(testbed, attitude=camera, gyro=gyro)
+    return Condensed(with_few_bends(few, observed), observed, k_q, k_w)

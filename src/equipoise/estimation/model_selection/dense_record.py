@@ -6,7 +6,7 @@ and intervals are those of all rows.
 
 A row's noise is that of a mean times sqrt(k) if rows err independently. Where it is less, they err
 together, and an interval is as much wider as means scatter more than their rows say
-(``Believed.coloured``).
+(``Estimated.coloured``).
 
 The linear start integrates the motion, which a gap stops: it is given the rows before the first.
 """
@@ -16,7 +16,13 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.events.noise_identification import is_known, noise_factors, noisier
-from equipoise.estimation.events.record_model import Believed, active, fitted_in, refitted, smoothed
+from equipoise.estimation.events.record_model import (
+    RecordModel,
+    active,
+    fitted_in,
+    refitted,
+    smoothed,
+)
 from equipoise.estimation.model_selection.decimation import TURNED, Condensed
 from equipoise.estimation.model_selection.survey import survey
 from equipoise.estimation.output_error.problem import Problem, quickest_swing
@@ -37,23 +43,23 @@ def first_gap(recording: Recording, testbed: Testbed) -> float:
     found, least = end, start + EARLY * (end - start)
     for channel in (recording.attitude, recording.rate):
         if channel is not None and len(channel) > 1:
-            apart = np.diff(channel.t)
+            separation = np.diff(channel.t)
             long = max(TURNED / quickest_swing(testbed), WIDE * channel.period)
-            stops = channel.t[:-1][(apart > long) & (channel.t[:-1] > least)]
+            stops = channel.t[:-1][(separation > long) & (channel.t[:-1] > least)]
             found = min(found, float(stops[0])) if len(stops) else found
     return found
 
 
-def surveyed_condensed(few: Condensed, params: Params) -> Believed:
+def surveyed_condensed(few: Condensed, params: Params) -> RecordModel:
     """Return the model that a condensed record supports."""
     recording, testbed, params = few.recording, few.testbed, replace(params, fineness=FINE)
     early = window(recording, recording.span[0], first_gap(recording, testbed))
     return survey(recording, testbed, params, fit(recording, testbed, params, early=early))
 
 
-def with_noise_of(few: Condensed, belief: Believed, testbed: Testbed) -> Testbed:
+def with_noise_of(few: Condensed, model: RecordModel, testbed: Testbed) -> Testbed:
     """Return the testbed with a row's noise as that of the means tells it: times sqrt(k)."""
-    camera, gyro = belief.testbed.attitude, belief.testbed.gyro
+    camera, gyro = model.testbed.attitude, model.testbed.gyro
     attitude, rate = testbed.attitude, testbed.gyro
     if attitude is not None and camera is not None:
         attitude = replace(attitude, noise=camera.noise * few.attitude_rows**0.5)
@@ -70,34 +76,34 @@ def moved(fitted: Fitted, problem: Problem) -> Fitted:
 
 
 def with_all_rows(
-    few: Condensed, belief: Believed, recording: Recording, stated: Testbed
-) -> Believed:
+    few: Condensed, model: RecordModel, recording: Recording, stated: Testbed
+) -> RecordModel:
     """Return the belief about a condensed record as one about the record, not fitted yet."""
-    testbed = with_noise_of(few, belief, stated)
-    first = moved(belief.fitted, problem_of(recording, testbed, belief.params))
-    params = replace(belief.params, fineness=1.0)
+    testbed = with_noise_of(few, model, stated)
+    first = moved(model.fitted, problem_of(recording, testbed, model.params))
+    params = replace(model.params, fineness=1.0)
     return replace(
-        belief, recording=recording, testbed=testbed, params=params, stated=stated, fitted=first
+        model, recording=recording, testbed=testbed, params=params, stated=stated, fitted=first
     )
 
 
-def with_rows_own_noise(belief: Believed) -> Believed:
+def with_rows_own_noise(model: RecordModel) -> RecordModel:
     """Return the belief with the rows' own noise, if that is not what their means say."""
-    factors = noise_factors(belief, *smoothed(belief))
-    rows = (len(belief.fitted.at.left_q), len(belief.fitted.at.left_w))
+    factors = noise_factors(model, *smoothed(model))
+    rows = (len(model.fitted.at.left_q), len(model.fitted.at.left_w))
     if all(is_known(factor, n) for factor, n in zip(factors, rows, strict=True)):
-        return belief
-    testbed = noisier(belief, *factors)
-    return refitted(replace(belief, testbed=testbed, coloured=max(1.0, 1.0 / min(factors))))
+        return model
+    testbed = noisier(model, *factors)
+    return refitted(replace(model, testbed=testbed, coloured=max(1.0, 1.0 / min(factors))))
 
 
 def surveyed_densely(
     few: Condensed, recording: Recording, testbed: Testbed, params: Params
-) -> Believed:
+) -> RecordModel:
     """Return the model that a dense record supports, and the fit of all rows in it."""
-    belief = surveyed_condensed(few, params)
-    whole = with_all_rows(few, belief, recording, testbed)
-    if not belief.fitted.converged:
+    model = surveyed_condensed(few, params)
+    whole = with_all_rows(few, model, recording, testbed)
+    if not model.fitted.converged:
         return replace(whole, fitted=fitted_in(whole, active(whole), 1))
     whole = refitted(whole)
     return with_rows_own_noise(whole) if whole.fitted.converged else whole

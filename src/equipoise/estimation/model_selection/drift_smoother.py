@@ -53,7 +53,7 @@ METHOD = "smoother"
 COM_WALK = tracker.Params().com_walk  # m/sqrt(s), expected
 FINEST, MOST_CUTS = 0.5, 300  # s, -; chosen: a good gyro sees 0.05 um/sqrt(s) within a second
 ROUNDS, COLOUR_ROUNDS = 2, 2  # chosen: the motion is all but linear in where com drifts
-SEEN = 9.0  # chosen: -2 ln probability that chance gains once in 700 records
+OBSERVED = 9.0  # chosen: -2 ln probability that chance gains once in 700 records
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -158,8 +158,8 @@ def course_of(found: Drifting, after: Smoothed, concluded: Estimate) -> Course:
     spread = factor**2 * np.einsum("kij,kjl,kil->ki", rows, after.covariance, rows, optimize=True)
     beside = np.diag(concluded.covariance_of(COM)) - spread[0]  # of what no fit seeks
     sd = np.sqrt(np.maximum(spread + beside, 0.0))
-    seen = [concluded.sees((name,)) for name in COM]
-    return Course(COM, found.nodes, com_values(found, after), np.where(seen, sd, np.inf))
+    observed = [concluded.sees((name,)) for name in COM]
+    return Course(COM, found.nodes, com_values(found, after), np.where(observed, sd, np.inf))
 
 
 def widening_of(concluded: Estimate) -> float:
@@ -186,7 +186,7 @@ def drift_sentence(found: Drifting, after: Smoothed, concluded: Estimate) -> str
         ", ".join(f"{1e6 * x:.2g}" for x in each) for each in (way, widening_of(concluded) * sd)
     )
     text = f"from start to end it moves by {sizes} um (sd {sds})."
-    if found.gained < SEEN:
+    if found.gained < OBSERVED:
         return f"No drift of the centre of mass is seen: {text}"
     return f"The centre of mass drifts: {text} com is that of the start, com_end that of the end."
 
@@ -202,12 +202,12 @@ def estimate(
         if not found.fitted.converged:
             return concluded
         after = smooth_at(found.fitted)
-        return told(found, after, concluded)
+        return with_course(found, after, concluded)
     except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
         return Estimate(METHOD, UNSETTLED, (), np.zeros((0, 0)))
 
 
-def told(found: Drifting, after: Smoothed, concluded: Estimate) -> Estimate:
+def with_course(found: Drifting, after: Smoothed, concluded: Estimate) -> Estimate:
     """Return the estimate with the course of com, and with what is to be said of it."""
     outcome = concluded.outcome
     if outcome.usable:

@@ -15,8 +15,8 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
 DAMPING = torque_terms.GROUPS["viscous"]
-FAR_BETTER = 10.0  # chosen: times less is left; damping that stands for touches is no such help
-FAR = 0.5  # chosen: of a moment, by which the guess may be off and its anchor biases nothing
+MUCH_BETTER = 10.0  # chosen: times less is left; damping that stands for touches is no such help
+OUTLYING = 0.5  # chosen: of a moment, by which the guess may be off and its anchor biases nothing
 
 
 def plainly(recording: Recording, testbed: Testbed, params: Params) -> tuple[Params, Fitted]:
@@ -36,8 +36,8 @@ def plainly(recording: Recording, testbed: Testbed, params: Params) -> tuple[Par
 
 
 def is_close(fitted: Fitted) -> bool:
-    """Say whether a fit leaves so little that nothing can be ``FAR_BETTER``."""
-    return chi_square_share(fitted) < FAR_BETTER**2
+    """Say whether a fit leaves so little that nothing can be ``MUCH_BETTER``."""
+    return chi_square_share(fitted) < MUCH_BETTER**2
 
 
 def follows(damped: Fitted, plain: Fitted) -> bool:
@@ -45,7 +45,7 @@ def follows(damped: Fitted, plain: Fitted) -> bool:
     if not is_near(damped):
         return False
     left, plain_left = (misfit_at(fitted.problem, fitted.at) for fitted in (damped, plain))
-    return not is_near(plain) or left < plain_left / FAR_BETTER
+    return not is_near(plain) or left < plain_left / MUCH_BETTER
 
 
 def is_near(fitted: Fitted) -> bool:
@@ -63,7 +63,7 @@ def anchored(
     """
     found, guess = fitted.point.body(testbed.body.mass), testbed.body
     moved = np.diag(found.inertia_P - guess.inertia_P) / (np.trace(guess.inertia_P) / 3)
-    if params.use_prior or not is_near(fitted) or float(np.abs(moved).max()) < FAR:
+    if params.use_prior or not is_near(fitted) or float(np.abs(moved).max()) < OUTLYING:
         return testbed, fitted
     nearer = replace(testbed, body=found)
     return nearer, fit(recording, nearer, params, fitted.point)

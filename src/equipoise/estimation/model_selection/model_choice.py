@@ -17,7 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.record_model import Believed, refitted
+from equipoise.estimation.events.record_model import RecordModel, refitted
 from equipoise.estimation.model_selection.cross_validation import posed_in
 from equipoise.estimation.output_error.problem import changes, evaluate
 from equipoise.estimation.output_error.trajectory import Params
@@ -40,9 +40,9 @@ def is_of_sensors(group: tuple[str, ...]) -> bool:
     return set(group) <= set(sensor_terms.TERMS)
 
 
-def candidates(belief: Believed) -> list[tuple[str, ...]]:
+def candidates(model: RecordModel) -> list[tuple[str, ...]]:
     """Return the groups of terms that this record could show and that are not sought yet."""
-    recording, params = belief.recording, belief.params
+    recording, params = model.recording, model.params
     camera, gyro = (c is not None and len(c) > 0 for c in (recording.attitude, recording.rate))
     found: list[tuple[str, ...]] = [HEADING] if camera else []
     if camera and (gyro or changes(recording)):
@@ -54,14 +54,14 @@ def candidates(belief: Believed) -> list[tuple[str, ...]]:
     return [group for group in found if not sought.issuperset(group)]
 
 
-def levelled(belief: Believed) -> Believed:
+def levelled(model: RecordModel) -> RecordModel:
     """Return the model with the camera's vertical free, as far as the testbed says it may lean.
 
     Not a term to be chosen: no camera is level to what a record shows of it, and com is far off
     long before the record asks for the term.
     """
-    may_lean = is_plumb_open(belief.recording, belief.testbed)
-    return refitted(with_group(belief, PLUMB)) if may_lean else belief
+    may_lean = is_plumb_open(model.recording, model.testbed)
+    return refitted(with_group(model, PLUMB)) if may_lean else model
 
 
 def is_plumb_open(recording: Recording, testbed: Testbed) -> bool:
@@ -70,65 +70,65 @@ def is_plumb_open(recording: Recording, testbed: Testbed) -> bool:
     return camera is not None and rows is not None and len(rows) > 0 and camera.plumb_sd > 0
 
 
-def with_group(belief: Believed, group: tuple[str, ...]) -> Believed:
+def with_group(model: RecordModel, group: tuple[str, ...]) -> RecordModel:
     """Return the model with a group of terms more."""
-    params = belief.params
+    params = model.params
     if is_of_sensors(group):
         sensor = sensor_terms.among((*params.sensor, *group))
-        return replace(belief, params=replace(params, sensor=sensor))
+        return replace(model, params=replace(params, sensor=sensor))
     terms = torque_terms.among((*params.terms, *group))
-    return replace(belief, params=replace(params, terms=terms))
+    return replace(model, params=replace(params, terms=terms))
 
 
-def added_groups(belief: Believed, asked: Params) -> list[tuple[str, ...]]:
+def added_groups(model: RecordModel, requested: Params) -> list[tuple[str, ...]]:
     """Return the groups of terms, or what of them, that were not asked for."""
-    here, told = ({*p.sensor, *p.terms} for p in (belief.params, asked))
-    groups = (tuple(t for t in group if t in here and t not in told) for group in GROUPS)
+    here, reported = ({*p.sensor, *p.terms} for p in (model.params, requested))
+    groups = (tuple(t for t in group if t in here and t not in reported) for group in GROUPS)
     return [group for group in groups if group]
 
 
-def without_group(belief: Believed, group: tuple[str, ...]) -> Believed:
+def without_group(model: RecordModel, group: tuple[str, ...]) -> RecordModel:
     """Return the model without a group of terms, whose coefficients are zero then."""
-    params = belief.params
+    params = model.params
     sensor, terms = (
         tuple(term for term in terms if term not in group)
         for terms in (params.sensor, params.terms)
     )
-    fitted, point = belief.fitted, belief.fitted.point
+    fitted, point = model.fitted, model.fitted.point
     bare = replace(
         point,
         torque=np.where(np.isin(torque_terms.TERMS, group), 0.0, point.torque),
         sensor=np.where(np.isin(sensor_terms.TERMS, group), 0.0, point.sensor),
     )
     return replace(
-        belief,
+        model,
         params=replace(params, sensor=sensor, terms=terms),
         fitted=replace(fitted, point=bare),
     )
 
 
-def plausible(belief: Believed, group: tuple[str, ...]) -> Floats:
+def plausible(model: RecordModel, group: tuple[str, ...]) -> Floats:
     """Return how large the coefficients of a group may well be, one sd."""
     if is_of_sensors(group):
-        return sensor_sizes(group, belief.testbed.attitude)
-    body = belief.testbed.body
+        return sensor_sizes(group, model.testbed.attitude)
+    body = model.testbed.body
     moment = float(np.trace(body.inertia_P)) / 3
-    return term_sizes(group, moment, body.mass * belief.testbed.gravity)
+    return term_sizes(group, moment, body.mass * model.testbed.gravity)
 
 
-def surplus(belief: Believed, group: tuple[str, ...]) -> float:
+def surplus(model: RecordModel, group: tuple[str, ...]) -> float:
     """Return 2 ln of how much likelier the record is with a group than without."""
-    problem, jumps = posed_in(with_group(belief, group), belief.recording)
-    at = evaluate(problem, belief.fitted.point, jumps)
+    problem, jumps = posed_in(with_group(model, group), model.recording)
+    at = evaluate(problem, model.fitted.point, jumps)
     B = np.array([name in group for name in problem.layout.names])
     unit = np.where(B, 1.0, 1 / np.sqrt(np.diag(at.normal)))
-    unit[B] = plausible(belief, group)
+    unit[B] = plausible(model, group)
     normal = at.normal - np.diag(np.where(B, problem.prior.weight, 0.0))
     A, b = normal * np.outer(unit, unit), at.descent * unit
     rest = np.linalg.solve(A[np.ix_(~B, ~B)], A[np.ix_(~B, B)])
-    seen = np.eye(len(group)) + A[np.ix_(B, B)] - A[np.ix_(B, ~B)] @ rest
+    observed = np.eye(len(group)) + A[np.ix_(B, B)] - A[np.ix_(B, ~B)] @ rest
     b_B = b[B] - rest.T @ b[~B]
-    return float(b_B @ np.linalg.solve(seen, b_B) - np.linalg.slogdet(seen)[1])
+    return float(b_B @ np.linalg.solve(observed, b_B) - np.linalg.slogdet(observed)[1])
 
 
 def lead(group: tuple[str, ...]) -> float:
@@ -136,9 +136,9 @@ def lead(group: tuple[str, ...]) -> float:
     return 0.0 if is_of_sensors(group) else SURE
 
 
-def best_group(belief: Believed, refused: set[tuple[str, ...]]) -> tuple[tuple[str, ...], float]:
+def best_group(model: RecordModel, refused: set[tuple[str, ...]]) -> tuple[tuple[str, ...], float]:
     """Return the group that promises most, and by how much beyond its lead."""
-    open_to = [group for group in candidates(belief) if group not in refused]
-    found = [surplus(belief, group) - lead(group) for group in open_to]
+    open_to = [group for group in candidates(model) if group not in refused]
+    found = [surplus(model, group) - lead(group) for group in open_to]
     most = int(np.argmax(found)) if found else 0
     return (open_to[most], found[most]) if found else ((), -np.inf)

@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.event_report import told
+from equipoise.estimation.events.event_report import reported_events
 from equipoise.estimation.events.event_time_covariance import with_moments
-from equipoise.estimation.events.record_model import Believed, refitted
+from equipoise.estimation.events.record_model import RecordModel, refitted
 from equipoise.estimation.model_selection.decimation import condensed
 from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
@@ -28,7 +28,7 @@ from equipoise.estimation.model_selection.survey_sentences import (
     walk_sentences,
 )
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude
-from equipoise.estimation.output_error.outlier_rejection import without_far_rows
+from equipoise.estimation.output_error.outlier_rejection import without_outliers
 from equipoise.estimation.output_error.problem import evaluate
 from equipoise.estimation.output_error.segment_jumps import carried
 from equipoise.estimation.output_error.solution import Fitted, settle
@@ -54,48 +54,48 @@ def predicted_left(recording: Recording, fitted: Fitted, left: Fitted, cut: floa
         if jump.t >= cut and jump.is_event:
             jumps[k] = fitted.jumps[k]
     ahead = replace(left.point, error=fitted.point.error)
-    at, seen = evaluate(problem, ahead, jumps), problem.seen
+    at, observed = evaluate(problem, ahead, jumps), problem.observed
     camera = len(at.left_q) > 0
     rows = recording.attitude if camera else recording.rate
     assert rows is not None
-    sd = seen.attitude_sd if camera else seen.rate_sd
+    sd = observed.attitude_sd if camera else observed.rate_sd
     return (at.left_q if camera else at.left_w)[rows.t > cut] * sd
 
 
-def steady(belief: Believed) -> Believed:
+def steady(model: RecordModel) -> RecordModel:
     """Return the belief without process noise: what is left then must be predictable."""
-    return refitted(replace(belief, walk=np.zeros(3))) if belief.wanders else belief
+    return refitted(replace(model, walk=np.zeros(3))) if model.wanders else model
 
 
-def held_out(believed: Believed, share: float, residual: Residual) -> Residual:
+def held_out(fitted_model: RecordModel, share: float, residual: Residual) -> Residual:
     """Return the residual with what a fit of the first part predicts for the rest.
 
     Both without process noise, whose future nobody knows.
     """
-    belief = steady(believed)
-    recording, fitted = belief.recording, belief.fitted
+    record_model = steady(fitted_model)
+    recording, fitted = record_model.recording, record_model.fitted
     first, last = recording.span
     cut = last - share * (last - first)
     part = window(recording, first, cut)
-    params = replace(belief.params, jumps=fitted.problem.jumps)
-    problem = problem_of(part, belief.testbed, params)
+    params = replace(record_model.params, jumps=fitted.problem.jumps)
+    problem = problem_of(part, record_model.testbed, params)
     jumps = carried(fitted.problem.jumps, fitted.jumps, problem.jumps)
     early = settle(problem, at_rest(problem, fitted.point), jumps)
     fresh = predicted_left(recording, fitted, early, cut)
     rms = float(np.sqrt(np.mean(fresh**2))) if len(fresh) else None
-    at, seen = fitted.at, fitted.problem.seen
-    left = at.left_q * seen.attitude_sd if len(at.left_q) else at.left_w * seen.rate_sd
+    at, observed = fitted.at, fitted.problem.observed
+    left = at.left_q * observed.attitude_sd if len(at.left_q) else at.left_w * observed.rate_sd
     calm = float(np.sqrt(np.mean(left**2)))
     return replace(residual, steady_rms=calm, held_out_rms=rms, held_out_span=(cut, last))
 
 
-def outcome_of(belief: Believed, asked: Params, concluded: Estimate) -> Outcome:
+def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Outcome:
     """Return whether the numbers may be used, with what the survey found."""
-    base, share = concluded.outcome, driven(belief)
+    base, share = concluded.outcome, driven(model)
     if not base.usable:
         return base
-    found = [*noise_sentences(belief), *lean_sentences(belief, concluded)]
-    found += [*term_sentences(belief, asked), *walk_sentences(belief)]
+    found = [*noise_sentences(model), *lean_sentences(model, concluded)]
+    found += [*term_sentences(model, requested), *walk_sentences(model)]
     text = " ".join([base.sentence, *event_sentences(concluded), *found])
     if share > DRIVEN:
         return Outcome(
@@ -103,7 +103,7 @@ def outcome_of(belief: Believed, asked: Params, concluded: Estimate) -> Outcome:
             f"{text} That torque is {share:.2g} times what gravity does: something drives the "
             "platform that the model does not know, do not trust the numbers.",
         )
-    if len(belief.events) >= MOST_EVENTS:
+    if len(model.events) >= MOST_EVENTS:
         return Outcome(False, f"{text} So many events leave nothing to trust the numbers by.")
     return Outcome(True, text)
 
@@ -116,7 +116,7 @@ def event_sentences(concluded: Estimate) -> list[str]:
     return [f"It steps over {len(concluded.events)} events, at {times} s."]
 
 
-def surveyed(recording: Recording, testbed: Testbed, params: Params) -> Believed:
+def surveyed(recording: Recording, testbed: Testbed, params: Params) -> RecordModel:
     """Return the model that a record supports, from the plain fit."""
     few = condensed(recording, testbed)
     if few is not None:
@@ -147,7 +147,7 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
         return Estimate(METHOD, outcome, (), np.zeros((0, 0)))
     if not params.robust:
         return estimate_of(recording, testbed, params)
-    kept, gone = without_far_rows(recording, testbed, params)
+    kept, gone = without_outliers(recording, testbed, params)
     found = estimate_of(kept, testbed, params)
     word = f" {gone} rows far off the motion are left out." if gone else ""
     return replace(found, outcome=Outcome(found.outcome.usable, found.outcome.sentence + word))
@@ -155,24 +155,24 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
 
 def estimate_of(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
     """Return the estimate of rows that are all to be used."""
-    return told_by(surveyed(recording, testbed, params), recording, params)
+    return as_estimate(surveyed(recording, testbed, params), recording, params)
 
 
-def told_by(belief: Believed, recording: Recording, params: Params) -> Estimate:
+def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Estimate:
     """Return the estimate that a belief about a record comes to."""
-    concluded = conclude(belief.fitted, METHOD, recording, belief.coloured)
-    if not np.isfinite(belief.fitted.at.cost) or not (len(belief.cuts) or concluded.outcome.usable):
+    concluded = conclude(model.fitted, METHOD, recording, model.coloured)
+    if not np.isfinite(model.fitted.at.cost) or not (len(model.cuts) or concluded.outcome.usable):
         return concluded
     try:
-        return with_survey(belief, params, concluded)
+        return with_survey(model, params, concluded)
     except np.linalg.LinAlgError:  # see ``survey``
         return replace(concluded, outcome=UNSETTLED)
 
 
-def with_survey(belief: Believed, params: Params, concluded: Estimate) -> Estimate:
+def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Estimate:
     """Return the estimate with what the survey found, and what the held-out part says."""
-    concluded = with_moments(concluded, belief)
-    concluded = replace(concluded, events=told(belief), unexplained=open_sentences(belief))
+    concluded = with_moments(concluded, model)
+    concluded = replace(concluded, events=reported_events(model), unexplained=open_sentences(model))
     assert concluded.residual is not None
-    residual = held_out(belief, params.hold_out, concluded.residual)
-    return replace(concluded, residual=residual, outcome=outcome_of(belief, params, concluded))
+    residual = held_out(model, params.hold_out, concluded.residual)
+    return replace(concluded, residual=residual, outcome=outcome_of(model, params, concluded))

@@ -38,7 +38,7 @@ from equipoise.estimation.events.noise_identification import (
     weighed,
 )
 from equipoise.estimation.events.process_noise_spectrum import coloured
-from equipoise.estimation.events.record_model import Believed, Happening, improbability, smoothed
+from equipoise.estimation.events.record_model import Happening, RecordModel, improbability, smoothed
 from equipoise.estimation.model_selection import survey_sentences
 from equipoise.estimation.model_selection.initial_model import is_close
 from equipoise.estimation.model_selection.model_choice import best_group, levelled
@@ -81,114 +81,114 @@ def cut_times(recording: Recording) -> Series1:
     return np.arange(start + EDGE * spacing, end - (EDGE - 0.5) * spacing, spacing)
 
 
-def touched(belief: Believed, surprise: dict[str, Floats], fit: Fitted) -> Believed | None:
+def touched(model: RecordModel, surprise: dict[str, Floats], fit: Fitted) -> RecordModel | None:
     """Return the belief with the event that surprises most, if it is beyond the threshold."""
     kind, values = max(surprise.items(), key=lambda item: float(np.max(item[1])))
     k = int(np.argmax(values))
-    if values[k] < threshold(belief.spacing):
+    if values[k] < threshold(model.spacing):
         return None
     event = Happening(fit.problem.jumps[k].t, kind)
-    return of_either_kind(replace(belief, events=(*belief.events, event)), len(belief.events))
+    return of_either_kind(replace(model, events=(*model.events, event)), len(model.events))
 
 
-def searched(belief: Believed, most: int, terms: bool = True) -> Believed:
+def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
     """Return the belief with all terms that the record supports and the events that surprise."""
     refused: Refused = set()
-    while len(belief.events) < most:
-        belief, surprise, fit = calibrated(belief)
-        if is_drowned(belief):
+    while len(model.events) < most:
+        model, surprise, fit = calibrated(model)
+        if is_drowned(model):
             break
-        group, promise = best_group(belief, refused) if terms else ((), 0.0)
-        shaken = touched(belief, surprise, fit)
+        group, promise = best_group(model, refused) if terms else ((), 0.0)
+        shaken = touched(model, surprise, fit)
         if promise <= 0 and shaken is None:
             break
-        richer = extended(belief, group, refused) if promise > 0 else belief
-        if shaken is None or (richer is not belief and is_lawful(richer, shaken, group)):
-            belief = richer
+        richer = extended(model, group, refused) if promise > 0 else model
+        if shaken is None or (richer is not model and is_lawful(richer, shaken, group)):
+            model = richer
         else:
-            belief = shaken
-    return belief
+            model = shaken
+    return model
 
 
-def wandering(belief: Believed) -> Believed:
+def wandering(model: RecordModel) -> RecordModel:
     """Return the belief with some process noise to begin with."""
-    return replace(belief, walk=np.full(3, first_walk(belief)))
+    return replace(model, walk=np.full(3, first_walk(model)))
 
 
-def is_drowned(belief: Believed) -> bool:
+def is_drowned(model: RecordModel) -> bool:
     """Say whether something drives the platform so that nothing is to be told any further."""
-    return belief.wanders and survey_sentences.driven(belief) > survey_sentences.DRIVEN
+    return model.wanders and survey_sentences.driven(model) > survey_sentences.DRIVEN
 
 
-def is_calm(belief: Believed) -> bool:
+def is_calm(model: RecordModel) -> bool:
     """Say whether what is left is white noise, and no cut has to be surprised."""
-    fit, after = smoothed(belief)
-    far = quiet(belief, np.array([jump.t for jump in fit.problem.jumps]))
+    fit, after = smoothed(model)
+    outlying = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
     white = min(portmanteau(left) for left in (fit.at.left_q, fit.at.left_w)) > WHITE
-    return white and bool(excesses(after, far).max() < WRONG)
+    return white and bool(excesses(after, outlying).max() < WRONG)
 
 
-def driven(belief: Believed) -> Believed:
+def driven(model: RecordModel) -> RecordModel:
     """Return the belief of a platform that something unknown drives: with process noise."""
-    belief = wandering(belief)
+    model = wandering(model)
     for turn in range(ROUNDS):
-        wider = searched(belief, MOST_EVENTS)
-        if turn > 0 and contents(wider) == contents(belief):
+        wider = searched(model, MOST_EVENTS)
+        if turn > 0 and contents(wider) == contents(model):
             break
-        belief = weighed(settled(wider))
-        if not belief.wanders or is_drowned(belief):
+        model = weighed(settled(wider))
+        if not model.wanders or is_drowned(model):
             break
-    return belief
+    return model
 
 
-def repeated(belief: Believed, most: int, terms: bool = True) -> Believed:
+def repeated(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
     """Return the belief searched and settled again and again, until nothing new stays."""
     for _ in range(ROUNDS):
-        before = contents(belief)
-        belief = searched(belief, most, terms)
-        if contents(belief) == before or len(belief.events) >= most:
+        before = contents(model)
+        model = searched(model, most, terms)
+        if contents(model) == before or len(model.events) >= most:
             break
-        belief = settled(belief)
-        if contents(belief) == before:
+        model = settled(model)
+        if contents(model) == before:
             break
-    return belief
+    return model
 
 
-def contents(belief: Believed) -> tuple[object, ...]:
+def contents(model: RecordModel) -> tuple[object, ...]:
     """Return what a belief believes in: terms, and how many events of each kind."""
-    kinds = sorted(event.kind for event in belief.events)
-    return (belief.params.terms, belief.params.sensor, *kinds)
+    kinds = sorted(event.kind for event in model.events)
+    return (model.params.terms, model.params.sensor, *kinds)
 
 
-def calm(belief: Believed, greedy: Believed) -> Believed:
+def calm(model: RecordModel, greedy: RecordModel) -> RecordModel:
     """Return the belief without process noise, from all that was found at first: ``greedy``.
 
     An event that is not known yet may look like a term, and a term like events. So where both are
     found, or neither is enough, all is sought once more, events first; the likelier is taken.
     """
     plain = (greedy.params.terms, greedy.params.sensor) == (
-        belief.params.terms,
-        belief.params.sensor,
+        model.params.terms,
+        model.params.sensor,
     )
     if not (plain or (not greedy.events and is_calm(greedy))):
-        events_first = repeated(repeated(belief, FEW_EVENTS, terms=False), FEW_EVENTS)
-        return likeliest([bared(one, belief.params) for one in (greedy, events_first)])
-    return bared(greedy, belief.params)
+        events_first = repeated(repeated(model, FEW_EVENTS, terms=False), FEW_EVENTS)
+        return likeliest([bared(one, model.params) for one in (greedy, events_first)])
+    return bared(greedy, model.params)
 
 
-def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> Believed:
+def survey(recording: Recording, testbed: Testbed, params: Params, fitted: Fitted) -> RecordModel:
     """Return the model that the record supports, and the fit in it; unsettled if it went astray."""
     cuts = cut_times(recording)
-    belief = Believed(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
+    model = RecordModel(recording, testbed, params, cuts, np.zeros(3), (), fitted, testbed)
     if len(cuts) < FEWEST or not np.isfinite(fitted.at.cost):
-        return replace(belief, cuts=np.zeros(0))
+        return replace(model, cuts=np.zeros(0))
     try:
-        return coloured(looked_into(levelled(belief)))
+        return coloured(examined(levelled(model)))
     except np.linalg.LinAlgError:  # so far from the record, its information has no inverse
-        return replace(belief, cuts=np.zeros(0))
+        return replace(model, cuts=np.zeros(0))
 
 
-def looked_into(belief: Believed) -> Believed:
+def examined(model: RecordModel) -> RecordModel:
     """Return the likeliest model from the plain one.
 
     First without process noise, which could hide a term that explains all. Where ``MANY`` events
@@ -196,22 +196,24 @@ def looked_into(belief: Believed) -> Believed:
     so many, and spares that only with a great ``LEAD``: touches may first be found elsewhere than
     they were. Of a platform that is driven by far more than gravity nothing is sought.
     """
-    if not is_close(belief.fitted):
-        wild, _, _ = calibrated(wandering(belief))
+    if not is_close(model.fitted):
+        wild, _, _ = calibrated(wandering(model))
         if is_drowned(wild):
             return wild
-    greedy = repeated(belief, FEW_EVENTS)
+    greedy = repeated(model, FEW_EVENTS)
     if len(greedy.events) < MANY:
-        return doubted(compared(belief, calm(belief, greedy)))
-    pushed = driven(belief)
+        return doubted(compared(model, calm(model, greedy)))
+    pushed = driven(model)
     if len(greedy.events) >= FEW_EVENTS:
         return doubted(pushed)
     if improbability(greedy) - improbability(pushed) < LEAD:
-        greedy = calm(belief, greedy)
-    return doubted(compared(belief, greedy, pushed))
+        greedy = calm(model, greedy)
+    return doubted(compared(model, greedy, pushed))
 
 
-def compared(belief: Believed, greedy: Believed, pushed: Believed | None = None) -> Believed:
+def compared(
+    model: RecordModel, greedy: RecordModel, pushed: RecordModel | None = None
+) -> RecordModel:
     """Return the likeliest of a model without process noise, ``greedy``, and those with it.
 
     One that explains all needs no rival, unless with ``MANY`` events: they explain anything, such
@@ -222,7 +224,7 @@ def compared(belief: Believed, greedy: Believed, pushed: Believed | None = None)
     explained = is_calm(simple)
     if explained and len(simple.events) < MANY:
         return simple
-    models = [simple, pushed or driven(belief)]
+    models = [simple, pushed or driven(model)]
     if greedy.events and not explained:
         models.append(driven(greedy))
     return likeliest(models)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from equipoise.estimation.events.record_model import Believed, slowest
+from equipoise.estimation.events.record_model import RecordModel, slowest
 from equipoise.estimation.model_selection.cross_validation import posed_in
 from equipoise.estimation.model_selection.model_choice import PLUMB, candidates, with_group
 from equipoise.estimation.output_error.problem import evaluate
@@ -18,11 +18,11 @@ LEANS = 4.0  # sd, chosen: a smaller lean is corrected untold
 DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which that tells too little
 
 
-def noise_sentences(belief: Believed) -> list[str]:
+def noise_sentences(model: RecordModel) -> list[str]:
     """Say where sensors are noisier or quieter than stated."""
     pairs = (
-        ("attitude", "deg", belief.testbed.attitude, belief.stated.attitude),
-        ("gyro", "deg/s", belief.testbed.gyro, belief.stated.gyro),
+        ("attitude", "deg", model.testbed.attitude, model.stated.attitude),
+        ("gyro", "deg/s", model.testbed.gyro, model.stated.gyro),
     )
     text: list[str] = []
     for name, unit, found, stated in pairs:
@@ -35,23 +35,23 @@ def noise_sentences(belief: Believed) -> list[str]:
     return text
 
 
-def added(belief: Believed, asked: Params) -> tuple[str, ...]:
+def added(model: RecordModel, requested: Params) -> tuple[str, ...]:
     """Return the terms that the record asked for by itself."""
-    have = {*asked.sensor, *asked.terms, *PLUMB}
-    return tuple(t for t in (*belief.params.sensor, *belief.params.terms) if t not in have)
+    have = {*requested.sensor, *requested.terms, *PLUMB}
+    return tuple(t for t in (*model.params.sensor, *model.params.terms) if t not in have)
 
 
-def term_sentences(belief: Believed, asked: Params) -> list[str]:
+def term_sentences(model: RecordModel, requested: Params) -> list[str]:
     """Say which terms were added."""
-    groups = dict.fromkeys(term.split("_")[0] for term in added(belief, asked))
+    groups = dict.fromkeys(term.split("_")[0] for term in added(model, requested))
     if not groups:
         return []
     return [f"Terms that the record supports were added: {', '.join(groups)}."]
 
 
-def lean_sentences(belief: Believed, concluded: Estimate) -> list[str]:
+def lean_sentences(model: RecordModel, concluded: Estimate) -> list[str]:
     """Say how far the camera's vertical leans, where the record shows that it does."""
-    if not set(PLUMB) <= set(belief.params.sensor):
+    if not set(PLUMB) <= set(model.params.sensor):
         return []
     lean, covariance = concluded.values(PLUMB), concluded.covariance_of(PLUMB)
     if lean @ np.linalg.solve(covariance, lean) < LEANS**2:
@@ -60,13 +60,13 @@ def lean_sentences(belief: Believed, concluded: Estimate) -> list[str]:
     return [f"The camera's vertical leans {size:.2g} deg from gravity's; that is corrected."]
 
 
-def gravity_torque(belief: Believed) -> float:
+def gravity_torque(model: RecordModel) -> float:
     """Return a typical torque of gravity in the record, N m: rms over the camera's rows."""
-    seen, point = belief.fitted.problem.seen, belief.fitted.point
-    weight = belief.testbed.body.mass * belief.testbed.gravity
-    if not len(seen.attitude):
+    observed, point = model.fitted.problem.observed, model.fitted.point
+    weight = model.testbed.body.mass * model.testbed.gravity
+    if not len(observed.attitude):
         return weight * float(np.linalg.norm(point.com))
-    w, x, y, z = seen.attitude.T
+    w, x, y, z = observed.attitude.T
     down: Floats = -np.column_stack(
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
     )
@@ -75,18 +75,18 @@ def gravity_torque(belief: Believed) -> float:
     return float(np.linalg.norm(off)) / len(off) ** 0.5
 
 
-def driven(belief: Believed) -> float:
+def driven(model: RecordModel) -> float:
     """Return the wandering torque over a swing as a share of gravity's."""
-    size = float(np.linalg.norm(belief.walk)) / np.sqrt(slowest(belief))
-    return size / max(gravity_torque(belief), 1e-12)
+    size = float(np.linalg.norm(model.walk)) / np.sqrt(slowest(model))
+    return size / max(gravity_torque(model), 1e-12)
 
 
-def walk_sentences(belief: Believed) -> list[str]:
+def walk_sentences(model: RecordModel) -> list[str]:
     """Say how large the torque is that nothing explains."""
-    if not belief.wanders:
+    if not model.wanders:
         return []
-    seconds = slowest(belief)
-    sizes = ", ".join(f"{1e6 * w / np.sqrt(seconds):.2g}" for w in belief.walk)
+    seconds = slowest(model)
+    sizes = ", ".join(f"{1e6 * w / np.sqrt(seconds):.2g}" for w in model.walk)
     return [
         f"A torque that no term explains wanders by {sizes} uN m about x, y, z within "
         f"{seconds:.2g} s; intervals count it."
@@ -98,17 +98,17 @@ def core_sd(normal: Square) -> Floats:
     return np.sqrt(np.diag(inverse_spd(normal)))[CORE]
 
 
-def open_sentences(belief: Believed) -> tuple[str, ...]:
+def open_sentences(model: RecordModel) -> tuple[str, ...]:
     """Say which absent terms the record could not tell from com or inertia.
 
     With such a term free, an sd would be more than OPEN times what it is.
     """
-    names, units = (x[CORE] for x in (belief.fitted.problem.layout.names,
-                                      belief.fitted.problem.layout.units))  # fmt: skip
-    firm, text = core_sd(belief.fitted.at.normal), list[str]()
-    for group in candidates(belief):
-        problem, jumps = posed_in(with_group(belief, group), belief.recording)
-        free = core_sd(evaluate(problem, belief.fitted.point, jumps).normal)
+    names, units = (x[CORE] for x in (model.fitted.problem.layout.names,
+                                      model.fitted.problem.layout.units))  # fmt: skip
+    firm, text = core_sd(model.fitted.at.normal), list[str]()
+    for group in candidates(model):
+        problem, jumps = posed_in(with_group(model, group), model.recording)
+        free = core_sd(evaluate(problem, model.fitted.point, jumps).normal)
         k = int(np.argmax(free / firm))
         if free[k] > OPEN * firm[k]:
             text.append(

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from equipoise.estimation.events.detection_threshold import threshold
 from equipoise.estimation.events.event_search import CLEAR
-from equipoise.estimation.events.record_model import Believed, farther, improbability, refitted
+from equipoise.estimation.events.record_model import RecordModel, farther, improbability, refitted
 from equipoise.estimation.model_selection.cross_validation import predicts_better
 from equipoise.estimation.model_selection.model_choice import (
     added_groups,
@@ -21,21 +21,21 @@ from equipoise.estimation.output_error.trajectory import Params
 Refused = set[tuple[str, ...]]
 
 
-def likeliest(models: Sequence[Believed]) -> Believed:
+def likeliest(models: Sequence[RecordModel]) -> RecordModel:
     """Return the model in which the record is most probable."""
     return min(models, key=improbability)
 
 
-def extended(belief: Believed, group: tuple[str, ...], refused: Refused) -> Believed:
+def extended(model: RecordModel, group: tuple[str, ...], refused: Refused) -> RecordModel:
     """Return the belief with a group of terms, if that predicts better; refuse it otherwise."""
-    richer = refitted(with_group(belief, group))
-    if richer.fitted.converged and predicts_better(belief, richer):
+    richer = refitted(with_group(model, group))
+    if richer.fitted.converged and predicts_better(model, richer):
         return richer
     refused.add(group)
-    return belief
+    return model
 
 
-def is_lawful(richer: Believed, shaken: Believed, group: tuple[str, ...]) -> bool:
+def is_lawful(richer: RecordModel, shaken: RecordModel, group: tuple[str, ...]) -> bool:
     """Say whether a term explains about as much as an event that promises, too.
 
     Each unknown counting as much as one of an event, or by how likely the record is with either:
@@ -48,8 +48,8 @@ def is_lawful(richer: Believed, shaken: Believed, group: tuple[str, ...]) -> boo
     return improbability(richer) - improbability(shaken) < CLEAR
 
 
-def bared(belief: Believed, asked: Params) -> Believed:
+def bared(model: RecordModel, requested: Params) -> RecordModel:
     """Return the belief without the terms that what was found after them has made needless."""
-    for group in added_groups(belief, asked):
-        belief = likeliest([refitted(without_group(belief, group)), belief])
-    return belief
+    for group in added_groups(model, requested):
+        model = likeliest([refitted(without_group(model, group)), model])
+    return model

@@ -26,7 +26,7 @@ from equipoise.maths.turns import turn, turned
 from equipoise.model.arrays import Floats, Ints, Quaternion, Series, Series1, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 
 WALK = 3e-7  # rad/s/sqrt(s), chosen: what a MEMS gyro's bias walks, 0.1 deg/s in two days
 BIAS_SD = 0.02  # rad/s, chosen: of a gyro that the testbed does not tell
@@ -119,7 +119,7 @@ def in_time(recording: Recording, testbed: Testbed) -> tuple[Ints, Series1, Seri
     """Return kind, time (s) and values (4 columns) of gyro and camera rows, in order of time."""
     none = Samples(np.zeros(0), np.zeros((0, 4)))
     gyro, camera = recording.rate or none, recording.attitude or none
-    times = [seen_at(gyro.t, testbed.gyro), seen_at(camera.t, testbed.attitude)]
+    times = [measured_at(gyro.t, testbed.gyro), measured_at(camera.t, testbed.attitude)]
     wide = np.zeros((len(gyro), 4))
     wide[:, : gyro.values.shape[1]] = gyro.values
     kind = np.repeat([GYRO, CAMERA], [len(gyro), len(camera)])
@@ -134,10 +134,10 @@ def followed(
     """Return the state after a fresh record; None until the camera has given a first row."""
     kind, t, rows = in_time(fresh, testbed)
     if state is None:
-        seen = np.flatnonzero(kind == CAMERA)
-        if not len(seen):
+        observed = np.flatnonzero(kind == CAMERA)
+        if not len(observed):
             return None
-        first = int(seen[0])
+        first = int(observed[0])
         state = first_state(float(t[first]), rows[first], testbed)
         kind, t, rows = kind[first + 1 :], t[first + 1 :], rows[first + 1 :]
     noises, values = noises_of(testbed), state.values.copy()

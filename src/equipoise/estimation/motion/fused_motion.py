@@ -38,7 +38,7 @@ from equipoise.model.arrays import (
 )
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 
 FEWEST = 5  # rows of a piece, and of a camera in it
 GAP, SHORTEST = 5.5, 0.25  # periods and s, chosen: a few missing rows are no gap
@@ -59,9 +59,9 @@ class LedMotion(NamedTuple):
 
 def pieces_of(t: Series1) -> Ints:
     """Return the piece of every row: a new one begins behind each gap."""
-    apart = np.diff(t)
-    gap = max(GAP * float(np.median(apart)), SHORTEST) if len(apart) else np.inf
-    return np.concatenate([[0], np.cumsum(apart > gap)]).astype(np.int64)
+    separation = np.diff(t)
+    gap = max(GAP * float(np.median(separation)), SHORTEST) if len(separation) else np.inf
+    return np.concatenate([[0], np.cumsum(separation > gap)]).astype(np.int64)
 
 
 def led_motion(recording: Recording, testbed: Testbed) -> LedMotion:
@@ -73,11 +73,11 @@ def led_motion(recording: Recording, testbed: Testbed) -> LedMotion:
         return LedMotion(np.zeros(0), np.zeros((0, 4)), np.zeros((0, 3)), np.zeros(0, np.int64))
     if rate is None:
         return by_camera(recording, testbed)
-    t = seen_at(rate.t, testbed.gyro)
+    t = measured_at(rate.t, testbed.gyro)
     piece, whole = pieces_of(t), Samples(t, rate.values)
     if attitude is None:
         return by_gyro(whole, piece, testbed)
-    camera = Samples(seen_at(attitude.t, testbed.attitude), attitude.values)
+    camera = Samples(measured_at(attitude.t, testbed.attitude), attitude.values)
     parts = [led(taken(whole, piece == k), camera, testbed) for k in range(piece[-1] + 1)]
     return thinned(joined([part for part in parts if part is not None]))
 
@@ -113,11 +113,11 @@ def by_gyro(rate: Samples, piece: Ints, testbed: Testbed) -> LedMotion:
     longest = int(np.argmax(np.bincount(piece)))
     part = taken(rate, piece == longest)
     q = integrate_rate(part.t, part.values, level(testbed.up))
-    told = () if piece[-1] == 0 else (
+    reported = () if piece[-1] == 0 else (
         "behind a gap a gyro alone does not know the attitude: only the longest piece is used",
     )  # fmt: skip
     whole = np.zeros(len(part.t), np.int64)
-    return thinned(LedMotion(part.t, q, part.values, whole, told))
+    return thinned(LedMotion(part.t, q, part.values, whole, reported))
 
 
 def led(rate: Samples, camera: Samples, testbed: Testbed) -> LedMotion | None:
@@ -125,55 +125,55 @@ def led(rate: Samples, camera: Samples, testbed: Testbed) -> LedMotion | None:
     inside = (camera.t >= rate.t[0]) & (camera.t <= rate.t[-1])
     if inside.sum() < FEWEST or len(rate) < FEWEST:
         return None
-    seen = taken(camera, inside)
-    bias = first_bias(rate, seen)
-    base, off = followed(rate, seen, bias)
-    seen = taken(seen, ~stand_off(off - median_near(off)))
+    observed = taken(camera, inside)
+    bias = first_bias(rate, observed)
+    base, off = followed(rate, observed, bias)
+    observed = taken(observed, ~stand_off(off - median_near(off)))
     for _ in range(PASSES):
-        bias = bias + bias_left(rate.t, base, seen.t, followed(rate, seen, bias)[1])
-        base, off = followed(rate, seen, bias)
-    slow = smoothed_walk(seen.t, off, *spread_of(testbed, rate))
-    q = multiply(exponential(read_at(rate.t, seen.t, slow)), base)
+        bias = bias + bias_left(rate.t, base, observed.t, followed(rate, observed, bias)[1])
+        base, off = followed(rate, observed, bias)
+    slow = smoothed_walk(observed.t, off, *spread_of(testbed, rate))
+    q = multiply(exponential(read_at(rate.t, observed.t, slow)), base)
     return LedMotion(rate.t, q, rate.values - bias, np.zeros(len(rate.t), np.int64))
 
 
-def followed(rate: Samples, seen: Samples, bias: Vector3) -> tuple[Series4, Series3]:
+def followed(rate: Samples, observed: Samples, bias: Vector3) -> tuple[Series4, Series3]:
     """Return the attitudes that rates lead to, and by how much the camera is off (laboratory)."""
-    base = integrate_rate(rate.t, rate.values - bias, seen.values[0])
-    turn = multiply(seen.values, conjugate(at_times(rate.t, base, seen.t)))
+    base = integrate_rate(rate.t, rate.values - bias, observed.values[0])
+    turn = multiply(observed.values, conjugate(at_times(rate.t, base, observed.t)))
     first = most_alike(turn[:FEWEST])
     return multiply(first, base), logarithm(multiply(turn, conjugate(first)))
 
 
 def most_alike(turns: Series4) -> Quaternion:
     """Return the rotation that is nearest to the others, as an odd one is not."""
-    apart = np.abs(turns @ turns.T)
-    return turns[int(np.argmax(np.sort(apart, axis=1)[:, len(turns) // 2]))]
+    separation = np.abs(turns @ turns.T)
+    return turns[int(np.argmax(np.sort(separation, axis=1)[:, len(turns) // 2]))]
 
 
-def first_bias(rate: Samples, seen: Samples) -> Vector3:
+def first_bias(rate: Samples, observed: Samples) -> Vector3:
     """Return the median of the gyro's rates less the camera's, rad/s."""
-    turn = logarithm(multiply(conjugate(seen.values[:-1]), seen.values[1:]))
-    camera: Floats = turn / np.diff(seen.t)[:, None]
-    middle = 0.5 * (seen.t[1:] + seen.t[:-1])
+    turn = logarithm(multiply(conjugate(observed.values[:-1]), observed.values[1:]))
+    camera: Floats = turn / np.diff(observed.t)[:, None]
+    middle = 0.5 * (observed.t[1:] + observed.t[:-1])
     gyro = read_at(middle, rate.t, rate.values)
     return np.asarray(np.median(gyro - camera, axis=0), dtype=np.float64)
 
 
-def at_times(t: Series1, base: Series4, seen: Series1) -> Series4:
+def at_times(t: Series1, base: Series4, observed: Series1) -> Series4:
     """Return attitudes between their times, along the shortest turn."""
-    i = np.clip(np.searchsorted(t, seen, side="right") - 1, 0, len(t) - 2)
-    share = (seen - t[i]) / (t[i + 1] - t[i])
+    i = np.clip(np.searchsorted(t, observed, side="right") - 1, 0, len(t) - 2)
+    share = (observed - t[i]) / (t[i + 1] - t[i])
     step = logarithm(multiply(conjugate(base[i]), base[i + 1]))
     return multiply(base[i], exponential(share[:, None] * step))
 
 
-def bias_left(t: Series1, base: Series4, seen: Series1, off: Series3) -> Vector3:
+def bias_left(t: Series1, base: Series4, observed: Series1, off: Series3) -> Vector3:
     """Return what is left of the bias (rad/s), by least squares on off = c - int R db."""
     R = to_matrix(base)
     steps = 0.5 * (R[1:] + R[:-1]) * np.diff(t)[:, None, None]
     grown = np.concatenate([np.zeros((1, 9)), np.cumsum(steps.reshape(-1, 9), axis=0)])
-    grown = read_at(seen, t, grown)
+    grown = read_at(observed, t, grown)
     A = (grown.mean(axis=0) - grown).reshape(-1, 3)
     right: Floats = A.T @ (off - off.mean(axis=0)).reshape(-1)
     return scaled_solve(A.T @ A, right, 1e-9)

@@ -15,7 +15,7 @@ from equipoise.maths.local_motion import half_window, local_motion
 from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 
 
 class SampledMotion(NamedTuple):
@@ -58,13 +58,13 @@ def sampled_motion(recording: Recording, testbed: Testbed) -> SampledMotion:
     attitude, rate = recording.attitude, recording.rate
     if attitude is None or len(attitude) < 4:
         assert rate is not None
-        t = seen_at(rate.t, testbed.gyro)
+        t = measured_at(rate.t, testbed.gyro)
         return SampledMotion(t, integrate_rate(t, rate.values, level(testbed.up)), rate.values)
-    t = seen_at(attitude.t, testbed.attitude)
+    t = measured_at(attitude.t, testbed.attitude)
     q, w = local_motion(t, attitude.values, half_window(t, attitude.values))
     if rate is not None and len(rate):
-        seen = seen_at(rate.t, testbed.gyro)
-        inside = (t >= seen[0]) & (t <= seen[-1])
+        observed = measured_at(rate.t, testbed.gyro)
+        inside = (t >= observed[0]) & (t <= observed[-1])
         period = float(np.median(np.diff(t)))
-        w = np.where(inside[:, None], averaged(seen, rate.values, t, period), w)
+        w = np.where(inside[:, None], averaged(observed, rate.values, t, period), w)
     return SampledMotion(t, q, w)

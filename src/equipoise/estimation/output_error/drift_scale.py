@@ -62,7 +62,7 @@ def untied(problem: Problem, plain: Prior, fitted: Fitted, up: Vector3) -> Probl
 def disbelieved(fitted: Fitted, up: Vector3) -> Fitted:
     """Return the fit without the information on the scale that is the jumps'."""
     row = scale_row(fitted.problem, fitted.point, up)
-    told = 1.0 / float(row @ inverse_spd(fitted.at.normal) @ row)
-    taken = min(pull(fitted.problem, fitted.jumps), (1 - KEPT) * told)
+    reported = 1.0 / float(row @ inverse_spd(fitted.at.normal) @ row)
+    taken = min(pull(fitted.problem, fitted.jumps), (1 - KEPT) * reported)
     normal = fitted.at.normal - taken * np.outer(row, row)
     return replace(fitted, at=replace(fitted.at, normal=normal))

@@ -45,7 +45,7 @@ UNSETTLED = Outcome(False, "The fit did not settle; its numbers mean nothing.")
 
 def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
     """Return the statistics of what the model leaves; its jumps amount to ``jumped`` unknowns."""
-    at, seen = fitted.at, fitted.problem.seen
+    at, measurements = fitted.at, fitted.problem.observed
     left = at.left_q if len(at.left_q) else at.left_w
     square = float(np.sum(at.left_q**2) + np.sum(at.left_w**2))
     rows = at.left_q.size + at.left_w.size
@@ -54,8 +54,8 @@ def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
         return float(np.sqrt(np.mean(part**2))) * sd if part.size else None
 
     return Residual(
-        rms(at.left_q, seen.attitude_sd),
-        rms(at.left_w, seen.rate_sd),
+        rms(at.left_q, measurements.attitude_sd),
+        rms(at.left_w, measurements.rate_sd),
         square,
         max(round(rows - fitted.problem.layout.size - jumped), 1),
         lag_one(left),
@@ -85,7 +85,7 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
     problem, layout = fitted.problem, fitted.problem.layout
     k, line = len(problem.maps.momentum), problem.line
     last, seconds = line.known[-1], float(line.t[-1] - line.t[0])
-    d, felt = last[KNOWN_D : KNOWN_D + k], last[KNOWN_D + k :]
+    d, response = last[KNOWN_D : KNOWN_D + k], last[KNOWN_D + k :]
     drifts = [(j, FIXED + layout.terms.index(f"drift_{axis}")) for j, axis in enumerate("xyz")
               if f"drift_{axis}" in layout.terms]  # fmt: skip
     stepped = any(set(COM) & set(jump.names) for jump in problem.jumps)
@@ -95,9 +95,9 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
     rows, actual = np.zeros((3, layout.size)), d.copy()
     rows[:, R] = np.eye(3)
     for j, (owner, error) in enumerate(problem.errors.owner):
-        actual[owner] += felt[j] * fitted.point.error[error]
+        actual[owner] += response[j] * fitted.point.error[error]
         column = FIXED + len(layout.terms) + error
-        rows[:, column] += felt[j] * problem.maps.first_moment[owner] / problem.mass
+        rows[:, column] += response[j] * problem.maps.first_moment[owner] / problem.mass
     for j, column in drifts:
         rows[j, column] = seconds
     moved = seconds * fitted.point.torque[DRIFT : DRIFT + 3]

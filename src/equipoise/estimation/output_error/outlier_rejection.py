@@ -2,7 +2,8 @@
 
 Huber's loss keeps a gross error from pulling a fit, but not from being counted in what the fit
 leaves: a few of a hundred sd make any model seem wrong, and a sensor seem noisy. So the motion is
-followed once by the robust fit, and rows farther off than ``FAR`` of the usual distance (by the
+followed once by the robust fit, and rows farther off than ``OUTLYING`` of the usual distance (by
+the
 median) are no part of what is estimated, judged and surveyed then. Where many rows are far off it
 is the model that is wrong, and none is left out.
 """
@@ -16,34 +17,34 @@ from equipoise.model.arrays import Bools, Series
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
-FAR = 8.0  # chosen: of the sd of an axis; one sound row of 1e12 is as far
+OUTLYING = 8.0  # chosen: of the sd of an axis; one sound row of 1e12 is as far
 MEDIAN = 1.5382  # of |e| for three axes of unit noise
 MOST = 0.2  # chosen: with more of them far off, it is the model
 
 
-def far_off(left: Series) -> Bools:
+def outlying(left: Series) -> Bools:
     """Return which residual vectors (n, 3), in sd, are far off."""
     size = np.linalg.norm(left, axis=1)
     if not len(size):
         return np.zeros(0, dtype=bool)
     scale = max(float(np.median(size)) / MEDIAN, 1.0)
-    far = size > FAR * scale
-    return far if far.mean() < MOST else np.zeros(len(size), dtype=bool)
+    outlying = size > OUTLYING * scale
+    return outlying if outlying.mean() < MOST else np.zeros(len(size), dtype=bool)
 
 
-def without(channel: Samples | None, far: Bools) -> Samples | None:
+def without(channel: Samples | None, outlying: Bools) -> Samples | None:
     """Return a channel without some rows."""
-    if channel is None or not far.any():
+    if channel is None or not outlying.any():
         return channel
-    return Samples(channel.t[~far], channel.values[~far])
+    return Samples(channel.t[~outlying], channel.values[~outlying])
 
 
-def without_far_rows(
+def without_outliers(
     recording: Recording, testbed: Testbed, params: Params
 ) -> tuple[Recording, int]:
     """Return the record without the rows that stand far off its robust fit, and their number."""
     at = fit(recording, testbed, replace(params, robust=True)).at
-    camera, gyro = far_off(at.left_q), far_off(at.left_w)
+    camera, gyro = outlying(at.left_q), outlying(at.left_w)
     kept = replace(
         recording,
         attitude=without(recording.attitude, camera),

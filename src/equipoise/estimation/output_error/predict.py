@@ -22,7 +22,7 @@ from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 
 RATE = ("rate_x", "rate_y", "rate_z")
 ATTITUDE = ("attitude_x", "attitude_y", "attitude_z")
@@ -51,12 +51,12 @@ def run(
     if rows is None or not len(rows):
         rows, sensor = recording.rate, testbed.gyro
     assert rows is not None
-    t = seen_at(rows.t, sensor)
+    t = measured_at(rows.t, sensor)
     errors, rails = mass_errors(recording.masses, testbed.masses), rails_of(testbed.masses)
     line = timeline(
         t, np.zeros(0), on_rails(recording.masses, len(rails)), len(rails),
         min(1.0, TURN_PER_STEP / max(fastest_rate(recording), 1e-6)),
-        recording.momentum, recording.torque, errors.felt, errors.owner,
+        recording.momentum, recording.torque, errors.response, errors.owner,
     )  # fmt: skip
     first = KNOWN_D + len(rails)
     off = [found.get(name, 0.0) for name in errors.names]

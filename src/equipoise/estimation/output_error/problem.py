@@ -13,7 +13,7 @@ from equipoise.dynamics.propagation import Columns, stacked
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.estimation.output_error.kernels import gauss_newton
 from equipoise.estimation.output_error.kernels.gauss_newton import Posed
-from equipoise.estimation.output_error.kernels.normal_equations import Seen
+from equipoise.estimation.output_error.kernels.normal_equations import Measurements
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump, cuts_of, inside
 from equipoise.estimation.parameters.fit_parameters import (
     CORE,
@@ -33,7 +33,7 @@ from equipoise.model.arrays import Floats, Series, Square, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import typical
-from equipoise.sensors.timing import seen_at, spread_of
+from equipoise.sensors.timing import measured_at, spread_of
 
 COARSE = 1e-4  # rad: what a camera of 0.2 deg makes of a thousand rows
 FINEST = 0.02  # rad
@@ -67,7 +67,7 @@ class Problem:
     maps: MassMaps
     errors: MassErrors
     line: Timeline
-    seen: Seen
+    observed: Measurements
     layout: Layout
     columns: Columns
     prior: Prior
@@ -207,19 +207,19 @@ def pose(
     attitude, rate = recording.attitude or NOTHING, recording.rate or NOTHING
     jumps, rails = inside(jumps, *recording.span), rails_of(testbed.masses)
     line = timeline(
-        seen_at(attitude.t, testbed.attitude),
-        seen_at(rate.t, testbed.gyro),
+        measured_at(attitude.t, testbed.attitude),
+        measured_at(rate.t, testbed.gyro),
         on_rails(recording.masses, len(rails)),
         len(rails),
         longest,
         recording.momentum,
         recording.torque,
-        errors.felt,
+        errors.response,
         errors.owner,
         at_nodes=False,
         cut=np.array([jump.t for jump in jumps]),
     )
-    seen = Seen(
+    measurements = Measurements(
         np.ascontiguousarray(attitude.values if len(attitude) else np.zeros((0, 4))),
         line.attitude_node,
         line.attitude_share,
@@ -235,15 +235,15 @@ def pose(
     )
     maps = mass_maps(rails)
     columns = columns_of(layout)
-    return Problem(testbed.body.mass, testbed.gravity, maps, errors, line, seen, layout, columns,
-                   prior, limit, scale_open, jumps)  # fmt: skip
+    return Problem(testbed.body.mass, testbed.gravity, maps, errors, line, measurements, layout,
+                   columns, prior, limit, scale_open, jumps)  # fmt: skip
 
 
 def posed(problem: Problem) -> Posed:
     """Return the problem as the kernel sees it."""
     line, prior = problem.line, problem.prior
     return Posed(problem.mass, problem.gravity, stacked(problem.maps), line.t, line.known,
-                 line.owners, problem.columns, problem.seen, problem.limit, prior.mean,
+                 line.owners, problem.columns, problem.observed, problem.limit, prior.mean,
                  prior.weight, prior.held, problem.layout.slots,
                  cuts_of(problem.jumps, line.t, problem.layout))  # fmt: skip
 

@@ -45,12 +45,15 @@ def downward(fitted: Fitted) -> Series3:
 
     Behind a camera's own errors it is off by less than a degree, which is nothing here.
     """
-    line, seen = fitted.problem.line, fitted.problem.seen
-    if not len(seen.attitude):
+    line, measurements = fitted.problem.line, fitted.problem.observed
+    if not len(measurements.attitude):
         return np.tile(-to_matrix(fitted.point.q0)[2], (len(line.t), 1))
     step = np.append(np.diff(line.t), 0.0)
-    t: Series1 = line.t[seen.attitude_node] + seen.attitude_share * step[seen.attitude_node]
-    down = -to_matrix(seen.attitude)[:, 2, :]
+    t: Series1 = (
+        line.t[measurements.attitude_node]
+        + measurements.attitude_share * step[measurements.attitude_node]
+    )
+    down = -to_matrix(measurements.attitude)[:, 2, :]
     columns: list[Series1] = [np.interp(line.t, t, component) for component in down.T]
     return np.column_stack(columns)
 
@@ -60,8 +63,8 @@ def without_moment(problem: Problem, hanging: Floats) -> Problem:
     maps, line = problem.maps, problem.line
     beside = MassMaps(maps.first_moment, *(np.zeros_like(m) for m in maps[1:]))
     both = MassMaps(*(np.vstack(pair) for pair in zip(maps, beside, strict=True)))
-    first, d, felt = np.split(line.known, [KNOWN_D, KNOWN_D + len(maps.momentum)], axis=1)
-    known = np.hstack([first, d + hanging, -hanging, felt])
+    first, d, response = np.split(line.known, [KNOWN_D, KNOWN_D + len(maps.momentum)], axis=1)
+    known = np.hstack([first, d + hanging, -hanging, response])
     return replace(problem, maps=both, line=line._replace(known=known))
 
 

@@ -139,7 +139,7 @@ def misfit(problem: Problem, point: Unknowns) -> float:
 
 def misfit_at(problem: Problem, at: Evaluation) -> float:
     """Return the same of residuals that are at hand."""
-    left = at.left_q * problem.seen.attitude_sd if len(at.left_q) else at.left_w
+    left = at.left_q * problem.observed.attitude_sd if len(at.left_q) else at.left_w
     square: Floats = np.sum(left**2, axis=1)
     return float(np.sqrt(np.mean(square)))
 

@@ -23,7 +23,7 @@ from equipoise.estimation.parameters.fit_parameters import (
 from equipoise.maths.linalg import symmetrise
 from equipoise.model.arrays import Bools, Floats, Square
 
-SEEN = 4.0  # 1 / (half a natural size)^2
+OBSERVABLE = 4.0  # 1 / (half a natural size)^2
 PART = 1e-3  # chosen: a smaller component of an unseen direction is rounding
 LOST = 0.1  # natural sizes, chosen: by so much an unseen direction must move what it hides
 DISTANCE = 1e-5  # m, a centre of mass that is not worth calling an offset
@@ -83,13 +83,13 @@ def describe(direction: Floats, names: tuple[str, ...]) -> str:
 def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, ...]) -> Visibility:
     """Return covariance, visibility and the sentences about what is not seen."""
     values, vectors = np.linalg.eigh(symmetrise(information * size[:, None] * size))
-    unseen = values < SEEN
+    unseen = values < OBSERVABLE
     good = vectors[:, ~unseen]
-    weak, told = vectors[:, unseen], np.maximum(values[unseen], 1e-30)
+    weak, reported = vectors[:, unseen], np.maximum(values[unseen], 1e-30)
     part = np.where(np.abs(weak) > PART, weak, 0.0)
-    hidden = np.any(np.abs(part) / np.sqrt(told) > LOST, axis=1)
+    hidden = np.any(np.abs(part) / np.sqrt(reported) > LOST, axis=1)
     slight = np.where(hidden[:, None], 0.0, part)
-    natural = (good / values[~unseen]) @ good.T + (slight / told) @ slight.T
+    natural = (good / values[~unseen]) @ good.T + (slight / reported) @ slight.T
     covariance = natural * size[:, None] * size
     scale_open = False
     sentences: list[str] = []

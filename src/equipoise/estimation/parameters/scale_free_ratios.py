@@ -19,7 +19,7 @@ ORDER = (6, 7, 8, 0, 1, 2, 3, 4, 5)  # of report: centre of mass first
 PART = 1e-3  # chosen: a smaller part in an unseen direction is rounding, as in ``observability``
 
 
-def largest_seen(values: Floats, unseen: Floats) -> int:
+def largest_observable(values: Floats, unseen: Floats) -> int:
     """Return the largest moment of inertia without part in unseen directions, if there is one."""
     moments = values[:3] * ~np.any(np.abs(unseen[:3]) > PART * values[:3, None], axis=1)
     return int(np.argmax(moments if moments.any() else values[:3]))
@@ -31,7 +31,7 @@ def ratios_of(values: Floats, covariance: Square, unseen: Floats) -> tuple[Param
     ``unseen`` are the directions (9, u) that the data do not see, but for the scale, of natural
     size.
     """
-    top = largest_seen(values, unseen)
+    top = largest_observable(values, unseen)
     size = np.append(np.full(6, values[top]), np.full(3, np.linalg.norm(values[6:])))
     found: list[Parameter] = []
     for k in ORDER:
@@ -40,8 +40,8 @@ def ratios_of(values: Floats, covariance: Square, unseen: Floats) -> tuple[Param
         ratio, gradient = float(values[k] / values[top]), np.zeros(len(values))
         gradient[k], gradient[top] = 1.0, -ratio
         sd = float(np.sqrt(gradient @ covariance @ gradient)) / float(values[top])
-        seen = not np.any(np.abs(gradient @ unseen) > PART * size[k])
+        observed = not np.any(np.abs(gradient @ unseen) > PART * size[k])
         unit = "1/(kg m)" if k > 5 else "-"
         name = f"{NAMES[k]}/{NAMES[top]}"
-        found.append(Parameter(name, unit, ratio, sd if seen else np.inf, bool(seen)))
+        found.append(Parameter(name, unit, ratio, sd if observed else np.inf, bool(observed)))
     return tuple(found)

@@ -28,7 +28,7 @@ Draws = Sequence[tuple[Posed, Posed]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Felt:
+class ResidualTorque:
     """A series, and how large it is when noise is taken off."""
 
     t: Series1  # s
@@ -52,7 +52,9 @@ def mean_square(values: Series) -> float:
     return float(np.mean(np.square(values))) * values.shape[1]
 
 
-def felt(formulation: Formulation, posed: Posed, draws: Draws, about_mean: bool = False) -> Felt:
+def residual_torque(
+    formulation: Formulation, posed: Posed, draws: Draws, about_mean: bool = False
+) -> ResidualTorque:
     """Return what was felt; ``about_mean`` for what is known up to a constant, as energy is."""
 
     def side(of: Posed) -> Series:
@@ -67,4 +69,6 @@ def felt(formulation: Formulation, posed: Posed, draws: Draws, about_mean: bool 
     rms = max(square, 0.0) ** 0.5
     floor = max(rms, spread**0.5, 1e-300)
     squares: Series1 = (values**2).sum(axis=1)
-    return Felt(t, values, noise**0.5, rms, spread / (2 * floor), float(squares.max()) ** 0.5)
+    return ResidualTorque(
+        t, values, noise**0.5, rms, spread / (2 * floor), float(squares.max()) ** 0.5
+    )

@@ -52,7 +52,7 @@ def conclude(
     whole = total(answer)
     view = examine(inverse_spd(whole + rounding(whole)), *scale_and_sizes(posed, rows, answer),
                    rows.names)  # fmt: skip
-    names, values, covariance, hidden = reported(posed, rows, answer, view, whole, pinned)
+    names, values, covariance, hidden = texts(posed, rows, answer, view, whole, pinned)
     open_scale = bool(pinned)
     body = body_with(posed.testbed, dict(zip(rows.names, answer.values, strict=True)))
     outcome = outcome_of(rows, answer, open_scale, is_possible(body))
@@ -108,7 +108,7 @@ def scale_and_sizes(posed: Posed, rows: Rows, answer: Answer) -> tuple[Floats, F
     return stretched / max(float(np.linalg.norm(stretched)), 1e-300), size
 
 
-def reported(
+def texts(
     posed: Posed, rows: Rows, answer: Answer, view: Visibility, whole: Square,
     pinned: tuple[str, ...],
 ) -> tuple[tuple[str, ...], Floats, Square, list[bool]]:  # fmt: skip
@@ -179,32 +179,32 @@ def worst(rows: Rows, shift: Floats, answer: Answer) -> tuple[str, float] | None
 
 def outcome_of(rows: Rows, answer: Answer, open_scale: bool, possible: bool) -> Outcome:
     """Return whether the numbers may be used, and what to think of them."""
-    told = ["The scale is open: only ratios are known." if open_scale else "A linear estimate."]
-    told += [f"Note: {note}." for note in rows.notes]
+    texts = ["The scale is open: only ratios are known." if open_scale else "A linear estimate."]
+    texts += [f"Note: {note}." for note in rows.notes]
     if not possible:
-        told.insert(0, "No body can have the inertia found.")
+        texts.insert(0, "No body can have the inertia found.")
     taken = most_taken(rows, answer)
     if taken > MOST_TAKEN:
-        told.append(f"Noise in the regressor takes some {100 * taken:.0f} % of a moment of inertia "
-                    "away: do not trust the intervals.")  # fmt: skip
+        texts.append(f"Noise in the regressor takes some {100 * taken:.0f} % of a moment of "
+                    "inertia away: do not trust the intervals.")  # fmt: skip
     if answer.excess > DROWNED:
-        told.append("The rows leave far more than the sensors' noise: something moves the platform "
-                    "that the model does not know; do not trust the intervals.")  # fmt: skip
+        texts.append("The rows leave far more than the sensors' noise: something moves the "
+                    "platform that the model does not know; do not trust the intervals.")  # fmt: skip
     elif answer.excess > 1:
-        told.append(f"The rows leave more than the sensors' noise, {answer.excess:.2g} times its "
+        texts.append(f"The rows leave more than the sensors' noise, {answer.excess:.2g} times its "
                     "power where it is most: intervals are widened "
                     f"{np.sqrt(answer.excess):.2g} times.")  # fmt: skip
     if (most := worst(rows, answer.shifts.bias, answer)) is not None:
-        told.append(f"Noise in the regressor moves {most[0]} by about {most[1]:.2g} sd: "
+        texts.append(f"Noise in the regressor moves {most[0]} by about {most[1]:.2g} sd: "
                     f"{NO_TRUST}; use momentum_corrected, or trajectory.")  # fmt: skip
     if (most := worst(rows, answer.shifts.blurred, answer)) is not None:
-        told.append(f"Smoothing the camera's rows blurs quick motion and moves {most[0]} by about "
+        texts.append(f"Smoothing the camera's rows blurs quick motion and moves {most[0]} by about "
                     f"{most[1]:.2g} sd: {NO_TRUST}; a gyro would show it.")  # fmt: skip
     if (most := worst(rows, answer.shifts.omitted, answer)) is not None:
-        told.append(f"What the model leaves out moves {most[0]} by about {most[1]:.2g} sd: "
+        texts.append(f"What the model leaves out moves {most[0]} by about {most[1]:.2g} sd: "
                     f"{NO_TRUST}.")  # fmt: skip
     fair = possible and answer.excess <= DROWNED and taken <= MOST_TAKEN
-    return Outcome(fair, " ".join(told))
+    return Outcome(fair, " ".join(texts))
 
 
 def most_taken(rows: Rows, answer: Answer) -> float:

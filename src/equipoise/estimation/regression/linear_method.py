@@ -41,7 +41,7 @@ from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.estimate import INERTIA, NORMAL_95, Estimate
 from equipoise.model.recording import Recording, Samples, arranged
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 
 FEWEST = 12  # times
 FOR_NOISE = 6  # pairs, chosen: the mean of dA^T dA over thousands of rows is known well from few
@@ -139,61 +139,61 @@ def posed_rows(linear: Linear, posed: Posed, hold: tuple[str, ...]) -> tuple[Row
     return held(free, posed.testbed, hold), hold
 
 
-def answered(asked: Question) -> Answer:
+def answered(requested: Question) -> Answer:
     """Return solution, covariance, bias and how much more than noise is left."""
-    linear, rows = asked.linear, asked.rows
-    aid = aid_for(asked)
+    linear, rows = requested.linear, requested.rows
+    aid = aid_for(requested)
     best = linear.solver(rows, aid)
     again = aid._replace(gram=2 * aid.gram, cross=2 * aid.cross)  # of noise that is in it twice
-    sums = summed(asked, again, best)
+    sums = summed(requested, again, best)
     whole, omitted = rows, np.zeros(len(best))
     if rows.omitted is not None:
         omitted = least_squares(replace(rows, b=rows.omitted, omitted=None), aid)
         whole = replace(rows, b=rows.b - rows.omitted, omitted=None)
     left = remains(whole, best - sums.bias - omitted)
-    blurred = blur(asked, aid, best)
-    spread = (student.ppf(0.975, len(asked.draws)) / NORMAL_95) ** 2 * sums.covariance
-    course = None if linear.plan is None else passed(linear.plan, asked.posed.testbed, rows)
+    blurred = blur(requested, aid, best)
+    spread = (student.ppf(0.975, len(requested.draws)) / NORMAL_95) ** 2 * sums.covariance
+    course = None if linear.plan is None else passed(linear.plan, requested.posed.testbed, rows)
     shifts = Shifts(sums.bias, omitted, blurred)
     return Answer(best, spread, shifts, left, excess(left, sums.power), course)
 
 
-def blur(asked: Question, aid: Aid, best: Floats) -> Floats:
+def blur(requested: Question, aid: Aid, best: Floats) -> Floats:
     """Return what smoothing a camera's rows does to the solution: what doing so again would do.
 
     A gyro shows quick motion as it is; a camera alone shows it smoothed over seconds.
     """
-    recording, motion = asked.posed.recording, asked.posed.motion
+    recording, motion = requested.posed.recording, requested.posed.motion
     camera = recording.attitude
     if recording.rate is not None or camera is None:
         return np.zeros(len(best))
-    seen = seen_at(camera.t, asked.posed.testbed.attitude)
-    smooth = replace(recording, attitude=Samples(camera.t, at_times(motion.t, motion.q, seen)))
-    again = led_motion(smooth, asked.posed.testbed)
-    posed = Posed(smooth, asked.posed.testbed, again, asked.posed.terms)
-    return asked.linear.solver(rows_again(asked, posed), aid) - best
+    observed = measured_at(camera.t, requested.posed.testbed.attitude)
+    smooth = replace(recording, attitude=Samples(camera.t, at_times(motion.t, motion.q, observed)))
+    again = led_motion(smooth, requested.posed.testbed)
+    posed = Posed(smooth, requested.posed.testbed, again, requested.posed.terms)
+    return requested.linear.solver(rows_again(requested, posed), aid) - best
 
 
-def aid_for(asked: Question) -> Aid:
+def aid_for(requested: Question) -> Aid:
     """Return what the solver may use: the noise of centred rows, from a few draws.
 
     Of noise alone: what is off by the same all along is no scatter that could be taken off.
     """
-    unknowns = len(asked.rows.names)
+    unknowns = len(requested.rows.names)
     gram, cross = np.zeros((unknowns, unknowns)), np.zeros(unknowns)
-    count = FOR_NOISE if asked.linear.needs_noise else 0
-    for pair in pairs(asked.posed, Drawn(constant=False), count):
-        first, second = (centred(rows_again(asked, each)) for each in pair)
+    count = FOR_NOISE if requested.linear.needs_noise else 0
+    for pair in pairs(requested.posed, Drawn(constant=False), count):
+        first, second = (centred(rows_again(requested, each)) for each in pair)
         dA = 0.5 * (first.A - second.A).reshape(-1, unknowns)
         db = 0.5 * (first.b - second.b).reshape(-1)
         gram += dA.T @ dA / FOR_NOISE
         cross += dA.T @ db / FOR_NOISE
-    return Aid(asked.posed.testbed, gram, cross)
+    return Aid(requested.posed.testbed, gram, cross)
 
 
-def rows_again(asked: Question, drawn: Posed) -> Rows:
+def rows_again(requested: Question, drawn: Posed) -> Rows:
     """Return the rows of a replicate; what is held stays at the testbed's own value."""
-    return held(asked.linear.formulation(drawn), asked.posed.testbed, asked.hold)
+    return held(requested.linear.formulation(drawn), requested.posed.testbed, requested.hold)
 
 
 def remains(rows: Rows, values: Floats) -> Series:
@@ -202,13 +202,13 @@ def remains(rows: Rows, values: Floats) -> Series:
     return rows.b - rows.A @ values
 
 
-def summed(asked: Question, aid: Aid, best: Floats) -> Sums:
+def summed(requested: Question, aid: Aid, best: Floats) -> Sums:
     """Return what the replicates add up to."""
-    c, count = len(best), len(asked.draws)
+    c, count = len(best), len(requested.draws)
     covariance, middles, power = np.zeros((c, c)), list[Floats](), np.zeros(1)
-    for pair in asked.draws:
-        again = [rows_again(asked, each) for each in pair]
-        plus, minus = (asked.linear.solver(each, aid) for each in again)
+    for pair in requested.draws:
+        again = [rows_again(requested, each) for each in pair]
+        plus, minus = (requested.linear.solver(each, aid) for each in again)
         half = 0.5 * (plus - minus)
         covariance += np.outer(half, half) / count
         middles.append(0.5 * (plus + minus) - best)

@@ -101,13 +101,13 @@ def misplaced(
 ) -> Samples | None:
     """Return the masses where they may have been."""
     errors = mass_errors(recording.masses, testbed.masses)
-    if errors.felt is None or not len(errors.sd):
+    if errors.response is None or not len(errors.sd):
         return recording.masses
-    t, felt = errors.felt.t, errors.felt.values
+    t, response = errors.response.t, errors.response.values
     off = sign * errors.sd * rng.normal(size=len(errors.sd))
     moved = straight_lines(recording.masses, t, len(testbed.masses))
     for j, (mass, k) in enumerate(errors.owner):
-        moved[:, mass] += off[k] * felt[:, j]
+        moved[:, mass] += off[k] * response[:, j]
     return Samples(t, moved)
 
 

@@ -35,7 +35,7 @@ from equipoise.model.estimate import COM, Estimate, Parameter
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 
 METHOD = "equilibrium"
 FEWEST = 10  # rows in a stop
@@ -85,7 +85,7 @@ def stops(recording: Recording, testbed: Testbed) -> list[Rest]:
     attitude = recording.attitude
     if attitude is None:
         return []
-    t: Series1 = seen_at(attitude.t, testbed.attitude)
+    t: Series1 = measured_at(attitude.t, testbed.attitude)
     down = -to_matrix(attitude.values)[:, 2, :]
     maps, found = mass_maps(testbed.masses), list[Rest]()
     for start, end in quiet_spans(recording, testbed):
@@ -110,7 +110,7 @@ def along(lever: Vector3) -> tuple[Vector3, Matrix3]:
     return u, across(u) / length
 
 
-def told(rests: list[Rest]) -> Matrix3:
+def rest_information(rests: list[Rest]) -> Matrix3:
     """Return the normal matrix of the linear rows."""
     return sum((across(rest.down) for rest in rests), np.zeros((3, 3)))
 
@@ -125,7 +125,7 @@ def solve(rests: list[Rest]) -> tuple[Vector3, Matrix3, float]:
     def slope(com: Floats) -> Floats:
         return np.concatenate([along(com + s.shift)[1] / s.sd for s in rests])
 
-    start = np.linalg.solve(told(rests), right)
+    start = np.linalg.solve(rest_information(rests), right)
     found = least_squares(left, start, slope, method="lm", x_scale=SIZE)
     com = np.asarray(found.x, dtype=np.float64)
     return com, slope(com).T @ slope(com), float(np.sum(left(com) ** 2))
@@ -146,7 +146,7 @@ def doubts(rests: list[Rest], misfit: float) -> str:
 
 def lacking(rests: list[Rest]) -> str:
     """Say why rests cannot tell the centre of mass, or nothing."""
-    if len(rests) >= 2 and np.linalg.eigvalsh(told(rests))[0] >= WEAKEST * len(rests):
+    if len(rests) >= 2 and np.linalg.eigvalsh(rest_information(rests))[0] >= WEAKEST * len(rests):
         return ""
     return (
         f"{len(rests)} distinct rest positions found, two are needed: "

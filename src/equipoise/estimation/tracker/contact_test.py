@@ -28,7 +28,7 @@ YOUNGEST = 3  # rows, chosen: a contact shows in more than two
 JUMP_SD, STEP_SD = 0.1, 1e-4  # rad/s and m, wide: what a contact may do
 TEMPER = 0.25  # chosen: half of the log likelihood's, since an onset is between two that are kept
 SURE, LIKELY = 0.99, 0.9  # chosen: probability of a kind, for which to wait, and to report
-TELLING = 8  # rows, chosen: by when a jump and a step differ, whenever between rows they began
+DECISIVE = 8  # rows, chosen: by when a jump and a step differ, whenever between rows they began
 PATIENCE = 20  # rows, chosen: to wait for all that
 JUMP, STEP, EITHER, LOST = 0, 1, 2, 3  # kinds of event
 
@@ -105,8 +105,8 @@ def judged(watch: Watch, alarm: float, room: Room) -> tuple[int, int]:
         return -1, 0
     share = weigh_up(watch, room.gain[best], room)
     watch.counts[WAITED] += 1
-    told = max(share, 1.0 - share) > SURE and watch.age[best % ONSETS] >= TELLING
-    if not told and watch.counts[WAITED] < PATIENCE:
+    reported = max(share, 1.0 - share) > SURE and watch.age[best % ONSETS] >= DECISIVE
+    if not reported and watch.counts[WAITED] < PATIENCE:
         return -1, 0
     if max(share, 1.0 - share) < LIKELY:
         return EITHER, best

@@ -84,7 +84,7 @@ def follow(watch: Watch, phi: Floats, room: Room) -> None:
 
 
 @part
-def felt(watch: Watch, first: int, second: int, room: Room) -> None:
+def response(watch: Watch, first: int, second: int, room: Room) -> None:
     """Write G = H X."""
     X, G = watch.X, room.G
     for r in range(3):

@@ -50,7 +50,7 @@ def predict(
     model: Model, rows: Rows, body: Body, i: int, point: Floats, place: Place, tools: Tools
 ) -> Now:
     """Take belief and covariance over step i; return the platform at its end."""
-    moving, end = tools.moving, place.belief
+    moving, end = tools.moving, place.posterior
     y, regress, phi, t, inputs = moving.y, moving.regress, moving.phi, rows.t, rows.known
     now = body_at(body, model.maps, t, inputs, i, 0.0)
     begin(now, end, y)
@@ -71,7 +71,7 @@ def predict(
 def noted(t: float, surprise: float, place: Place, written: Written) -> None:
     """Write a row down."""
     done = written.done
-    note(t, place.belief, place.covariance, surprise, written.out[done[NOTED]])
+    note(t, place.posterior, place.covariance, surprise, written.out[done[NOTED]])
     done[NOTED] += 1
 
 
@@ -84,13 +84,13 @@ def see(
     place, y, t = carried.place, tools.moving.y, float(rows.t[node])
     if iq < rows.q_node.shape[0] and rows.q_node[iq] == node:
         surprise = by_attitude(model, rows, iq, now, known, walk, carried, tools, written.done)
-        begin(now, place.belief, y)
+        begin(now, place.posterior, y)
         iq += 1
         if not walk.again:
             noted(t, surprise, place, written)
     if iw < rows.w_node.shape[0] and rows.w_node[iw] == node:
         surprise = by_rate(model, rows, iw, now, known, walk, carried, tools)
-        begin(now, place.belief, y)
+        begin(now, place.posterior, y)
         iw += 1
         if not walk.again:
             noted(t, surprise, place, written)
@@ -106,7 +106,7 @@ def touched(model: Model, now: Now, carried: Carried, written: Written, tools: T
         return False
     mend(carried.watch, place.covariance, work.x, room)
     y = tools.moving.y
-    apply(work.x, rate_of(now, y), y, place.belief)
+    apply(work.x, rate_of(now, y), y, place.posterior)
     if done[EVENTS] < written.events.shape[0]:
         report(carried.watch, kind, best, room, written.events[done[EVENTS]])
         done[EVENTS] += 1
@@ -167,16 +167,16 @@ def run_filter(
             return i + 1
         if iq + iw == before or not walk.testing:
             continue
-        gone = distance(point, place.belief) > 1.0
+        gone = distance(point, place.posterior) > 1.0
         linear = walk.folding or walk.again or not gone
         t = float(rows.t[i + 1])
         if mended(model, t, now, known, linear, carried, written, tools):
             onsets.forget(watch)
             return i + 1
         if gone and walk.folding:
-            transport(place.covariance, point, place.belief)
+            transport(place.covariance, point, place.posterior)
             body = placed(model.body, point)
-        elif gone and not walk.again and i + 1 >= walk.look:
+        elif gone and not walk.again and i + 1 >= walk.stop_at:
             done[REASON] = MOVED
             return i + 1
     return walk.last

@@ -34,7 +34,7 @@ class Walk(NamedTuple):
 
     first: int
     last: int
-    look: int  # node from which it ends where the belief has moved
+    stop_at: int  # node from which it ends where the belief has moved
     folding: bool  # the point goes with the belief
     again: bool  # rows that have been passed before: nothing is noted, no noise learnt
     testing: bool  # for contacts
@@ -43,12 +43,12 @@ class Walk(NamedTuple):
 class Place(NamedTuple):
     """A belief (q, w, com, J, bias) and its covariance, written on by the walk."""
 
-    belief: Floats  # (19,)
+    posterior: Floats  # (19,)
     covariance: Square  # (18, 18)
 
     def copy(self) -> "Place":
         """Return one that can be written on."""
-        return Place(self.belief.copy(), self.covariance.copy())
+        return Place(self.posterior.copy(), self.covariance.copy())
 
 
 class Carried(NamedTuple):

@@ -19,24 +19,24 @@ from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.model.arrays import Floats
 
 AT = 7  # where com stands in a belief written as one array: q, w, com, J, bias
-FAR = 0.01  # of a moment, chosen: half of the error that linearising once stands
-FAR_COM = 0.03  # of |r|, chosen: r enters linearly but for its product with 1/J
+MOVED = 0.01  # of a moment, chosen: half of the error that linearising once stands
+MOVED_COM = 0.03  # of |r|, chosen: r enters linearly but for its product with 1/J
 POSSIBLE = 0.5  # chosen: a point's inertia shrinks to no less than this at a time, along any axis
 
 
 @part
 def distance(point: Floats, end: Floats) -> float:
     """Return how far a belief is from a point of linearisation; 1 is far."""
-    size, off, far = 0.0, 0.0, 0.0
+    size, off, outlying = 0.0, 0.0, 0.0
     for k in range(6):
         i = 0 if k == 0 or k == 3 or k == 4 else (1 if k == 1 or k == 5 else 2)
         j = 0 if k == 0 else (1 if k == 1 or k == 3 else 2)
         share = (end[AT + 3 + k] - point[3 + k]) ** 2 / (point[3 + i] * point[3 + j])
-        far = max(far, share / (FAR * FAR))
+        outlying = max(outlying, share / (MOVED * MOVED))
     for k in range(3):
         size += point[k] * point[k]
         off += (end[AT + k] - point[k]) ** 2
-    return max(far, off / (FAR_COM * FAR_COM * size)) ** 0.5
+    return max(outlying, off / (MOVED_COM * MOVED_COM * size)) ** 0.5
 
 
 @kernel
@@ -65,11 +65,11 @@ def shrunk(point: Floats, new: Floats) -> bool:
     return not (xx > 0.0 and minor > 0.0 and whole > 0.0)
 
 
-def nearer(point: Floats, belief: Floats) -> Floats:
+def nearer(point: Floats, posterior: Floats) -> Floats:
     """Return the belief of (r, J), or a point on the way to it where J stays possible."""
     share = 1.0
     while share > 1e-3:
-        new = point + share * (belief - point)
+        new = point + share * (posterior - point)
         if not shrunk(point, new):
             return new
         share /= 2

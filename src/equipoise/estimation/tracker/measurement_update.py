@@ -67,7 +67,7 @@ def take_anew(rows: Rows, iq: int, sd: float, place: Place) -> None:
     w = log(q_before^-1 q) / lag, sd 2 sd / lag and a share of w, which changes meanwhile. With no
     row shortly before, the rate stays as believed, and its sd becomes as much.
     """
-    end, P = place.belief, place.covariance
+    end, P = place.posterior, place.covariance
     for j in range(4):
         end[j] = rows.q[iq, j]
     spread = max(STILLEST, (end[4] ** 2 + end[5] ** 2 + end[6] ** 2) ** 0.5)
@@ -117,7 +117,7 @@ def judge(
             S = work.S
             learn_noise(level, surprise, 3.0 * R / (S[0, 0] + S[1, 1] + S[2, 2]))
     if walk.testing:
-        onsets.felt(watch, first, second, tools.room)
+        onsets.response(watch, first, second, tools.room)
         learn(z, odd, carried, tools)
     if odd:
         work.x[:] = 0.0
@@ -140,7 +140,7 @@ def by_attitude(
         take_anew(rows, iq, sd, place)
         return 0.0
     surprise = judge(model, CAMERA, turn(y, rows.q[iq]), known, walk, carried, tools)
-    apply(tools.work.x, rate_of(now, y), y, place.belief)
+    apply(tools.work.x, rate_of(now, y), y, place.posterior)
     return surprise
 
 
@@ -150,7 +150,7 @@ def by_rate(
     tools: Tools,
 ) -> float:  # fmt: skip
     """Correct by a row of the gyro."""
-    end, y = carried.place.belief, tools.moving.y
+    end, y = carried.place.posterior, tools.moving.y
     z = innovation(now, y, end[AT + 9 :], rows.w[iw])
     surprise = judge(model, GYRO, z, known, walk, carried, tools)
     apply(tools.work.x, rate_of(now, y), y, end)

@@ -9,7 +9,7 @@ from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
 from equipoise.model.arrays import Floats, Ints, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
-from equipoise.sensors.timing import seen_at
+from equipoise.sensors.timing import measured_at
 
 LONGEST_STEP = 1.0  # s
 NOTHING = Samples(np.zeros(0), np.zeros((0, 4)))
@@ -57,7 +57,7 @@ def stop_covariances(
 def rows_of(recording: Recording, testbed: Testbed, fed: bool, since: float, speed: float) -> Rows:
     """Return what was seen later than ``since`` (s), of a platform that turns at ``speed``."""
     attitude, rate = recording.attitude or NOTHING, recording.rate or NO_RATE
-    tq, tw = seen_at(attitude.t, testbed.attitude), seen_at(rate.t, testbed.gyro)
+    tq, tw = measured_at(attitude.t, testbed.attitude), measured_at(rate.t, testbed.gyro)
     new_q, new_w = tq > since, tw > since
     masses = recording.masses if fed else None
     line = timeline(

@@ -34,8 +34,8 @@ def learn_noise(level: Floats, surprise: float, share: float) -> None:
 @part
 def settled(levels: Floats) -> bool:
     """Say whether the noise is known of every sensor that has been heard, and one has."""
-    heard = levels[0, 1] + levels[1, 1]
+    received = levels[0, 1] + levels[1, 1]
     for k in range(2):
         if 0.0 < levels[k, 1] < SETTLED:
             return False
-    return heard > 0.0
+    return received > 0.0

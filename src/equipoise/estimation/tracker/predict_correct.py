@@ -223,10 +223,14 @@ def lean(now: Now, phi: Floats, point: Floats, y: Floats, end: Floats) -> None:
 
 
 @part
-def innovation(now: Now, y: Floats, bias: Floats, seen: Floats) -> Triple:
+def innovation(now: Now, y: Floats, bias: Floats, observed: Floats) -> Triple:
     """Return measured minus predicted rate."""
     w = rate_of(now, y)
-    return (seen[0] - w[0] - bias[0], seen[1] - w[1] - bias[1], seen[2] - w[2] - bias[2])
+    return (
+        observed[0] - w[0] - bias[0],
+        observed[1] - w[1] - bias[1],
+        observed[2] - w[2] - bias[2],
+    )
 
 
 @part

@@ -80,7 +80,7 @@ class Memory:
 def first_memory(here: Place, rows: Rows) -> Memory:
     """Return the memory of a tracker that begins with these rows."""
     levels = np.array([[1.0, 0.0], [1.0, 0.0]])
-    return Memory(here.copy(), rows, here.belief[BODY].copy(), 0.0, levels[:, 0].copy(), levels,
+    return Memory(here.copy(), rows, here.posterior[BODY].copy(), 0.0, levels[:, 0].copy(), levels,
                   new_watch(), True)  # fmt: skip
 
 
@@ -95,8 +95,8 @@ def copied(memory: Memory) -> Memory:
 
 def anchored(memory: Memory, here: Place, node: int) -> Memory:
     """Return the memory with its anchor here, at a node; transports the covariance."""
-    target = here.belief.copy()
-    target[BODY] = nearer(memory.point, here.belief[BODY])
+    target = here.posterior.copy()
+    target[BODY] = nearer(memory.point, here.posterior[BODY])
     transport(here.covariance, memory.point, target)
     keeping = doubt(memory.point, here.covariance) > DOUBT or not settled(memory.levels)
     rows, level = later(memory.rows, node), memory.levels[:, 0].copy()
@@ -106,7 +106,7 @@ def anchored(memory: Memory, here: Place, node: int) -> Memory:
 def without(anchor: Place, here: Place) -> Place:
     """Return a place that knows of r and J what the anchor did: rows since then have misled it."""
     found = here.copy()
-    found.belief[BODY] = anchor.belief[BODY]
+    found.posterior[BODY] = anchor.posterior[BODY]
     found.covariance[ERRORS] = found.covariance[:, ERRORS] = 0.0
     found.covariance[ERRORS, ERRORS] = anchor.covariance[ERRORS, ERRORS]
     return found
@@ -133,25 +133,25 @@ def pass_again(
     """
     point, found = memory.point.copy(), here
     for _ in range(PASSES):
-        point = nearer(point, found.belief[BODY])
+        point = nearer(point, found.posterior[BODY])
         found, reached = passed(model, memory, point, node, False, written)
         if written.done[REASON] == BROKEN:
             memory = anchored(replace(memory, point=point), found, reached)
             return pass_again(model, memory, here, node - reached, written)
-        if reached < node or not np.all(np.isfinite(found.belief)):
+        if reached < node or not np.all(np.isfinite(found.posterior)):
             point, found = memory.point, here
             break
-        if distance(point, found.belief) < CLOSE:
+        if distance(point, found.posterior) < CLOSE:
             break
     age = float(memory.rows.t[node] - memory.rows.t[0])
     level = memory.levels[:, 0].copy()
-    suspected = bool(memory.watch.counts[SUSPECT]) and distance(point, found.belief) < CLOSE
+    suspected = bool(memory.watch.counts[SUSPECT]) and distance(point, found.posterior) < CLOSE
     memory.watch.counts[: SUSPECT + (1 if suspected else 0)] = 0
     memory = replace(memory, point=point, passed=age, level=level)
-    return look_closer(model, memory, found, node, written) if suspected else (memory, found, node)
+    return refine(model, memory, found, node, written) if suspected else (memory, found, node)
 
 
-def look_closer(
+def refine(
     model: Model, memory: Memory, here: Place, node: int, written: Written
 ) -> tuple[Memory, Place, int]:
     """Return memory, place and node after a pass that ends at a contact, and passes of the rest."""
@@ -169,13 +169,13 @@ def advance(
     """Walk until something is to be done or the rows end, and do it."""
     rows, keeping = memory.rows, memory.keeping
     last, start = len(rows.t) - 1, float(rows.t[0])
-    edge, look, due = last, last, float(np.inf)
+    edge, measurement, due = last, last, float(np.inf)
     if keeping:
         whole = int((float(rows.t[node]) - start) / EDGE + TINY)
         due = start + EDGE * (whole + 1) - TINY
         edge = min(int(np.searchsorted(rows.t, due)), last)
-        look = int(np.searchsorted(rows.t, start + max(EARLIEST, GROWTH * memory.passed)))
-    walk = Walk(node, edge, look, not keeping, False, True)
+        measurement = int(np.searchsorted(rows.t, start + max(EARLIEST, GROWTH * memory.passed)))
+    walk = Walk(node, edge, measurement, not keeping, False, True)
     carried = Carried(here, memory.levels, memory.watch)
     node = run_filter(model, rows, walk, memory.point, carried, written)
     if written.done[REASON] == ASTRAY and keeping:
@@ -196,7 +196,7 @@ def at_edge(
     grown = np.log(memory.levels[:, 0] / memory.level)
     if grown.max() > np.log(LOUDER):  # noise has been taken for motion: from the anchor's point
         memory, here, node = pass_again(model, memory, memory.anchor.copy(), node, written)
-    elif grown.min() < -np.log(LOUDER) or distance(memory.point, here.belief) > CLOSE:
+    elif grown.min() < -np.log(LOUDER) or distance(memory.point, here.posterior) > CLOSE:
         memory, here, node = pass_again(model, memory, here, node, written)
     shaped = doubt_of_shape(memory.point, here.covariance) < SHAPE and settled(memory.levels)
     if shaped or memory.rows.t[node] - memory.rows.t[0] > LONGEST:
@@ -209,7 +209,7 @@ def follow(
 ) -> tuple[Memory, Place, Written]:
     """Return memory and place after fresh rows, and what was written on the way."""
     n = len(fresh.q) + len(fresh.w)
-    wide = 1 + len(here.belief) + SIZE + 1
+    wide = 1 + len(here.posterior) + SIZE + 1
     written = Written(np.zeros((n, wide)), np.zeros((MOST_EVENTS, EVENT)), np.zeros(3, np.int64))
     if memory is None:
         memory = first_memory(here, fresh)

@@ -78,7 +78,7 @@ class Params:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Belief:
+class Posterior:
     """Mass properties with the masses at home, and how well they are known."""
 
     com: Vector3  # m
@@ -105,9 +105,9 @@ class State:
         return np.ones(2) if self.memory is None else np.sqrt(self.memory.levels[:, 0])
 
     @property
-    def belief(self) -> Belief:
+    def posterior(self) -> Posterior:
         """Return what is believed of the body."""
-        return Belief(self.com, self.inertia_P, self.covariance[BODY, BODY])
+        return Posterior(self.com, self.inertia_P, self.covariance[BODY, BODY])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -154,26 +154,28 @@ class Track:
         return self.sd[:, 3:6]
 
 
-def belief_of(testbed: Testbed, estimate: Estimate | None = None) -> Belief:
+def posterior_of(testbed: Testbed, estimate: Estimate | None = None) -> Posterior:
     """Return what the testbed says, with the inertia of an estimate if that saw it."""
     inertia_sd = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
     variance = np.concatenate([testbed.com_sd, inertia_sd]) ** 2
     covariance, inertia_P = np.diag(variance), testbed.body.inertia_P
     if estimate is not None and estimate.sees(INERTIA):
         covariance[3:, 3:], inertia_P = estimate.covariance_of(INERTIA), estimate.inertia_P
-    return Belief(testbed.body.com, inertia_P, covariance)
+    return Posterior(testbed.body.com, inertia_P, covariance)
 
 
-def first_state(t: float, q: Quaternion, testbed: Testbed, belief: Belief | None = None) -> State:
+def first_state(
+    t: float, q: Quaternion, testbed: Testbed, posterior: Posterior | None = None
+) -> State:
     """Return a state from one attitude: at rest within 0.1 rad/s, the body as known beforehand."""
-    belief = belief or belief_of(testbed)
+    posterior = posterior or posterior_of(testbed)
     covariance = np.zeros((SIZE, SIZE))
     noise = testbed.attitude.noise if testbed.attitude else 0.1
     bias = testbed.gyro.bias_sd if testbed.gyro else 0.0
     spread = [noise**2] * 3 + [0.1**2] * 3 + [0.0] * 9 + [bias**2] * 3
     covariance[np.diag_indices(SIZE)] = spread
-    covariance[BODY, BODY] = belief.covariance
-    return State(t, q, np.zeros(3), belief.com, belief.inertia_P, np.zeros(3), covariance)
+    covariance[BODY, BODY] = posterior.covariance
+    return State(t, q, np.zeros(3), posterior.com, posterior.inertia_P, np.zeros(3), covariance)
 
 
 def contact_alarm(testbed: Testbed, recording: Recording) -> float:
@@ -183,7 +185,9 @@ def contact_alarm(testbed: Testbed, recording: Recording) -> float:
     alike that rows and kinds alone are counted; neighbouring rows are alike too.
     """
     sensors = ((recording.attitude, testbed.attitude), (recording.rate, testbed.gyro))
-    rows = sum(sensor.rate for seen, sensor in sensors if seen is not None and sensor is not None)
+    rows = sum(
+        sensor.rate for observed, sensor in sensors if observed is not None and sensor is not None
+    )
     return float(chdtri(3, 1 / (max(rows, 1.0) * QUIET * 2)))
 
 
@@ -203,13 +207,13 @@ def model_of(recording: Recording, testbed: Testbed, params: Params, state: Stat
 
 def track(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
     """Return the beliefs after every row later than the state; call again to go on from its end."""
-    belief = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P),
+    posterior = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P),
                              state.bias])  # fmt: skip
     speed, fed = float(np.linalg.norm(state.rate)), params.moves == "fed"
     fresh = rows_of(recording, testbed, fed, state.t, speed)
     model = model_of(recording, testbed, params, state)
-    memory, here, written = follow(model, state.memory, Place(belief, state.covariance), fresh)
-    q, w, com, J, b = np.split(here.belief, WHERE[:-1])
+    memory, here, written = follow(model, state.memory, Place(posterior, state.covariance), fresh)
+    q, w, com, J, b = np.split(here.posterior, WHERE[:-1])
     end = State(float(fresh.t[-1]), q, w, com, unpack_symmetric(J), b, here.covariance, memory)
     return track_of(written, end)
 

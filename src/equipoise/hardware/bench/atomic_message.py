@@ -19,11 +19,11 @@ def whole_message() -> Generator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    asked: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _frame: asked.append(number))
+    requested: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _frame: requested.append(number))
     try:
         yield
     finally:
         signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
-    if asked:
+    if requested:
         signal.raise_signal(signal.SIGINT)

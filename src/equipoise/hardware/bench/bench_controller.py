@@ -10,10 +10,10 @@ from typing import Protocol
 
 import numpy as np
 
-from equipoise.hardware.bench.interlocks import LAST, Seen, Trip, silence, tripped
+from equipoise.hardware.bench.interlocks import LAST, Observed, Trip, silence, tripped
 from equipoise.hardware.links.device_links import Links
 from equipoise.hardware.links.health import Health
-from equipoise.hardware.links.row_buffer import Heard
+from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.model.arrays import Floats
 from equipoise.model.bench_requests import checked_targets
@@ -53,7 +53,7 @@ class Keeper:
         self._rates: list[tuple[float, Floats]] = []
         self._before: dict[str, tuple[float, float]] = {}
         self._silent = ""
-        self._heard = Heard(testbed.masses)
+        self._received = RowBuffer(testbed.masses)
         self.t = 0.0
         self._trip: Trip | None = None
 
@@ -78,19 +78,19 @@ class Keeper:
             self._sensed(link, t)
         for link in self.links.boards:
             link.turn(t)
-        self._heard.masses(self.links.positions, self.links.wants, self.links.reported)
+        self._received.masses(self.links.positions, self.links.wants, self.links.reported)
         self._guard(t)
         self.links.send(t)
-        self._tell(t)
+        self._report(t)
 
     def taken(self) -> Recording:
         """Return the rows heard since this was last asked."""
-        return self._heard.taken()
+        return self._received.taken()
 
     def begin(self) -> None:
         """Note that the platform is free from now on, and forget the rows before."""
         self._note("start", "the platform is free from here on", {})
-        self._heard.taken()
+        self._received.taken()
 
     @property
     def positions(self) -> dict[str, float]:
@@ -110,12 +110,12 @@ class Keeper:
     @property
     def fresh(self) -> bool:
         """Say whether every sensor gives rows."""
-        return silence(self._seen(self.t), self._limits) is None
+        return silence(self._observed(self.t), self._limits) is None
 
     @property
     def trouble(self) -> str:
         """What keeps masses from being moved now; empty if nothing does."""
-        quiet = silence(self._seen(self.t), self._limits)
+        quiet = silence(self._observed(self.t), self._limits)
         silent = "" if quiet is None else quiet.sentence
         return self.links.unreachable or silent or self.links.unsure
 
@@ -140,8 +140,8 @@ class Keeper:
         goals = checked_targets(self._testbed.masses, here, targets)
         self._able()
         by_name = {self._testbed.masses[i].name: goal for i, goal in goals.items()}
-        told = ", ".join(f"{name} to {MM * goal:.3f} mm" for name, goal in by_name.items())
-        self._note("command", f"go: {told}", by_name)
+        reported = ", ".join(f"{name} to {MM * goal:.3f} mm" for name, goal in by_name.items())
+        self._note("command", f"go: {reported}", by_name)
         self._able()  # to note it may have filled the disk
         self.links.go(by_name, self.t)
 
@@ -169,18 +169,18 @@ class Keeper:
 
     def _sensed(self, link: SensorLink, t: float) -> None:
         for row in link.turn(t):
-            if self._heard.row(row):
+            if self._received.row(row):
                 last = self._attitudes if row.channel == "attitude" else self._rates
                 last.append((row.t, row.values))
                 del last[:-LAST]
 
     def _guard(self, t: float) -> None:
         """Ask the interlocks; note a sensor that falls silent or comes back while masses stand."""
-        seen = self._seen(t)
-        found = tripped(seen, self._testbed, self._limits)
+        observed = self._observed(t)
+        found = tripped(observed, self._testbed, self._limits)
         if found is not None and (self._trip is None or self._trip.kind != found.kind):
             self._stop(found)
-        quiet = silence(seen, self._limits)
+        quiet = silence(observed, self._limits)
         said = "" if quiet is None else quiet.sentence.split(" has ")[0]
         if said != self._silent:
             text = f"{said} is silent" if said else f"{self._silent} gives rows again"
@@ -188,9 +188,9 @@ class Keeper:
             self._silent = said
         self._remember(t)
 
-    def _seen(self, t: float) -> Seen:
+    def _observed(self, t: float) -> Observed:
         silent, states = self.links.silent(t), self.links.states
-        return Seen(t, self._attitudes, self._rates, silent, states, self._before)
+        return Observed(t, self._attitudes, self._rates, silent, states, self._before)
 
     def _remember(self, t: float) -> None:
         """Keep an earlier answer of each board, from which speeds are told."""
@@ -209,20 +209,20 @@ class Keeper:
     def _note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
         self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
 
-    def _tell(self, t: float) -> None:
+    def _report(self, t: float) -> None:
         """Hand on what was heard."""
-        fresh = self._heard.fresh()
+        fresh = self._received.fresh()
         if fresh is not None:
             self._hand_on(lambda listener: listener.rows(fresh))
         self._hand_on(lambda listener: listener.turn(t))
 
-    def _hand_on(self, tell: Callable[[Listener], None]) -> None:
+    def _hand_on(self, report: Callable[[Listener], None]) -> None:
         """Tell every listener; one that cannot take it any more stops the bench, and only once."""
         for listener in list(self._listeners):
             if listener not in self._listeners:  # it failed when the stop for another was noted
                 continue
             try:
-                tell(listener)
+                report(listener)
             except EquipoiseError as error:
                 self._listeners.remove(listener)
                 self._stop(Trip("fault", str(error)))

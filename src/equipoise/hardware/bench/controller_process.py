@@ -77,7 +77,7 @@ def run_keeper(pipe: Pipe, make: Callable[[Any], Kept], what: Any) -> None:
 
 
 def _serve(pipe: Pipe, keeper: Keeper, box: "queue.SimpleQueue[tuple[str, Any] | None]") -> None:
-    clock, told, before = WallClock(), float("-inf"), None
+    clock, reported, before = WallClock(), float("-inf"), None
     while True:
         keeper.turn(clock.now)
         answers: list[tuple[str, Any]] = []
@@ -89,9 +89,9 @@ def _serve(pipe: Pipe, keeper: Keeper, box: "queue.SimpleQueue[tuple[str, Any] |
             return
         news = _news(keeper, clock.now)
         state = (news.trip, news.trouble, news.answered, news.ready, news.fresh)
-        if answers or news.rows is not None or state != before or news.t - told > BEAT:
+        if answers or news.rows is not None or state != before or news.t - reported > BEAT:
             box.put(("news", news))
-            told, before = news.t, state
+            reported, before = news.t, state
         for answer in answers:  # after the news, so that a command's effect is known with it
             box.put(answer)
         clock.wait()
@@ -130,14 +130,14 @@ class DistantKeeper:
 
     def __init__(self, testbed: Testbed, make: Callable[[Any], Kept], what: Any) -> None:
         context = get_context("spawn")
-        self._pipe, far = context.Pipe()
-        self._process = context.Process(target=run_keeper, args=(far, make, what), daemon=True)
+        self._pipe, outlying = context.Pipe()
+        self._process = context.Process(target=run_keeper, args=(outlying, make, what), daemon=True)
         self._process.start()
-        far.close()
+        outlying.close()
         self.testbed = testbed
         self._news = News(0.0, None, "", False, False, False, None)
         self._parts: list[Recording] = []
-        self._asked = 0  # commands so far
+        self._requested = 0  # commands so far
         self._answer(BEGIN)
 
     @property
@@ -187,24 +187,24 @@ class DistantKeeper:
 
     def begin(self) -> None:
         """Note that the platform is free from now on, and forget the rows before."""
-        self._ask("begin")
+        self._request("begin")
         self._parts = []
 
     def go(self, targets: Mapping[str, float]) -> None:
         """Send masses to displacements (m): all or none."""
-        self._ask("go", dict(targets))
+        self._request("go", dict(targets))
 
     def home(self) -> None:
         """Let every board find its position."""
-        self._ask("home")
+        self._request("home")
 
     def halt(self, sentence: str = "") -> None:
         """Stop every mass."""
-        self._ask("halt", sentence)
+        self._request("halt", sentence)
 
     def health(self) -> list[Health]:
         """Return how well each device speaks."""
-        return self._ask("health")
+        return self._request("health")
 
     def close(self) -> None:
         """Stop every mass and end the keeper."""
@@ -213,11 +213,11 @@ class DistantKeeper:
         if self._process.is_alive():
             self._process.kill()
 
-    def _ask(self, *command: object) -> Any:
-        self._asked += 1
+    def _request(self, *command: object) -> Any:
+        self._requested += 1
         try:
             with whole_message():
-                self._pipe.send((self._asked, *command))
+                self._pipe.send((self._requested, *command))
         except OSError as error:
             raise BenchStopped(ENDED) from error
         return self._answer()
@@ -229,7 +229,7 @@ class DistantKeeper:
         """
         while self._pipe.poll(patience):
             answer = self._taken_in()
-            if answer is None or answer[0] != self._asked:
+            if answer is None or answer[0] != self._requested:
                 continue
             if isinstance(answer[1], EquipoiseError):
                 raise answer[1]

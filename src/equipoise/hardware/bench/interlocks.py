@@ -42,7 +42,7 @@ class Trip:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Seen:
+class Observed:
     """What is looked at."""
 
     t: float  # s, now
@@ -65,46 +65,46 @@ class Seen:
         return any(state.phase in ("moving", "homing") for state in self.boards.values())
 
 
-def tripped(seen: Seen, testbed: Testbed, limits: SafetyLimits) -> Trip | None:
+def tripped(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Trip | None:
     """Return the first reason to stop every motor; None if there is none."""
     return (
-        _fault(seen)
-        or (_leaning(seen, testbed) or _turning(seen, limits) if seen.able else None)
-        or _silence(seen, limits)
-        or _masses(seen, testbed, limits)
+        _fault(observed)
+        or (_leaning(observed, testbed) or _turning(observed, limits) if observed.able else None)
+        or _silence(observed, limits)
+        or _masses(observed, testbed, limits)
     )
 
 
-def silence(seen: Seen, limits: SafetyLimits) -> Trip | None:
+def silence(observed: Observed, limits: SafetyLimits) -> Trip | None:
     """Return which sensor gives no rows, whether masses move or not."""
-    for name, since in seen.silent.items():
+    for name, since in observed.silent.items():
         if since > limits.stale:
             return Trip("silence", f"sensor {name} has given no row for {since:.1f} s")
     return None
 
 
-def turning(seen: Seen) -> float:
+def turning(observed: Observed) -> float:
     """Return how fast the platform turns, rad/s; from attitudes where there is no gyro."""
-    if seen.rates:
-        return median(math.hypot(*rate) for _, rate in seen.rates[-LAST:])
-    if len(seen.attitudes) < LAST:
+    if observed.rates:
+        return median(math.hypot(*rate) for _, rate in observed.rates[-LAST:])
+    if len(observed.attitudes) < LAST:
         return 0.0
-    (t0, q0), (t1, q1) = seen.attitudes[-LAST], seen.attitudes[-1]
+    (t0, q0), (t1, q1) = observed.attitudes[-LAST], observed.attitudes[-1]
     turned = multiply(conjugate(q0), q1)
     return float(2 * np.arctan2(np.linalg.norm(turned[1:]), abs(turned[0])) / (t1 - t0))
 
 
-def _fault(seen: Seen) -> Trip | None:
-    for name, state in seen.boards.items():
+def _fault(observed: Observed) -> Trip | None:
+    for name, state in observed.boards.items():
         if state.phase == "fault":
             return Trip("fault", f"board {name}: {state.sentence}")
     return None
 
 
-def _leaning(seen: Seen, testbed: Testbed) -> Trip | None:
-    if not seen.attitudes:
+def _leaning(observed: Observed, testbed: Testbed) -> Trip | None:
+    if not observed.attitudes:
         return None
-    q = np.array([attitude for _, attitude in seen.attitudes[-LAST:]])
+    q = np.array([attitude for _, attitude in observed.attitudes[-LAST:]])
     angle, limit = median(tilt(q, testbed.up).tolist()), testbed.tilt_limit
     if angle <= limit:
         return None
@@ -112,27 +112,27 @@ def _leaning(seen: Seen, testbed: Testbed) -> Trip | None:
     return Trip("tilt", f"{found}; its limit is {PER_DEG * limit:.1f} deg")
 
 
-def _turning(seen: Seen, limits: SafetyLimits) -> Trip | None:
-    rate = turning(seen)
+def _turning(observed: Observed, limits: SafetyLimits) -> Trip | None:
+    rate = turning(observed)
     if rate <= limits.rate:
         return None
     found = f"the platform turns with {PER_DEG * rate:.1f} deg/s"
     return Trip("rate", f"{found}; the limit is {PER_DEG * limits.rate:.1f} deg/s")
 
 
-def _silence(seen: Seen, limits: SafetyLimits) -> Trip | None:
-    return silence(seen, limits) if seen.moving else None
+def _silence(observed: Observed, limits: SafetyLimits) -> Trip | None:
+    return silence(observed, limits) if observed.moving else None
 
 
-def _masses(seen: Seen, testbed: Testbed, limits: SafetyLimits) -> Trip | None:
-    for state in seen.boards.values():
+def _masses(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Trip | None:
+    for state in observed.boards.values():
         if not state.sure or state.phase == "homing":
             continue
         for name, at in state.position.items():
             mass = testbed.mass_named(name)
             trip = (
                 _outside(mass, at, limits)
-                or _hasty(seen, mass, at, state)
+                or _hasty(observed, mass, at, state)
                 or _elsewhere(mass, at, state, limits)
             )
             if trip is not None:
@@ -148,9 +148,9 @@ def _outside(mass: SlidingMass, at: float, limits: SafetyLimits) -> Trip | None:
     return Trip("travel", f"{found}; its travel is {MM * low:g} to {MM * high:g} mm")
 
 
-def _hasty(seen: Seen, mass: SlidingMass, at: float, state: BoardState) -> Trip | None:
+def _hasty(observed: Observed, mass: SlidingMass, at: float, state: BoardState) -> Trip | None:
     """Two answers may be read late by different times; so a way that is short tells nothing."""
-    t, where = seen.before.get(mass.name, (0.0, at))
+    t, where = observed.before.get(mass.name, (0.0, at))
     if state.reported is None or abs(at - where) < WAY or state.reported <= t:
         return None
     speed = abs(at - where) / (state.reported - t)

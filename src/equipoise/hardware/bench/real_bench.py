@@ -100,7 +100,7 @@ class RealBench:
 
     def __init__(self, keeper: Kept, clock: Clock) -> None:
         self._keeper, self._clock = keeper, clock
-        self._told = keeper.trip  # a stop that was told already
+        self._reported = keeper.trip  # a stop that was told already
 
     @property
     def testbed(self) -> Testbed:
@@ -189,8 +189,8 @@ class RealBench:
         """Let the keeper look; raise what stopped it, once."""
         self._keeper.turn(self._clock.now)
         trip = self._keeper.trip
-        if trip is not None and trip is not self._told:
-            self._told = trip
+        if trip is not None and trip is not self._reported:
+            self._reported = trip
             raise BenchStopped(f"every mass was stopped: {trip.sentence}")
         if trip is None:
-            self._told = None
+            self._reported = None

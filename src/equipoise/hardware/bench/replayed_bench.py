@@ -33,7 +33,7 @@ class ReplayedBench:
         """Begin at the first row; ``wait`` is asked to let each reading's time pass, None: no."""
         self._testbed, self._recording, self._wait = testbed, recording, wait
         self._time, self._end = recording.span
-        self._seen = -math.inf  # s, up to which rows have been handed out
+        self._observed = -math.inf  # s, up to which rows have been handed out
         self._notes: list[str] = []
 
     @property
@@ -54,20 +54,22 @@ class ReplayedBench:
     def read(self, duration: float) -> Recording:
         """Return the rows of the next ``duration`` seconds; RecordingEnded when none are left."""
         check_duration(duration)
-        if self._seen >= self._end:
+        if self._observed >= self._end:
             raise RecordingEnded(self._recording.source, self._end)
         if self._wait is not None:
             self._wait(duration)
-        since, self._time = self._seen, self._time + duration
-        self._seen = self._time
+        since, self._time = self._observed, self._time + duration
+        self._observed = self._time
         return rows_between(self._recording, since, self._time)
 
     def move(self, targets: Mapping[str, float]) -> None:
         """Check displacements (m) against the travel; masses do as was recorded."""
         here = np.array([self._displacement(name) for name in self._testbed.mass_names])
         checked_targets(self._testbed.masses, here, targets)
-        told = ", ".join(f"{name} to {asked * 1e3:.3g} mm" for name, asked in targets.items())
-        self._note(f"asked to move {told}; masses do as was recorded")
+        reported = ", ".join(
+            f"{name} to {requested * 1e3:.3g} mm" for name, requested in targets.items()
+        )
+        self._note(f"asked to move {reported}; masses do as was recorded")
 
     def drive(self, inputs: Mapping[str, float]) -> None:
         """Note what devices were asked for; they do as was recorded."""

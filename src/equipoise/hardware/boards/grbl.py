@@ -28,9 +28,9 @@ from equipoise.hardware.boards.grbl_settings import LETTERS, disagreement
 from equipoise.hardware.boards.grbl_words import alarm_sentence, error_sentence
 from equipoise.hardware.boards.legs import next_leg, time_left
 from equipoise.hardware.transport.driver_protocol import (
-    ASK,
-    ASK_MOVING,
     LEG,
+    POLL,
+    POLL_MOVING,
     SILENCE,
     BoardState,
     Phase,
@@ -70,7 +70,7 @@ class Grbl:
         self._todo: list[str] = []  # of finding the position: settings, home, zero
         self._awaited = ""  # what the next ok is for
         self._sent: dict[str, float] = {}  # m, where the legs sent so far end
-        self._since, self._tried, self._asked = t, t, t
+        self._since, self._tried, self._requested = t, t, t
         self._still = t  # s, since when it says that it stands
         self._said = ""  # its last state
 
@@ -104,14 +104,14 @@ class Grbl:
                 self._counts = replace(self._counts, corrupt=self._counts.corrupt + 1)
             else:
                 self._counts = replace(self._counts, good=self._counts.good + 1)
-                self._heard(report, t)
+                self._received(report, t)
 
     def due(self, t: float) -> bytes:
         """Return what to send now."""
         self._watch(t)
         said, self._urgent = self._urgent, b""
-        if self._state.phase != "connecting" and t - self._asked >= self._pause - 1e-9:
-            self._asked = t
+        if self._state.phase != "connecting" and t - self._requested >= self._pause - 1e-9:
+            self._requested = t
             said += b"?"
         return said + self._next(t)
 
@@ -140,7 +140,7 @@ class Grbl:
 
     # --- What it says ------------------------------------------------------------------------
 
-    def _heard(self, report: Report, t: float) -> None:
+    def _received(self, report: Report, t: float) -> None:
         if isinstance(report, Status):
             self._status(report, t)
         elif isinstance(report, Setting):
@@ -203,7 +203,7 @@ class Grbl:
             self._urgent = RESUME  # what it held was a jog, which is thrown away
         if self._awaited or self._said != "Idle" or self._todo:
             return
-        if state.phase == "halted" and t - self._still >= ASK and self._settings:
+        if state.phase == "halted" and t - self._still >= POLL and self._settings:
             self._state = replace(state, phase="ready", goal=dict(state.position))
         elif state.phase in ("moving", "homing") and state.goal and self._sent == state.goal:
             there = max(abs(state.position[k] - v) for k, v in state.goal.items()) <= THERE
@@ -279,13 +279,13 @@ class Grbl:
     def _stop_again(self, t: float) -> bytes:
         """Hold a leg, too, that was on its way to the board when it was told to hold."""
         again = self._state.phase == "halted" and self._said in ("Jog", "Run")
-        return CANCEL if again and t - self._still > ASK else b""
+        return CANCEL if again and t - self._still > POLL else b""
 
     # --- Time and trouble --------------------------------------------------------------------
 
     @property
     def _pause(self) -> float:
-        return ASK_MOVING if self._state.phase in ("moving", "homing", "halted") else ASK
+        return POLL_MOVING if self._state.phase in ("moving", "homing", "halted") else POLL
 
     def _watch(self, t: float) -> None:
         """Notice a board that says nothing."""
@@ -298,8 +298,8 @@ class Grbl:
         if self._state.phase == "fault":
             return
         patience = LONGEST_HOMING if self._awaited == "home" else SILENCE
-        heard = max(self._state.reported or 0.0, self._since)
-        if t - heard > patience:
+        received = max(self._state.reported or 0.0, self._since)
+        if t - received > patience:
             self._fault("it does not answer: unplugged, or without power", lost=True)
 
     def _fault(self, sentence: str, lost: bool) -> None:

@@ -17,12 +17,12 @@ from dataclasses import replace
 
 from equipoise.hardware.boards import tmcl_words as w
 from equipoise.hardware.boards.axis_letters import check_letters
-from equipoise.hardware.boards.tmcl_scripts import MARK, SEEN, Scripts
+from equipoise.hardware.boards.tmcl_scripts import MARK, OBSERVED, Scripts
 from equipoise.hardware.boards.tmcl_settings import disagreement, guards, speed_value
 from equipoise.hardware.boards.tmcl_steps import Steps
 from equipoise.hardware.boards.tmcl_talk import Talk
 from equipoise.hardware.boards.tmcl_words import Request
-from equipoise.hardware.transport.driver_protocol import ASK, ASK_MOVING, BoardState, Phase
+from equipoise.hardware.transport.driver_protocol import POLL, POLL_MOVING, BoardState, Phase
 from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import MotorBoard
 from equipoise.model.reading import Counts
@@ -54,7 +54,9 @@ class Tmcl:
         self._doing = ""  # what the script under way is: a step of the plan, halt or round
         self._at: dict[str, int] = {}  # microsteps
         self._sent: dict[str, int] = {}  # microsteps, targets
-        self._asked: dict[str, Request] = {}  # the limit switch asked for in this round, by mass
+        self._requested: dict[
+            str, Request
+        ] = {}  # the limit switch asked for in this round, by mass
         self._turn = 0  # whose limit switch is asked for
         self._still = self._since = self._next = t  # s
         self._mute = False  # it was silent; nothing is said until somebody wants it
@@ -131,36 +133,36 @@ class Tmcl:
 
     def _say(self, doing: str, script: Sequence[Request], t: float) -> None:
         quick = self._state.phase in ("moving", "homing", "halted")
-        self._doing, self._next = doing, t + (ASK_MOVING if quick else ASK)
+        self._doing, self._next = doing, t + (POLL_MOVING if quick else POLL)
         self._talk.say(script)
 
     def _round(self) -> Sequence[Request]:
         """Return a round of questions, with the targets of masses on their way before them."""
         if self._state.phase in ("ready", "fault"):
-            return [*self._scripts.each(w.GAP, w.AT), SEEN]
+            return [*self._scripts.each(w.GAP, w.AT), OBSERVED]
         if self._state.phase == "halted" or not self._state.goal:
-            return [*self._scripts.each(w.GAP, w.SPEED), *self._scripts.each(w.GAP, w.AT), SEEN]
+            return [*self._scripts.each(w.GAP, w.SPEED), *self._scripts.each(w.GAP, w.AT), OBSERVED]
         going = self._going
         targets = {k: self._steps.target(k, self._at[k], self._state.goal[k]) for k in going}
-        told = [
+        commands = [
             Request(w.MVP, w.ABSOLUTE, self._steps.motor(k), target)
             for k, target in targets.items()
             if self._sent.get(k) != target
         ]
         self._sent |= targets
-        asked = [Request(w.GAP, w.AT, self._steps.motor(k)) for k in going]
-        return [*told, *asked, *self._switch_ahead(going), SEEN]
+        requested = [Request(w.GAP, w.AT, self._steps.motor(k)) for k in going]
+        return [*commands, *requested, *self._switch_ahead(going), OBSERVED]
 
     def _switch_ahead(self, going: Sequence[str]) -> Sequence[Request]:
         """Return the question for the limit switch ahead of one mass, the next in turn."""
-        self._asked = {}
+        self._requested = {}
         if going:
             self._turn += 1
             name = going[self._turn % len(going)]
             switch = self._guards[name].get(1 if self._sent[name] > self._at[name] else -1)
             if switch is not None:
-                self._asked = {name: Request(w.GAP, switch, self._steps.motor(name))}
-        return list(self._asked.values())
+                self._requested = {name: Request(w.GAP, switch, self._steps.motor(name))}
+        return list(self._requested.values())
 
     @property
     def _going(self) -> Sequence[str]:
@@ -210,14 +212,14 @@ class Tmcl:
 
     def _rounded(self, t: float) -> None:
         """Take over the positions of a round."""
-        if self._talk.value(SEEN) != MARK:
+        if self._talk.value(OBSERVED) != MARK:
             if self._state.phase != "fault":
                 self._fault(ANEW)
             return
-        told = {
+        commands = {
             k: self._talk.value(Request(w.GAP, w.AT, self._steps.motor(k))) for k in self._names
         }
-        at = self._at | {k: value for k, value in told.items() if value is not None}
+        at = self._at | {k: value for k, value in commands.items() if value is not None}
         if at != self._at:
             self._still = t
         self._at = at
@@ -230,7 +232,7 @@ class Tmcl:
     def _settle(self, t: float) -> None:
         """Let a way or a halt end when masses stand; a way that meets a switch is a fault."""
         state = self._state
-        hit = [name for name, q in self._asked.items() if self._talk.value(q)]
+        hit = [name for name, q in self._requested.items() if self._talk.value(q)]
         if state.phase in ("moving", "homing") and state.goal:
             if hit:
                 self._fault(f"a limit switch was hit (mass {hit[0]}); the position is likely lost")
@@ -246,7 +248,7 @@ class Tmcl:
     def _aim(self, goal: Mapping[str, float], t: float) -> None:
         """Take up a goal."""
         if self._state.phase != "moving":
-            self._sent, self._asked = dict(self._at), {}
+            self._sent, self._requested = dict(self._at), {}
         phase: Phase = "homing" if self._state.phase == "homing" else "moving"
         whole = {name: goal.get(name, self._state.position[name]) for name in self._names}
         self._state = replace(self._state, phase=phase, goal=whole)

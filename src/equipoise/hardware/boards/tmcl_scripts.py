@@ -13,7 +13,7 @@ from equipoise.hardware.boards.tmcl_words import Request
 from equipoise.model.hardware import MotorBoard
 
 MARK, BANK, VARIABLE = 0x45515550, 2, 255  # chosen: any number but 0; the last user variable
-SEEN = Request(w.GGP, VARIABLE, BANK)
+OBSERVED = Request(w.GGP, VARIABLE, BANK)
 
 
 class Scripts:
@@ -45,8 +45,8 @@ class Scripts:
         return scripts[name]()
 
     def _marked(self) -> Sequence[Request]:
-        told = [
+        commands = [
             Request(w.SAP, w.MOST_SPEED, self._steps.motor(name), speed)
             for name, speed in self.speeds.items()
         ]
-        return [*told, Request(w.SGP, VARIABLE, BANK, MARK)]
+        return [*commands, Request(w.SGP, VARIABLE, BANK, MARK)]

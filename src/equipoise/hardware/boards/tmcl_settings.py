@@ -66,7 +66,9 @@ def guards(axis: Axis, answers: Answers) -> Mapping[int, int]:
     """Return the limit switches that stop a motor, by the sign of the way that they end."""
     switches = {1: (RIGHT, RIGHT_OFF), -1: (LEFT, LEFT_OFF)}
     return {
-        sign: switch for sign, (switch, off) in switches.items() if not _told(axis, off, answers)
+        sign: switch
+        for sign, (switch, off) in switches.items()
+        if not _reported(axis, off, answers)
     }
 
 
@@ -77,10 +79,10 @@ def _of_axis(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
         if not answer.done:
             what = refusal(request, answer.status)
             return f"it is no stepper module, or has no motor {axis.letter}: {what}"
-    if _told(axis, UNITS, answers) == 0:
+    if _reported(axis, UNITS, answers) == 0:
         return f"motor {axis.letter} counts in units of its own (255 is 0); wanted pps (255 is 1)"
     for type_ in (PULSE_DIVISOR, RAMP_DIVISOR):
-        divisor = _told(axis, type_, answers)
+        divisor = _reported(axis, type_, answers)
         if divisor is not None and not 0 <= divisor <= MOST_DIVISOR:
             return (
                 f"motor {axis.letter} has divisor {divisor} ({type_}); wanted 0 to {MOST_DIVISOR}"
@@ -91,7 +93,7 @@ def _of_axis(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
 def _speed(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
     unit, value = _speed_unit(axis, answers), speed_value(axis, mass, answers)
     wanted = mass.speed * axis.steps_per_m
-    divisor = _told(axis, PULSE_DIVISOR, answers)
+    divisor = _reported(axis, PULSE_DIVISOR, answers)
     if divisor is None or (value <= GREATEST and abs(value * unit - wanted) <= NEAR * wanted):
         return ""
     change = "less" if value > GREATEST else "more"
@@ -102,7 +104,7 @@ def _speed(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
 
 
 def _slowing(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
-    acceleration = (_told(axis, MOST_ACCELERATION, answers) or 0) * _steepness(axis, answers)
+    acceleration = (_reported(axis, MOST_ACCELERATION, answers) or 0) * _steepness(axis, answers)
     least = mass.speed * axis.steps_per_m / SLOWING
     if acceleration >= least * (1 - NEAR):
         return ""
@@ -111,16 +113,16 @@ def _slowing(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
 
 
 def _speed_unit(axis: Axis, answers: Answers) -> float:
-    divisor = _told(axis, PULSE_DIVISOR, answers)
+    divisor = _reported(axis, PULSE_DIVISOR, answers)
     return 1.0 if divisor is None else CLOCK / (2.0**divisor * 2048 * 32)
 
 
 def _steepness(axis: Axis, answers: Answers) -> float:
     """Return the unit of acceleration, microsteps/s^2."""
-    pulse, ramp = _told(axis, PULSE_DIVISOR, answers), _told(axis, RAMP_DIVISOR, answers)
+    pulse, ramp = _reported(axis, PULSE_DIVISOR, answers), _reported(axis, RAMP_DIVISOR, answers)
     return 1.0 if pulse is None or ramp is None else CLOCK**2 / 2.0 ** (pulse + ramp + 29)
 
 
-def _told(axis: Axis, type_: int, answers: Answers) -> int | None:
+def _reported(axis: Axis, type_: int, answers: Answers) -> int | None:
     answer = answers[Request(GAP, type_, int(axis.letter))]
     return answer.value if answer.done else None

@@ -35,7 +35,7 @@ class Talk:
         self.answers: dict[Request, Answer] = {}  # of this script
         self._script: deque[Request] = deque()
         self._pending: Request | None = None
-        self._asked = 0.0  # s
+        self._requested = 0.0  # s
         self._void = False  # what is pending is of an earlier script
         self._rest = b""
 
@@ -57,7 +57,7 @@ class Talk:
 
     def silent(self, t: float) -> bool:
         """Say whether an answer is overdue."""
-        return self._pending is not None and t - self._asked > SILENCE
+        return self._pending is not None and t - self._requested > SILENCE
 
     @property
     def refused(self) -> str:
@@ -97,7 +97,7 @@ class Talk:
             return b""
         self._count(corrupt=bool(self._rest))
         self._rest = b""  # what is left over now belongs to no answer
-        self._pending, self._asked, self._void = self._script.popleft(), t, False
+        self._pending, self._requested, self._void = self._script.popleft(), t, False
         return packed(self._pending)
 
     def _count(self, good: int = 0, corrupt: int = 0, foreign: int = 0) -> None:

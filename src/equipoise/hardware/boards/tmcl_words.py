@@ -88,8 +88,8 @@ def replies_in(data: bytes) -> tuple[Sequence[Reply], int, bytes]:
 
 def refusal(request: Request, status: int) -> str:
     """Return in words what was refused."""
-    asked = f"command {request.command}, type {request.type}, motor {request.motor}"
-    return f"{REFUSALS.get(status, 'it refused a request')} (status {status} to {asked})"
+    requested = f"command {request.command}, type {request.type}, motor {request.motor}"
+    return f"{REFUSALS.get(status, 'it refused a request')} (status {status} to {requested})"
 
 
 def _reply(data: bytes) -> Reply | None:

@@ -96,17 +96,17 @@ def encoded(picture: Picture, quality: int) -> bytes:
 
 
 def calibrated(
-    points: Sequence[Floats], seen: Sequence[Floats], size: tuple[int, int]
+    points: Sequence[Floats], observed: Sequence[Floats], size: tuple[int, int]
 ) -> tuple[float, Floats, Floats, Floats]:
     """Return rms (px), camera matrix, five coefficients of distortion and the matrix's sds (px).
 
     Points are on the plane z = 0 of a board (m) and in the pictures (px), view by view.
     """
     cv2 = opencv("camera")
-    told = [np.asarray(p, np.float32).reshape(-1, 1, 3) for p in points]
-    views = [np.asarray(v, np.float32).reshape(-1, 1, 2) for v in seen]
+    reported = [np.asarray(p, np.float32).reshape(-1, 1, 3) for p in points]
+    views = [np.asarray(v, np.float32).reshape(-1, 1, 2) for v in observed]
     rms, matrix, distortion, _, _, sds, *_ = cv2.calibrateCameraExtended(
-        told, views, size, None, None
+        reported, views, size, None, None
     )
     return float(rms), floats(matrix), floats(distortion).ravel()[:5], floats(sds).ravel()[:4]
 
@@ -135,11 +135,11 @@ def charuco_points(
     seeker = opencv("camera").aruco.CharucoDetector(board)
     corners = floats(board.getChessboardCorners()).reshape(-1, 3)
     for picture in pictures:
-        seen, ids, _, _ = seeker.detectBoard(picture)
+        observed, ids, _, _ = seeker.detectBoard(picture)
         if ids is None or len(ids) == 0:
             yield np.empty((0, 3)), np.empty((0, 2))
         else:
-            yield corners[np.asarray(ids, np.int64).ravel()], floats(seen).reshape(-1, 2)
+            yield corners[np.asarray(ids, np.int64).ravel()], floats(observed).reshape(-1, 2)
 
 
 def charuco_print(charuco: Charuco, dpi: int) -> Picture:

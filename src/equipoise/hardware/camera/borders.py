@@ -31,7 +31,7 @@ class Offsets:
 
     off: Floats  # (n,) px
     slopes: Floats  # (n, 7) px per rad of turn in board axes, m of position, m of less ink
-    seen: Bools  # (n,) where a border was found
+    observed: Bools  # (n,) where a border was found
 
 
 def offsets(
@@ -40,15 +40,15 @@ def offsets(
     """Return the offsets at a pose."""
     cv2 = opencv("camera")
     placed, outward = borders.points @ turn.T, borders.outward @ turn.T
-    seen, slopes = cv2.projectPoints(placed, np.zeros(3), position, lens.matrix, lens.coefficients)[
-        :2
-    ]
+    observed, slopes = cv2.projectPoints(
+        placed, np.zeros(3), position, lens.matrix, lens.coefficients
+    )[:2]
     by_place = slopes[:, 3:6].reshape(-1, 2, 3)  # of each pixel by its point, camera axes
     along = np.einsum("nij,nj->ni", by_place, borders.along @ turn.T)
     normal = along[:, ::-1] * [1.0, -1.0] / np.linalg.norm(along, axis=1, keepdims=True)
     by_point = np.einsum("ni,nij->nj", normal, by_place)
     half = np.clip(REACH * borders.ink * np.sum(by_point * outward, axis=1), LEAST, MOST)
-    off, found = _rise(_lines(picture, seen.reshape(-1, 2), normal * half[:, None]))
+    off, found = _rise(_lines(picture, observed.reshape(-1, 2), normal * half[:, None]))
     # R exp(theta) X moves with theta_k as (R e_k) x (R X); less ink moves a border inward.
     by_turn = np.einsum("nj,nkj->nk", by_point, np.cross(turn.T, placed[:, None, :]))
     by_ink = -np.sum(by_point * outward, axis=1, keepdims=True)

@@ -104,13 +104,18 @@ def _check_coverage(corners: Floats, size: tuple[int, int]) -> None:
     """Raise InputError if much of the picture never had a corner in it; name what is empty."""
     column = np.clip(corners[:, 0] / size[0] * ACROSS, 0, ACROSS - 1).astype(int)
     row = np.clip(corners[:, 1] / size[1] * DOWN, 0, DOWN - 1).astype(int)
-    seen = np.zeros((DOWN, ACROSS), dtype=bool)
-    seen[row, column] = True
-    if np.count_nonzero(seen) >= COVERED:
+    observed = np.zeros((DOWN, ACROSS), dtype=bool)
+    observed[row, column] = True
+    if np.count_nonzero(observed) >= COVERED:
         return
-    sides = {"left": seen[:, 0], "right": seen[:, -1], "top": seen[0], "bottom": seen[-1]}
+    sides = {
+        "left": observed[:, 0],
+        "right": observed[:, -1],
+        "top": observed[0],
+        "bottom": observed[-1],
+    }
     empty = [side for side, part in sides.items() if np.count_nonzero(part) < len(part) / 2]
-    found = f"corners in {np.count_nonzero(seen)} of {ACROSS * DOWN} parts of the picture"
+    found = f"corners in {np.count_nonzero(observed)} of {ACROSS * DOWN} parts of the picture"
     where = " and ".join(empty) or "edges"
     wanted = f"at least {COVERED}: hold the board also where the picture is empty, at its {where}"
     raise InputError("pictures", found, wanted)

@@ -76,9 +76,9 @@ def lens_of(settings: Mapping[str, Setting], where: str) -> Lens:
 def settings_of_lens(lens: Lens) -> dict[str, float]:
     """Return a lens as settings: the way back from ``lens_of``."""
     plain = (lens.fx, lens.fy, lens.cx, lens.cy, lens.width, lens.height)
-    told = {} if lens.rms is None else {"rms_px": lens.rms}
+    reported = {} if lens.rms is None else {"rms_px": lens.rms}
     pairs = zip((*LENS, *BENT), (*plain, *lens.distortion), strict=True)
-    return {key: value for key, value in pairs} | told
+    return {key: value for key, value in pairs} | reported
 
 
 def _number(

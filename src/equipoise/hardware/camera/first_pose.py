@@ -38,11 +38,11 @@ def places_of(corners: Corners, lens: Lens) -> list[Place]:
     """Return the poses that fit, the best first; none for corners on one line."""
     cv2 = opencv("camera")
     picture = corners.picture.reshape(-1, 1, 2)
-    seen = (corners.board, picture, lens.matrix, lens.coefficients)
+    observed = (corners.board, picture, lens.matrix, lens.coefficients)
     try:
-        _, turns, positions, _ = cv2.solvePnPGeneric(*seen, flags=cv2.SOLVEPNP_IPPE)
+        _, turns, positions, _ = cv2.solvePnPGeneric(*observed, flags=cv2.SOLVEPNP_IPPE)
         both = [
-            cv2.solvePnPRefineLM(*seen, turn, position)
+            cv2.solvePnPRefineLM(*observed, turn, position)
             for turn, position in zip(turns, positions, strict=True)
         ]
     except cv2.error:
@@ -61,14 +61,14 @@ def angle_between(one: Matrix3, other: Matrix3) -> float:
 
 
 def _place(corners: Corners, lens: Lens, vector: Vector3, position: Vector3) -> Place:
-    seen = opencv("camera").projectPoints(
+    observed = opencv("camera").projectPoints(
         corners.board, vector, position, lens.matrix, lens.coefficients
     )[0]
-    left = floats(seen).reshape(-1, 2) - corners.picture
+    left = floats(observed).reshape(-1, 2) - corners.picture
     return Place(to_matrix(exponential(vector)), position, float(np.mean(left**2)))
 
 
 def _possible(place: Place) -> bool:
     """Say whether a pose is finite and before the camera, its print to be seen."""
-    told = np.isfinite(place.turn).all() and np.isfinite(place.position).all()
-    return bool(told and place.position[2] > 0 and place.turn[:, 2] @ place.position < 0)
+    reported = np.isfinite(place.turn).all() and np.isfinite(place.position).all()
+    return bool(reported and place.position[2] > 0 and place.turn[:, 2] @ place.position < 0)

@@ -59,12 +59,12 @@ def _of_video(path: Path, rate: float | None) -> Iterator[Taken]:
         if not video.isOpened():
             raise InputError(str(path), "no video that can be read", "a video file")
         count = max(float(video.get(cv2.CAP_PROP_FRAME_COUNT)), 1.0)
-        told = float(video.get(cv2.CAP_PROP_FPS))
-        if rate is None and not told > 0:
+        reported = float(video.get(cv2.CAP_PROP_FPS))
+        if rate is None and not reported > 0:
             raise InputError(str(path), "a video that tells no rate", "--rate-hz")
         for k, picture in enumerate(_frames(video)):
             grey = cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
-            yield Taken(k / (rate or told), grey, min((k + 1) / count, 1.0))
+            yield Taken(k / (rate or reported), grey, min((k + 1) / count, 1.0))
     finally:
         video.release()
 

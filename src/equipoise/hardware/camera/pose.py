@@ -108,22 +108,22 @@ class Step:
     left: Floats  # (n,) px
 
 
-def _step(seen: Offsets) -> Step | None:
-    used = _used(seen)
+def _step(observed: Offsets) -> Step | None:
+    used = _used(observed)
     if np.count_nonzero(used) < ENOUGH:
         return None
-    J, off = seen.slopes[used], seen.off[used]
+    J, off = observed.slopes[used], observed.off[used]
     step = floats(np.linalg.lstsq(J, off, rcond=None)[0])
     return Step(step, J, off - J @ step)
 
 
-def _used(seen: Offsets) -> Bools:
+def _used(observed: Offsets) -> Bools:
     """Return which borders were found where most of them are."""
-    if not seen.seen.any():
-        return seen.seen
-    off = seen.off - np.median(seen.off[seen.seen])
-    sd = 1.4826 * float(np.median(np.abs(off[seen.seen])))
-    return seen.seen & (np.abs(off) <= OUTLYING * max(sd, LEAST_SD))
+    if not observed.observed.any():
+        return observed.observed
+    off = observed.off - np.median(observed.off[observed.observed])
+    sd = 1.4826 * float(np.median(np.abs(off[observed.observed])))
+    return observed.observed & (np.abs(off) <= OUTLYING * max(sd, LEAST_SD))
 
 
 def _stated(turn: Matrix3, position: Vector3, last: Step) -> Pose:

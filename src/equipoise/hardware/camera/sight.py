@@ -41,7 +41,7 @@ class Sight:
         self._region: Region | None = None
         self._count = 0  # of markers seen in the picture before
 
-    def looked(self, picture: Picture) -> Pose | Unseen:
+    def observe(self, picture: Picture) -> Pose | Unseen:
         """Return the board's pose in a picture."""
         markers = self._markers(picture)
         self._count = len(markers)

@@ -9,7 +9,7 @@ import numpy as np
 
 from equipoise.hardware.camera.aruco import Picture, encoded
 from equipoise.hardware.camera.eye import Eye, eye_of
-from equipoise.hardware.emulated.rendering import Look, Renderer, sheet_of
+from equipoise.hardware.emulated.rendering import Appearance, Renderer, sheet_of
 from equipoise.hardware.links.frame_transform import as_sensed
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.hardware import SensorUnit
@@ -20,17 +20,17 @@ HELLO = (
     b"HTTP/1.0 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=picture\r\n"
     b"Cache-Control: no-cache\r\n\r\n"
 )
-NOT_ASKED = b"HTTP/1.0 400 Bad Request\r\n\r\n"
+BAD_REQUEST = b"HTTP/1.0 400 Bad Request\r\n\r\n"
 QUALITY = 90  # of JPEG, chosen: what cameras do
 
 
 class EmulatedCamera:
     """Draws each row of attitude once somebody has asked for the stream."""
 
-    def __init__(self, unit: SensorUnit, look: Look | None = None) -> None:
+    def __init__(self, unit: SensorUnit, appearance: Appearance | None = None) -> None:
         self._unit = unit
         self._eye = eye_of(unit.settings, f"hardware.sensor {unit.name}: settings")
-        self._look = Look() if look is None else look
+        self._measurement = Appearance() if appearance is None else appearance
         self._renderer: Renderer | None = None
         self._rest = b""
 
@@ -40,11 +40,11 @@ class EmulatedCamera:
         if not requests:
             return b""
         if not requests[-1].startswith(b"GET "):
-            return NOT_ASKED
-        self._renderer = renderer_of(self._eye, self._look)
+            return BAD_REQUEST
+        self._renderer = renderer_of(self._eye, self._measurement)
         return HELLO
 
-    def tell(self, rows: Recording) -> Sequence[bytes]:
+    def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the pictures, each a part of the stream."""
         if self._renderer is None or rows.attitude is None:
             return []
@@ -55,10 +55,10 @@ class EmulatedCamera:
         return [part(self._renderer.picture(turn, position), float(t)) for t, turn in pairs]
 
 
-def renderer_of(eye: Eye, look: Look, seed: int = 0) -> Renderer:
+def renderer_of(eye: Eye, appearance: Appearance, seed: int = 0) -> Renderer:
     """Return what draws the pictures, as fine as they show the board."""
-    scale = look.finer * eye.lens.fx / DISTANCE  # pixels per m
-    return Renderer(sheet_of(eye.board, scale), eye.lens, look, seed)
+    scale = appearance.finer * eye.lens.fx / DISTANCE  # pixels per m
+    return Renderer(sheet_of(eye.board, scale), eye.lens, appearance, seed)
 
 
 def part(picture: Picture, t: float) -> bytes:

@@ -30,7 +30,7 @@ class EmulatedSensor(Protocol):
         """Return the answer to what the host sent."""
         ...
 
-    def tell(self, rows: Recording) -> Sequence[bytes]:
+    def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the messages for the rows seen since the last call, in order of time.
 
         Attitude and rate are those of the body; the unit's alignment and laboratory frame are

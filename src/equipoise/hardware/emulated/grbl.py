@@ -102,7 +102,7 @@ class EmulatedGrbl:
 
     def _byte(self, byte: bytes) -> None:
         at_once = {
-            b"?": self._tell_status,
+            b"?": self._report_status,
             b"!": self._hold,
             b"~": self._resume,
             b"\x85": self._cancel,
@@ -248,7 +248,7 @@ class EmulatedGrbl:
         self._state = "Alarm" if moving or locked else "Idle"
         self._say(WELCOME + (LOCKED if self._state == "Alarm" else b""))
 
-    def _tell_status(self) -> None:
+    def _report_status(self) -> None:
         state = "Hold:0" if self._state == "Hold" else self._state
         place = ",".join(f"{value:.3f}" for value in self._where())
         self._say(f"<{state}|MPos:{place}|FS:0,0>\r\n".encode())

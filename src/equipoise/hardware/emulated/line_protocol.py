@@ -33,18 +33,20 @@ class EmulatedLineProtocol:
         """Return nothing: a sketch does not answer."""
         return b""
 
-    def tell(self, rows: Recording) -> Sequence[bytes]:
+    def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the lines, in order of time."""
-        told: dict[float, dict[str, float]] = {}
+        message: dict[float, dict[str, float]] = {}
         for channel, samples in (("attitude", rows.attitude), ("rate", rows.rate)):
             if samples is None or channel not in self._unit.gives:
                 continue
             sensed = as_sensed(self._unit, channel, samples.values)
             for t, row in zip(samples.t, sensed, strict=True):
-                told.setdefault(float(t), {}).update(
+                message.setdefault(float(t), {}).update(
                     _angular(row) if channel == "attitude" else _turning(row)
                 )
-        return [self._line(t, values) for t, values in sorted(told.items()) if self._full(values)]
+        return [
+            self._line(t, values) for t, values in sorted(message.items()) if self._full(values)
+        ]
 
     def _full(self, values: Mapping[str, float]) -> bool:
         names = {_name_and_path(column)[0] for column in self._columns}

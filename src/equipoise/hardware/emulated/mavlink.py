@@ -28,7 +28,7 @@ class EmulatedMavlink:
         self._link = self._dialect.MAVLink(None, 1, 1)
         self._link.robust_parsing = True
         self._next = float("-inf")
-        self.asked: dict[int, float] = {}  # message and interval in microseconds
+        self.requested: dict[int, float] = {}  # message and interval in microseconds
 
     def take(self, data: bytes, t: float) -> bytes:
         """Return acknowledgements of commands."""
@@ -38,25 +38,25 @@ class EmulatedMavlink:
             if message.get_type() == "COMMAND_LONG" and message.target_system in (0, 1):
                 known = message.command == self._dialect.MAV_CMD_SET_MESSAGE_INTERVAL
                 if known:
-                    self.asked[int(message.param1)] = message.param2
+                    self.requested[int(message.param1)] = message.param2
                 result = 0 if known else 3  # accepted, or not supported
                 ack = self._dialect.MAVLink_command_ack_message(message.command, result)
                 answers.append(self._packed(ack))
         return b"".join(answers)
 
-    def tell(self, rows: Recording) -> Sequence[bytes]:
+    def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the messages, in order of time."""
-        told: list[tuple[float, Any]] = []
+        messages: list[tuple[float, Any]] = []
         if rows.attitude is not None and "attitude" in self._unit.gives:
             sensed = as_sensed(self._unit, "attitude", rows.attitude.values)
-            told += [
+            messages += [
                 (t, self._attitude(t, q)) for t, q in zip(rows.attitude.t, sensed, strict=True)
             ]
         if rows.rate is not None and "rate" in self._unit.gives:
             sensed = as_sensed(self._unit, "rate", rows.rate.values)
-            told += [(t, self._imu(t, w)) for t, w in zip(rows.rate.t, sensed, strict=True)]
-        told.sort(key=lambda each: each[0])
-        return [self._beats(t) + self._packed(message) for t, message in told]
+            messages += [(t, self._imu(t, w)) for t, w in zip(rows.rate.t, sensed, strict=True)]
+        messages.sort(key=lambda each: each[0])
+        return [self._beats(t) + self._packed(message) for t, message in messages]
 
     def _beats(self, t: float) -> bytes:
         """Return a heartbeat when it is time for one: a quadrotor with PX4."""

@@ -36,7 +36,7 @@ class EmulatedNatNet:
             return _packet(5, struct.pack("<i", 2) + bodies)
         return b""
 
-    def tell(self, rows: Recording) -> Sequence[bytes]:
+    def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return a frame for each row, in order of time."""
         if rows.attitude is None:
             return []

@@ -27,7 +27,7 @@ POOL = 1 << 21  # chosen: numbers of noise drawn once; each picture takes them f
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Appearance:
     """How a picture comes out."""
 
     blur: float = 0.7  # px, sd: out of focus
@@ -49,11 +49,11 @@ class Sheet:
 class Renderer:
     """Draws one sheet as one camera sees it."""
 
-    def __init__(self, sheet: Sheet, lens: Lens, look: Look, seed: int = 0) -> None:
-        self._sheet, self._lens, self._look = sheet, lens, look
+    def __init__(self, sheet: Sheet, lens: Lens, appearance: Appearance, seed: int = 0) -> None:
+        self._sheet, self._lens, self._measurement = sheet, lens, appearance
         self._rng = np.random.default_rng(seed)
-        self._x, self._y = directions(lens, look.finer)
-        self._noise = (look.noise * self._rng.standard_normal(POOL)).astype(np.float32)
+        self._x, self._y = directions(lens, appearance.finer)
+        self._noise = (appearance.noise * self._rng.standard_normal(POOL)).astype(np.float32)
 
     def picture(self, turn: Matrix3, position: Vector3) -> Picture:
         """Return the picture of the board at R (board to camera) and its origin's position (m)."""
@@ -79,10 +79,10 @@ class Renderer:
         placed = there @ turn[:, :2].T + position
         if placed[:, 2].min() <= 0:
             return None
-        seen = project(placed, self._lens)
-        margin = 4 + int(3 * self._look.blur + self._look.smear)
-        low = np.floor(seen.min(axis=0)).astype(int) - margin
-        high = np.ceil(seen.max(axis=0)).astype(int) + margin
+        observed = project(placed, self._lens)
+        margin = 4 + int(3 * self._measurement.blur + self._measurement.smear)
+        low = np.floor(observed.min(axis=0)).astype(int) - margin
+        high = np.ceil(observed.max(axis=0)).astype(int) + margin
         left, top = (int(v) for v in np.maximum(low, 0))
         right = min(int(high[0]), self._lens.width)
         bottom = min(int(high[1]), self._lens.height)
@@ -92,7 +92,7 @@ class Renderer:
         self, turn: Matrix3, position: Vector3, box: tuple[int, int, int, int]
     ) -> NDArray[np.float32]:
         """Return the part of the picture in a box, without blur and noise."""
-        left, top, right, bottom = (self._look.finer * edge for edge in box)
+        left, top, right, bottom = (self._measurement.finer * edge for edge in box)
         x, y = self._x[top:bottom, left:right], self._y[top:bottom, left:right]
         # R[:, :2] (X, Y) + t is along (x, y, 1): the inverse of [r1 r2 t] gives X and Y.
         back = np.linalg.inv(np.column_stack([turn[:, :2], position]))
@@ -117,21 +117,21 @@ class Renderer:
 
     def _cover(self, part: NDArray[np.float32]) -> None:
         """Put a disc before some of the board."""
-        if self._look.covered > 0:
+        if self._measurement.covered > 0:
             width, height = float(part.shape[1]), float(part.shape[0])
             middle = (int(self._rng.uniform(0, width)), int(self._rng.uniform(0, height)))
-            radius = int(0.5 * self._look.covered * width)
+            radius = int(0.5 * self._measurement.covered * width)
             opencv("camera").circle(part, middle, radius, BEFORE, -1)
 
     def _blurred(self, part: NDArray[np.float32]) -> NDArray[np.float32]:
-        cv2, look = opencv("camera"), self._look
+        cv2, appearance = opencv("camera"), self._measurement
         height, width = part.shape
-        if look.blur > 0:
-            part = cv2.GaussianBlur(part, (0, 0), look.finer * look.blur)
-        if look.smear > 0:
-            part = cv2.filter2D(part, -1, self._way(look.finer * look.smear))
-        if look.finer > 1:
-            size = (width // look.finer, height // look.finer)
+        if appearance.blur > 0:
+            part = cv2.GaussianBlur(part, (0, 0), appearance.finer * appearance.blur)
+        if appearance.smear > 0:
+            part = cv2.filter2D(part, -1, self._way(appearance.finer * appearance.smear))
+        if appearance.finer > 1:
+            size = (width // appearance.finer, height // appearance.finer)
             part = cv2.resize(part, size, interpolation=cv2.INTER_AREA)
         return part
 
@@ -173,11 +173,11 @@ def directions(lens: Lens, finer: int) -> tuple[NDArray[np.float32], NDArray[np.
     """Return x = X/Z and y = Y/Z of every sample: the distortion undone."""
     u = (np.arange(lens.width * finer) + 0.5) / finer - 0.5
     v = (np.arange(lens.height * finer) + 0.5) / finer - 0.5
-    seen = np.meshgrid((u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy)
-    x, y = seen
+    observed = np.meshgrid((u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy)
+    x, y = observed
     for _ in range(UNDONE if any(lens.distortion) else 0):
         bent = bend(x, y, lens)
-        x, y = x + seen[0] - bent[0], y + seen[1] - bent[1]
+        x, y = x + observed[0] - bent[0], y + observed[1] - bent[1]
     return x.astype(np.float32), y.astype(np.float32)
 
 

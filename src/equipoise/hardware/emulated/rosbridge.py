@@ -31,14 +31,14 @@ class EmulatedRosBridge:
         there = self._unit.settings.values()
         said = b""
         for line in data.splitlines():
-            asked = json.loads(line)
-            if asked["op"] == "subscribe" and asked["topic"] in there:
-                self._types[asked["topic"]] = asked["type"]
+            requested = json.loads(line)
+            if requested["op"] == "subscribe" and requested["topic"] in there:
+                self._types[requested["topic"]] = requested["type"]
             else:
                 said = json.dumps({"op": "status", "level": "error", "msg": "unknown"}).encode()
         return said
 
-    def tell(self, rows: Recording) -> Sequence[bytes]:
+    def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the messages, in order of time."""
         found: dict[float, dict[str, Floats]] = {}
         for channel, samples in (("attitude", rows.attitude), ("rate", rows.rate)):
@@ -57,8 +57,8 @@ class EmulatedRosBridge:
             parts = {name: row[name] for name in row if settings.get(f"topic_{name}") == topic}
             if parts:
                 message = _header(t) | (_imu(parts) if kind.endswith("Imu") else _pose(parts))
-                told = {"op": "publish", "topic": topic, "msg": message}
-                said.append(json.dumps(told).encode())
+                published = {"op": "publish", "topic": topic, "msg": message}
+                said.append(json.dumps(published).encode())
         return said
 
 

@@ -167,7 +167,7 @@ class EmulatedTmcl:
     def _get(self, motor: Motor, type_: int) -> tuple[int, int]:
         going = self._now < motor.end
         way = (motor.to > motor.begin) - (motor.to < motor.begin)
-        seen = {
+        observed = {
             0: round(motor.to - motor.offset),
             1: round(motor.place(self._now) - motor.offset),
             3: way * motor.now[4] * going,
@@ -176,7 +176,7 @@ class EmulatedTmcl:
             RIGHT: int(RIGHT in motor.pressed),
             LEFT: int(LEFT in motor.pressed),
         } | motor.now
-        return (OK, seen[type_]) if type_ in seen else (TYPE, 0)
+        return (OK, observed[type_]) if type_ in observed else (TYPE, 0)
 
     def _search(self, motor: Motor, type_: int) -> tuple[int, int]:
         if type_ == 0:

@@ -31,7 +31,7 @@ class EmulatedVectorNav:
         *lines, self._rest = (self._rest + data).split(b"\n")
         return b"".join(_answer(line.strip()) for line in lines)
 
-    def tell(self, rows: Recording) -> Sequence[bytes]:
+    def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the messages, in order of time."""
         said: dict[float, dict[str, bytes]] = {}
         for channel, samples in (("attitude", rows.attitude), ("rate", rows.rate)):
@@ -42,10 +42,10 @@ class EmulatedVectorNav:
                 # Vector first; seven digits, so that the wire adds no noise of its own.
                 values = [*row[1:], row[0]] if channel == "attitude" else row
                 said.setdefault(float(t), {})[channel] = b",".join(b"%+.7f" % v for v in values)
-        return [_told(parts) for _, parts in sorted(said.items())]
+        return [_reported(parts) for _, parts in sorted(said.items())]
 
 
-def _told(parts: dict[str, bytes]) -> bytes:
+def _reported(parts: dict[str, bytes]) -> bytes:
     if len(parts) == 2:
         still = b"+00.0000,+00.0000,+00.0000,+00.000,+00.000,-09.807"  # field and acceleration
         return message(b"VNQMR," + parts["attitude"] + b"," + still + b"," + parts["rate"])
@@ -57,7 +57,7 @@ def _told(parts: dict[str, bytes]) -> bytes:
 def _answer(line: bytes) -> bytes:
     if not line:
         return b""
-    body, _, told = line.removeprefix(b"$").partition(b"*")
-    if told != message(body)[-4:-2]:
+    body, _, checksum = line.removeprefix(b"$").partition(b"*")
+    if checksum != message(body)[-4:-2]:
         return message(BAD_CHECKSUM)
     return message(b"VNWRG" + body[5:]) if body.startswith(b"VNWRG") else message(NOT_KNOWN)

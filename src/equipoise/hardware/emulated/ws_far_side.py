@@ -13,7 +13,7 @@ from typing import Any
 from equipoise.hardware.emulated.far_side import CHUNK, FULL, LOOPBACK, Outbox
 from equipoise.hardware.transport.optional_libraries import needed
 
-LOOK = 0.05  # s, chosen: between looks whether it has been closed
+POLL = 0.05  # s, chosen: between looks whether it has been closed
 
 
 class WsFarSide:
@@ -25,7 +25,7 @@ class WsFarSide:
         self.address = f"ws://{LOOPBACK}:{self._server.getsockname()[1]}{path}"
         self._lock = threading.Lock()  # held for no longer than a look
         self._listener: Listener | None = None
-        self._heard: list[bytes] = []
+        self._received: list[bytes] = []
         self._open = True
         self._thread = threading.Thread(target=self._serve, daemon=True)
         self._thread.start()
@@ -35,8 +35,8 @@ class WsFarSide:
         with self._lock:
             if self._listener is not None:
                 self._listener.flush()
-            heard, self._heard = self._heard, []
-        return b"".join(message + b"\n" for message in heard)
+            received, self._received = self._received, []
+        return b"".join(message + b"\n" for message in received)
 
     def send(self, data: bytes) -> None:
         """Send a message to whoever listens."""
@@ -56,20 +56,20 @@ class WsFarSide:
             lines = [self._server]
             if self._listener is not None:
                 lines.append(self._listener.line)
-            ready, _, _ = select.select(lines, [], [], LOOK)
+            ready, _, _ = select.select(lines, [], [], POLL)
             with self._lock:
                 if self._server in ready:
                     self._hang_up()
                     self._listener = Listener(self._server.accept()[0])
                 elif ready and self._listener is not None:
-                    self._hear(self._listener)
+                    self._receive(self._listener)
 
-    def _hear(self, listener: "Listener") -> None:
-        heard = listener.heard()
-        if heard is None:
+    def _receive(self, listener: "Listener") -> None:
+        received = listener.received()
+        if received is None:
             self._hang_up()
         else:
-            self._heard += heard
+            self._received += received
 
     def _hang_up(self) -> None:
         """Close the listener's line; done by the thread that looks at it, or after its end."""
@@ -97,7 +97,7 @@ class Listener:
             self._protocol.send_text(data)
             self.flush()
 
-    def heard(self) -> list[bytes] | None:
+    def received(self) -> list[bytes] | None:
         """Return the messages that have come; None if the line is closed."""
         try:
             data = self.line.recv(CHUNK)

@@ -53,9 +53,9 @@ class Links:
     @property
     def unreachable(self) -> str:
         """The first device whose port is closed, and why; empty if none is."""
-        told = [(f"sensor {link.unit.name}", link.why) for link in self.sensors]
-        told += [(f"board {link.board.name}", link.why) for link in self.boards]
-        return next((f"{name} cannot be reached: {why}" for name, why in told if why), "")
+        reported = [(f"sensor {link.unit.name}", link.why) for link in self.sensors]
+        reported += [(f"board {link.board.name}", link.why) for link in self.boards]
+        return next((f"{name} cannot be reached: {why}" for name, why in reported if why), "")
 
     @property
     def unsure(self) -> str:

@@ -53,8 +53,13 @@ class Health:
             for channel, clock in self.clocks.items()
         }
         kept = {} if self.arrivals is None else {"rows": self.arrivals.kept}
-        told = {"messages": self.counts.good, "others": self.counts.foreign, **kept, **self.wrong}
-        return {"device": self.device, **told, "clocks": clocks}
+        reported = {
+            "messages": self.counts.good,
+            "others": self.counts.foreign,
+            **kept,
+            **self.wrong,
+        }
+        return {"device": self.device, **reported, "clocks": clocks}
 
     def _clock(self, channel: Gives) -> str:
         clock = self.clocks[channel]

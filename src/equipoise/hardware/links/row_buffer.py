@@ -44,14 +44,14 @@ class Rows:
 CHANNELS: tuple[str, ...] = ("attitude", "rate", "masses")
 
 
-class Heard:
+class RowBuffer:
     """Rows not taken yet, and which of them were handed on."""
 
     def __init__(self, masses: Sequence[SlidingMass]) -> None:
         self._names = tuple(mass.name for mass in masses)
         self._speed = np.array([mass.speed for mass in masses])
         self._rows = {name: Rows() for name in CHANNELS}
-        self._told = dict.fromkeys(CHANNELS, 0)
+        self._reported = dict.fromkeys(CHANNELS, 0)
         self._last = dict.fromkeys(CHANNELS, float("-inf"))
         self._answer: Answer | None = None  # the last one
 
@@ -88,17 +88,17 @@ class Heard:
 
     def fresh(self) -> Recording | None:
         """Return the rows not handed on yet; None if there are none."""
-        parts = {name: rows.samples(self._told[name]) for name, rows in self._rows.items()}
+        parts = {name: rows.samples(self._reported[name]) for name, rows in self._rows.items()}
         if not any(parts.values()):
             return None
-        self._told = {name: len(rows.t) for name, rows in self._rows.items()}
+        self._reported = {name: len(rows.t) for name, rows in self._rows.items()}
         return _recording(self._names, parts)
 
     def taken(self) -> Recording:
         """Return the rows since this was last asked, and forget them."""
         parts = {name: rows.samples(0) for name, rows in self._rows.items()}
         self._rows = {name: Rows() for name in CHANNELS}
-        self._told = dict.fromkeys(CHANNELS, 0)
+        self._reported = dict.fromkeys(CHANNELS, 0)
         return _recording(self._names, parts)
 
     def _append(self, channel: str, t: float, values: Floats) -> bool:

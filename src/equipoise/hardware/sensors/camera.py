@@ -71,7 +71,7 @@ class Camera:
         if picture is None:
             self._count(corrupt=1)
             return []
-        return self._seen(picture.grey, picture.t, picture.number)
+        return self._observed(picture.grey, picture.t, picture.number)
 
     def _part(self, part: Part) -> list[Reading]:
         body = part.body.rstrip(b"\r\n\0")  # some cameras fill up behind the picture
@@ -80,11 +80,11 @@ class Camera:
         if picture is None:
             self._count(corrupt=1)
             return []
-        return self._seen(picture, stamp_of(part.head.get(STAMP, "")), None)
+        return self._observed(picture, stamp_of(part.head.get(STAMP, "")), None)
 
-    def _seen(self, picture: Picture, stamp: float | None, number: int | None) -> list[Reading]:
+    def _observed(self, picture: Picture, stamp: float | None, number: int | None) -> list[Reading]:
         size = (self._eye.lens.height, self._eye.lens.width)
-        pose = self._sight.looked(picture) if picture.shape == size else None
+        pose = self._sight.observe(picture) if picture.shape == size else None
         if not isinstance(pose, Pose):
             self._count(foreign=1)
             return []

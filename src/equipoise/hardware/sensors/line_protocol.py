@@ -122,10 +122,10 @@ class _Json:
     def __call__(self, line: bytes) -> Numbers | None:
         """Return the numbers by name; empty if there are none of ours, None if it is broken."""
         try:
-            told = json.loads(line)
+            message = json.loads(line)
         except (ValueError, RecursionError):
             return None
-        found = {name: _at(told, path) for name, path in self._paths.items()}
+        found = {name: _at(message, path) for name, path in self._paths.items()}
         if all(value is None for value in found.values()):
             return {}
         plain = all(type(value) in (int, float) for value in found.values())
@@ -138,13 +138,13 @@ def _declared(column: str) -> tuple[str, str]:
     return (name, key) if equals else (column.rpartition(".")[2], column)
 
 
-def _at(told: Any, path: Sequence[str]) -> Any:
+def _at(message: Any, path: Sequence[str]) -> Any:
     """Return what stands at a path; None if nothing does."""
     for key in path:
-        if not isinstance(told, dict):
+        if not isinstance(message, dict):
             return None
-        told = cast("dict[str, Any]", told).get(key)
-    return told
+        message = cast("dict[str, Any]", message).get(key)
+    return message
 
 
 def _finite(fields: Mapping[str, Any]) -> Numbers | None:

@@ -57,8 +57,8 @@ class Mavlink:
     def opened(self) -> None:
         """Begin anew."""
         self._tally.cleared()
-        self._heard = self._dialect.MAVLink(None)
-        self._heard.robust_parsing = True
+        self._received = self._dialect.MAVLink(None)
+        self._received.robust_parsing = True
         self._said = self._dialect.MAVLink(None, STATION, PLANNER)
         self._vehicle: tuple[int, int] | None = None  # system and component
         self._answers, self._next = 0, float("-inf")
@@ -80,7 +80,7 @@ class Mavlink:
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows that are complete with these bytes."""
-        messages: list[Any] = self._heard.parse_buffer(data) or []
+        messages: list[Any] = self._received.parse_buffer(data) or []
         return [reading for message in messages for reading in self._message(message)]
 
     def _request(self, message_id: int, microseconds: float) -> bytes:

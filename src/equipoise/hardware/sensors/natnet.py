@@ -33,8 +33,8 @@ class NatNet:
     def __init__(self, unit: SensorUnit) -> None:
         settings = Settings(unit, ("body",))
         check_gives(unit, ["attitude"], '"attitude" alone: NatNet tells no rate')
-        self._asks = unit.port.address.startswith(UNICAST)
-        self._name, self._id = _body(unit, settings, self._asks)
+        self._requests = unit.port.address.startswith(UNICAST)
+        self._name, self._id = _body(unit, settings, self._requests)
         self._tally = Tally()
         self._next, self._answered = float("-inf"), False
 
@@ -55,13 +55,13 @@ class NatNet:
 
         A Motive that has been silent since the last one may have begun anew, and is greeted again.
         """
-        if not self._asks or t < self._next:
+        if not self._requests or t < self._next:
             return b""
         self._next = t + BEAT
         answered, self._answered = self._answered, False
         if not answered:
             return natnet.packet(natnet.CONNECT, b"Ping\0")
-        kind = natnet.ALIVE if self._id is not None else natnet.ASK_NAMES
+        kind = natnet.ALIVE if self._id is not None else natnet.REQUEST_NAMES
         return natnet.packet(kind, b"\0")
 
     def feed(self, data: bytes) -> Sequence[Reading]:
@@ -99,7 +99,7 @@ class NatNet:
         return [Reading("attitude", turn, frame.stamp, frame.number)]
 
 
-def _body(unit: SensorUnit, settings: Settings, asks: bool) -> tuple[str, int | None]:
+def _body(unit: SensorUnit, settings: Settings, requests: bool) -> tuple[str, int | None]:
     """Return the name or the id of the body; a name needs somebody to ask for its id."""
     if not isinstance(unit.settings.get("body", 0.0), str):
         number = settings.positive("body")
@@ -107,7 +107,7 @@ def _body(unit: SensorUnit, settings: Settings, asks: bool) -> tuple[str, int | 
             raise settings.wrong(f"body {number}", "a rigid body's streaming id, or its name")
         return "", int(number)
     name = settings.text("body")
-    if not asks:
+    if not requests:
         wanted = "its streaming id, or a port udpout:HOST:1510 that can be asked for names"
         raise settings.wrong(f"body '{name}' at {unit.port.address}", wanted)
     return name, None

@@ -18,7 +18,7 @@ import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 
-CONNECT, SERVER, ASK_NAMES, NAMES, FRAME, ALIVE = 0, 1, 4, 5, 7, 10
+CONNECT, SERVER, REQUEST_NAMES, NAMES, FRAME, ALIVE = 0, 1, 4, 5, 7, 10
 TRACKED = 1
 BODY, MARKER, POINT = 38, 26, 12  # bytes
 SUFFIX, PRECISE = 46, 54  # bytes after the sections, without and with precise time

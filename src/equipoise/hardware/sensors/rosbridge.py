@@ -40,13 +40,13 @@ class RosBridge:
 
     def __init__(self, unit: SensorUnit) -> None:
         settings = Settings(unit, KEYS)
-        told: dict[Gives, str] = {
+        message: dict[Gives, str] = {
             "attitude": settings.text("topic_attitude"),
             "rate": settings.text("topic_rate"),
         }
-        can = [channel for channel, topic in told.items() if topic]
+        can = [channel for channel, topic in message.items() if topic]
         check_gives(unit, can, "a setting topic_... for it")
-        self._topics = {channel: told[channel] for channel in unit.gives}
+        self._topics = {channel: message[channel] for channel in unit.gives}
         self._types = {"attitude": settings.text("type_attitude", IMU, (IMU, POSE)), "rate": IMU}
         if len(set(self._topics.values())) < len(self._topics) and self._types["attitude"] == POSE:
             raise settings.wrong(f"one topic of {POSE} for both", f"{IMU}, or two topics")
@@ -68,14 +68,14 @@ class RosBridge:
         if not greet:
             return b""
         types = {topic: self._types[channel] for channel, topic in self._topics.items()}
-        asked = ({"op": "subscribe", "topic": t, "type": kind} for t, kind in types.items())
-        return b"".join(json.dumps(each).encode() + b"\n" for each in asked)
+        requested = ({"op": "subscribe", "topic": t, "type": kind} for t, kind in types.items())
+        return b"".join(json.dumps(each).encode() + b"\n" for each in requested)
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows of a message."""
         try:
-            told = json.loads(data)
-            readings = self._published(cast("Message", told)) if _is_published(told) else []
+            message = json.loads(data)
+            readings = self._published(cast("Message", message)) if _is_published(message) else []
         except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
             self._tally.corrupt()
             return []
@@ -85,20 +85,20 @@ class RosBridge:
             self._tally.foreign()
         return readings
 
-    def _published(self, told: Message) -> list[Reading]:
+    def _published(self, message: Message) -> list[Reading]:
         """Return the rows of a topic; raises for one that is not what it should be."""
         found: list[Reading] = []
-        for channel in (c for c, topic in self._topics.items() if topic == told["topic"]):
+        for channel in (c for c, topic in self._topics.items() if topic == message["topic"]):
             take = _rate if channel == "rate" else TAKEN[self._types[channel]]
             try:
-                found.append(take(told["msg"]))
+                found.append(take(message["msg"]))
             except NotThere:
                 continue
         return found
 
 
-def _is_published(told: Any) -> bool:
-    return isinstance(told, dict) and cast("Message", told).get("op") == "publish"
+def _is_published(message: Any) -> bool:
+    return isinstance(message, dict) and cast("Message", message).get("op") == "publish"
 
 
 def _of_imu(message: Message) -> Reading:
@@ -118,25 +118,25 @@ def _rate(message: Message) -> Reading:
 TAKEN = {IMU: _of_imu, POSE: _of_pose}
 
 
-def _turn(told: Message) -> tuple[float, ...]:
-    row = unit_row(_numbers(told, "wxyz"), UNIT)
+def _turn(message: Message) -> tuple[float, ...]:
+    row = unit_row(_numbers(message, "wxyz"), UNIT)
     if row is None:
         raise ValueError
     return row
 
 
-def _numbers(told: Message, keys: str) -> tuple[float, ...]:
+def _numbers(message: Message, keys: str) -> tuple[float, ...]:
     """Return finite numbers by their keys."""
-    found = tuple(_number(told[key]) for key in keys)
+    found = tuple(_number(message[key]) for key in keys)
     if not all(map(math.isfinite, found)):
         raise ValueError
     return found
 
 
-def _number(told: Any) -> float:
-    if type(told) not in (int, float):
+def _number(message: Any) -> float:
+    if type(message) not in (int, float):
         raise TypeError
-    return float(told)
+    return float(message)
 
 
 def _stamp(message: Message) -> float | None:

@@ -111,12 +111,12 @@ class VectorNav:
 def checked(line: bytes) -> bytes | None:
     """Return what stands between $ and *; None if the checksum says that it is broken."""
     start = line.rfind(b"$")  # what stands before it is a rest of another line
-    body, star, told = line[start + 1 :].partition(b"*")
+    body, star, message = line[start + 1 :].partition(b"*")
     if start < 0 or not star:
         return None
-    right = {2: exclusive_or, 4: crc16}.get(len(told))
+    right = {2: exclusive_or, 4: crc16}.get(len(message))
     try:
-        return body if right is not None and int(told, 16) == right(body) else None
+        return body if right is not None and int(message, 16) == right(body) else None
     except ValueError:
         return None
 

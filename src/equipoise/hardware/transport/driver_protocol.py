@@ -100,8 +100,8 @@ class BoardDriver(Protocol):
 
 
 LEG = 0.25  # s, chosen: what a board does without its computer is over within twice that
-ASK = 0.1  # s, chosen: how often a board is asked where it is while masses stand
-ASK_MOVING = 0.05  # s, the same while they move
+POLL = 0.1  # s, chosen: how often a board is asked where it is while masses stand
+POLL_MOVING = 0.05  # s, the same while they move
 SILENCE = 0.4  # s, chosen: a board that has not answered for so long is lost
 
 

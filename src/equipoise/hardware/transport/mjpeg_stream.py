@@ -52,13 +52,13 @@ class Parts:
             return b""
         line, _, names = head.partition(b"\r\n")
         self.answered = line.decode("latin-1")
-        told = named(names)
-        kind = told.get("content-type", "")
+        reported = named(names)
+        kind = reported.get("content-type", "")
         boundary = kind.partition("boundary=")[2].partition(";")[0].strip().strip('"')
         self._raw = b""
         if boundary:
             self._boundary = b"--" + boundary.removeprefix("--").encode("latin-1")
-            chunked = "chunked" in told.get("transfer-encoding", "").lower()
+            chunked = "chunked" in reported.get("transfer-encoding", "").lower()
             self._chunks = Chunks() if chunked else None
         return rest
 

@@ -68,8 +68,8 @@ def _left_aside(names: tuple[str, ...], known: list[str]) -> tuple[str, ...]:
     if not unknown:
         return ()
     more = f" and {len(unknown) - NAMED} more" if len(unknown) > NAMED else ""
-    told = ", ".join(f"'{name}'" for name in unknown[:NAMED])
-    return (f"Columns that are not known were left aside: {told}{more}.",)
+    reported = ", ".join(f"'{name}'" for name in unknown[:NAMED])
+    return (f"Columns that are not known were left aside: {reported}{more}.",)
 
 
 def native_columns(recording: Recording) -> dict[str, Series1]:

@@ -99,8 +99,8 @@ class Logbook:
         query = ("SELECT name, unit, value, sd, observable FROM estimates "
                  "WHERE run = ? AND part = ? ORDER BY place")  # fmt: skip
         return tuple(
-            Parameter(n, unit, _number(value), _number(sd), bool(seen))
-            for n, unit, value, sd, seen in self._index.execute(query, (name, part))
+            Parameter(n, unit, _number(value), _number(sd), bool(observed))
+            for n, unit, value, sd, observed in self._index.execute(query, (name, part))
         )
 
     def configuration(self, hash_: str) -> str:

@@ -29,7 +29,7 @@ def text_of(content: bytes, path: str | Path, wanted: str) -> str:
     """Return the bytes as text: UTF-8 or UTF-16 by mark, else UTF-8, else Latin-1."""
     encoding = next((name for mark, name in MARKS if content.startswith(mark)), "utf-8")
     try:
-        if encoding == "utf-8" and _looks_binary(content):
+        if encoding == "utf-8" and _is_binary(content):
             raise InputError(str(path), "binary content", wanted)
         return content.decode(encoding)
     except UnicodeDecodeError:
@@ -38,6 +38,6 @@ def text_of(content: bytes, path: str | Path, wanted: str) -> str:
         return content.decode("latin-1")
 
 
-def _looks_binary(content: bytes) -> bool:
+def _is_binary(content: bytes) -> bool:
     """Say whether control characters occur that no text has."""
     return any(byte < 32 and byte not in TEXT_CONTROL for byte in content[:SAMPLE])

@@ -4,7 +4,7 @@ Motive writes several header lines (kind, name, identity, rotation or position) 
 X, Y, Z, W; a name that occurs twice there is told apart by what stands above it.
 """
 
-LOOKED_AT = 50  # rows; chosen: more than any header has
+HEAD_ROWS = 50  # rows; chosen: more than any header has
 SHARE = 0.5  # of a row's filled cells that must be numbers for it to hold data (chosen)
 ABOVE = 3  # filled cells that a line above the header needs to belong to it (chosen)
 
@@ -14,7 +14,7 @@ def header_row(rows: list[list[str]]) -> int:
 
     Motive's line of identities is all numbers as well, but more header follows it.
     """
-    data = [_holds_data(row) for row in rows[:LOOKED_AT]]
+    data = [_holds_data(row) for row in rows[:HEAD_ROWS]]
     pairs = zip(data, [*data[1:], True], strict=True)
     first = next((i for i, (this, after) in enumerate(pairs) if this and after), 1)
     return max(first - 1, 0)

@@ -16,7 +16,7 @@ from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
 SEPARATORS = (";", "\t")  # looked for before the comma, which may be a decimal comma
-LOOKED_AT = 50  # lines; chosen: more than any header has
+HEAD_LINES = 50  # lines; chosen: more than any header has
 csv.field_size_limit(1 << 20)  # characters; a cell beyond this is not a table's
 
 
@@ -89,7 +89,7 @@ def cut(text: str, source: str, layout: Layout) -> TextTable:
 
 def _separator(text: str) -> str:
     """Return the separator that stands in most of the first lines."""
-    lines = [line for line in text[: 1 << 16].splitlines()[:LOOKED_AT] if line.strip()]
+    lines = [line for line in text[: 1 << 16].splitlines()[:HEAD_LINES] if line.strip()]
     often = (s for s in SEPARATORS if sum(s in line for line in lines) * 2 > len(lines))
     return next(often, ",")
 

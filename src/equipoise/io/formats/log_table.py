@@ -82,7 +82,7 @@ def log_table(
     InputError if there is no row.
     """
     tidy = [_tidy(channel) for channel in channels]
-    full = [(channel, told) for channel, told in tidy if len(channel.ns)]
+    full = [(channel, reported) for channel, reported in tidy if len(channel.ns)]
     if not full:
         raise InputError(source, "no row of attitude or rate", "a log of a motion")
     times = np.unique(np.concatenate([channel.ns for channel, _ in full]))
@@ -92,7 +92,7 @@ def log_table(
         wide = np.full((len(times), channel.values.shape[1]), np.nan)
         wide[np.searchsorted(times, channel.ns)] = channel.values
         columns.update(dict(zip(channel.columns, wide.T, strict=True)))
-    return LogTable(source, columns, (*notes, *(note for _, told in full for note in told)))
+    return LogTable(source, columns, (*notes, *(note for _, reported in full for note in reported)))
 
 
 def log_map(
@@ -132,10 +132,10 @@ def _tidy(channel: LogChannel) -> tuple[LogChannel, tuple[str, ...]]:
     sound = (np.abs(channel.values) < LARGEST).all(axis=1)  # not a number is not either
     ns, values = channel.ns[sound], channel.values[sound]
     times, first = np.unique(ns, return_index=True)
-    told = (
+    reported = (
         (len(channel.ns) - len(ns), "held a value that is no number; left out"),
         (int((np.diff(ns) < 0).sum()), "came late; put in order of time"),
         (len(ns) - len(times), "had the time of another; left out"),
     )
-    notes = tuple(f"{channel.name}: {count} rows {what}." for count, what in told if count)
+    notes = tuple(f"{channel.name}: {count} rows {what}." for count, what in reported if count)
     return LogChannel(channel.name, times, values[first], channel.names), notes

@@ -13,7 +13,7 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.formats.log_table import LogTable, log_map, log_table
 from equipoise.io.formats.log_topics import Topic, chosen
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.formats.ros_messages import TELLS, stamp_of, values_of
+from equipoise.io.formats.ros_messages import DECODERS, stamp_of, values_of
 from equipoise.model.errors import EquipoiseError, InputError
 
 ROS_1, ROS_2 = b"#ROSBAG V2.0", b"SQLite format 3\x00"
@@ -48,7 +48,7 @@ def _topics(path: Path) -> list[Topic]:
     store = types.get_typestore(types.Stores.ROS2_HUMBLE)
     topics: dict[str, Topic] = {}
     with highlevel.AnyReader([path], default_typestore=store) as reader:
-        known = [each for each in reader.connections if each.msgtype in TELLS]
+        known = [each for each in reader.connections if each.msgtype in DECODERS]
         for connection, logged, raw in reader.messages(connections=known) if known else ():
             message = reader.deserialize(raw, connection.msgtype)
             topic = topics.setdefault(connection.topic, Topic(connection.topic, connection.msgtype))

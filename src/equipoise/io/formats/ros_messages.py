@@ -16,7 +16,7 @@ NONE = -1.0  # REP 145: not known
 
 def values_of(kind: str, message: Any) -> Values:
     """Return what a message of a known type tells."""
-    return TELLS[kind](message)
+    return DECODERS[kind](message)
 
 
 def stamp_of(message: Any) -> int:
@@ -48,7 +48,7 @@ def _odometry(message: Any) -> Values:
     return {**_quaternion(pose.orientation), **_vector(twist.angular)}
 
 
-TELLS: Mapping[str, Callable[[Any], Values]] = {
+DECODERS: Mapping[str, Callable[[Any], Values]] = {
     IMU: _imu,
     ODOMETRY: _odometry,
     POSE: lambda message: _quaternion(message.pose.orientation),

@@ -5,7 +5,7 @@ from typing import Any
 
 from equipoise.io.formats.log_topics import FRAME_TRANSFORM, POSE_IN_FRAME, Topic, Values
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.formats.ros_messages import TELLS, stamp_of, values_of
+from equipoise.io.formats.ros_messages import DECODERS, stamp_of, values_of
 from equipoise.io.mcap.foxglove_messages import (
     Turned,
     frame_transform,
@@ -59,7 +59,7 @@ def _decoder(kind: str, encoding: str, source: str) -> Decoder | None:
     turned = TURNS.get((kind, encoding))
     if turned is not None:
         return lambda data: _attitude(turned(data))
-    if kind not in TELLS or encoding not in ("cdr", "ros1"):
+    if kind not in DECODERS or encoding not in ("cdr", "ros1"):
         return None
     types = log_library("rosbags.typesys", source)
     ros2 = encoding == "cdr"

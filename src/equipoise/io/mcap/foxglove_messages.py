@@ -29,14 +29,14 @@ def pose_in_frame(data: bytes) -> Turned:
 
 def frame_transform_json(data: bytes) -> Turned:
     """Return the same of a FrameTransform as JSON."""
-    told = json.loads(data)
-    return _json_stamp(told), _json_quaternion(told["rotation"])
+    message = json.loads(data)
+    return _json_stamp(message), _json_quaternion(message["rotation"])
 
 
 def pose_in_frame_json(data: bytes) -> Turned:
     """Return the same of a PoseInFrame as JSON."""
-    told = json.loads(data)
-    return _json_stamp(told), _json_quaternion(told["pose"]["orientation"])
+    message = json.loads(data)
+    return _json_stamp(message), _json_quaternion(message["pose"]["orientation"])
 
 
 def _stamp(found: Mapping[int, Value]) -> int:
@@ -48,8 +48,8 @@ def _quaternion(turn: Mapping[int, Value]) -> tuple[float, float, float, float]:
     return double(turn, 4), double(turn, 1), double(turn, 2), double(turn, 3)
 
 
-def _json_stamp(told: Any) -> int:
-    stamp: Any = told.get("timestamp") or {}
+def _json_stamp(message: Any) -> int:
+    stamp: Any = message.get("timestamp") or {}
     return int(stamp.get("sec", 0)) * PER_S + int(stamp.get("nsec", 0))
 
 

@@ -119,7 +119,7 @@ class LiveRecording:
 
     def _open(self, opening: Opening) -> None:
         start = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=opening.zero_ns // 1000)
-        told = {
+        message = {
             "equipoise": __version__,
             "python": platform.python_version(),
             "system": platform.platform(),
@@ -128,7 +128,7 @@ class LiveRecording:
             ZERO_KEY: str(opening.zero_ns),
             **{f"{DRIVER_KEY}{name}": driver for name, driver in opening.drivers.items()},
         }
-        self._writer.write_metadata(METADATA, told)
+        self._writer.write_metadata(METADATA, message)
         if opening.testbed:
             self._writer.attach(
                 log_time=opening.zero_ns, create_time=opening.zero_ns, name=TESTBED_FILE,

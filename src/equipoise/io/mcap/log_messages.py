@@ -82,9 +82,9 @@ class Topics:
             name=kind,
         )
         self._opened(LOG_TOPIC, self._channels.LogChannel).log(log, log_time=ns)
-        told = {"kind": kind, "sentence": sentence, "data": dict(data)}
+        message = {"kind": kind, "sentence": sentence, "data": dict(data)}
         events = self._open.get(EVENT_TOPIC) or self._json(EVENT_TOPIC, _event_schema(), {})
-        events.log(json.dumps(told).encode(), log_time=ns)
+        events.log(json.dumps(message).encode(), log_time=ns)
 
     def _attitude(self, samples: Samples) -> None:
         channel = self._opened(ATTITUDE_TOPIC, self._channels.FrameTransformChannel)
@@ -102,8 +102,8 @@ class Topics:
     def _numbers(self, name: str, named: tuple[str, ...], samples: Samples) -> None:
         keys, channel = self._channel_of(name, named, samples.values.shape[1])
         for t, row in zip(samples.t.tolist(), samples.values.tolist(), strict=True):
-            told = json.dumps(dict(zip(keys, row, strict=True)))
-            channel.log(told.encode(), log_time=self._at(t))
+            message = json.dumps(dict(zip(keys, row, strict=True)))
+            channel.log(message.encode(), log_time=self._at(t))
 
     def _channel_of(
         self, name: str, named: tuple[str, ...], width: int
@@ -114,8 +114,8 @@ class Topics:
             named = ()
         keys = value_names(name, named)
         if topic not in self._open:
-            told = {CHANNEL_KEY: name, NAMES_KEY: json.dumps(named)}
-            self._json(topic, _schema(f"equipoise.{name}", keys), told)
+            message = {CHANNEL_KEY: name, NAMES_KEY: json.dumps(named)}
+            self._json(topic, _schema(f"equipoise.{name}", keys), message)
             self._names[topic] = named
         if self._names[topic] != named:
             found = f"{name} called {', '.join(named)}"

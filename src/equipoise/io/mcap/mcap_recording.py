@@ -60,8 +60,8 @@ def read_mcap(content: bytes, source: str) -> tuple[LogTable, ColumnMap]:
     zero = time_zero(found)
     if zero is None:
         topics = foreign_topics(found, source)
-        channels, told = chosen(topics, source)
-        return log_table(source, channels, None, (*notes, *told)), log_map("mcap", channels)
+        channels, notices = chosen(topics, source)
+        return log_table(source, channels, None, (*notes, *notices)), log_map("mcap", channels)
     ours = _our_channels(found, source)
     known = log_map("mcap", ours, ours=True)
     starts = [event.t for event in _events(found) if event.kind == START]
@@ -78,11 +78,11 @@ def _events(found: Salvage) -> tuple[LoggedEvent, ...]:
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
     events: list[LoggedEvent] = []
     for message in found.messages:
-        told: Any = _json(message.data) if message.channel_id in ids else {}
-        data: Any = told.get("data")
+        decoded: Any = _json(message.data) if message.channel_id in ids else {}
+        data: Any = decoded.get("data")
         if _is_object(data):
             t = (message.log_time - zero) / PER_S
-            kind, sentence = str(told.get("kind", "")), str(told.get("sentence", ""))
+            kind, sentence = str(decoded.get("kind", "")), str(decoded.get("sentence", ""))
             events.append(LoggedEvent(t, kind, sentence, data))
     return tuple(events)
 
@@ -114,9 +114,9 @@ def loss_notes(found: Salvage) -> tuple[str, ...]:
         return ()
     known = f"{found.lost_messages} messages are known to be lost"
     places = f"{found.lost_bytes} bytes in {found.lost_places} places made no sense"
-    told = [known] * bool(found.lost_messages) + [places] * bool(found.lost_places)
+    decoded = [known] * bool(found.lost_messages) + [places] * bool(found.lost_places)
     cut = "The file has no end" if not found.ended else "The file is garbled"
-    return ("; ".join([f"{cut}: it was read as far as it is whole", *told]) + ".",)
+    return ("; ".join([f"{cut}: it was read as far as it is whole", *decoded]) + ".",)
 
 
 def time_zero(found: Salvage) -> int | None:
@@ -143,8 +143,8 @@ def _our_channels(found: Salvage, source: str) -> list[LogChannel]:
             continue
         names = _names(channel)
         keys = () if name == "attitude" else value_names(name, names)
-        told = [(m.log_time, _values(name, keys, m.data)) for m in rows[channel.id]]
-        full = [(ns, values) for ns, values in told if values is not None and ns < LATEST]
+        decoded = [(m.log_time, _values(name, keys, m.data)) for m in rows[channel.id]]
+        full = [(ns, values) for ns, values in decoded if values is not None and ns < LATEST]
         if full:
             times, values = zip(*full, strict=True)
             channels.append(LogChannel(name, np.array(times), np.array(values, float), names))
@@ -163,8 +163,8 @@ def _values(name: str, keys: tuple[str, ...], data: bytes) -> tuple[float, ...] 
     try:
         if name == "attitude":
             return frame_transform(data)[1]
-        told = _json(data)
-        return tuple(float(told[key]) for key in keys)
+        decoded = _json(data)
+        return tuple(float(decoded[key]) for key in keys)
     except (KeyError, TypeError, ValueError):
         return None
 
@@ -172,11 +172,11 @@ def _values(name: str, keys: tuple[str, ...], data: bytes) -> tuple[float, ...] 
 def _json(data: bytes) -> Any:
     """Return what JSON says if it is an object; else an empty one."""
     try:
-        told: Any = json.loads(data)
+        decoded: Any = json.loads(data)
     except ValueError:
         return {}
-    return told if _is_object(told) else {}
+    return decoded if _is_object(decoded) else {}
 
 
-def _is_object(told: Any) -> bool:
-    return isinstance(told, dict)
+def _is_object(decoded: Any) -> bool:
+    return isinstance(decoded, dict)

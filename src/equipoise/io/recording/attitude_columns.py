@@ -18,7 +18,7 @@ from equipoise.model.arrays import Floats, Series1, Series4
 from equipoise.model.errors import InputError
 
 Notes = tuple[str, ...]
-FAR = 0.05  # from unit: no rounding does this, so it is not a unit quaternion (chosen)
+JUMP = 0.05  # from unit: no rounding does this, so it is not a unit quaternion (chosen)
 SHORTEST_MEAN = 0.5  # chosen: frames spread over more than half a turn have no mean
 ROUNDING = 1e-12  # below this nothing is touched, so that our own files come back verbatim
 WORTH_SAYING = 1e-5  # five printed digits
@@ -58,8 +58,8 @@ def euler_angles(channel: Channel, columns: ColumnMap) -> tuple[Channel, Notes]:
     wraps = int((np.abs(np.diff(channel.values, axis=0)) > np.pi).sum())
     q = _from_euler(channel.values, columns.euler.sequence)
     q, _ = _continuous(_in_our_axes(q, columns))  # signs have no meaning in a table of angles
-    told = f"attitude: {wraps} wraps of an angle by a whole turn; taken as turning on."
-    notes = (told,) if wraps else ()
+    reported = f"attitude: {wraps} wraps of an angle by a whole turn; taken as turning on."
+    notes = (reported,) if wraps else ()
     return Channel(channel.name, channel.t, q, channel.rows), notes
 
 
@@ -86,19 +86,19 @@ def _in_our_axes(q: Series4, columns: ColumnMap) -> Series4:
 def _continuous(q: Series4) -> tuple[Series4, Notes]:
     mended = continuous(q)
     flips = int((np.sum(q[1:] * q[:-1], axis=1) < 0).sum())
-    told = f"attitude: the quaternion changed its sign {flips} times; made continuous."
-    return mended, (told,) if flips else ()
+    reported = f"attitude: the quaternion changed its sign {flips} times; made continuous."
+    return mended, (reported,) if flips else ()
 
 
 def _unit(channel: Channel, table: Table, columns: ColumnMap) -> tuple[Series4, Notes]:
     """Return quaternions of unit length; InputError names the first that is far from it."""
     norm = np.linalg.norm(channel.values, axis=1)
-    least = SHORTEST_MEAN if columns.mean_of_frames else 1 - FAR
-    bad = np.flatnonzero((norm < least) | (norm > 1 + FAR))
+    least = SHORTEST_MEAN if columns.mean_of_frames else 1 - JUMP
+    bad = np.flatnonzero((norm < least) | (norm > 1 + JUMP))
     if len(bad):
         place = f"{table.source}, {table.place(int(channel.rows[bad[0]]))}"
         found = f"a quaternion of length {norm[bad[0]]:.4g} ({len(bad)} such rows)"
-        raise InputError(place, found, f"length 1 within {FAR:.0%}")
+        raise InputError(place, found, f"length 1 within {JUMP:.0%}")
     if np.abs(norm - 1).max() < ROUNDING:
         return channel.values, ()
     return normalise(channel.values), _norm_note(norm, channel, table)

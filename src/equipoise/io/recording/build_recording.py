@@ -85,8 +85,8 @@ def _rows(table: Table, columns: ColumnMap) -> tuple[Rows, Notes]:
     start = float(time[rows[0]])
     if columns.native or abs(start) < EPOCH:
         return Rows(table, columns, time, rows), notes
-    told = f"The clock starts at {start:.3f} s; this is taken as zero."
-    return Rows(table, columns, time - start, rows), (*notes, told)
+    reported = f"The clock starts at {start:.3f} s; this is taken as zero."
+    return Rows(table, columns, time - start, rows), (*notes, reported)
 
 
 def _attitude(source: Rows) -> tuple[Channel | None, Channel | None, Notes]:
@@ -96,8 +96,10 @@ def _attitude(source: Rows) -> tuple[Channel | None, Channel | None, Notes]:
     raw, notes = source.channel("attitude", angles or columns.quaternion)
     if raw is None:
         return None, None, notes
-    mended, told = euler_angles(raw, columns) if angles else quaternions(raw, source.table, columns)
-    return mended, None if angles else lengths(raw), (*notes, *told)
+    mended, reported = (
+        euler_angles(raw, columns) if angles else quaternions(raw, source.table, columns)
+    )
+    return mended, None if angles else lengths(raw), (*notes, *reported)
 
 
 def _together(columns: tuple[MassColumn | DeviceColumn, ...]) -> Columns | None:

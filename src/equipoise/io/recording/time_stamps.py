@@ -55,8 +55,8 @@ def gap_notes(channel: Channel) -> Notes:
     if not len(where):
         return ()
     longest = where[np.argsort(-steps[where], kind="stable")][:NAMED]
-    told = ", ".join(f"{steps[i]:.3g} s from {channel.t[i]:.6g} s" for i in sorted(longest))
-    named = f"the longest: {told}" if len(where) > NAMED else told
+    reported = ", ".join(f"{steps[i]:.3g} s from {channel.t[i]:.6g} s" for i in sorted(longest))
+    named = f"the longest: {reported}" if len(where) > NAMED else reported
     return (f"{channel.name}: {len(where)} gap{'s' * (len(where) > 1)}: {named}.",)
 
 

@@ -88,7 +88,7 @@ def _check_ports(ports: list[str], source: str) -> None:
 
 def _check_masses(boards: list[schema.Board], masses: Sequence[str], source: str) -> None:
     """Each mass is moved by one axis at most, each axis moves a mass of the file."""
-    seen: list[str] = []
+    observed: list[str] = []
     for i, board in enumerate(boards, 1):
         where = f"{source}: hardware.board[{i}].axis"
         letters = [axis.letter for axis in board.axis]
@@ -98,6 +98,6 @@ def _check_masses(boards: list[schema.Board], masses: Sequence[str], source: str
             if axis.mass not in masses:
                 known = nearest(axis.mass, list(masses)) if masses else "a [[sliding_mass]] first"
                 raise InputError(where, f"mass '{axis.mass}'", known)
-            if axis.mass in seen:
+            if axis.mass in observed:
                 raise InputError(where, f"mass '{axis.mass}' twice", "one axis for each mass")
-            seen.append(axis.mass)
+            observed.append(axis.mass)

@@ -62,8 +62,10 @@ def edited(
 
 def last_key(block: list[str]) -> int:
     """Return the last line of a table that is neither empty nor a comment."""
-    told = [k for k, line in enumerate(block) if line.strip() and not line.lstrip().startswith("#")]
-    return told[-1]
+    reported = [
+        k for k, line in enumerate(block) if line.strip() and not line.lstrip().startswith("#")
+    ]
+    return reported[-1]
 
 
 def changes(before: SlidingMass, after: SlidingMass) -> dict[str, Value]:

@@ -46,9 +46,9 @@ def _drive(drive: TrueDrive) -> dict[str, Value]:
     keys: dict[str, Value] = {"mass": drive.mass}
     if drive.axis is not None:
         keys["axis"] = numbers(drive.axis)
-    told = (("gain", drive.gain, 1.0), ("backlash_mm", drive.backlash, PER_MM),
+    reported = (("gain", drive.gain, 1.0), ("backlash_mm", drive.backlash, PER_MM),
             ("accuracy_mm", drive.accuracy, PER_MM))  # fmt: skip
-    return keys | {key: number(value, unit) for key, value, unit in told if value is not None}
+    return keys | {key: number(value, unit) for key, value, unit in reported if value is not None}
 
 
 def _contact(contact: Contact) -> dict[str, Value]:

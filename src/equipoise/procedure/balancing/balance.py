@@ -37,10 +37,10 @@ class BalanceOptions:
     max_time: float = 120.0  # s on the bench's clock
 
 
-FIRST_LOOK = 1.6  # s, before anything is fitted
+FIRST_MEASUREMENT = 1.6  # s, before anything is fitted
 NOTABLE = 20e-6  # m below the target, beyond what a motor step leaves
 DEEPER = 80e-6  # m, the least way down
-LOOK = 0.4  # s between fits
+MEASUREMENT = 0.4  # s between fits
 KNOWN = 0.5  # of the tolerance: an sd at which a move is worth making
 INFORMED = 0.3  # of the offset: a sideways sd at which the direction of a move is known
 FIRM = 0.99  # probability of being within tolerance at which to leave a move unused
@@ -71,11 +71,11 @@ def balance(
     the end is the generator's return value.
     """
     began = bench.time
-    fresh = bench.read(FIRST_LOOK)
+    fresh = bench.read(FIRST_MEASUREMENT)
     if before is not None:
         fresh = join(before, fresh)
     progress = Progress(learn(None, fresh, bench.testbed), still_since=began)
-    yield look_step(bench, fresh)
+    yield measurement_step(bench, fresh)
     while True:
         why = reason_to_stop(bench, progress, options, began)
         if why:
@@ -84,7 +84,7 @@ def balance(
             return progress.knowledge
         option = decide(bench, progress, options, began)
         if option is None:
-            fresh = bench.read(LOOK)
+            fresh = bench.read(MEASUREMENT)
             knowledge = learn(progress.knowledge, fresh, bench.testbed)
             progress = replace(progress, knowledge=knowledge)
             continue
@@ -92,15 +92,15 @@ def balance(
         knowledge = progress.knowledge
         reason = reason_of(knowledge, bench.testbed, option, options.target)
         now = knowledge.displacement
-        belief = without_stops(knowledge, bench.testbed, option.targets != now)
-        move = planned_move(bench.testbed, now, option.targets, belief, reason)
+        posterior = without_stops(knowledge, bench.testbed, option.targets != now)
+        move = planned_move(bench.testbed, now, option.targets, posterior, reason)
         yield Step("move", bench.time, sentence_of(move), move=move)
         bench.move(move.targets)
-        fresh = bench.read(move.duration + LOOK)
+        fresh = bench.read(move.duration + MEASUREMENT)
         knowledge = learn(progress.knowledge, fresh, bench.testbed)
-        still = bench.time - LOOK
+        still = bench.time - MEASUREMENT
         progress = Progress(knowledge, (*progress.moves, move), still, option.brake)
-        yield look_step(bench, fresh)
+        yield measurement_step(bench, fresh)
 
 
 def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> str:
@@ -116,7 +116,7 @@ def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, be
         return "within tolerance"
     if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
         return "the estimate cannot be used"
-    if bench.time - began + LOOK > options.max_time:
+    if bench.time - began + MEASUREMENT > options.max_time:
         return "the time is used up"
     spent = len(progress.moves) >= options.max_moves
     hopeless = np.abs(knowledge.com - options.target) - 2 * knowledge.sd > options.tolerance
@@ -179,7 +179,7 @@ def urgent(view: Outlook, target: Vector3, may_brake: bool) -> bool:
     little is known, only if even the safest move, one look later, would pass the limit.
     """
     knowledge, up = view.knowledge, view.testbed.up
-    later, hopeful = replace(view, wait=LOOK), replace(view, cautious=False)
+    later, hopeful = replace(view, wait=MEASUREMENT), replace(view, cautious=False)
     if hopeful.peak(knowledge.displacement) <= view.guard:
         return False
     off = float(np.linalg.norm(knowledge.com - target))
@@ -187,7 +187,7 @@ def urgent(view: Outlook, target: Vector3, may_brake: bool) -> bool:
     if float(np.linalg.norm(sideways)) < INFORMED * off:
         return bool(option_for(later, target).peak > view.guard)
     return bool(
-        safest(replace(hopeful, wait=LOOK), target, may_brake).peak > view.testbed.tilt_limit
+        safest(replace(hopeful, wait=MEASUREMENT), target, may_brake).peak > view.testbed.tilt_limit
     )
 
 
@@ -225,10 +225,10 @@ def sentence_of(move: Move) -> str:
     )
 
 
-def look_step(bench: Bench, fresh: Recording) -> Step:
+def measurement_step(bench: Bench, fresh: Recording) -> Step:
     """Return the step of a look."""
     start, end = fresh.span
-    return Step("look", bench.time, f"Looked for {end - start:.1f} s.", recording=fresh)
+    return Step("measurement", bench.time, f"Looked for {end - start:.1f} s.", recording=fresh)
 
 
 def estimate_step(bench: Bench, progress: Progress) -> Step:

@@ -1,8 +1,8 @@
 """Balance by hand: let go, record, place the weights that are asked for, until the verdict passes.
 
 For platforms without actuators. Every recording is a free swing of its own, from a hand that lets
-go to one that catches; what it says is added to what is believed (``hand_belief``), and the weights
-of the next placing are those that should bring the centre of mass to the target
+go to one that catches; what it says is added to the posterior (``manual_estimate``), and the
+weights of the next placing are those that should bring the centre of mass to the target
 (``actuators.weight_choice``). The last placing is judged by a recording made after it.
 
 A recording that does not fit where the weights should have left the centre of mass counts alone:
@@ -30,10 +30,10 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.model.weights import places_of, unloaded
 from equipoise.procedure.balancing.manual_estimate import (
-    Belief,
+    Posterior,
     alone,
     as_estimate,
-    first_belief,
+    first_posterior,
     reloaded,
     taught,
 )
@@ -54,10 +54,10 @@ class HandOptions:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Seen:
+class Progress:
     """What is believed after a recording."""
 
-    belief: Belief
+    posterior: Posterior
     shown: Shown
     astray: bool = False  # not where the weights should have left it
 
@@ -75,21 +75,21 @@ def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
     """Yield Steps: look, estimate, place, ... ; the last has the verdict."""
     testbed = as_if_stiff(hands.testbed)
     check(testbed)
-    belief, loading = first_belief(testbed), unloaded(testbed.grids, testbed.weights)
+    posterior, loading = first_posterior(testbed), unloaded(testbed.grids, testbed.weights)
     for left in range(options.max_rounds, -1, -1):
         fresh = caught(hands.swing(), testbed)
         start, end = fresh.span
-        yield Step("look", hands.time, f"Looked for {end - start:.1f} s.", recording=fresh)
-        seen = learnt(belief, fresh, loading, testbed)
-        belief, verdict = seen.belief, verdict_on(seen, options)
-        yield estimate_step(hands, seen, fresh)
+        yield Step("measurement", hands.time, f"Looked for {end - start:.1f} s.", recording=fresh)
+        observed = learnt(posterior, fresh, loading, testbed)
+        posterior, verdict = observed.posterior, verdict_on(observed, options)
+        yield estimate_step(hands, observed, fresh)
         if verdict.passed or left == 0:
             yield final_step(hands, verdict, fresh, loading)
             return
-        placing = planned(testbed, belief, loading, options)
+        placing = planned(testbed, posterior, loading, options)
         yield Step("place", hands.time, sentence_of(placing, testbed, options), placing=placing)
         after = hands.place(placing.after)
-        belief, loading = reloaded(belief, testbed, loading, after), after
+        posterior, loading = reloaded(posterior, testbed, loading, after), after
 
 
 def caught(recording: Recording, testbed: Testbed) -> Recording:
@@ -102,45 +102,50 @@ def caught(recording: Recording, testbed: Testbed) -> Recording:
     return window(recording, start, float(rows.t[beyond[0]])) if len(beyond) else recording
 
 
-def learnt(belief: Belief, fresh: Recording, loading: Ints, testbed: Testbed) -> Seen:
+def learnt(posterior: Posterior, fresh: Recording, loading: Ints, testbed: Testbed) -> Progress:
     """Return what is believed with a recording added, or by it alone where the two disagree."""
     added = load_of(testbed, loading)
     drawn = testbed.body.inertia_P + added.inertia_P
-    known = replace(testbed, body=MassProperties(belief.mass, belief.com, drawn))
+    known = replace(testbed, body=MassProperties(posterior.mass, posterior.com, drawn))
     shown = shown_by(fresh, known)
     if not shown.estimate.outcome.usable:
-        return Seen(belief, shown)
-    lone = alone(belief, shown)
-    off, spread = lone.com - belief.com, np.hypot(lone.sd, belief.sd)
+        return Progress(posterior, shown)
+    single = alone(posterior, shown)
+    off, spread = single.com - posterior.com, np.hypot(single.sd, posterior.sd)
     if np.any(np.abs(off) > CONTRADICTION * spread):
-        return Seen(lone, shown, astray=True)
-    return Seen(taught(belief, shown), shown)
+        return Progress(single, shown, astray=True)
+    return Progress(taught(posterior, shown), shown)
 
 
-def verdict_on(seen: Seen, options: HandOptions) -> Verdict:
+def verdict_on(observed: Progress, options: HandOptions) -> Verdict:
     """Return the verdict on what is believed after a recording."""
-    com, sd, outcome = seen.belief.com, seen.belief.sd, seen.shown.estimate.outcome
+    com, sd, outcome = (
+        observed.posterior.com,
+        observed.posterior.sd,
+        observed.shown.estimate.outcome,
+    )
     if not outcome.usable:
         return Verdict(False, f"Cannot tell: {outcome.sentence}", com, sd, sure=False)
     return judged(com, sd, options.target, options.tolerance)
 
 
-def planned(testbed: Testbed, belief: Belief, loading: Ints, options: HandOptions) -> Placing:
+def planned(testbed: Testbed, posterior: Posterior, loading: Ints, options: HandOptions) -> Placing:
     """Return the placing that should bring the centre of mass to the target."""
-    spread = np.hypot(options.tolerance, belief.sd)
-    wanted = Wanted(belief.body, loading, options.target, spread)
+    spread = np.hypot(options.tolerance, posterior.sd)
+    wanted = Wanted(posterior.body, loading, options.target, spread)
     after = chosen(testbed, wanted)
-    then = reloaded(belief, testbed, loading, after)
+    then = reloaded(posterior, testbed, loading, after)
     return Placing(loading, after, then.com, then.com_covariance)
 
 
-def estimate_step(hands: Hands, seen: Seen, fresh: Recording) -> Step:
+def estimate_step(hands: Hands, observed: Progress, fresh: Recording) -> Step:
     """Return the step of an estimate."""
-    latest, belief = seen.shown.estimate, seen.belief
+    latest, posterior = observed.shown.estimate, observed.posterior
     if not latest.outcome.usable:
         return Step("estimate", hands.time, latest.outcome.sentence, fresh, latest)
-    text = f"Centre of mass at {_um(belief.com, belief.sd)} um{ASTRAY if seen.astray else ''}."
-    return Step("estimate", hands.time, text, fresh, as_estimate(belief, latest))
+    astray = ASTRAY if observed.astray else ""
+    text = f"Centre of mass at {_um(posterior.com, posterior.sd)} um{astray}."
+    return Step("estimate", hands.time, text, fresh, as_estimate(posterior, latest))
 
 
 def sentence_of(placing: Placing, testbed: Testbed, options: HandOptions) -> str:

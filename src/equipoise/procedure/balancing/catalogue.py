@@ -12,7 +12,7 @@ from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.procedure.balancing.run_law import LawOptions, check, run_law
 
 OWN = LawCard(
-    name="look_and_move",
+    name="measure_and_move",
     idea="Fits the whole record, moves when that pays, and proves it on what comes after.",
     source="Equipoise; Ivanov 2021 section 5, with the trajectory fit instead of a filter",
     needs=("masses", "attitude"),

@@ -27,12 +27,12 @@ from equipoise.procedure.steps.sampler import last_row
 from equipoise.procedure.steps.tilt_guard import TILTED, tilted
 from equipoise.procedure.steps.tilt_prediction import state_now
 
-LOOK = 5.0  # s between decisions
+MEASUREMENT = 5.0  # s between decisions
 FINER = 1 / 3  # of the tolerance, chosen: how closely to balance first
 FIRST_MOVES, FIRST_TIME = 10, 600.0  # s, chosen: what balancing may take before a hold
 ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considered
 PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
-FAR = 0.6  # of the tilt limit: a swing that corrections should calm
+WIDE = 0.6  # of the tilt limit: a swing that corrections should calm
 GAIN = 0.1  # of the tolerance: what a move must better the worst axis by
 
 
@@ -68,15 +68,15 @@ def balance_and_hold(
         yield from hold(bench, knowledge, holding)
 
 
-def first_belief(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
+def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
     """Return the tracker's belief at the end of what balancing recorded."""
     q, rate = state_now(knowledge, testbed)
     shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, knowledge.displacement)
     t = float(knowledge.fitted.problem.line.t[-1])
     inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
     covariance = knowledge.estimate.covariance_of((*knowledge.standing, *INERTIA))
-    belief = tracker.Belief(knowledge.com - shift, inertia_P, covariance)
-    return replace(tracker.first_state(t, q, testbed, belief), rate=rate)
+    posterior = tracker.Posterior(knowledge.com - shift, inertia_P, covariance)
+    return replace(tracker.first_state(t, q, testbed, posterior), rate=rate)
 
 
 def standing(
@@ -140,8 +140,8 @@ def timely(state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed)
     Corrections at any moment would pump an undamped platform; once it swings far, only those that
     calm it are made, and soon there is one.
     """
-    far = swing_amplitude(state, com, testbed) > FAR * testbed.tilt_limit
-    return not far or calming(state, shift, testbed)
+    outlying = swing_amplitude(state, com, testbed) > WIDE * testbed.tilt_limit
+    return not outlying or calming(state, shift, testbed)
 
 
 def pressing(com: Vector3, options: HoldOptions) -> bool:
@@ -153,10 +153,10 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
     """Yield a move whenever one is made, and a verdict at the end."""
     testbed, end = bench.testbed, bench.time + options.duration
     params = tracker.Params(torque=without_drift(knowledge.fitted.point.torque))
-    state, displacement = first_belief(knowledge, testbed), knowledge.displacement
+    state, displacement = first_posterior(knowledge, testbed), knowledge.displacement
     worst = np.zeros(3)
     while bench.time < end - 1e-9:
-        fresh = bench.read(min(LOOK, end - bench.time))
+        fresh = bench.read(min(MEASUREMENT, end - bench.time))
         state = tracker.track(fresh, testbed, params, state).end
         displacement = last_row(fresh.masses, displacement)
         com, _ = standing(state, testbed, displacement)
@@ -169,8 +169,8 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
             continue
         shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - displacement)
         if pressing(com, options) or timely(state, com, shift, testbed):
-            belief = before_moving(state, testbed, displacement, goal)
-            move = planned_move(testbed, displacement, goal, belief, "drift")
+            posterior = before_moving(state, testbed, displacement, goal)
+            move = planned_move(testbed, displacement, goal, posterior, "drift")
             bench.move(move.targets)
             yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
     last = standing(state, testbed, displacement)
@@ -193,17 +193,17 @@ def sentence_of(move: Move, com: Vector3) -> str:
 def verdict_step(
     bench: Bench,
     options: HoldOptions,
-    belief: tuple[Vector3, Vector3],
+    posterior: tuple[Vector3, Vector3],
     worst: Vector3,
     tilted_out: bool,
 ) -> Step:
     """Return the verdict on the whole hold; the belief is a centre of mass and its sd (m)."""
     passed = bool(np.all(worst <= options.tolerance)) and not tilted_out
-    far = ", ".join(f"{1e6 * w:.1f}" for w in worst)
-    text = f"Held for {options.duration / 60:.3g} min; at most ({far}) um from the target."
+    outlying = ", ".join(f"{1e6 * w:.1f}" for w in worst)
+    text = f"Held for {options.duration / 60:.3g} min; at most ({outlying}) um from the target."
     if tilted_out:
         text = f"Stopped: {TILTED}."
-    verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, *belief,
+    verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, *posterior,
                       halted=tilted_out)  # fmt: skip
     return Step("verify" if not tilted_out else "stop", bench.time, verdict.sentence,
                 verdict=verdict)  # fmt: skip

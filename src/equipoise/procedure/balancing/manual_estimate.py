@@ -1,7 +1,7 @@
 """What is believed of a platform from recording to recording, weights being placed in between.
 
 Inertia and centre of mass with their joint covariance. A recording adds its information
-(``estimation.lone_record``); weights of known first moment change both by a known step,
+(``estimation.single_record``); weights of known first moment change both by a known step,
 
     r <- (M r + dmu) / M',   J <- J + dJ,   cov(r) grows by cov(dmu) / M'^2
 
@@ -24,7 +24,7 @@ J, R = slice(0, 6), slice(6, 9)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Belief:
+class Posterior:
     """A platform as it is loaded."""
 
     mass: float  # kg
@@ -52,48 +52,48 @@ class Belief:
         return MassProperties(self.mass, self.com, unpack_symmetric(self.mean[J]))
 
 
-def first_belief(testbed: Testbed) -> Belief:
+def first_posterior(testbed: Testbed) -> Posterior:
     """Return what the testbed's description says."""
     body = testbed.body
     sd = np.append(testbed.inertia_sd * element_sizes(body.inertia_P), testbed.com_sd)
     mean = np.append(pack_symmetric(body.inertia_P), body.com)
-    return Belief(body.mass, mean, np.diag(sd**2))
+    return Posterior(body.mass, mean, np.diag(sd**2))
 
 
-def reloaded(belief: Belief, testbed: Testbed, before: Ints, after: Ints) -> Belief:
+def reloaded(posterior: Posterior, testbed: Testbed, before: Ints, after: Ints) -> Posterior:
     """Return what is believed when weights have been placed."""
     old, new = load_of(testbed, before), load_of(testbed, after)
-    mass = belief.mass + new.mass - old.mass
-    moment = belief.mass * belief.com + new.first_moment - old.first_moment
-    inertia = belief.mean[J] + pack_symmetric(new.inertia_P - old.inertia_P)
-    gain = np.append(np.ones(6), np.full(3, belief.mass / mass))
-    covariance = belief.covariance * np.outer(gain, gain)
+    mass = posterior.mass + new.mass - old.mass
+    moment = posterior.mass * posterior.com + new.first_moment - old.first_moment
+    inertia = posterior.mean[J] + pack_symmetric(new.inertia_P - old.inertia_P)
+    gain = np.append(np.ones(6), np.full(3, posterior.mass / mass))
+    covariance = posterior.covariance * np.outer(gain, gain)
     covariance[R, R] += handling_covariance(testbed, before, after) / mass**2
-    return Belief(mass, np.append(inertia, moment / mass), covariance)
+    return Posterior(mass, np.append(inertia, moment / mass), covariance)
 
 
-def taught(belief: Belief, shown: Shown) -> Belief:
+def taught(posterior: Posterior, shown: Shown) -> Posterior:
     """Return what is believed with a recording added."""
-    return _added(belief, inverse_spd(belief.covariance), shown)
+    return _added(posterior, inverse_spd(posterior.covariance), shown)
 
 
-def alone(belief: Belief, shown: Shown) -> Belief:
+def alone(posterior: Posterior, shown: Shown) -> Posterior:
     """Return what a recording says by itself of the centre of mass, the inertia as believed."""
     information = np.zeros((9, 9))
-    information[J, J] = inverse_spd(belief.covariance[J, J])
-    return _added(belief, information, shown)
+    information[J, J] = inverse_spd(posterior.covariance[J, J])
+    return _added(posterior, information, shown)
 
 
-def _added(belief: Belief, information: Square, shown: Shown) -> Belief:
+def _added(posterior: Posterior, information: Square, shown: Shown) -> Posterior:
     covariance = inverse_spd(information + shown.information)
-    mean = covariance @ (information @ belief.mean + shown.pull)
-    return Belief(belief.mass, mean, covariance)
+    mean = covariance @ (information @ posterior.mean + shown.pull)
+    return Posterior(posterior.mass, mean, covariance)
 
 
-def as_estimate(belief: Belief, latest: Estimate) -> Estimate:
+def as_estimate(posterior: Posterior, latest: Estimate) -> Estimate:
     """Return a belief as an estimate, which explains the latest recording as told there."""
     order = [*range(R.start, R.stop), *range(J.start, J.stop)]
-    mean, covariance = belief.mean[order], belief.covariance[np.ix_(order, order)]
+    mean, covariance = posterior.mean[order], posterior.covariance[np.ix_(order, order)]
     names = [*((name, "m") for name in COM), *((name, "kg m2") for name in INERTIA)]
     found = tuple(
         Parameter(*name, float(value), float(variance**0.5))

@@ -21,5 +21,5 @@ def planned_and_balanced(
     if manoeuvre.waves:
         bench.stop()
     text = f"Carried out the planned manoeuvre of {manoeuvre.duration:g} s."
-    yield Step("look", bench.time, text, recording=recording)
+    yield Step("measurement", bench.time, text, recording=recording)
     return (yield from balance(bench, options, recording))

@@ -24,7 +24,7 @@ from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
-from equipoise.model.command import Command, Look
+from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
@@ -34,9 +34,9 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS, among
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
-from equipoise.procedure.balancing.balance import look_step
+from equipoise.procedure.balancing.balance import measurement_step
 from equipoise.procedure.steps.joint_fit import as_if_stiff, learn, without
-from equipoise.procedure.steps.sampler import Eyes, looked, opened, sample_of
+from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
 from equipoise.procedure.steps.tilt_guard import TILTED, guarded, tilted
 from equipoise.procedure.steps.verification_swing import watched_swing
 from equipoise.procedure.steps.verify import verdict
@@ -95,28 +95,28 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
     check(law.card, bench.testbed)
     state, params = law.begin(bench.testbed, options.target)
     end = bench.time + options.max_time - options.proof
-    session, seen = first_sight(bench)
+    session, observed = first_sight(bench)
     why, began, following = "", bench.time, None
     while not why:
-        state, command = law.step(state, seen, params)
+        state, command = law.step(state, observed, params)
         if command.note:
             yield Step("control", bench.time, command.note)
-        if command.finished or command.look is not None:
+        if command.finished or command.measurement is not None:
             hands = carry_out(bench, command, session.eyes, session.hands, law.card.period)
             session = replace(session, hands=hands)
         if command.finished:
             why, following = command.finished, command.following
             break
-        if command.look is not None and bench.time + command.look.duration > end:
+        if command.measurement is not None and bench.time + command.measurement.duration > end:
             why = SPENT
             break
-        if command.look is not None:
-            session, recording, estimate = look(bench, session, command.look)
-            seen = estimate
-            yield look_step(bench, recording)
+        if command.measurement is not None:
+            session, recording, estimate = measurement(bench, session, command.measurement)
+            observed = estimate
+            yield measurement_step(bench, recording)
             yield estimate_step(bench, estimate)
         else:
-            session, seen, recording = control(bench, session, command, law.card.period)
+            session, observed, recording = control(bench, session, command, law.card.period)
         why = reason_to_stop(bench, recording, end)
     yield control_step(bench, law.card, began, why, following)
     if why == TILTED:
@@ -137,12 +137,12 @@ def first_sight(bench: Bench) -> tuple[Session, Sample]:
     """Return the session and the first sample, when the platform was seen for a moment."""
     testbed, fresh = bench.testbed, bench.read(SETTLE)
     before = opened(testbed)
-    eyes = looked(before, fresh, testbed)
-    seen = sample_of(before, eyes, fresh, testbed)
-    if seen is None:
+    eyes = sampled(before, fresh, testbed)
+    observed = sample_of(before, eyes, fresh, testbed)
+    if observed is None:
         found, wanted = f"no attitude in {SETTLE:g} s", "an attitude sensor that gives rows"
         raise InputError("bench", found, wanted)
-    return Session(eyes, opened_hands(testbed, eyes.displacement), (fresh,)), seen
+    return Session(eyes, opened_hands(testbed, eyes.displacement), (fresh,)), observed
 
 
 def control(
@@ -152,42 +152,44 @@ def control(
     testbed = bench.testbed
     hands = carry_out(bench, command, session.eyes, session.hands, period)
     fresh = bench.read(period)
-    eyes = looked(session.eyes, fresh, testbed)
-    seen = sample_of(session.eyes, eyes, fresh, testbed)
-    assert seen is not None  # there was one before
-    return Session(eyes, hands, (*session.parts, fresh)), seen, fresh
+    eyes = sampled(session.eyes, fresh, testbed)
+    observed = sample_of(session.eyes, eyes, fresh, testbed)
+    assert observed is not None  # there was one before
+    return Session(eyes, hands, (*session.parts, fresh)), observed, fresh
 
 
-def look(bench: Bench, session: Session, asked: Look) -> tuple[Session, Recording, Estimate]:
+def measurement(
+    bench: Bench, session: Session, requested: Measurement
+) -> tuple[Session, Recording, Estimate]:
     """Let everything rest, read, and return what a method makes of it."""
     testbed = bench.testbed
     hands, wait = let_rest(bench, session.eyes, session.hands)
     before = guarded(bench, wait) if wait > 0 else None
-    fresh = guarded(bench, asked.duration)
+    fresh = guarded(bench, requested.duration)
     parts = (*session.parts, *(part for part in (before, fresh) if part is not None))
     eyes = session.eyes
     for part in parts[len(session.parts) :]:
-        eyes = looked(eyes, part, testbed)
+        eyes = sampled(eyes, part, testbed)
     recording = fresh
-    if asked.since is not None:
-        recording = with_known_inputs(since(parts, asked.since), testbed)
-    estimate = looked_into(recording, testbed, asked)
+    if requested.since is not None:
+        recording = with_known_inputs(since(parts, requested.since), testbed)
+    estimate = measured_estimate(recording, testbed, requested)
     return Session(eyes, hands, parts), recording, estimate
 
 
-def looked_into(recording: Recording, testbed: Testbed, asked: Look) -> Estimate:
+def measured_estimate(recording: Recording, testbed: Testbed, requested: Measurement) -> Estimate:
     """Return what a method makes of a record, within the patience of somebody at a bench.
 
     The trajectory fit is taken without the survey that it makes of a recording from elsewhere.
     """
     testbed = as_if_stiff(testbed)
-    options = Options(asked.terms, asked.hold, use_prior=asked.use_prior)
-    if asked.method != trajectory.METHOD:
-        return estimated(METHODS[asked.method], recording, testbed, options)
+    options = Options(requested.terms, requested.hold, use_prior=requested.use_prior)
+    if requested.method != trajectory.METHOD:
+        return estimated(METHODS[requested.method], recording, testbed, options)
     # A torque that is held is none: the trajectory fit is told of it by leaving it out.
-    terms = among({*testbed.disturbances, *asked.terms} - set(asked.hold))
-    hold = tuple(name for name in asked.hold if name not in TERMS)
-    params = trajectory.Params(terms, use_prior=asked.use_prior, hold=hold)
+    terms = among({*testbed.disturbances, *requested.terms} - set(requested.hold))
+    hold = tuple(name for name in requested.hold if name not in TERMS)
+    params = trajectory.Params(terms, use_prior=requested.use_prior, hold=hold)
     fitted = trajectory.fit(recording, testbed, params)
     return conclude(fitted, trajectory.METHOD, recording)
 

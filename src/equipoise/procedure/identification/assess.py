@@ -5,8 +5,8 @@ surely; the testbed's inertia is knowledge, its centre of mass is not, and torqu
 considers are as large as benches have them where the record does not show them. From that follow
 the torque of gravity over a range of tilts, with sag, and the verdict on a requirement.
 
-Simple looks stand beside it: torque, energy, periods (``look_at_swing``), each with its own sd, all
-at the inertia that the fit found. Where they disagree, something is wrong with one of them.
+Simple metrics stand beside it: torque, energy, periods (``swing_metrics``), each with its own sd,
+all at the inertia that the fit found. Where they disagree, something is wrong with one of them.
 
 Cannot see what happens at tilts far from those recorded; nor the part of r along gravity that no
 swing shows, whose uncertainty goes into every number.
@@ -32,7 +32,7 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import among
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.identification.requirement import OPEN as CANNOT_TELL
+from equipoise.procedure.identification.requirement import OPEN as CANNOT_REPORT
 from equipoise.procedure.identification.requirement import (
     PASSED,
     Judged,
@@ -40,13 +40,13 @@ from equipoise.procedure.identification.requirement import (
     judged,
     verdict_answer,
 )
-from equipoise.procedure.identification.swing_metrics import SwingLook, looked_at
+from equipoise.procedure.identification.swing_metrics import SwingMetrics, swing_metrics
 from equipoise.procedure.steps.clean_record import sound
 
 UNKNOWN_COM = 1e-3  # m, chosen: one sd of where a centre of mass may be that is to be proven
 RANGE = np.radians(20.0)
 DOUBTFUL = 0.02  # chosen: an inertia known no better widens every bound
-Believed = tuple[Estimate, tuple[tuple[Parameter, ...], Square]]  # and what ``spread_of`` says
+Fit = tuple[Estimate, tuple[tuple[Parameter, ...], Square]]  # and what ``spread_of`` says
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,7 +73,7 @@ class Assessment:
     inertia_sd: float  # -, relative, of the largest moment
     offset: Bounded  # m, of com from the target
     torque: InRange
-    looks: SwingLook
+    metrics: SwingMetrics
     judged: tuple[Judged, ...]
 
     @property
@@ -102,20 +102,20 @@ def assess(
 ) -> Generator[Step, None, Assessment]:
     """Yield Steps; the last has the verdict if there is a requirement. Returns the Assessment."""
     start, end = recording.span
-    yield Step("look", end, f"Read {end - start:.4g} s of recording.", recording=recording)
-    believed = believed_of(recording, testbed, options)
-    estimate = believed[0]
+    yield Step("measurement", end, f"Read {end - start:.4g} s of recording.", recording=recording)
+    fit = fit_of(recording, testbed, options)
+    estimate = fit[0]
     yield Step("estimate", end, f"{estimate.method}: {estimate.outcome.sentence}",
                estimate=estimate)  # fmt: skip
     body = testbed.body
     if estimate.outcome.usable:
         body = replace(body, com=estimate.com, inertia_P=estimate.inertia_P)
-    found = assessment_of(replace(testbed, body=body), recording, options, believed)
+    found = assessment_of(replace(testbed, body=body), recording, options, fit)
     yield verification(found, end)
     return found
 
 
-def believed_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Believed:
+def fit_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Fit:
     """Return what the trajectory fit makes of a record, the testbed's inertia being known."""
     recording, testbed = sound(arranged(recording, testbed.mass_names), testbed)
     params = Params(
@@ -126,16 +126,16 @@ def believed_of(recording: Recording, testbed: Testbed, options: AssessOptions) 
     )
     unbalanced = replace(testbed, com_sd=np.full(3, UNKNOWN_COM))
     reference_fit.check_sensors(recording, unbalanced)
-    belief = reference_fit.surveyed(recording, unbalanced, params)
-    estimate = reference_fit.told_by(belief, recording, params)
-    return estimate, spread_of(belief.fitted, belief.coloured)
+    model = reference_fit.surveyed(recording, unbalanced, params)
+    estimate = reference_fit.as_estimate(model, recording, params)
+    return estimate, spread_of(model.fitted, model.coloured)
 
 
 def assessment_of(
-    testbed: Testbed, recording: Recording, options: AssessOptions, believed: Believed
+    testbed: Testbed, recording: Recording, options: AssessOptions, model: Fit
 ) -> Assessment:
     """Return the assessment of a platform whose parameters and covariance are known."""
-    estimate, spread = believed
+    estimate, spread = model
     pull = pull_of(*spread)
     weight, off = testbed.body.mass * testbed.gravity, pull.mean[:3] - options.target
     torque = torque_in_range(pull, weight, testbed.up, options.tilt)
@@ -149,7 +149,7 @@ def assessment_of(
         inertia_doubt(*spread),
         offset,
         torque,
-        looked_at(*sound(recording, testbed)),
+        swing_metrics(*sound(recording, testbed)),
         answers_of(options, torque, offset) if estimate.outcome.usable else (),
     )
 
@@ -176,8 +176,8 @@ def answers_of(options: AssessOptions, torque: InRange, offset: Bounded) -> tupl
     found = list[Judged]()
     if options.require_torque is not None:
         what = f"gravity's torque within {np.degrees(options.tilt):g} deg of level, rms,"
-        asked = Requirement(what, options.require_torque, "uN m", MICRO)
-        found.append(judged(asked, torque.rms))
+        requested = Requirement(what, options.require_torque, "uN m", MICRO)
+        found.append(judged(requested, torque.rms))
     if options.require_offset is not None:
         what = "the centre of mass's distance from where it is wanted"
         found.append(judged(Requirement(what, options.require_offset, "um", UM), offset))
@@ -188,18 +188,18 @@ def verification(found: Assessment, time: float) -> Step:
     """Return the last step: the verdict on what is required, or that nothing is."""
     sd = np.sqrt(np.diag(found.com_covariance))
     outcome, options = found.estimate.outcome, found.options
-    asked = options.require_torque is not None or options.require_offset is not None
+    requested = options.require_torque is not None or options.require_offset is not None
     if not outcome.usable:
-        text = f"{CANNOT_TELL}: {outcome.sentence}"
-        verdict = Verdict(False, text, found.com, sd, sure=False) if asked else None
+        text = f"{CANNOT_REPORT}: {outcome.sentence}"
+        verdict = Verdict(False, text, found.com, sd, sure=False) if requested else None
         return Step("verify", time, text, verdict=verdict)
-    if not asked:
+    if not requested:
         return Step("verify", time, "Nothing is required, so there is no verdict.")
     answer = verdict_answer([each.answer for each in found.judged])
     text = " ".join(each.sentence for each in found.judged)
-    if answer == CANNOT_TELL and found.inertia_sd > DOUBTFUL:
+    if answer == CANNOT_REPORT and found.inertia_sd > DOUBTFUL:
         text += (
             f" All of it goes with the inertia, which is known to {100 * found.inertia_sd:.2g} %."
         )
-    verdict = Verdict(answer == PASSED, text, found.com, sd, sure=answer != CANNOT_TELL)
+    verdict = Verdict(answer == PASSED, text, found.com, sd, sure=answer != CANNOT_REPORT)
     return Step("verify", time, text, verdict=verdict)

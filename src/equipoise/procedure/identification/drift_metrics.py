@@ -35,7 +35,7 @@ class OverHours:
     wander: Wander | None  # None: too few looks
 
 
-def looks_over_hours(
+def metrics_over_hours(
     recording: Recording, testbed: Testbed, seconds: float, inertia_known: bool
 ) -> OverHours:
     """Return looks of ``seconds`` each; the testbed's inertia counts as known, or as a prior."""
@@ -48,26 +48,28 @@ def looks_over_hours(
     found, times, left_out = list[Estimate](), list[float](), 0
     for k in range(count):
         first = start + k * seconds
-        look = looked(window(recording, first, min(first + seconds, end)), bed, params)
-        if look is None:
+        measurement = metric_of(window(recording, first, min(first + seconds, end)), bed, params)
+        if measurement is None:
             left_out += 1
             continue
-        found.append(look)
+        found.append(measurement)
         times.append(first + 0.5 * seconds)
-    com = np.array([look.values(look.standing) for look in found])
-    sd = np.array([spread_of(look) for look in found])
+    com = np.array([measurement.values(measurement.standing) for measurement in found])
+    sd = np.array([spread_of(measurement) for measurement in found])
     t, com, sd = np.array(times, dtype=float), com.reshape(-1, 3), sd.reshape(-1, 3)
     wander = wander_of(t, com, sd) if len(t) >= FEWEST else None
     return OverHours(t, com, sd, left_out, wander)
 
 
-def spread_of(look: Estimate) -> Vector3:
+def spread_of(measurement: Estimate) -> Vector3:
     """Return the sd of a look's centre of mass but for the inertia, whose error all looks share."""
-    own, J = ([look.index(name) for name in names] for names in (look.standing, INERTIA))
-    return np.sqrt(np.diag(given(look.covariance, own, J)))
+    own, J = (
+        [measurement.index(name) for name in names] for names in (measurement.standing, INERTIA)
+    )
+    return np.sqrt(np.diag(given(measurement.covariance, own, J)))
 
 
-def looked(part: Recording, testbed: Testbed, params: trajectory.Params) -> Estimate | None:
+def metric_of(part: Recording, testbed: Testbed, params: trajectory.Params) -> Estimate | None:
     """Return a look at a stretch; None where its fit cannot be used or does not show all."""
     rows = max((len(c) for c in (part.attitude, part.rate) if c is not None), default=0)
     if rows < trajectory.FEW_ROWS:

@@ -29,7 +29,7 @@ class IdentifyOptions:
     robust: bool = False
 
     @property
-    def asked(self) -> Options:
+    def requested(self) -> Options:
         """Return what is asked of the method itself."""
         return Options(self.terms, self.hold, self.use_prior, self.robust)
 
@@ -52,12 +52,14 @@ def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -
         wanted = nearest(options.method, ["auto", *METHODS])
         raise InputError("method", f"'{options.method}'", wanted)
     start, end = recording.span
-    yield Step("look", end, f"Read {end - start:.4g} s of recording.", recording=recording)
+    yield Step("measurement", end, f"Read {end - start:.4g} s of recording.", recording=recording)
     recording, testbed = sound(recording, testbed)
     chosen = COARSE_TO_FINE if options.method == "auto" else (options.method,)
     for name in chosen:
         method = METHODS[name]
-        asked = options.asked if name == chosen[-1] else heeded(method.card, options.asked)
-        estimate = estimated(method, recording, testbed, asked)
+        requested = (
+            options.requested if name == chosen[-1] else heeded(method.card, options.requested)
+        )
+        estimate = estimated(method, recording, testbed, requested)
         if estimate.parameters or name == chosen[-1]:
             yield step_of(recording, estimate)

@@ -40,14 +40,14 @@ class Judged:
 def judged(requirement: Requirement, found: Bounded) -> Judged:
     """Return the answer with its sentence."""
     answer = answer_of(requirement.limit, found)
-    told = (
+    reported = (
         f"{answer}: {requirement.what} is {shown(requirement, found.value)} "
         f"(95 %: {shown(requirement, found.low)} to {shown(requirement, found.high)}); "
         f"at most {shown(requirement, requirement.limit)} is wanted."
     )
     if answer == OPEN:
-        told += f" {doubt(requirement, found)}"
-    return Judged(requirement, found, answer, told)
+        reported += f" {doubt(requirement, found)}"
+    return Judged(requirement, found, answer, reported)
 
 
 def answer_of(limit: float, found: Bounded) -> str:

@@ -27,7 +27,11 @@ from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.regression.formulations.energy import energy
 from equipoise.estimation.regression.formulations.rows import Formulation, Posed
 from equipoise.estimation.regression.formulations.torque import DEGREE, savitzky_golay, torque
-from equipoise.estimation.regression.inverse_dynamics_torque import Draws, Felt, felt
+from equipoise.estimation.regression.inverse_dynamics_torque import (
+    Draws,
+    ResidualTorque,
+    residual_torque,
+)
 from equipoise.estimation.regression.linear_method import Linear, estimate, posed_of
 from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
 from equipoise.estimation.regression.solvers.least_squares import least_squares
@@ -46,14 +50,14 @@ FEWEST = 12  # rows, as for every linear method
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class SwingLook:
+class SwingMetrics:
     """What the looks found; None where the record has too little for one."""
 
     duration: float  # s, since masses stood still
     window: float  # s, of the filter
-    torque: Felt | None
+    torque: ResidualTorque | None
     torque_fit: Estimate | None
-    energy: Felt | None
+    energy: ResidualTorque | None
     energy_fit: Estimate | None
     spectrum: Spectrum | None
     hanging: tuple[Hanging, ...]
@@ -90,34 +94,34 @@ def is_driven(recording: Recording) -> bool:
     return any(c is not None and bool(np.any(np.ptp(c.values, axis=0) > 0)) for c in inputs)
 
 
-def looked_at(recording: Recording, testbed: Testbed) -> SwingLook:
+def swing_metrics(recording: Recording, testbed: Testbed) -> SwingMetrics:
     """Return what simple looks say; the testbed's inertia counts as known."""
     part = standing_part(arranged(recording, testbed.mass_names))
     start, end = part.span
     posed = posed_of(*as_one_body(part, testbed), Options())
     if len(posed.motion.t) < FEWEST:
         few = f"only {len(posed.motion.t)} rows since the masses stopped"
-        return SwingLook(end - start, 0.0, None, None, None, None, None, (), few)
-    found, seen, quiet = periods(posed)
+        return SwingMetrics(end - start, 0.0, None, None, None, None, None, (), few)
+    found, observed, quiet = periods(posed)
     seconds = window_for(found, end - start, posed)
     draws = tuple(pairs(posed, Drawn()))
     slopes, some = torque(partial(savitzky_golay, seconds=seconds)), draws[:FOR_NOISE]
-    return SwingLook(
+    return SwingMetrics(
         end - start,
         seconds,
-        blunted(felt(slopes, posed, some)),
+        blunted(residual_torque(slopes, posed, some)),
         fit("torque_savitzky_golay", slopes, posed, draws),
-        felt(energy, posed, some, about_mean=True),
+        residual_torque(energy, posed, some, about_mean=True),
         fit("energy", energy, posed, draws),
-        seen,
+        observed,
         found,
         quiet,
     )
 
 
-def blunted(seen: Felt) -> Felt:
+def blunted(observed: ResidualTorque) -> ResidualTorque:
     """Return a torque with what the filter may have left out of it in its sd."""
-    return replace(seen, rms_sd=float(np.hypot(seen.rms_sd, (1 - SHARP) * seen.rms)))
+    return replace(observed, rms_sd=float(np.hypot(observed.rms_sd, (1 - SHARP) * observed.rms)))
 
 
 def fit(name: str, formulation: Formulation, posed: Posed, draws: Draws) -> Estimate:
@@ -131,13 +135,13 @@ def periods(posed: Posed) -> tuple[tuple[Hanging, ...], Spectrum, str]:
     n = -to_matrix(motion.q)[:, 2, :]
     down = n.mean(axis=0) / np.linalg.norm(n.mean(axis=0))
     tilts = n @ across(down).T
-    seen = spectrum(motion.t, tilts)
+    observed = spectrum(motion.t, tilts)
     if is_driven(posed.recording):
-        return (), seen, "wheels or known torques drive the platform"
+        return (), observed, "wheels or known torques drive the platform"
     duration = float(motion.t[-1] - motion.t[0])
     spin = -float(motion.w.mean(axis=0) @ down)
     found = hanging(swings(motion.t, tilts), duration, inertia_P, down, spin)
-    return found, seen, "" if found else f"no swing of {duration:.3g} s or less"
+    return found, observed, "" if found else f"no swing of {duration:.3g} s or less"
 
 
 def window_for(found: tuple[Hanging, ...], duration: float, posed: Posed) -> float:

@@ -29,17 +29,17 @@ def kept(channel: Samples, mask: Bools) -> Samples:
 def sound(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:
     """Return what an estimator should be given."""
     attitude, rate = recording.attitude, recording.rate
-    told = row_averaging(attitude, recording.attitude_norm)
+    reported = row_averaging(attitude, recording.attitude_norm)
     if attitude is not None and len(attitude) >= FEWEST:
         odd: OddRows = odd_attitudes(attitude)
         mask = odd.mask.copy()
-        if told is not None:
-            mask[list(told.odd)] = True
+        if reported is not None:
+            mask[list(reported.odd)] = True
         attitude = kept(attitude, mask)
     if rate is not None and len(rate) >= FEWEST:
         rate = kept(rate, odd_rates(rate).mask)
     camera, gyro = shown_camera(attitude, testbed.attitude), shown_gyro(rate, testbed.gyro)
-    if told is not None and camera is not None and camera.averaging == 0:
-        camera = with_window(camera, told)
-    seen = replace(testbed, attitude=camera, gyro=gyro)
-    return replace(recording, attitude=attitude, rate=rate), seen
+    if reported is not None and camera is not None and camera.averaging == 0:
+        camera = with_window(camera, reported)
+    observed = replace(testbed, attitude=camera, gyro=gyro)
+    return replace(recording, attitude=attitude, rate=rate), observed

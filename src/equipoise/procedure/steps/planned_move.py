@@ -15,11 +15,11 @@ from equipoise.model.testbed import Testbed
 
 
 def planned_move(
-    testbed: Testbed, now: Floats, targets: Floats, belief: tuple[Vector3, Matrix3], reason: str
+    testbed: Testbed, now: Floats, targets: Floats, posterior: tuple[Vector3, Matrix3], reason: str
 ) -> Move:
     """Return the move from displacements ``now`` to ``targets`` (m).
 
-    ``belief`` is the centre of mass as the masses stand, less the errors e_i of those that move,
+    ``posterior`` is the centre of mass as the masses stand, less the errors e_i of those that move,
     and its covariance (m, m^2); what the accuracy of the new stops adds is part of the prediction.
     """
     masses, change = testbed.masses, targets - now
@@ -28,8 +28,8 @@ def planned_move(
         targets={mass.name: float(d) for mass, d in zip(masses, targets, strict=True)},
         travel=float(np.abs(change).sum()),
         duration=float((np.abs(change) / speed).max()),
-        predicted_com=belief[0] + com_shift(mass_maps(masses), testbed.body.mass, change),
-        predicted_covariance=belief[1] + stops_covariance(testbed, change != 0),
+        predicted_com=posterior[0] + com_shift(mass_maps(masses), testbed.body.mass, change),
+        predicted_covariance=posterior[1] + stops_covariance(testbed, change != 0),
         reason=reason,
     )
 

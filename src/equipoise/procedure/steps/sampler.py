@@ -37,7 +37,7 @@ def last_row(channel: Samples | None, before: Floats) -> Floats:
     return before if channel is None or not len(channel) else channel.values[-1]
 
 
-def looked(eyes: Eyes, fresh: Recording, testbed: Testbed) -> Eyes:
+def sampled(eyes: Eyes, fresh: Recording, testbed: Testbed) -> Eyes:
     """Return the eyes after a fresh record."""
     stored, attitude = fresh.momentum, followed(eyes.attitude, fresh, testbed)
     return Eyes(

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.runner.benches import Station
 from equipoise.io.testbed.presets import read_preset
 from tests.app.dashboard.conftest import BALANCE, Room
@@ -33,7 +33,7 @@ def shown(folder, bed=BED, seed=3):
 
 
 def notes(room):
-    return [state["note"] for state in room.told.states]
+    return [state["note"] for state in room.reported.states]
 
 
 def in_turn(room, *words):
@@ -47,17 +47,17 @@ def test_a_real_bench_is_practised_homed_let_go_and_balanced(tmp_path, monkeypat
     monkeypatch.setenv("EQUIPOISE_RUNS", "")
     with shown(tmp_path) as (room, found):
         room.turn(10)
-        room.ask(HELD)
+        room.request(HELD)
         room.turn(2)
         assert in_turn(room, "Practising", "The masses go home: hold", "let the platform go")
-        words = [step["word"] for step in room.told.steps]
-        assert words[-1] == "passed", room.told.steps[-1]
+        words = [step["word"] for step in room.reported.steps]
+        assert words[-1] == "passed", room.reported.steps[-1]
         truth = found.emulated.platform.truth().com
-        belief = room.told.state["belief"]
-        sd = np.sqrt(np.diag(np.reshape(belief["covariance"], (3, 3))))
-        assert np.all(np.abs(np.array(belief["com"]) - truth) < 4 * sd + 0.3e-6)
+        posterior = room.reported.state["estimate"]
+        sd = np.sqrt(np.diag(np.reshape(posterior["covariance"], (3, 3))))
+        assert np.all(np.abs(np.array(posterior["com"]) - truth) < 4 * sd + 0.3e-6)
         assert np.all(np.abs(truth - HELD.target) < HELD.tolerance)
-        t = room.told.rows("pose")[:, 0]
+        t = room.reported.rows("pose")[:, 0]
         assert np.all(np.diff(t) > 0)
         late = t[t > t[-1] - 30.0]  # s: since it was let go
         assert np.ptp(late) / (len(late) - 1) == pytest.approx(1 / BED.attitude.rate, rel=0.01)
@@ -66,12 +66,12 @@ def test_a_real_bench_is_practised_homed_let_go_and_balanced(tmp_path, monkeypat
 def test_a_stop_halts_a_real_bench(tmp_path, monkeypatch):
     monkeypatch.setenv("EQUIPOISE_RUNS", "")
     with shown(tmp_path) as (room, found):
-        room.told.when = lambda kind, what: (
-            kind == "step" and what["of"] == "move" and room.ask(ask.Stop())
+        room.reported.when = lambda kind, what: (
+            kind == "step" and what["of"] == "move" and room.request(requests.Stop())
         )
-        room.ask(HELD)
+        room.request(HELD)
         room.turn(2)
-        last = room.told.steps[-1]
+        last = room.reported.steps[-1]
         assert (last["of"], last["word"]) == ("stop", "halted")
         assert "by hand" in last["sentence"]
         found.wait(0.2)
@@ -86,15 +86,15 @@ def test_an_interlock_ends_a_balancing_and_is_shown(tmp_path, monkeypatch):
     with shown(tmp_path) as (room, found):
 
         def when(kind, what):
-            if kind == "step" and what["of"] == "look":
+            if kind == "step" and what["of"] == "measurement":
                 found.imu.wire.spoil = silent
 
-        room.told.when = when
-        room.ask(HELD)
+        room.reported.when = when
+        room.request(HELD)
         room.turn(2)
-        assert room.told.steps[-1]["word"] == "halted"
-        assert "no sensor has given a row" in room.told.state["trip"]
-        assert room.told.state["phase"] == "idle"
+        assert room.reported.steps[-1]["word"] == "halted"
+        assert "no sensor has given a row" in room.reported.state["trip"]
+        assert room.reported.state["phase"] == "idle"
 
 
 def test_a_mass_is_sent_by_hand_and_not_beyond_its_travel(tmp_path):
@@ -102,10 +102,10 @@ def test_a_mass_is_sent_by_hand_and_not_beyond_its_travel(tmp_path):
     with shown(tmp_path, free) as (room, found):
         found.bench.start()
         found.bench.watch()
-        room.ask(ask.Jog("x", 4e-3))
+        room.request(requests.Jog("x", 4e-3))
         room.turn(20)
-        assert room.told.rows("masses")[-1, 1] == pytest.approx(4e-3, abs=2e-6)
-        room.ask(ask.Jog("x", 1.0))
+        assert room.reported.rows("masses")[-1, 1] == pytest.approx(4e-3, abs=2e-6)
+        room.request(requests.Jog("x", 1.0))
         room.turn(5)
         assert "nothing was moved" in notes(room)[-1]
-        assert room.told.rows("masses")[-1, 1] == pytest.approx(4e-3, abs=2e-6)
+        assert room.reported.rows("masses")[-1, 1] == pytest.approx(4e-3, abs=2e-6)

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.series import series_of
 from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.chart_rows import parts_of
-from equipoise.app.dashboard.runner.live_estimate import LiveBelief, grown
+from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.pace import Pace
 from equipoise.estimation.tracker import tracker
 from equipoise.io.recording.recording_file import read_recording, write_recording
@@ -18,22 +18,24 @@ from tests.app.dashboard.conftest import BALANCE, Room
 
 def test_the_pages_numbers_are_the_recordings(room):
     """What is recorded while it is shown, read from the file: row by row the same."""
-    room.ask(ask.Record(True))
+    room.request(requests.Record(True))
     room.turn(30)
-    name = room.told.state["recording"]
-    room.ask(ask.Jog(room.runner.station.testbed.mass_names[0], 0.004), ask.Record(False))
+    name = room.reported.state["recording"]
+    room.request(
+        requests.Jog(room.runner.station.testbed.mass_names[0], 0.004), requests.Record(False)
+    )
     room.turn(20)
     kept = read_recording(room.folder / name)
-    assert room.told.state["recording"] is None
+    assert room.reported.state["recording"] is None
     first, last = kept.attitude.t[[0, -1]]
     assert last - first > 2.5
     for shown, channel in (("pose", kept.attitude), ("rate", kept.rate)):
-        rows = room.told.rows(shown)
+        rows = room.reported.rows(shown)
         rows = rows[(rows[:, 0] > first - 1e-9) & (rows[:, 0] < last + 1e-9)]
         assert rows[:, 0] == pytest.approx(channel.t, abs=1e-9)
         assert rows[:, 1 : 1 + channel.values.shape[1]] == pytest.approx(channel.values, abs=1e-12)
     angles = np.stack(to_euler321(kept.attitude.values), axis=1)
-    rows = room.told.rows("attitude")
+    rows = room.reported.rows("attitude")
     assert rows[np.isin(np.round(rows[:, 0], 6), np.round(kept.attitude.t, 6)), 1:4] == (
         pytest.approx(angles, abs=1e-12)
     )
@@ -42,44 +44,44 @@ def test_the_pages_numbers_are_the_recordings(room):
 def test_every_series_has_the_columns_that_were_announced(room):
     room.turn(30)
     widths = {series.name: series.width for series in series_of(room.runner.station.testbed)}
-    assert set(room.told.parts) == set(widths)
+    assert set(room.reported.parts) == set(widths)
     for name, width in widths.items():
-        rows = room.told.rows(name)
+        rows = room.reported.rows(name)
         assert rows.shape[1] == width
         assert np.all(np.diff(rows[:, 0]) >= 0), name
 
 
 def test_the_live_estimate_is_that_of_the_whole_recording(nanosat):
     """Fed in tenths of a second with a move under way, or at once: to rounding."""
-    bench, belief = SimulatedBench(nanosat, 3), LiveBelief(nanosat)
+    bench, posterior = SimulatedBench(nanosat, 3), LiveEstimate(nanosat)
     parts = []
     for k in range(300):
         if k == 100:
             bench.move({nanosat.mass_names[0]: 0.01})
         rows = bench.read(0.1)
         parts.append(rows)
-        belief, _ = grown(belief, rows)
+        posterior, _ = grown(posterior, rows)
     from equipoise.model.recording import joined
 
     whole = joined(parts)
     state = tracker.first_state(0.0, whole.attitude.values[0], nanosat)
     at_once = tracker.track(whole, nanosat, tracker.Params(), state).end
-    assert belief.state.t == at_once.t
-    assert belief.state.com == pytest.approx(at_once.com, rel=1e-6, abs=1e-12)
-    assert belief.covariance == pytest.approx(at_once.belief.covariance, rel=1e-5, abs=1e-18)
+    assert posterior.state.t == at_once.t
+    assert posterior.state.com == pytest.approx(at_once.com, rel=1e-6, abs=1e-12)
+    assert posterior.covariance == pytest.approx(at_once.posterior.covariance, rel=1e-5, abs=1e-18)
 
 
 def test_the_shown_centre_of_mass_moves_with_the_masses(nanosat):
     """A mass m sent by d along its axis: the platform's centre of mass by m d / M at once."""
-    bench, belief = SimulatedBench(nanosat, 3), LiveBelief(nanosat)
-    mass, seen = nanosat.masses[0], []
+    bench, posterior = SimulatedBench(nanosat, 3), LiveEstimate(nanosat)
+    mass, observed = nanosat.masses[0], []
     for k in range(200):
         if k == 100:
             bench.move({mass.name: 0.01})
         rows = bench.read(0.1)
-        belief, track = grown(belief, rows)
-        seen += [v for name, v in parts_of(rows, nanosat, belief, track) if name == "com"]
-    shown = np.vstack(seen)
+        posterior, track = grown(posterior, rows)
+        observed += [v for name, v in parts_of(rows, nanosat, posterior, track) if name == "com"]
+    shown = np.vstack(observed)
     before, after = shown[shown[:, 0] < 10][-1], shown[-1]
     moved = mass.mass * mass.gain * 0.01 / nanosat.body.mass * mass.axis
     assert after[1:4] - before[1:4] == pytest.approx(moved, abs=3 * float(before[4:7].max()))
@@ -89,115 +91,124 @@ def test_the_shown_centre_of_mass_moves_with_the_masses(nanosat):
 def test_a_balance_passes_and_its_report_is_kept(room, monkeypatch):
     """The truth, which the runner does not know, is where the verdict says: within 4 sd."""
     monkeypatch.setenv("EQUIPOISE_RUNS", str(room.folder))
-    room.ask(BALANCE)
+    room.request(BALANCE)
     room.turn(2)
-    words = [step["word"] for step in room.told.steps]
-    assert words[-1] == "passed", room.told.steps[-1]
-    assert [step["index"] for step in room.told.steps] == list(range(len(words)))
-    assert {step["of"] for step in room.told.steps} >= {"look", "estimate", "move", "verify"}
-    assert room.told.state["goal"]["target"] == [0.0, 0.0, -100e-6]
-    belief = room.told.state["belief"]
-    sd = np.sqrt(np.diag(np.reshape(belief["covariance"], (3, 3))))
-    off = np.array(belief["com"]) - room.runner.station.bench.truth().com
+    words = [step["word"] for step in room.reported.steps]
+    assert words[-1] == "passed", room.reported.steps[-1]
+    assert [step["index"] for step in room.reported.steps] == list(range(len(words)))
+    assert {step["of"] for step in room.reported.steps} >= {
+        "measurement",
+        "estimate",
+        "move",
+        "verify",
+    }
+    assert room.reported.state["goal"]["target"] == [0.0, 0.0, -100e-6]
+    posterior = room.reported.state["estimate"]
+    sd = np.sqrt(np.diag(np.reshape(posterior["covariance"], (3, 3))))
+    off = np.array(posterior["com"]) - room.runner.station.bench.truth().com
     assert np.all(np.abs(off) < 4 * sd + 0.3e-6)
     room.runner.phase = "paused"
-    room.until(lambda: room.told.state["kept"], 900)
-    kept = room.folder / room.told.state["kept"]
+    room.until(lambda: room.reported.state["kept"], 900)
+    kept = room.folder / room.reported.state["kept"]
     assert {"report.html", "report.pdf", "run.json"} <= {path.name for path in kept.iterdir()}
 
 
 def test_a_stop_halts_the_masses_and_ends_the_balance(room):
-    room.told.when = lambda kind, what: (
-        kind == "step" and what["of"] == "move" and (room.ask(ask.Stop()))
+    room.reported.when = lambda kind, what: (
+        kind == "step" and what["of"] == "move" and (room.request(requests.Stop()))
     )
-    room.ask(BALANCE)
+    room.request(BALANCE)
     room.turn(2)
-    last = room.told.steps[-1]
+    last = room.reported.steps[-1]
     assert (last["of"], last["word"]) == ("stop", "halted")
     assert "by hand" in last["sentence"]
     bench = room.runner.station.bench
     where = bench.displacements
     bench.read(5.0)
     assert bench.displacements == pytest.approx(where)
-    assert room.told.state["phase"] == "idle"
+    assert room.reported.state["phase"] == "idle"
 
 
 def test_a_pause_in_a_balance_holds_its_time(room):
-    seen = []
+    observed = []
 
     def when(kind, what):
-        if kind == "step" and what["of"] == "look" and not seen:
-            seen.append(what["t"])
-            room.ask(ask.Pause(True))
+        if kind == "step" and what["of"] == "measurement" and not observed:
+            observed.append(what["t"])
+            room.request(requests.Pause(True))
         if kind == "state" and what["phase"] == "held":
-            seen.append(what["t"])
-            room.ask(ask.Stop())
+            observed.append(what["t"])
+            room.request(requests.Stop())
 
-    room.told.when = when
-    room.ask(BALANCE)
+    room.reported.when = when
+    room.request(BALANCE)
     room.turn(2)
-    assert seen[1] - seen[0] < 0.11
-    assert room.told.steps[-1]["word"] == "halted"
+    assert observed[1] - observed[0] < 0.11
+    assert room.reported.steps[-1]["word"] == "halted"
 
 
 def test_what_cannot_be_done_during_a_balance_is_refused(room):
-    asked = []
+    requested = []
 
     def when(kind, what):
-        if kind == "step" and what["of"] == "look" and not asked:
-            asked.append(True)
-            room.ask(ask.Jog("x", 0.001), ask.Anew(5), ask.Mark("a door"), ask.Stop())
+        if kind == "step" and what["of"] == "measurement" and not requested:
+            requested.append(True)
+            room.request(
+                requests.Jog("x", 0.001), requests.Anew(5), requests.Mark("a door"), requests.Stop()
+            )
 
-    room.told.when = when
-    room.ask(BALANCE)
+    room.reported.when = when
+    room.request(BALANCE)
     room.turn(2)
-    assert any("Not now" in state["note"] for state in room.told.states)
-    assert "a door" in [step["sentence"] for step in room.told.steps]
-    assert room.told.state["seed"] == 1
+    assert any("Not now" in state["note"] for state in room.reported.states)
+    assert "a door" in [step["sentence"] for step in room.reported.steps]
+    assert room.reported.state["seed"] == 1
 
 
 def test_a_jog_beyond_the_travel_is_refused_and_nothing_moves(room):
     mass = room.runner.station.testbed.masses[0]
-    room.ask(ask.Jog(mass.name, 2 * mass.travel[1]))
+    room.request(requests.Jog(mass.name, 2 * mass.travel[1]))
     room.turn(20)
-    assert "nothing was moved" in room.told.state["note"]
-    assert not room.told.rows("masses")[:, 1:].any()
-    room.ask(ask.Jog(mass.name, mass.travel[1] / 2))
+    assert "nothing was moved" in room.reported.state["note"]
+    assert not room.reported.rows("masses")[:, 1:].any()
+    room.request(requests.Jog(mass.name, mass.travel[1] / 2))
     room.turn(100)
-    assert room.told.rows("masses")[-1, 1] == pytest.approx(mass.travel[1] / 2, abs=1e-4)
+    assert room.reported.rows("masses")[-1, 1] == pytest.approx(mass.travel[1] / 2, abs=1e-4)
 
 
 def test_another_platform_and_its_clock(room):
     room.turn(10)
-    room.ask(ask.Anew(7))
+    room.request(requests.Anew(7))
     room.turn(2)
-    assert [about["clock"] for about in room.told.about] == [1, 2]
-    assert room.told.state["seed"] == 7
-    assert room.told.state["phase"] == "paused"
-    assert room.told.parts == {}
+    assert [about["clock"] for about in room.reported.about] == [1, 2]
+    assert room.reported.state["seed"] == 7
+    assert room.reported.state["phase"] == "paused"
+    assert room.reported.parts == {}
 
 
 def test_a_platform_that_falls_is_caught(room):
-    room.until(lambda: room.told.state["phase"] == "paused", 4000)
-    assert "caught" in room.told.state["note"]
-    tilts = room.told.rows("limits")[:, 1]
+    room.until(lambda: room.reported.state["phase"] == "paused", 4000)
+    assert "caught" in room.reported.state["note"]
+    tilts = room.reported.rows("limits")[:, 1]
     assert np.nanmax(tilts) > 1.0
 
 
 def test_identify_from_the_recorded_rows(room, monkeypatch):
     monkeypatch.setenv("EQUIPOISE_RUNS", str(room.folder))
     room.turn(150)
-    room.ask(ask.Pause(True), ask.Identify("simplified"))
-    room.until(lambda: room.told.steps and room.told.state["kept"], 900)
-    assert "estimate" in {step["of"] for step in room.told.steps}
-    assert (room.folder / room.told.state["kept"] / "recording.csv").is_file()
+    room.request(requests.Pause(True), requests.Identify("simplified"))
+    room.until(lambda: room.reported.steps and room.reported.state["kept"], 900)
+    assert "estimate" in {step["of"] for step in room.reported.steps}
+    assert (room.folder / room.reported.state["kept"] / "recording.csv").is_file()
 
 
-@pytest.mark.parametrize("request_", [ask.Speed(-1.0), ask.Speed(float("nan")), ask.Speed(1e9)])
+@pytest.mark.parametrize(
+    "request_", [requests.Speed(-1.0), requests.Speed(float("nan")), requests.Speed(1e9)]
+)
 def test_a_speed_that_cannot_be_is_refused(room, request_):
-    room.ask(request_)
+    room.request(request_)
     room.turn()
-    assert "speed: found" in room.told.state["note"]
+    assert "speed: found" in room.reported.state["note"]
 
 
 # --- Replay --------------------------------------------------------------------------------------
@@ -211,61 +222,61 @@ def recording(nanosat, tmp_path):
 
 
 def test_a_replay_shows_the_recording_and_ends_with_it(room, recording):
-    room.ask(ask.Replay("kept.csv"))
-    room.until(lambda: room.told.state["note"] == "The recording has ended.")
-    rows = room.told.rows("pose")
+    room.request(requests.Replay("kept.csv"))
+    room.until(lambda: room.reported.state["note"] == "The recording has ended.")
+    rows = room.reported.rows("pose")
     assert rows[:, 0] == pytest.approx(recording.attitude.t, abs=1e-6)
-    assert room.told.about[-1]["bench"] == "replayed"
+    assert room.reported.about[-1]["bench"] == "replayed"
 
 
 def test_going_to_a_time_shows_the_minute_before_it(room, recording, nanosat):
-    room.ask(ask.Replay("kept.csv"))
+    room.request(requests.Replay("kept.csv"))
     room.turn(2)
-    room.ask(ask.Seek(80.0))
+    room.request(requests.Seek(80.0))
     room.turn(2)
-    room.ask(ask.Pause(False))
+    room.request(requests.Pause(False))
     room.turn(20)
-    t = room.told.rows("pose")[:, 0]
+    t = room.reported.rows("pose")[:, 0]
     assert t[0] == pytest.approx(20.0, abs=0.1)
     assert np.all(np.diff(t) > 0)
     assert 80.0 < t[-1] < 84.0
-    limits = room.told.rows("limits")
+    limits = room.reported.rows("limits")
     q = recording.attitude.values[np.searchsorted(recording.attitude.t, limits[0, 0])]
     assert limits[0, 1] == pytest.approx(tilt(q, nanosat.up) / nanosat.tilt_limit, abs=1e-6)
 
 
 @pytest.mark.parametrize("name", ["../kept.csv", "/etc/hostname", "nothing.csv"])
 def test_a_recording_outside_of_the_data_folder_is_not_shown(room, name):
-    room.ask(ask.Replay(name))
+    room.request(requests.Replay(name))
     room.turn(2)
-    assert "a file within" in room.told.state["note"]
-    assert room.told.about[-1]["bench"] == "simulated"
+    assert "a file within" in room.reported.state["note"]
+    assert room.reported.about[-1]["bench"] == "simulated"
 
 
 def test_what_is_past_is_not_balanced(nanosat, recording, tmp_path):
     room = Room(replayed(nanosat, recording, "kept"), tmp_path)
-    room.ask(BALANCE)
+    room.request(BALANCE)
     room.turn(2)
-    assert "cannot be moved" in room.told.state["note"]
+    assert "cannot be moved" in room.reported.state["note"]
 
 
 def test_back_to_the_simulation(nanosat, recording, tmp_path):
     room = Room(replayed(nanosat, recording, "kept"), tmp_path)
-    room.ask(ask.Replay(""))
+    room.request(requests.Replay(""))
     room.turn(2)
-    assert room.told.about[-1]["bench"] == "simulated"
+    assert room.reported.about[-1]["bench"] == "simulated"
 
 
 def test_a_real_bench_is_not_balanced_unless_somebody_holds_it(nanosat, tmp_path):
     from dataclasses import replace
 
     room = Room(replace(simulated(nanosat, 1), kind="real"), tmp_path)
-    room.ask(BALANCE)
+    room.request(BALANCE)
     room.turn(2)
-    assert "somebody who holds it" in room.told.state["note"]
-    room.ask(ask.Anew(2))
+    assert "somebody who holds it" in room.reported.state["note"]
+    room.request(requests.Anew(2))
     room.turn(2)
-    assert "a dashboard of its own" in room.told.state["note"]
+    assert "a dashboard of its own" in room.reported.state["note"]
 
 
 # --- Pace ----------------------------------------------------------------------------------------

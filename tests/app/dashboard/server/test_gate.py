@@ -35,7 +35,7 @@ def client(exposed=False, host=HERE):
     return TestClient(gate, base_url=f"http://{host}", raise_server_exceptions=False)
 
 
-def hears(client, headers=None, query=""):
+def receives(client, headers=None, query=""):
     with client.websocket_connect(f"ws://{client.base_url.netloc.decode()}/live{query}",
                                   headers=headers or {}) as socket:  # fmt: skip
         return socket.receive_text()
@@ -44,7 +44,7 @@ def hears(client, headers=None, query=""):
 def test_a_request_to_our_own_address_is_admitted():
     for host in (HERE, "localhost:8080"):
         assert client(host=host).get("/").status_code == 200
-        assert hears(client(host=host), {"origin": f"http://{host}"}) == "rows"
+        assert receives(client(host=host), {"origin": f"http://{host}"}) == "rows"
 
 
 def test_another_name_for_us_is_refused():
@@ -63,23 +63,23 @@ FOREIGN = ("http://evil.example", "https://127.0.0.1:8080", "null", "http://127.
 def test_a_foreign_origin_is_refused(origin):
     assert client().get("/", headers={"origin": origin}).status_code == 403
     with pytest.raises(WebSocketDisconnect) as refused:
-        hears(client(), {"origin": origin})
+        receives(client(), {"origin": origin})
     assert refused.value.code == 1008
 
 
 def test_beyond_loopback_a_socket_needs_an_origin():
     query = "?" + urlencode({"token": TOKEN})
-    assert hears(client(), {}) == "rows"
+    assert receives(client(), {}) == "rows"
     with pytest.raises(WebSocketDisconnect):
-        hears(client(exposed=True), {}, query)
-    assert hears(client(exposed=True), {"origin": f"http://{HERE}"}, query) == "rows"
+        receives(client(exposed=True), {}, query)
+    assert receives(client(exposed=True), {"origin": f"http://{HERE}"}, query) == "rows"
 
 
 @pytest.mark.parametrize("query", ["", "?token=", "?token=wrong", "?other=1"])
 def test_beyond_loopback_nothing_is_served_without_the_token(query):
     assert client(exposed=True).get("/" + query).status_code == 401
     with pytest.raises(WebSocketDisconnect):
-        hears(client(exposed=True), {"origin": f"http://{HERE}"}, query)
+        receives(client(exposed=True), {"origin": f"http://{HERE}"}, query)
 
 
 def test_the_token_is_kept_in_a_cookie():

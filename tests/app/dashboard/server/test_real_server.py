@@ -9,7 +9,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from equipoise.app.dashboard.server.gate import LARGEST
-from tests.support.dashboard_program import CHROMIUM, Heard, browser, dashboard, started
+from tests.support.dashboard_program import CHROMIUM, Received, browser, dashboard, started
 
 SOCKETS = ("/live", "/_nicegui_ws/socket.io/?EIO=4&transport=websocket")
 LATER = 120_000  # ms
@@ -67,7 +67,7 @@ def test_sockets_are_closed_without_the_token(running, path, token):
     assert refused.value.response.status_code == 403
 
 
-def heard_after(socket, message):
+def received_after(socket, message):
     socket.send(message)
     for _ in range(1000):
         socket.recv(timeout=60)
@@ -79,7 +79,7 @@ def test_an_oversized_message_ends_its_connection_alone(running, path):
         with opened(running, path, here(running), running.token) as socket:
             socket.recv(timeout=60)
             with pytest.raises(ConnectionClosed) as closed:
-                heard_after(socket, "4" * (LARGEST + 1))
+                received_after(socket, "4" * (LARGEST + 1))
             assert closed.value.rcvd.code == 1009  # too big
         assert other.recv(timeout=60)
     assert running.process.poll() is None
@@ -96,7 +96,7 @@ def test_the_address_that_was_printed_opens_the_page(running):
     """The token of the address lets look on; to command it is asked for once more."""
     with browser() as chromium:
         page = chromium.new_page()
-        heard = Heard(page)
+        received = Received(page)
         page.goto(running.url)
         expect(page.locator("#eq-link")).to_contain_text("connected", timeout=LATER)
         page.wait_for_function("window.equipoise?.state().link === 'open'", timeout=LATER)
@@ -105,4 +105,4 @@ def test_the_address_that_was_printed_opens_the_page(running):
         page.get_by_label("Token").fill(running.token)
         page.keyboard.press("Enter")
         expect(start).to_be_enabled(timeout=LATER)
-        assert heard.wrong == []
+        assert received.wrong == []

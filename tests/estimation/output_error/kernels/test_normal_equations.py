@@ -63,8 +63,8 @@ def somewhere(errors: int, sensor: np.ndarray | None = None) -> Unknowns:
     torque = np.array([2, 3, 1, 20, 0.1, -0.2, 0.03, 0.2, 0, 0, 0, 0, 0, 0, 0, 0]) * 1e-4
     torque[8:] = np.array([3, -2, 4, 1, -5, 0.1, -0.2, 0.05]) * 1e-7
     error = np.array([2e-4, -3e-4, 1e-4])[:errors]
-    seen = np.zeros(24) if sensor is None else sensor
-    return Unknowns(q0, RATE * 1.01, six, com, torque, seen, error, BIAS)
+    observed = np.zeros(24) if sensor is None else sensor
+    return Unknowns(q0, RATE * 1.01, six, com, torque, observed, error, BIAS)
 
 
 CASES = {  # robust, sensor terms, when the masses set off: no camera row looks back across that
@@ -131,7 +131,7 @@ def by_differences(see, size):
 
 def camera_rows(problem, point, q, w, turn_by):
     """Return what the camera says (n, 4), and its sensitivities to all but the gyro's bias."""
-    forward, sensor = np.array(problem.seen.forward), point.sensor
+    forward, sensor = np.array(problem.observed.forward), point.sensor
     said = camera_says(q, sensor, forward)
     if not problem.layout.sensor:
         return said, turn_by
@@ -156,17 +156,23 @@ def gyro_rows(problem, point, w, rate_by):
 
 def rows(problem, point):
     """Return residual vectors (n, 3) and sensitivities (n, 3, unknowns), all in sd."""
-    seen, line = problem.seen, problem.line._replace(known=with_errors(problem, point.error))
-    t_q, t_w = line.t[seen.attitude_node] - point.sensor[DELAY], line.t[seen.rate_node]
+    observed, line = (
+        problem.observed,
+        problem.line._replace(known=with_errors(problem, point.error)),
+    )
+    t_q, t_w = line.t[observed.attitude_node] - point.sensor[DELAY], line.t[observed.rate_node]
     line = with_nodes(line, t_q)
     motion, turn_by, rate_by = predicted(problem, point, line)
     k, m = np.searchsorted(line.t, t_q), np.searchsorted(line.t, t_w)
     q, S_q = camera_rows(problem, point, motion.q[k], motion.rate[k], turn_by[k])
     w, S_w = gyro_rows(problem, point, motion.rate[m], rate_by[m])
     none, one = np.zeros((len(q), 3, 3)), np.tile(np.eye(3), (len(w), 1, 1))
-    S_q = np.concatenate([S_q, none], axis=2) / seen.attitude_sd
-    S_w = np.concatenate([S_w, one], axis=2) / seen.rate_sd
-    e_q, e_w = difference(seen.attitude, q) / seen.attitude_sd, (seen.rate - w) / seen.rate_sd
+    S_q = np.concatenate([S_q, none], axis=2) / observed.attitude_sd
+    S_w = np.concatenate([S_w, one], axis=2) / observed.rate_sd
+    e_q, e_w = (
+        difference(observed.attitude, q) / observed.attitude_sd,
+        (observed.rate - w) / observed.rate_sd,
+    )
     return e_q, e_w, np.concatenate([S_q, S_w])
 
 
@@ -181,9 +187,9 @@ def test_agrees_with_plain_numpy(posed):
     e_q, e_w, S = rows(problem, point)
     e = np.concatenate([e_q, e_w])
     size = np.linalg.norm(e, axis=1)
-    far = (size > HUBER) & (problem.limit > 0)
-    weight = np.where(far, HUBER / size, 1.0)
-    cost = np.where(far, HUBER * (size - HUBER / 2), size**2 / 2)
+    outlying = (size > HUBER) & (problem.limit > 0)
+    weight = np.where(outlying, HUBER / size, 1.0)
+    cost = np.where(outlying, HUBER * (size - HUBER / 2), size**2 / 2)
     rounding = 1e-7 if problem.layout.sensor else 1e-8  # with a delay, other steps as well
     np.testing.assert_allclose(found.left_q, e_q, rtol=0, atol=rounding)
     np.testing.assert_allclose(found.left_w, e_w, rtol=0, atol=rounding)
@@ -297,7 +303,10 @@ def test_rows_are_means():
     q_middle, w_middle = motion.q[q_first + 200], motion.rate[w_first + 100]
     e_q = difference(record.attitude.values[1:], normalise(q))
     e_w = record.rate.values - w - point.bias
-    found_q, found_w = at.left_q[1:] * problem.seen.attitude_sd, at.left_w * problem.seen.rate_sd
+    found_q, found_w = (
+        at.left_q[1:] * problem.observed.attitude_sd,
+        at.left_w * problem.observed.rate_sd,
+    )
     # the middles alone would be off by far more than the cubic leaves out
     assert np.linalg.norm(difference(q_middle, normalise(q)), axis=1).max() > 2e-4
     assert np.abs(w_middle - w).max() > 3e-5

@@ -12,8 +12,8 @@ import pytest
 from equipoise.estimation.events.jump_test import disturbances
 from equipoise.estimation.output_error.kernels.interval_smoother import (
     Smoothed,
-    look_ahead,
-    look_back,
+    backward_pass,
+    forward_pass,
 )
 from equipoise.estimation.output_error.kernels.segments import (
     STATE,
@@ -142,27 +142,27 @@ def smoothed(cuts, pieces, first):
     out = Smoothed(np.zeros((K + 1, N, N)), np.zeros((K + 1, N)), np.zeros((K + 1, N, N)),
                    np.zeros((K, a, a)), pieces.points, np.eye(N), np.zeros((K, a, a)))  # fmt: skip
     chain = chain_for(cuts, N)
-    look_back(cuts, pieces, chain, out)
-    look_ahead(cuts, pieces, chain, first, out)
+    backward_pass(cuts, pieces, chain, out)
+    forward_pass(cuts, pieces, chain, first, out)
     return out
 
 
 @pytest.fixture
-def looked(chained):
+def measured(chained):
     cuts, pieces, full = chained
     spread = np.linalg.inv(full.A)
     return cuts, pieces, full, spread, smoothed(cuts, pieces, spread[:N, :N])
 
 
-def test_covariance_of_every_stretch_is_of_the_dense_inverse(looked):
-    _, _, full, spread, found = looked
+def test_covariance_of_every_stretch_is_of_the_dense_inverse(measured):
+    _, _, full, spread, found = measured
     for M, C in zip(full.maps, found.covariance, strict=True):
         np.testing.assert_allclose(C, M @ spread @ M.T, rtol=1e-7, atol=1e-9)
 
 
-def test_covariance_of_every_jump_is_of_the_dense_inverse(looked):
+def test_covariance_of_every_jump_is_of_the_dense_inverse(measured):
     """And ``firm`` is what is left of it when the first stretch and all earlier jumps are known."""
-    _, _, full, spread, found = looked
+    _, _, full, spread, found = measured
     for k, places in enumerate(full.jump):
         a = len(places)
         expected = spread[np.ix_(places, places)]
@@ -172,9 +172,9 @@ def test_covariance_of_every_jump_is_of_the_dense_inverse(looked):
             np.testing.assert_allclose(found.firm[k, :a, :a], unknown, rtol=1e-7, atol=1e-9)
 
 
-def test_information_and_score_are_of_the_rows_from_there_on(looked):
+def test_information_and_score_are_of_the_rows_from_there_on(measured):
     """Each stretch with what follows, its own unknowns kept and later jumps taken out."""
-    cuts, pieces, _, _, found = looked
+    cuts, pieces, _, _, found = measured
     for k in range(STRETCHES):
         rest = Cuts(cuts.nodes[k:], cuts.free[k:], cuts.weight[k:])
         tail = dense(rest, Pieces(*(part[k:] for part in pieces)))
@@ -187,9 +187,9 @@ def test_information_and_score_are_of_the_rows_from_there_on(looked):
         )
 
 
-def test_onward_leads_from_the_first_to_the_last(looked):
+def test_onward_leads_from_the_first_to_the_last(measured):
     """Jumps go along as all rows have it: the covariance of last and first is onward times C_0."""
-    _, _, full, spread, found = looked
+    _, _, full, spread, found = measured
     across = full.maps[-1] @ spread @ full.maps[0].T
     np.testing.assert_allclose(found.onward @ spread[:N, :N], across, rtol=1e-7, atol=1e-9)
 

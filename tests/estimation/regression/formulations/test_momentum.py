@@ -17,13 +17,13 @@ TESTBED = platform(accuracy=1e-4, gyro=True)
 
 
 @cache
-def seen(moved: bool = True, seed: int = 1):
+def observed(moved: bool = True, seed: int = 1):
     """Two minutes of camera (0.2 deg) and gyro (0.1 mrad/s), with a move or free."""
     return noisy(recording(120.0, move_at(60.0, 120.0) if moved else None, 5.0, 20.0), seed)
 
 
-def estimate(seen_, testbed, axes):
-    return METHODS[f"momentum_{axes}"].run(seen_, testbed, Options())
+def estimate(observed_, testbed, axes):
+    return METHODS[f"momentum_{axes}"].run(observed_, testbed, Options())
 
 
 def sd_of(found, names) -> np.ndarray:
@@ -32,7 +32,7 @@ def sd_of(found, names) -> np.ndarray:
 
 def test_body_and_laboratory_axes_agree():
     """Same rows, other weights: within 2 of their sd of each other, on every parameter."""
-    body, laboratory = (estimate(seen(), TESTBED, axes) for axes in ("body", "laboratory"))
+    body, laboratory = (estimate(observed(), TESTBED, axes) for axes in ("body", "laboratory"))
     names = (*COM_NAMES, *INERTIA_NAMES)
     off = np.abs(body.values(names) - laboratory.values(names))
     assert np.all(off < 2 * sd_of(laboratory, names))
@@ -42,7 +42,7 @@ def test_body_and_laboratory_axes_agree():
 @pytest.mark.parametrize("seed", [1, 3, 4])
 def test_a_gyro_and_a_move_show_the_truth(axes, seed):
     """Centre of mass and inertia within 3 sd, the bias of noisy rates among them."""
-    found = estimate(seen(seed=seed), TESTBED, axes)
+    found = estimate(observed(seed=seed), TESTBED, axes)
     assert np.all(np.abs(found.com - COM) < 3 * sd_of(found, COM_NAMES))
     off = np.abs(found.values(INERTIA_NAMES) - INERTIA)
     assert np.all(off < 3 * sd_of(found, INERTIA_NAMES))
@@ -51,7 +51,7 @@ def test_a_gyro_and_a_move_show_the_truth(axes, seed):
 @pytest.mark.parametrize("axes", ["body", "laboratory"])
 def test_free_motion_gives_ratios_only(axes):
     """No parameter has a finite interval; com over J_zz is right to 5 % of its length."""
-    found = estimate(seen(moved=False), TESTBED, axes)
+    found = estimate(observed(moved=False), TESTBED, axes)
     assert all(np.isinf(p.sd) and not p.observable for p in found.parameters)
     assert "scale" in found.unobservable[0]
     ratios = {p.name: p for p in found.ratios}
@@ -62,6 +62,6 @@ def test_free_motion_gives_ratios_only(axes):
 
 def test_too_few_rows_are_an_outcome():
     """Half a second of a gyro are eleven rows: nothing to fit, and it says so."""
-    found = estimate(window(seen(), 0.0, 0.5), TESTBED, "laboratory")
+    found = estimate(window(observed(), 0.0, 0.5), TESTBED, "laboratory")
     assert not found.outcome.usable
     assert f"{FEWEST - 1} rows" in found.outcome.sentence

@@ -218,8 +218,8 @@ def test_the_lag_of_the_printed_average_is_reported():
     posed = clean()
     body = replace(posed.testbed.body, inertia_P=unpack_symmetric(INERTIA))
     rows = as_printed(replace(posed, testbed=replace(posed.testbed, body=body)))
-    found, told = solved(rows), solved(replace(rows, b=rows.omitted))
-    before, after = (np.abs(x[:3] / INERTIA[:3] - 1) for x in (found, found - told))
+    found, reported = solved(rows), solved(replace(rows, b=rows.omitted))
+    before, after = (np.abs(x[:3] / INERTIA[:3] - 1) for x in (found, found - reported))
     assert np.all(after < 0.5 * before)
 
 
@@ -283,8 +283,8 @@ def test_what_the_simplified_model_leaves_out_is_known(formulation):
     found, rows = swing(INERTIA, spin, formulation, 30.0)
     size = (spin @ spin) * (INERTIA[2] - INERTIA[0]) / (MASS * GRAVITY)
     assert 0.1 * size < np.linalg.norm(found - COM) < size
-    told = solved(replace(rows, b=rows.omitted))
-    np.testing.assert_allclose(told, found - COM, atol=0.02 * np.linalg.norm(found - COM))
+    reported = solved(replace(rows, b=rows.omitted))
+    np.testing.assert_allclose(reported, found - COM, atol=0.02 * np.linalg.norm(found - COM))
 
 
 # --- Integrals --------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from tests.estimation.regression.solvers.plain_recursive import plain_rls
 
 NAMES = ("a", "b", "c", "d")
 TRUTH = np.array([2.0, -1.0, 0.5, 3.0])
-FAR = 1e9  # a limit that nothing reaches
+OUTLYING = 1e9  # a limit that nothing reaches
 
 
 def random_rows(pieces, n=200, m=3, seed=0):
@@ -30,7 +30,7 @@ def random_rows(pieces, n=200, m=3, seed=0):
     return Rows(np.cumsum(rng.uniform(0.5, 1.5, n)), A, b, NAMES, piece)
 
 
-def recursion(m=3, forget=np.inf, still=0.0, limit=FAR):
+def recursion(m=3, forget=np.inf, still=0.0, limit=OUTLYING):
     """Without guards unless told."""
     noise = np.array([0.1, 0.2, 0.3])[:m]
     sd = np.array([3.0, 1.0, 2.0, 4.0])
@@ -57,7 +57,7 @@ def batch(rec, rows, lam_from=None):
 
 def test_one_unknown_by_hand():
     """sd 2, noise 1: K = 4/5, x = 12/5, P = 4/5; then K = 4/9, x = 16/9, P = 4/9."""
-    rec = Recursion(np.zeros(1), np.array([2.0]), np.ones(1), 0.0, np.array([FAR]))
+    rec = Recursion(np.zeros(1), np.array([2.0]), np.ones(1), 0.0, np.array([OUTLYING]))
     rows = Rows(np.arange(2.0), np.ones((2, 1, 1)), np.array([[3.0], [1.0]]), ("a",))
     state, values, sd = whole(rec, rows)
     np.testing.assert_allclose(values[:, 0], [12 / 5, 16 / 9], rtol=1e-14)
@@ -68,7 +68,9 @@ def test_one_unknown_by_hand():
 def test_one_unknown_by_hand_with_forgetting():
     """lam = 1/2 at the second row: P = 8/5 before it, K = 8/13, x = 12/5 - 7/5 x 8/13 = 20/13."""
     forget = 1 / np.log(2)
-    rec = Recursion(np.zeros(1), np.array([2.0]), np.ones(1), 0.0, np.array([FAR]), forget, 0.0)
+    rec = Recursion(
+        np.zeros(1), np.array([2.0]), np.ones(1), 0.0, np.array([OUTLYING]), forget, 0.0
+    )
     rows = Rows(np.arange(2.0), np.ones((2, 1, 1)), np.array([[3.0], [1.0]]), ("a",))
     _, values, sd = whole(rec, rows)
     assert values[1, 0] == pytest.approx(20 / 13, rel=1e-14)

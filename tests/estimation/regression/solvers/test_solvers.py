@@ -125,17 +125,17 @@ def noisy_regressor(seed, n=4000):
     rng = np.random.default_rng(seed)
     truth, clean = np.array([2.0, -1.0]), rng.normal(size=(n, 1, 2))
     b = clean @ truth
-    seen, others = (clean + 0.5 * rng.normal(size=clean.shape) for _ in range(2))
-    return truth, with_columns(("com_x", "com_y"), seen, b, instruments=others)
+    observed, others = (clean + 0.5 * rng.normal(size=clean.shape) for _ in range(2))
+    return truth, with_columns(("com_x", "com_y"), observed, b, instruments=others)
 
 
 def test_noise_pulls_least_squares_towards_zero_by_its_share():
     """By 0.25 / 1.25 = a fifth; corrected and instrumental are right to 5 sd of some 0.02."""
     truth, rows = noisy_regressor(3)
-    told = Aid(TESTBED, 0.25 * 4000 * np.eye(2), np.zeros(2))
-    np.testing.assert_allclose(least_squares(rows, told), 0.8 * truth, atol=0.08)
-    np.testing.assert_allclose(corrected(rows, told), truth, atol=0.1)
-    np.testing.assert_allclose(instrumental(rows, told), truth, atol=0.1)
+    reported = Aid(TESTBED, 0.25 * 4000 * np.eye(2), np.zeros(2))
+    np.testing.assert_allclose(least_squares(rows, reported), 0.8 * truth, atol=0.08)
+    np.testing.assert_allclose(corrected(rows, reported), truth, atol=0.1)
+    np.testing.assert_allclose(instrumental(rows, reported), truth, atol=0.1)
 
 
 def test_noise_that_both_sides_share_is_taken_off():

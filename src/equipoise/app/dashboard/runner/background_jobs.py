@@ -50,10 +50,10 @@ class Job:
 
     def __init__(self, task: Task) -> None:
         context = get_context("spawn")
-        self._pipe, far = context.Pipe(duplex=False)
-        self._process = context.Process(target=carry_out, args=(far, task), daemon=True)
+        self._pipe, outlying = context.Pipe(duplex=False)
+        self._process = context.Process(target=carry_out, args=(outlying, task), daemon=True)
         self._process.start()
-        far.close()
+        outlying.close()
         self.over = False
 
     def news(self) -> Iterator[News]:

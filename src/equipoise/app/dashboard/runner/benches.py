@@ -69,10 +69,10 @@ def real(testbed: Testbed) -> Generator[Station]:
         yield Station("real", bench, f"{testbed.name}, real")
 
 
-def let_go(bench: RealBench, tell: Callable[[str], None]) -> None:
+def let_go(bench: RealBench, report: Callable[[str], None]) -> None:
     """Bring the masses home, say that the platform is to be let go, and wait for the hand."""
-    tell("The masses go home: hold the platform.")
+    report("The masses go home: hold the platform.")
     bench.start()
-    tell("Masses are at home: let the platform go.")
+    report("Masses are at home: let the platform go.")
     bench.read(HAND)
     bench.watch()

@@ -4,7 +4,7 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.app.dashboard.protocol.frames import Part
-from equipoise.app.dashboard.runner.live_estimate import LiveBelief
+from equipoise.app.dashboard.runner.live_estimate import LiveEstimate
 from equipoise.assessment.metrics.gravity_torque import gravity_torque
 from equipoise.assessment.metrics.motion_energy import motion_energy
 from equipoise.estimation.tracker.tracker import Track
@@ -18,13 +18,13 @@ COM = slice(0, 3)  # of a belief's covariance
 
 
 def parts_of(
-    rows: Recording, testbed: Testbed, belief: LiveBelief, track: Track | None
+    rows: Recording, testbed: Testbed, posterior: LiveEstimate, track: Track | None
 ) -> list[Part]:
     """Return the series (``series_of``) along some rows; one without any is left out."""
     parts = [*_attitude(rows, testbed), *_rate(rows, testbed, track), *_masses(rows, testbed)]
     parts.append(("limits", _limits(rows, testbed)))
-    if track is not None and belief.tail is not None and belief.covariance is not None:
-        parts += _believed(belief.tail, testbed, track, belief.covariance)
+    if track is not None and posterior.tail is not None and posterior.covariance is not None:
+        parts += _estimated(posterior.tail, testbed, track, posterior.covariance)
     return [(name, values) for name, values in parts if len(values)]
 
 
@@ -96,7 +96,7 @@ def _masses(rows: Recording, testbed: Testbed) -> list[Part]:
     return parts
 
 
-def _believed(known: Recording, testbed: Testbed, track: Track, covariance: Floats) -> list[Part]:
+def _estimated(known: Recording, testbed: Testbed, track: Track, covariance: Floats) -> list[Part]:
     """Return centre of mass, residual torque and energy along the tracker's course."""
     com = standing_com(known, testbed, track.t, track.com)
     torque, torque_sd = gravity_torque(testbed, track.q, com, covariance[COM, COM])

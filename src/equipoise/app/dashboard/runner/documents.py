@@ -9,7 +9,7 @@ import numpy as np
 from equipoise.app.dashboard.protocol.series import series_of
 from equipoise.app.dashboard.runner.benches import Station
 from equipoise.app.dashboard.runner.chart_rows import COM, standing_com
-from equipoise.app.dashboard.runner.live_estimate import LiveBelief
+from equipoise.app.dashboard.runner.live_estimate import LiveEstimate
 from equipoise.app.runs.balancing import Goal
 from equipoise.model.devices import recorded_name
 from equipoise.model.step import Step
@@ -62,7 +62,7 @@ class Standing:
     kept: str | None  # folder of the last run that was kept
     working: str  # what is done beside, such as a report being written
 
-    def document(self, station: Station, belief: LiveBelief) -> Document:
+    def document(self, station: Station, posterior: LiveEstimate) -> Document:
         """Return it for the page."""
         goal = self.goal
         wanted = None if goal is None else {
@@ -71,14 +71,14 @@ class Standing:
             "kind": "state", "t": station.bench.time, "phase": self.phase, "speed": self.speed,
             "recording": self.recording, "goal": wanted, "trip": self.trip, "note": self.note,
             "kept": self.kept, "working": self.working, "span": station.span,
-            "seed": station.seed, "belief": _believed(belief),
+            "seed": station.seed, "estimate": _estimated(posterior),
         }  # fmt: skip
 
 
-def _believed(belief: LiveBelief) -> Mapping[str, Any] | None:
+def _estimated(posterior: LiveEstimate) -> Mapping[str, Any] | None:
     """Return the centre of mass as the masses stand (m), and its covariance by rows (m^2)."""
-    state, covariance, known = belief.state, belief.covariance, belief.tail
+    state, covariance, known = posterior.state, posterior.covariance, posterior.tail
     if state is None or covariance is None or known is None:
         return None
-    (com,) = standing_com(known, belief.testbed, np.array([state.t]), state.com[None])
+    (com,) = standing_com(known, posterior.testbed, np.array([state.t]), state.com[None])
     return {"com": com.tolist(), "covariance": covariance[COM, COM].ravel().tolist()}

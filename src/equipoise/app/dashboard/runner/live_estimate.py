@@ -15,7 +15,7 @@ TAIL = 3.0  # s, chosen: longer than any gap between two rows of a mass that mov
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LiveBelief:
+class LiveEstimate:
     """Where the tracker is."""
 
     testbed: Testbed
@@ -25,20 +25,20 @@ class LiveBelief:
     @property
     def covariance(self) -> Floats | None:
         """Return (9, 9) of com and J; None before the first attitude."""
-        return None if self.state is None else self.state.belief.covariance
+        return None if self.state is None else self.state.posterior.covariance
 
 
-def grown(belief: LiveBelief, rows: Recording) -> tuple[LiveBelief, tracker.Track | None]:
+def grown(posterior: LiveEstimate, rows: Recording) -> tuple[LiveEstimate, tracker.Track | None]:
     """Return the belief after more rows, and its course along them; None without an attitude."""
-    seen = rows if belief.tail is None else join(belief.tail, rows)
-    state = belief.state or _first(seen, belief.testbed)
+    observed = rows if posterior.tail is None else join(posterior.tail, rows)
+    state = posterior.state or _first(observed, posterior.testbed)
     if state is None:
-        return LiveBelief(belief.testbed, None, seen), None
+        return LiveEstimate(posterior.testbed, None, observed), None
     if not _later(rows, state.t):
-        return LiveBelief(belief.testbed, state, seen), None
-    track = tracker.track(seen, belief.testbed, tracker.Params(), state)
+        return LiveEstimate(posterior.testbed, state, observed), None
+    track = tracker.track(observed, posterior.testbed, tracker.Params(), state)
     end = track.end.t
-    return LiveBelief(belief.testbed, track.end, window(seen, end - TAIL, end)), track
+    return LiveEstimate(posterior.testbed, track.end, window(observed, end - TAIL, end)), track
 
 
 def _first(rows: Recording, testbed: Testbed) -> tracker.State | None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from equipoise.app.arguments.recording_window import WHOLE
 from equipoise.app.arguments.resolve import fitting_recording_of
-from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.data_folder import within
 from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.runner import Runner
@@ -23,10 +23,10 @@ class Desk:
 
     def __init__(self, runner: Runner, pipe: Pipe, folder: Path, seed: int) -> None:
         self._runner, self._pipe, self._folder, self._seed = runner, pipe, folder, seed
-        self._next: ask.Request | None = None  # what is to be done once nothing else is
-        runner.hearing(self.hear)
+        self._next: requests.Request | None = None  # what is to be done once nothing else is
+        runner.handling(self.handle)
 
-    def hear(self, longest: float) -> None:
+    def handle(self, longest: float) -> None:
         """Wait so long (s) at most for a request, and carry out what has come.
 
         Raises EOFError where whoever asks has gone.
@@ -46,9 +46,9 @@ class Desk:
     def _busy(self) -> bool:
         return self._runner.phase in ("balancing", "held")
 
-    def _deal(self, request: ask.Request) -> None:
+    def _deal(self, request: requests.Request) -> None:
         """Carry out at once what needs no free bench; let the rest wait, or refuse it."""
-        at_once = ask.Stop | ask.Mark | ask.Record | ask.Speed | ask.Pause
+        at_once = requests.Stop | requests.Mark | requests.Record | requests.Speed | requests.Pause
         if isinstance(request, at_once):
             self._guarded(request, self._at_once)
         elif self._busy:
@@ -56,25 +56,25 @@ class Desk:
         else:
             self._next = request
 
-    def _guarded(self, request: ask.Request, do: Any) -> None:
+    def _guarded(self, request: requests.Request, do: Any) -> None:
         try:
             do(request)
         except EquipoiseError as error:
             self._runner.say(str(error))
 
-    def _at_once(self, request: ask.Request) -> None:
+    def _at_once(self, request: requests.Request) -> None:
         runner = self._runner
-        if isinstance(request, ask.Stop):
+        if isinstance(request, requests.Stop):
             self._stop()
-        elif isinstance(request, ask.Mark):
+        elif isinstance(request, requests.Mark):
             runner.mark(request.text)
-        elif isinstance(request, ask.Record):
+        elif isinstance(request, requests.Record):
             self._record(request.on)
-        elif isinstance(request, ask.Speed):
+        elif isinstance(request, requests.Speed):
             runner.pace.at(_checked_speed(request.factor))
-        elif isinstance(request, ask.Pause):
+        elif isinstance(request, requests.Pause):
             self._pause(request.on)
-        runner.tell_state()
+        runner.report_state()
 
     def _stop(self) -> None:
         runner = self._runner
@@ -102,21 +102,21 @@ class Desk:
             runner.phase = "paused" if on else "idle"
         runner.note = ""
 
-    def _begin(self, request: ask.Request) -> None:
+    def _begin(self, request: requests.Request) -> None:
         runner = self._runner
-        if isinstance(request, ask.Balance):
+        if isinstance(request, requests.Balance):
             self._balance(request)
-        elif isinstance(request, ask.Identify):
+        elif isinstance(request, requests.Identify):
             runner.identify(request.method)
-        elif isinstance(request, ask.Jog):
+        elif isinstance(request, requests.Jog):
             self._jog(request)
-        elif isinstance(request, ask.Anew):
+        elif isinstance(request, requests.Anew):
             self._seed = request.seed
             self._show(request)
-        elif isinstance(request, ask.Replay | ask.Seek):
+        elif isinstance(request, requests.Replay | requests.Seek):
             self._show(request)
 
-    def _balance(self, request: ask.Balance) -> None:
+    def _balance(self, request: requests.Balance) -> None:
         station = self._runner.station
         if station.kind == "replayed":
             raise InputError("balance", "a recording", "a platform: what is past cannot be moved")
@@ -126,32 +126,34 @@ class Desk:
         limits = Limits(None, request.max_time, 0.0, request.law)
         self._runner.balance(goal, limits, self._seed)
 
-    def _jog(self, request: ask.Jog) -> None:
+    def _jog(self, request: requests.Jog) -> None:
         runner = self._runner
         runner.station.bench.move({request.mass: request.displacement})
-        told = f"{request.mass} sent to {1e3 * request.displacement:.2f} mm by hand"
-        runner.mark(told)
+        reported = f"{request.mass} sent to {1e3 * request.displacement:.2f} mm by hand"
+        runner.mark(reported)
         runner.say("")
 
-    def _show(self, request: ask.Anew | ask.Replay | ask.Seek) -> None:
+    def _show(self, request: requests.Anew | requests.Replay | requests.Seek) -> None:
         """Show another platform, a recording, or another time of it."""
         runner, bed = self._runner, self._runner.station.testbed
         if runner.station.kind == "real":
             raise InputError("another view", "a real bench", "a dashboard of its own for it")
         runner.note = ""
-        if isinstance(request, ask.Anew) or (isinstance(request, ask.Replay) and not request.name):
+        if isinstance(request, requests.Anew) or (
+            isinstance(request, requests.Replay) and not request.name
+        ):
             runner.show(simulated(bed, self._seed))
-        elif isinstance(request, ask.Replay):
+        elif isinstance(request, requests.Replay):
             path = within(self._folder, request.name)
             runner.show(replayed(bed, fitting_recording_of(str(path), WHOLE, bed), request.name))
             self._pause(False)
-            runner.tell_state()
+            runner.report_state()
         elif runner.station.source is not None:
             was, held = runner.station, runner.phase
             assert was.source is not None
             runner.show(replayed(bed, was.source, was.title, request.t))
             runner.phase = held
-            runner.tell_state()
+            runner.report_state()
 
 
 def _checked_speed(factor: float) -> float:

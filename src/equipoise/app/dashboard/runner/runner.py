@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from equipoise.app.console.compile_notice import heard
+from equipoise.app.console.compile_notice import compiler_notices
 from equipoise.app.console.terminal import COMPILING
 from equipoise.app.dashboard.runner.background_jobs import Fit, Job, Keep
 from equipoise.app.dashboard.runner.benches import Station, let_go
@@ -20,7 +20,7 @@ from equipoise.app.dashboard.runner.documents import (
     mark_document,
     step_document,
 )
-from equipoise.app.dashboard.runner.live_estimate import LiveBelief, grown
+from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.runner.pace import Pace
 from equipoise.app.dashboard.runner.recorder import Recorder
@@ -52,14 +52,14 @@ class Runner:
         self.trip: str | None = None
         self.kept: str | None = None
         self.stopping = False
-        self._hear: Callable[[float], None] = lambda _: None
+        self._receive: Callable[[float], None] = lambda _: None
         self._clock, self._steps, self._due = 0, 0, 0.0
         self._jobs: list[Job] = []
         self.show(station)
 
-    def hearing(self, hear: Callable[[float], None]) -> None:
+    def handling(self, receive: Callable[[float], None]) -> None:
         """Let somebody be asked between two slices; he waits so long (s) at most for a request."""
-        self._hear = hear
+        self._receive = receive
 
     # --- What is shown -----------------------------------------------------------------------
 
@@ -67,26 +67,26 @@ class Runner:
         """Show a station from its beginning; simulated platforms and recordings begin held."""
         self.station = station
         self._clock += 1
-        self._steps, self._seen = 0, list[Recording]()
-        self._belief = LiveBelief(station.testbed)
+        self._steps, self._observed = 0, list[Recording]()
+        self._posterior = LiveEstimate(station.testbed)
         self._watched = WatchedBench(station.bench, self._rows, SLICE, self._between)
         self.post.about(about(station, self._clock, self.session))
         self.goal, self.trip, self.kept = None, None, None
         self.phase = "paused" if station.paced else "idle"
         if station.before is not None:
-            self._told(station.before)
-        self.tell_state()
+            self._reported(station.before)
+        self.report_state()
 
-    def tell_state(self) -> None:
+    def report_state(self) -> None:
         """Tell how things stand."""
         standing = Standing(self.phase, self.pace.speed, self.recorder.name, self.goal, self.trip,
                             self.note, self.kept, self.working)  # fmt: skip
-        self.post.state(standing.document(self.station, self._belief))
+        self.post.state(standing.document(self.station, self._posterior))
 
     def say(self, sentence: str) -> None:
         """Tell a sentence at once."""
         self.note = sentence
-        self.tell_state()
+        self.report_state()
 
     def mark(self, text: str) -> None:
         """Note that something happened now."""
@@ -129,33 +129,33 @@ class Runner:
 
     def _idle(self, longest: float) -> None:
         """Hear what is asked, for so long (s) at most, and tell what is due."""
-        self._hear(longest)
+        self._receive(longest)
         self._work()
         if self.post.turn():
-            self.tell_state()
+            self.report_state()
 
     def _rows(self, rows: Recording) -> None:
         """Show rows and keep them; a simulated bench and a replay wait for their time."""
-        self._told(rows)
+        self._reported(rows)
         self._remember(rows)
         if self.station.paced:
             self._catch(rows)
             self._due = time.monotonic() + self.pace.wait(SLICE)
 
-    def _told(self, rows: Recording) -> None:
+    def _reported(self, rows: Recording) -> None:
         t, bed = self.station.bench.time, self.station.testbed
         self.recorder.rows(t, rows)
         try:
-            self._belief, track = grown(self._belief, rows)
+            self._posterior, track = grown(self._posterior, rows)
         except Exception as error:  # whatever it is: a view stops no bench, and begins anew
-            self._belief, track = LiveBelief(bed), None
+            self._posterior, track = LiveEstimate(bed), None
             self.note = f"The live estimate begins anew: {error}"
-        self.post.rows(t, parts_of(rows, bed, self._belief, track))
+        self.post.rows(t, parts_of(rows, bed, self._posterior, track))
 
     def _remember(self, rows: Recording) -> None:
-        self._seen.append(rows)
+        self._observed.append(rows)
         most = int(REMEMBERED / SLICE)
-        del self._seen[:-most]
+        del self._observed[:-most]
 
     def _catch(self, rows: Recording) -> None:
         """Hold a simulated platform that falls while nothing is done with it."""
@@ -171,9 +171,9 @@ class Runner:
     def balance(self, goal: Goal, limits: Limits, seed: int) -> None:
         """Balance, and have the report written beside; what stops it is its last step."""
         self.phase, self.goal, self.trip, self.kept, self.note = "balancing", goal, None, None, ""
-        self.tell_state()
+        self.report_state()
         try:
-            with heard(lambda: self.say(f"{COMPILING} ..."), lambda: self.say("")):
+            with compiler_notices(lambda: self.say(f"{COMPILING} ..."), lambda: self.say("")):
                 done = self._balanced(goal, limits)
         except EquipoiseError as error:
             self.note = str(error)
@@ -182,7 +182,7 @@ class Runner:
             self.trip = self.note if done.verdict.halted else None
             self._begin(Job(Keep(done, limits.law, seed)), "writing the report")
         self.phase, self.stopping = "idle", False
-        self.tell_state()
+        self.report_state()
 
     def _balanced(self, goal: Goal, limits: Limits) -> Balancing:
         """Balance; a real platform after a practice in simulation, once its masses are home."""
@@ -191,14 +191,14 @@ class Runner:
             self.say("Practising on a simulated platform ...")
             practised(bench.testbed, goal, limits)
             let_go(bench, self.say)
-        return run(bench, goal, limits, self.step, Through(self._seen_through, _plain))
+        return run(bench, goal, limits, self.step, Through(self._replayed, _plain))
 
     def identify(self, method: str) -> None:
         """Identify from what was seen, beside; InputError where nothing was."""
-        if not self._seen:
+        if not self._observed:
             self.say("Nothing has been seen yet.")
             return
-        task = Fit(joined(self._seen), self.station.testbed, method)
+        task = Fit(joined(self._observed), self.station.testbed, method)
         self._begin(Job(task), f"identifying ({method})")
 
     def stop_work(self) -> None:
@@ -212,7 +212,7 @@ class Runner:
         self.stop_work()
         self.recorder.end()
 
-    def _seen_through(self, bench: Bench) -> Bench:
+    def _replayed(self, bench: Bench) -> Bench:
         """Return the bench as a procedure is to see it: with who looks on, and this very desk."""
         assert bench is self.station.bench
         return self._watched
@@ -220,18 +220,18 @@ class Runner:
     def _begin(self, job: Job, what: str) -> None:
         self._jobs.append(job)
         self.working = what
-        self.tell_state()
+        self.report_state()
 
     def _work(self) -> None:
         """Tell what those have to say who work beside."""
         for job in self._jobs:
             for kind, what in job.news():
-                self._heard_of(job, kind, what)
+                self._received_of(job, kind, what)
         self._jobs = [job for job in self._jobs if not job.over]
         if not self._jobs:
             self.working = ""
 
-    def _heard_of(self, job: Job, kind: str, what: object) -> None:
+    def _received_of(self, job: Job, kind: str, what: object) -> None:
         if isinstance(what, Step):
             self.step(what)
             return

@@ -14,7 +14,7 @@ from pathlib import Path
 from uuid import uuid4
 
 from equipoise.app.dashboard.runner.benches import Station, real, replayed, simulated
-from equipoise.app.dashboard.runner.live_estimate import LiveBelief, grown
+from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.runner.request_handler import Desk
 from equipoise.app.dashboard.runner.runner import Runner
@@ -78,4 +78,4 @@ def _opened(opening: Opening) -> Generator[Station]:
 def warm_up(testbed: Testbed) -> None:
     """Compile the kernels before anything is shown: a bench does not wait for a compiler."""
     bench = SimulatedBench(testbed, 0)
-    grown(LiveBelief(testbed), bench.read(1.0))
+    grown(LiveEstimate(testbed), bench.read(1.0))

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from nicegui import ui
 
-from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.data_folder import recordings
 from equipoise.app.dashboard.server.fields import button, triple
 from equipoise.app.dashboard.server.request_queue import Counter
@@ -26,7 +26,9 @@ class Controls:
         self._token_row()
         with ui.row().classes("eq-buttons"):
             self.start = self._button("Start balancing", self._start, "unelevated color=primary")
-            self.stop = self._button("Stop", lambda: self._ask(ask.Stop()), "color=negative")
+            self.stop = self._button(
+                "Stop", lambda: self._request(requests.Stop()), "color=negative"
+            )
             self.hold = self._button("Let go", self._hold, "outline")
         with ui.tabs().props("dense no-caps align=justify").classes("eq-tabs") as tabs:
             for name in TABS:
@@ -99,7 +101,7 @@ class Controls:
 
             def move() -> None:
                 if field.value is not None:
-                    self._ask(ask.Jog(mass.name, field.value / TRAVEL.factor))
+                    self._request(requests.Jog(mass.name, field.value / TRAVEL.factor))
 
             self._button(f"Move {mass.name}", move)
 
@@ -107,32 +109,32 @@ class Controls:
         self.record = self._button("Record", self._record)
         with ui.row().classes("eq-jog"):
             self.text = ui.input("What happened").props("dense outlined")
-            self._button("Mark", lambda: self._ask(ask.Mark(self.text.value or "mark")))
+            self._button("Mark", lambda: self._request(requests.Mark(self.text.value or "mark")))
         self.chosen = ui.select([], label="Recording").props("dense outlined options-dense")
         with ui.row().classes("eq-buttons"):
             self._button("Replay", self._replay)
-            self._button("Back to the simulation", lambda: self._ask(ask.Replay("")))
+            self._button("Back to the simulation", lambda: self._request(requests.Replay("")))
         with ui.row().classes("eq-reports") as self.reports:
             ui.label("Report of the last run:")
             self.html = ui.link("HTML", "#", new_tab=True)
             self.pdf = ui.link("PDF", "#", new_tab=True)
 
     def _bench(self) -> None:
-        ui.select(SPEEDS, value=1.0, label="Speed", on_change=lambda event: self._ask(
-            ask.Speed(event.value))).props("dense outlined options-dense")  # fmt: skip
+        ui.select(SPEEDS, value=1.0, label="Speed", on_change=lambda event: self._request(
+            requests.Speed(event.value))).props("dense outlined options-dense")  # fmt: skip
         self.seed = ui.number("Seed", value=2, min=0, precision=0).props("dense outlined")
         self._button("Another simulated platform", self._anew)
 
     # --- What is asked -----------------------------------------------------------------------
 
-    def _button(self, text: str, do: Callable[[], None], look: str = "outline") -> ui.button:
-        made = button(text, do, look)
+    def _button(self, text: str, do: Callable[[], None], style: str = "outline") -> ui.button:
+        made = button(text, do, style)
         self._needing.append(made)
         return made
 
-    def _ask(self, *requests: ask.Request) -> None:
+    def _request(self, *requests: requests.Request) -> None:
         for request in requests:
-            why = self._counter.ask(self._page, request)
+            why = self._counter.request(self._page, request)
             if why:
                 ui.notify(why, type="warning")
 
@@ -151,28 +153,30 @@ class Controls:
         if target is None or tolerance is None or min(tolerance) <= 0:
             ui.notify("Target and tolerance need three numbers each, tolerances above 0.")
             return
-        wanted = ask.Balance(target, tolerance, str(self.law.value), None, bool(self.held.value))
+        wanted = requests.Balance(
+            target, tolerance, str(self.law.value), None, bool(self.held.value)
+        )
         paused = self._counter.watch.state.get("phase") == "paused"
-        self._ask(*_first_let_go(paused), wanted)
+        self._request(*_first_let_go(paused), wanted)
 
     def _hold(self) -> None:
         held = self._counter.watch.state.get("phase") in ("paused", "held")
-        self._ask(ask.Pause(not held))
+        self._request(requests.Pause(not held))
 
     def _identify(self) -> None:
-        self._ask(ask.Identify(str(self.method.value)))
+        self._request(requests.Identify(str(self.method.value)))
 
     def _record(self) -> None:
-        self._ask(ask.Record(not self._counter.watch.state.get("recording")))
+        self._request(requests.Record(not self._counter.watch.state.get("recording")))
 
     def _replay(self) -> None:
         if self.chosen.value:
-            self._ask(ask.Replay(str(self.chosen.value)))
+            self._request(requests.Replay(str(self.chosen.value)))
 
     def _anew(self) -> None:
         if self.seed.value is not None and self.seed.value >= 0:
-            self._ask(ask.Anew(int(self.seed.value)))
+            self._request(requests.Anew(int(self.seed.value)))
 
 
-def _first_let_go(paused: bool) -> Sequence[ask.Request]:
-    return (ask.Pause(False),) if paused else ()
+def _first_let_go(paused: bool) -> Sequence[requests.Request]:
+    return (requests.Pause(False),) if paused else ()

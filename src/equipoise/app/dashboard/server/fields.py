@@ -38,6 +38,6 @@ def triple(what: str, shown_um: Triple) -> TripleField:
     return TripleField(fields)
 
 
-def button(text: str, do: Callable[[], None], look: str = "outline") -> ui.button:
+def button(text: str, do: Callable[[], None], style: str = "outline") -> ui.button:
     """Lay a button; its text is what it does."""
-    return ui.button(text, on_click=do).props(f"{look} no-caps dense").classes("eq-button")
+    return ui.button(text, on_click=do).props(f"{style} no-caps dense").classes("eq-button")

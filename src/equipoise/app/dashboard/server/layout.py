@@ -3,7 +3,7 @@
 from nicegui import ui
 from nicegui.events import GenericEventArguments
 
-from equipoise.app.dashboard.protocol import requests as ask
+from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.server.controls import Controls
 from equipoise.app.dashboard.server.request_queue import Counter
 
@@ -82,7 +82,7 @@ def _time_slider(counter: Counter, page: str) -> None:
     """Lay the slider of a replay's time; it follows by itself (``timebar.js``), and asks here."""
 
     def seek(event: GenericEventArguments) -> None:
-        why = counter.ask(page, ask.Seek(float(event.args)))
+        why = counter.request(page, requests.Seek(float(event.args)))
         if why:
             ui.notify(why, type="warning")
 

@@ -24,7 +24,7 @@ class Counter:
     guard: Guard
     send: Callable[[Request], None]  # to the runner
 
-    def ask(self, page: str, request: Request) -> str:
+    def request(self, page: str, request: Request) -> str:
         """Hand a request of a page to the runner; return why not, or nothing."""
         if not self.guard.commands(page):
             return OBSERVER

@@ -29,15 +29,15 @@ LEAVING = 5.0  # s, chosen: for the runner to halt a bench and end
 ENDED = "The runner has ended; start the dashboard again."
 
 
-class FarRunner:
+class RemoteRunner:
     """The runner's process, and what it tells."""
 
     def __init__(self, opening: Opening) -> None:
         context = get_context("spawn")
-        self.pipe, far = context.Pipe()
-        self._process = context.Process(target=run_runner, args=(far, opening))
+        self.pipe, outlying = context.Pipe()
+        self._process = context.Process(target=run_runner, args=(outlying, opening))
         self._process.start()
-        far.close()
+        outlying.close()
 
     def wait_until_ready(self) -> None:
         """Wait until it shows something; EquipoiseError where it cannot."""
@@ -104,11 +104,11 @@ def _routes(app: FastAPI, counter: Counter) -> None:
 
 async def _shown(page: WebSocket, watch: Watch) -> None:
     """Send a page all that is told; a page has nothing to say here, and is let go if it does."""
-    told = watch.join()
+    reported = watch.join()
     silent = asyncio.ensure_future(page.receive())
     try:
         while not silent.done():
-            following = asyncio.ensure_future(told.get())
+            following = asyncio.ensure_future(reported.get())
             await asyncio.wait({silent, following}, return_when=asyncio.FIRST_COMPLETED)
             if not following.done():
                 following.cancel()
@@ -125,7 +125,7 @@ async def _shown(page: WebSocket, watch: Watch) -> None:
         pass
     finally:
         silent.cancel()
-        watch.leave(told)
+        watch.leave(reported)
 
 
 def serve(app: Gate, at: socket.socket) -> None:

@@ -11,7 +11,7 @@ from equipoise.app.dashboard.server.authorisation import Guard, new_token
 from equipoise.app.dashboard.server.broadcast import Watch
 from equipoise.app.dashboard.server.gate import Doors, Gate
 from equipoise.app.dashboard.server.request_queue import Counter
-from equipoise.app.dashboard.server.server import VENDOR, FarRunner, application, serve
+from equipoise.app.dashboard.server.server import VENDOR, RemoteRunner, application, serve
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.errors import InputError
 from equipoise.procedure.balancing.catalogue import CARDS
@@ -21,7 +21,7 @@ class Session(AbstractContextManager["Session"]):
     """See above."""
 
     def __init__(
-        self, at: socket.socket, token: str, app: Gate, runner: FarRunner, exposed: bool
+        self, at: socket.socket, token: str, app: Gate, runner: RemoteRunner, exposed: bool
     ) -> None:
         self._socket, self._app, self._runner = at, app, runner
         self._token, self._exposed = token, exposed
@@ -58,7 +58,7 @@ def open_session(opening: Opening, host: str, port: int, exposed: bool) -> Sessi
         raise InputError("dashboard", found, "them: `make test` in the source folder fetches them")
     at = listening(host, port)
     token, watch = new_token(), Watch()
-    runner = FarRunner(opening)
+    runner = RemoteRunner(opening)
     try:
         runner.wait_until_ready()
     except BaseException:

@@ -2,7 +2,7 @@
 
 import uPlot from "./vendor/uPlot.esm.js";
 import { Heading, make } from "./chart_heading.js";
-import { looks } from "./colours.js";
+import { lineStyles } from "./colours.js";
 import { drawn } from "./decimate.js";
 import { drawRule, drawTargets } from "./marks.js";
 import { extent, niceRange } from "./nice.js";
@@ -17,31 +17,31 @@ export class Chart {
   /**
    * @param {HTMLElement} place
    * @param {{name: string, title: string, columns: string[], sd: boolean, unit: object,
-   *   line: number|null}} told  as `about` has it
+   *   line: number|null}} reported  as `about` has it
    * @param {import("./store.js").Store} store
-   * @param {() => void} ask  for a drawing
+   * @param {() => void} request  for a drawing
    */
-  constructor(place, told, store, ask) {
-    Object.assign(this, { told, store, ask, looks: looks(told.columns), hidden: new Set() });
-    const arrays = 1 + told.columns.length * (told.sd ? 3 : 1);
+  constructor(place, reported, store, request) {
+    Object.assign(this, { reported, store, request, lineStyles: lineStyles(reported.columns), hidden: new Set() });
+    const arrays = 1 + reported.columns.length * (reported.sd ? 3 : 1);
     this.out = Array.from({ length: arrays }, () => []);
     this.element = make("figure", "eq-chart", place);
-    this.heading = new Heading(this.element, told, this.looks, (c, on) => this.toggle(c, on));
+    this.heading = new Heading(this.element, reported, this.lineStyles, (c, on) => this.toggle(c, on));
     this.plotPlace = make("div", "eq-plot", this.element);
     this.plotPlace.setAttribute("role", "img");
-    this.plotPlace.setAttribute("aria-label", `${told.title} against bench time`);
+    this.plotPlace.setAttribute("aria-label", `${reported.title} against bench time`);
     this.plot = new uPlot(this.options(), this.inDrawingOrder(), this.plotPlace);
     this.fit();
   }
 
   /** Bands come first, so that lines lie on them. */
   inDrawingOrder() {
-    const n = this.told.columns.length;
+    const n = this.reported.columns.length;
     return [this.out[0], ...this.out.slice(1 + n), ...this.out.slice(1, 1 + n)];
   }
 
   options() {
-    const banded = this.told.sd ? this.looks : [];
+    const banded = this.reported.sd ? this.lineStyles : [];
     const edges = Array.from({ length: 2 * banded.length }, () => ({ points: { show: false } }));
     return {
       width: 300, // until it is fitted
@@ -51,8 +51,8 @@ export class Chart {
       cursor: { y: false, drag: { x: false, y: false }, sync: { key: "equipoise" } },
       scales: { x: { time: false, auto: false }, y: { auto: false, range: (_, a, b) => [a, b] } },
       axes: [this.axis(22, 64, (t) => `${tick(t)} s`), this.axis(52, 24, tick)],
-      series: [{}, ...edges, ...this.looks.map((look) => this.line(look))],
-      bands: banded.map((look, c) => this.band(look, c)),
+      series: [{}, ...edges, ...this.lineStyles.map((lineStyle) => this.line(lineStyle))],
+      bands: banded.map((lineStyle, c) => this.band(lineStyle, c)),
       hooks: { drawAxes: [() => this.drawMarks()], setCursor: [() => this.writeValues()] },
     };
   }
@@ -70,23 +70,23 @@ export class Chart {
     };
   }
 
-  line(look) {
-    const stroke = () => this.colours?.lines[look.colour];
-    return { stroke, width: 1.5, dash: look.dash, points: { show: false } };
+  line(lineStyle) {
+    const stroke = () => this.colours?.lines[lineStyle.colour];
+    return { stroke, width: 1.5, dash: lineStyle.dash, points: { show: false } };
   }
 
-  band(look, c) {
-    const fill = () => this.colours && this.colours.lines[look.colour] + BAND_ALPHA;
+  band(lineStyle, c) {
+    const fill = () => this.colours && this.colours.lines[lineStyle.colour] + BAND_ALPHA;
     return { series: [2 + 2 * c, 1 + 2 * c], fill };
   }
 
   toggle(column, on) {
     if (on) this.hidden.delete(column);
     else this.hidden.add(column);
-    const banded = this.told.sd ? this.told.columns.length : 0;
+    const banded = this.reported.sd ? this.reported.columns.length : 0;
     const edges = banded ? [1 + 2 * column, 2 + 2 * column] : [];
     for (const i of [...edges, 1 + 2 * banded + column]) this.plot.setSeries(i, { show: on });
-    this.ask();
+    this.request();
   }
 
   fit() {
@@ -101,7 +101,7 @@ export class Chart {
    */
   draw(span, kind, colours) {
     this.colours = colours;
-    this.unit = unitOf(this.told.unit, kind);
+    this.unit = unitOf(this.reported.unit, kind);
     this.decimate(span);
     const [min, max] = this.range();
     this.plot.batch(() => {
@@ -113,22 +113,22 @@ export class Chart {
   }
 
   decimate(span) {
-    const series = this.store.series.get(this.told.name);
+    const series = this.store.series.get(this.reported.name);
     if (!series) return this.out.forEach((column) => (column.length = 0));
     const pixels = Math.round(this.plot.bbox.width / devicePixelRatio);
-    const { columns, sd } = this.told;
+    const { columns, sd } = this.reported;
     const buckets = Math.max(FEWEST_BUCKETS, pixels);
     drawn(series, span, { values: columns.length, sd, factor: this.unit.factor, buckets }, this.out);
   }
 
   /** @returns {[number, number]} lines, marks and the newest bands; older, wider bands may leave */
   range() {
-    const n = this.told.columns.length;
+    const n = this.reported.columns.length;
     const wanted = this.marked();
     for (let c = 0; c < n; c++) {
       if (this.hidden.has(c)) continue;
       wanted.push(...extent(this.out[1 + c]));
-      if (this.told.sd) for (const edge of [1, 2]) wanted.push(this.out[n + 2 * c + edge].at(-1));
+      if (this.reported.sd) for (const edge of [1, 2]) wanted.push(this.out[n + 2 * c + edge].at(-1));
     }
     const [least, greatest] = extent(wanted);
     return least <= greatest ? niceRange(least, greatest) : [0, 1];
@@ -136,26 +136,26 @@ export class Chart {
 
   /** @returns {number[]} what is marked on the y axis, in the unit shown */
   marked() {
-    const rule = this.told.line === null ? [] : [0, this.told.line * this.unit.factor];
+    const rule = this.reported.line === null ? [] : [0, this.reported.line * this.unit.factor];
     const targets = this.targets().flatMap((t) => [t.value - t.tolerance, t.value + t.tolerance]);
     return [...rule, ...targets];
   }
 
   targets() {
-    const goal = this.told.name === TARGETED ? this.store.state?.goal : null;
+    const goal = this.reported.name === TARGETED ? this.store.state?.goal : null;
     if (!goal) return [];
     const { factor } = this.unit;
     const all = goal.target.map((target, c) => ({
       value: target * factor,
       tolerance: goal.tolerance[c] * factor,
-      colour: this.colours.lines[this.looks[c].colour],
+      colour: this.colours.lines[this.lineStyles[c].colour],
     }));
     return all.filter((_, c) => !this.hidden.has(c));
   }
 
   drawMarks() {
     if (!this.unit) return;
-    const { line } = this.told;
+    const { line } = this.reported;
     if (line !== null) drawRule(this.plot, line * this.unit.factor, this.colours.text);
     drawTargets(this.plot, this.targets());
   }
@@ -164,12 +164,12 @@ export class Chart {
   writeValues() {
     if (!this.unit) return;
     const { idx, left } = this.plot.cursor;
-    const columns = this.told.columns.map((_, c) => 1 + c);
+    const columns = this.reported.columns.map((_, c) => 1 + c);
     if (left >= 0 && idx !== null && idx < this.out[0].length) {
       const under = columns.map((column) => this.out[column][idx]);
       this.heading.write(this.unit.name, this.out[0][idx], under);
     } else {
-      const last = this.store.last(this.told.name);
+      const last = this.store.last(this.reported.name);
       const newest = columns.map((column) => last && last[column] * this.unit.factor);
       this.heading.write(this.unit.name, null, newest);
     }

@@ -5,16 +5,16 @@ import { figures, seconds } from "./units.js";
 export class Heading {
   /**
    * @param {HTMLElement} figure
-   * @param {{title: string, columns: string[]}} told
-   * @param {{colour: number, dash: number[]}[]} looks
+   * @param {{title: string, columns: string[]}} reported
+   * @param {{colour: number, dash: number[]}[]} lineStyles
    * @param {(column: number, shown: boolean) => void} toggled  a line is hidden, or shown again
    */
-  constructor(figure, told, looks, toggled) {
+  constructor(figure, reported, lineStyles, toggled) {
     const heading = make("figcaption", "", figure);
-    make("b", "", heading).textContent = told.title;
+    make("b", "", heading).textContent = reported.title;
     this.unitPlace = make("span", "eq-unit", heading);
     const keys = make("span", "eq-keys", heading);
-    this.values = told.columns.map((name, c) => addKey(keys, name, looks[c], (on) => toggled(c, on)));
+    this.values = reported.columns.map((name, c) => addKey(keys, name, lineStyles[c], (on) => toggled(c, on)));
   }
 
   /**
@@ -30,11 +30,11 @@ export class Heading {
 }
 
 /** Pressing a key hides its line, so that the others have the whole height. */
-function addKey(keys, name, look, toggled) {
+function addKey(keys, name, lineStyle, toggled) {
   const key = make("button", "eq-key", keys);
   key.type = "button";
-  key.style.setProperty("--line", `var(--eq-line-${look.colour})`);
-  key.dataset.dashed = look.dash.length > 0;
+  key.style.setProperty("--line", `var(--eq-line-${lineStyle.colour})`);
+  key.dataset.dashed = lineStyle.dash.length > 0;
   key.setAttribute("aria-pressed", "true");
   key.addEventListener("click", () => {
     const on = key.getAttribute("aria-pressed") === "false";

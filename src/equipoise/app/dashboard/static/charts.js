@@ -25,16 +25,16 @@ export function showCharts(place, store, shown) {
     const span = { from: end_s - shown.span_s, to: end_s, length: shown.span_s };
     for (const element of inSight) charts.get(element)?.draw(span, shown.kind, colours);
   };
-  const ask = paced(draw, PERIOD_MS);
-  const seen = watchSight(inSight, ask);
+  const request = paced(draw, PERIOD_MS);
+  const observed = watchSight(inSight, request);
   const sizes = new ResizeObserver((entries) => {
     for (const { target } of entries) charts.get(target.parentElement)?.fit();
-    ask();
+    request();
   });
 
   const clear = () => {
     for (const [element, chart] of charts) {
-      seen.unobserve(element);
+      observed.unobserve(element);
       sizes.unobserve(chart.plotPlace);
       chart.destroy();
     }
@@ -43,30 +43,30 @@ export function showCharts(place, store, shown) {
   };
   const about = () => {
     const wanted = JSON.stringify(store.about.series);
-    if (wanted === built) return ask(); // lines that a person has hidden stay so
+    if (wanted === built) return request(); // lines that a person has hidden stay so
     built = wanted;
     clear();
-    for (const told of store.about.series.filter((series) => series.chart)) {
-      const chart = new Chart(place, told, store, ask);
+    for (const reported of store.about.series.filter((series) => series.chart)) {
+      const chart = new Chart(place, reported, store, request);
       charts.set(chart.element, chart);
-      seen.observe(chart.element);
+      observed.observe(chart.element);
       sizes.observe(chart.plotPlace);
     }
   };
   const recolour = () => {
     colours = palette();
-    ask();
+    request();
   };
-  return { about, rows: ask, state: ask, redraw: ask, recolour };
+  return { about, rows: request, state: request, redraw: request, recolour };
 }
 
 /** Keeps `inSight` to the elements that can be seen, and asks for a drawing when one comes. */
-function watchSight(inSight, ask) {
+function watchSight(inSight, request) {
   return new IntersectionObserver((entries) => {
     for (const { target, isIntersecting } of entries) {
       if (isIntersecting) inSight.add(target);
       else inSight.delete(target);
     }
-    ask();
+    request();
   });
 }

@@ -10,7 +10,7 @@ const DASHES = [[], [5, 3], [2, 2], [9, 3, 2, 3]]; // px
  * @param {string[]} columns  names as `about` has them: x1, wheel:y, com_z, roll, tilt ...
  * @returns {{colour: number, dash: number[]}[]} columns of the same axis differ in their dashes
  */
-export function looks(columns) {
+export function lineStyles(columns) {
   const axes = columns.map(axisOf);
   const byAxis = axes.every((axis) => axis !== null);
   const used = new Map();

@@ -54,27 +54,27 @@ function leastAndGreatest(series, first, end, width, how, out) {
 }
 
 function pushBucket(series, start, end, c, how, out) {
-  const seen = extremes(series, start, end, c, how);
-  const inOrder = seen.rowOfLeast <= seen.rowOfGreatest;
-  const [one, other] = inOrder ? [seen.least, seen.greatest] : [seen.greatest, seen.least];
+  const observed = extremes(series, start, end, c, how);
+  const inOrder = observed.rowOfLeast <= observed.rowOfGreatest;
+  const [one, other] = inOrder ? [observed.least, observed.greatest] : [observed.greatest, observed.least];
   out[1 + c].push(known(one), known(other));
   if (!how.sd) return;
-  const [low, high] = [known(seen.low), known(seen.high)];
+  const [low, high] = [known(observed.low), known(observed.high)];
   out[1 + how.values + 2 * c].push(low, low);
   out[2 + how.values + 2 * c].push(high, high);
 }
 
 /** Unknown values are passed over; where all are, the least stays infinite, which is not known. */
 function extremes(series, start, end, c, how) {
-  const seen = { least: Infinity, greatest: -Infinity, low: Infinity, high: -Infinity };
+  const observed = { least: Infinity, greatest: -Infinity, low: Infinity, high: -Infinity };
   for (let row = start; row < end; row++) {
     const value = series.at(row, 1 + c) * how.factor;
-    if (value < seen.least) [seen.least, seen.rowOfLeast] = [value, row];
-    if (value > seen.greatest) [seen.greatest, seen.rowOfGreatest] = [value, row];
+    if (value < observed.least) [observed.least, observed.rowOfLeast] = [value, row];
+    if (value > observed.greatest) [observed.greatest, observed.rowOfGreatest] = [value, row];
     if (!how.sd) continue;
     const sd = sdAt(series, row, c, how);
-    if (value - sd < seen.low) seen.low = value - sd;
-    if (value + sd > seen.high) seen.high = value + sd;
+    if (value - sd < observed.low) observed.low = value - sd;
+    if (value + sd > observed.high) observed.high = value + sd;
   }
-  return seen;
+  return observed;
 }

@@ -40,8 +40,8 @@ const valueAndSd = (row, i) => (row ? [row[1 + i], row[4 + i]] : [NaN, NaN]);
 export function showNumbers(place, store, kind) {
   const outputs = ROWS.map(([name, words]) => addRow(place, name, words));
   const draw = () => ROWS.forEach((row, i) => write(outputs[i], row, store, kind()));
-  const ask = paced(draw, PERIOD_MS);
-  return { about: ask, rows: ask, redraw: draw };
+  const request = paced(draw, PERIOD_MS);
+  return { about: request, rows: request, redraw: draw };
 }
 
 function addRow(place, name, words) {

@@ -8,18 +8,18 @@ const SHARE = 0.25; // of the time that drawing one thing may take; chosen
  * @returns {() => void} asks for a drawing; asking again before it comes changes nothing
  */
 export function paced(draw, period_ms) {
-  let asked = false;
+  let requested = false;
   let next_ms = 0;
   const turn = (now_ms) => {
     if (now_ms < next_ms) return requestAnimationFrame(turn);
-    asked = false;
+    requested = false;
     const start_ms = performance.now();
     draw();
     next_ms = now_ms + Math.max(period_ms, (performance.now() - start_ms) / SHARE);
   };
   return () => {
-    if (asked) return;
-    asked = true;
+    if (requested) return;
+    requested = true;
     requestAnimationFrame(turn);
   };
 }

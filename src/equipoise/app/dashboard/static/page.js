@@ -22,18 +22,18 @@ let sayLink = () => {};
 /** @returns {Promise<HTMLElement>} the shell makes its elements after this script has run */
 function present(id) {
   return new Promise((resolve) => {
-    const look = () => {
+    const lineStyle = () => {
       const place = document.getElementById(id);
       if (place) resolve(place);
-      else setTimeout(look, WAIT_MS);
+      else setTimeout(lineStyle, WAIT_MS);
     };
-    look();
+    lineStyle();
   });
 }
 
 function change(what) {
   Object.assign(shown, what);
-  store.tell("redraw");
+  store.notify("redraw");
 }
 
 /** Where a module's libraries are not installed, a sentence stands instead. */
@@ -66,7 +66,7 @@ window.equipoise = {
 };
 
 // Whoever changes the theme, canvases have to be drawn anew.
-new MutationObserver(() => store.tell("recolour")).observe(document.documentElement, {
+new MutationObserver(() => store.notify("recolour")).observe(document.documentElement, {
   attributeFilter: ["data-theme"],
 });
 

@@ -36,14 +36,14 @@ class View {
     this.renderer = new WebGLRenderer({ canvas, context, alpha: true });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(32, 1, 0.01, 100);
-    this.ask = paced(() => this.draw(), this.software ? PERIOD_IN_SOFTWARE_MS : PERIOD_MS);
-    this.rows = this.ask;
-    this.state = this.ask;
+    this.request = paced(() => this.draw(), this.software ? PERIOD_IN_SOFTWARE_MS : PERIOD_MS);
+    this.rows = this.request;
+    this.state = this.request;
     this.buildElements(canvas);
     this.scene.add(...lights());
-    this.orbit = new Orbit(canvas, this.camera, this.ask);
+    this.orbit = new Orbit(canvas, this.camera, this.request);
     new ResizeObserver(() => this.fit()).observe(place);
-    canvas.addEventListener("webglcontextrestored", this.ask);
+    canvas.addEventListener("webglcontextrestored", this.request);
   }
 
   buildElements(canvas) {
@@ -71,7 +71,7 @@ class View {
     this.contents = [room(this.platform.radius, colours), this.platform.group, this.balance.inRoom];
     this.scene.add(...this.contents);
     this.orbit.reach(this.platform.radius);
-    this.ask();
+    this.request();
   }
 
   fit() {
@@ -90,7 +90,7 @@ class View {
     this.platform.stand(store.last("pose"));
     this.platform.placeMasses(store.last("masses"));
     this.platform.turnWheels(store.last("wheels"));
-    this.factor = this.balance.show(believed(store), this.factor, this.platform.group);
+    this.factor = this.balance.show(estimated(store), this.factor, this.platform.group);
     this.caption.textContent = this.factor
       ? `centre of mass × ${this.factor}, ellipsoid 1 sd`
       : "centre of mass not known yet";
@@ -103,12 +103,12 @@ class View {
  * belief, which tells how its components go together.
  * @returns {{com: number[], covariance: number[]}|null} m, m2
  */
-function believed(store) {
+function estimated(store) {
   const row = store.last("com");
-  const belief = store.state?.belief;
-  const com = row && row.slice(1, 4).every(Number.isFinite) ? row.slice(1, 4) : belief?.com;
+  const estimate = store.state?.estimate;
+  const com = row && row.slice(1, 4).every(Number.isFinite) ? row.slice(1, 4) : estimate?.com;
   if (!com) return null;
-  return { com, covariance: belief?.covariance ?? diagonal(row?.slice(4, 7)) };
+  return { com, covariance: estimate?.covariance ?? diagonal(row?.slice(4, 7)) };
 }
 
 function diagonal(sd) {

@@ -31,23 +31,23 @@ export class Balance {
   }
 
   /**
-   * @param {{com: number[], covariance: number[]}|null} believed  m, m2, body axes
+   * @param {{com: number[], covariance: number[]}|null} estimated  m, m2, body axes
    * @param {number} before  the factor until now
    * @param {THREE.Group} body
    * @returns {number} the factor shown, 0 where nothing is known
    */
-  show(believed, before, body) {
+  show(estimated, before, body) {
     const parts = [this.com, this.ellipsoid, this.lever, this.word];
-    for (const part of parts) part.visible = believed !== null;
-    if (!believed) {
+    for (const part of parts) part.visible = estimated !== null;
+    if (!estimated) {
       this.inRoom.position.set(0, 0, 0);
       return 0;
     }
-    const { values, vectors } = eigen(believed.covariance);
+    const { values, vectors } = eigen(estimated.covariance);
     const sds = values.map((variance) => Math.sqrt(Math.max(0, variance)));
-    const seen = Math.hypot(...believed.com) + Math.max(...sds);
-    const factor = exaggeration(seen, this.radius, before);
-    this.placeCom(believed.com.map((c) => c * factor));
+    const observed = Math.hypot(...estimated.com) + Math.max(...sds);
+    const factor = exaggeration(observed, this.radius, before);
+    this.placeCom(estimated.com.map((c) => c * factor));
     this.shapeEllipsoid(sds.map((sd) => sd * factor), vectors);
     this.inRoom.position.copy(this.com.position).applyMatrix4(body.matrixWorld);
     return factor;

@@ -19,10 +19,10 @@ export function room(radius, colours) {
 
 function floor(radius, colours) {
   const cell = (2.2 * radius) / CELLS;
-  const far = cell * CELLS;
+  const reach = cell * CELLS;
   const points = [];
   for (let i = -CELLS; i <= CELLS; i++) {
-    points.push([i * cell, -far, 0], [i * cell, far, 0], [-far, i * cell, 0], [far, i * cell, 0]);
+    points.push([i * cell, -reach, 0], [i * cell, reach, 0], [-reach, i * cell, 0], [reach, i * cell, 0]);
   }
   const grid = lines(points, colours.quiet, 0.28);
   grid.position.z = FLOOR * radius;

@@ -35,10 +35,10 @@ export class Store {
   /** @param {string|ArrayBuffer} message  as it came through the socket */
   receive(message) {
     if (typeof message !== "string") return this.takeRows(decodeFrame(message));
-    const told = JSON.parse(message);
-    if (told.kind === "about") this.takeAbout(told);
-    else if (told.kind === "step") this.takeStep(told);
-    else if (told.kind === "state") this.takeState(told);
+    const reported = JSON.parse(message);
+    if (reported.kind === "about") this.takeAbout(reported);
+    else if (reported.kind === "step") this.takeStep(reported);
+    else if (reported.kind === "state") this.takeState(reported);
   }
 
   forget(about) {
@@ -55,17 +55,17 @@ export class Store {
   /** Each connection begins with `about`, and all that is kept comes again after it. */
   takeAbout(about) {
     this.forget(about);
-    this.tell("about");
+    this.notify("about");
   }
 
   takeStep(step) {
     this.steps.set(step.index, step);
-    this.tell("step", step);
+    this.notify("step", step);
   }
 
   takeState(state) {
     this.state = state;
-    this.tell("state");
+    this.notify("state");
   }
 
   takeRows(frame) {
@@ -75,7 +75,7 @@ export class Store {
       this.seriesFor(part).push(part.data);
       if (part.rows) this.began = Math.min(this.began ?? Infinity, part.data[0]);
     }
-    this.tell("rows");
+    this.notify("rows");
   }
 
   seriesFor({ name, columns }) {
@@ -90,7 +90,7 @@ export class Store {
     return this.series.get(name)?.last() ?? null;
   }
 
-  tell(what, ...rest) {
+  notify(what, ...rest) {
     for (const view of this.views) view[what]?.(...rest);
   }
 }

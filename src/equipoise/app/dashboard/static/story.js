@@ -5,7 +5,7 @@ import { seconds } from "./units.js";
 const NEAR_END_PX = 40; // a person who is this near to the end wants to see the newest; chosen
 
 /** Classes of the badge; what is not here is quiet. */
-const MOODS = { passed: "good", failed: "bad", halted: "bad", "cannot tell": "unsure" };
+const MOODS = { passed: "good", failed: "bad", halted: "bad", "cannot notify": "unsure" };
 
 /** @param {HTMLElement} place  the box that scrolls */
 export function showStory(place) {

@@ -18,13 +18,13 @@ CAPTION = (
     "(circles, bars of two standard deviations), target with its tolerance (shaded), simulated "
     "truth at each step (crosses). Grey: masses travel."
 )
-Look = tuple[float, Vector3, Vector3]  # s, m, m (one sd)
+Marked = tuple[float, Vector3, Vector3]  # s, m, m (one sd)
 
 
 class Story(NamedTuple):
     """What stands beside the tracker's curve."""
 
-    looks: Sequence[Look]
+    measurements: Sequence[Marked]
     target: Vector3  # m
     tolerance: Vector3  # m
     truth: tuple[Series1, Series3] | None  # s, m; where the simulated centre really was
@@ -33,7 +33,7 @@ class Story(NamedTuple):
 @styled
 def draw(curve: Curve, recording: Recording, story: Story) -> Figure:
     """Return the figure."""
-    looks, target, tolerance, truth = story
+    measurements, target, tolerance, truth = story
     figure, grid = panels(3, height=1.5)
     column = [row[0] for row in grid]
     draw_com(column, curve, recording)
@@ -41,7 +41,7 @@ def draw(curve: Curve, recording: Recording, story: Story) -> Figure:
         low, high = (target[i] - tolerance[i]) * UM, (target[i] + tolerance[i]) * UM
         axes.axhspan(low, high, color="black", alpha=0.16, linewidth=0, label="target")
         include(axes, low, high)
-        mark_looks(axes, i, looks)
+        mark_measurements(axes, i, measurements)
         if truth is not None:
             t, y = truth[0], truth[1][:, i] * UM
             axes.plot(t, y, "x", color="black", markersize=4.5, zorder=6, label="truth")
@@ -50,9 +50,9 @@ def draw(curve: Curve, recording: Recording, story: Story) -> Figure:
     return figure
 
 
-def mark_looks(axes: Axes, i: int, looks: Sequence[Look]) -> None:
+def mark_measurements(axes: Axes, i: int, measurements: Sequence[Marked]) -> None:
     """Draw one component of the procedure's estimates, with bars of two sd."""
-    for k, (t, com, sd) in enumerate(looks):
+    for k, (t, com, sd) in enumerate(measurements):
         y, spread = com[i] * UM, BAND * sd[i] * UM
         axes.errorbar(
             t, y, spread, fmt="o", color="black", markersize=5, markerfacecolor="white",

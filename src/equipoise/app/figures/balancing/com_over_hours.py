@@ -34,7 +34,7 @@ def draw(hours: OverHours, wander: Wander) -> Figure:
         error = wander.deviation[:, i] * np.minimum(wander.error, 0.9) * UM
         axes.errorbar(wander.span, wander.deviation[:, i] * UM, error, color=XYZ[i], marker="o",
                       capsize=2, label=name)  # fmt: skip
-        axes.plot(wander.span, wander.looks_alone[:, i] * UM, color=XYZ[i], linestyle="--")
+        axes.plot(wander.span, wander.measurements_alone[:, i] * UM, color=XYZ[i], linestyle="--")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xticks(wander.span, [f"{span:g}" for span in wander.span])

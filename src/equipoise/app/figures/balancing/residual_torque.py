@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import AXES, BAND, XYZ, legend, line, panels, styled
 from equipoise.app.text.units import MICRO
-from equipoise.estimation.regression.inverse_dynamics_torque import Felt
+from equipoise.estimation.regression.inverse_dynamics_torque import ResidualTorque
 
 CAPTION = (
     "Torque on the platform in body axes, from its motion and inertia alone (Savitzky-Golay). "
@@ -15,14 +15,14 @@ CAPTION = (
 
 
 @styled
-def draw(felt: Felt) -> Figure:
+def draw(response: ResidualTorque) -> Figure:
     """Return the figure."""
     figure, grid = panels(3, height=1.2)
     column = [row[0] for row in grid]
-    noise = BAND * felt.noise / np.sqrt(3) * MICRO
+    noise = BAND * response.noise / np.sqrt(3) * MICRO
     for i, axes in enumerate(column):
         axes.axhspan(-noise, noise, color="black", alpha=0.12, linewidth=0, label="noise")
-        line(axes, felt.t, felt.values[:, i] * MICRO, XYZ[i], "torque" if i == 0 else "")
+        line(axes, response.t, response.values[:, i] * MICRO, XYZ[i], "torque" if i == 0 else "")
         axes.set_ylabel(f"{AXES[i]}, uN m")
     legend(figure, column[0])
     figure.align_ylabels()

@@ -18,23 +18,25 @@ SHOWN = 6.0  # of the quickest swing, chosen: what is of interest
 @styled
 def draw(done: Assessment) -> Figure:
     """Return the figure."""
-    seen = done.looks.spectrum
-    assert seen is not None
+    observed = done.metrics.spectrum
+    assert observed is not None
     figure = Figure(figsize=(WIDE, 2.8), layout="constrained")
     axes = figure.subplots()
     size = float(np.linalg.norm(done.com))
     down = done.com / max(size, 1e-12)
     predicted = swing_rates(done.weight * size, done.testbed.body.inertia_P, down) / (2 * np.pi)
-    for column, colour, name in zip(seen.amplitude.T, (BLUE, ORANGE), "xy", strict=True):
-        axes.plot(seen.frequency, column * PER_DEG, color=colour, label=f"vertical along {name}")
-    for k, hanging in enumerate(done.looks.hanging):
-        f, half = hanging.swing.frequency, seen.resolution / 2
+    for column, colour, name in zip(observed.amplitude.T, (BLUE, ORANGE), "xy", strict=True):
+        axes.plot(
+            observed.frequency, column * PER_DEG, color=colour, label=f"vertical along {name}"
+        )
+    for k, hanging in enumerate(done.metrics.hanging):
+        f, half = hanging.swing.frequency, observed.resolution / 2
         axes.axvspan(f - half, f + half, color="black", alpha=0.08, linewidth=0)
         axes.axvline(f, color="black", linewidth=0.9, label=None if k else "found")
     for k, f in enumerate(predicted):
         axes.axvline(float(f), color=GREY, linestyle="--", label=None if k else "predicted")
-    last = SHOWN * max(float(predicted.max()), 2 * seen.resolution)
-    axes.set_xlim(0, min(last, float(seen.frequency[-1])))
+    last = SHOWN * max(float(predicted.max()), 2 * observed.resolution)
+    axes.set_xlim(0, min(last, float(observed.frequency[-1])))
     axes.set_ylim(0, None)
     axes.set_xlabel("frequency, Hz")
     axes.set_ylabel("amplitude, deg")

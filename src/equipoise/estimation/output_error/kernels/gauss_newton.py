@@ -15,12 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.dynamics.propagation import Columns, look
+from equipoise.dynamics.propagation import Columns, evaluate
 from equipoise.dynamics.rigid_body import KNOWN_D, ROWS, Body, body_at, times
 from equipoise.dynamics.sensitivities import LANES, place
 from equipoise.estimation.output_error.kernels.normal_equations import (
+    Measurements,
     Pass,
-    Seen,
     accumulate,
     pass_for,
 )
@@ -65,7 +65,7 @@ class Posed(NamedTuple):
     known: Floats
     owners: Ints
     columns: Columns
-    seen: Seen
+    observed: Measurements
     limit: float  # Huber's, in sd; 0: none
     mean: Floats  # of the priors
     weight: Floats
@@ -92,7 +92,7 @@ class Ended(NamedTuple):
 
 
 @part
-def stop_where_told(posed: Posed, point: Floats, out: Floats) -> None:
+def stop_at_commands(posed: Posed, point: Floats, out: Floats) -> None:
     """Write the known inputs with the masses where they really are."""
     first = KNOWN_D + posed.maps.shape[0]
     for i in range(out.shape[0] if posed.owners.shape[0] else 0):
@@ -130,8 +130,8 @@ def arrive(
     """Write attitude and rate at a cut, as the step that leaves it sees them, and Phi to there."""
     y, fb, regress = work.y, work.fb, work.regress
     now = body_at(body, posed.maps, posed.t, known, node, 0.0)
-    w, _ = look(body, now, posed.maps, posed.t, known, posed.owners, posed.columns, node, 0.0, y,
-                regress, fb)  # fmt: skip
+    w, _ = evaluate(body, now, posed.maps, posed.t, known, posed.owners, posed.columns, node, 0.0,
+                    y, regress, fb)  # fmt: skip
     for j in range(4):
         here[j] = y[j]
     for j in range(3):
@@ -156,7 +156,7 @@ def jump(posed: Posed, k: int, jumps: Floats, step: Floats, here: Floats, out: F
 
 
 @kernel  # not a part: smoothing calls it too
-def look_along(
+def search_along(
     posed: Posed, known: Floats, at: Local, work: Pass, step: Floats, here: Floats, behind: Floats
 ) -> float:
     """Write the local models of all stretches, and return half the cost of data and jumps.
@@ -179,7 +179,7 @@ def look_along(
         stretch = (cuts.nodes[k], cuts.nodes[k + 1])
         of_data, iq, iw = accumulate(
             body, posed.maps, posed.t, known, posed.owners, posed.columns, q0, w0, sensor, bias,
-            posed.seen, posed.limit, stretch, (iq, iw), work, at.left_q, at.left_w,
+            posed.observed, posed.limit, stretch, (iq, iw), work, at.left_q, at.left_w,
         )  # fmt: skip
         cost += of_data
         finite &= unpack(work, posed.mass, pieces.normal[k], pieces.descent[k])
@@ -273,7 +273,7 @@ def report(
 @kernel
 def local_for(posed: Posed, point: Floats) -> Local:
     """Return a point with room for the local models there."""
-    n_q, n_w = posed.seen.attitude.shape[0], posed.seen.rate.shape[0]
+    n_q, n_w = posed.observed.attitude.shape[0], posed.observed.rate.shape[0]
     pieces = pieces_for(posed.cuts, posed.slots.shape[0], point.shape[0])
     return Local(point.copy(), pieces, np.zeros((n_q, 3)), np.zeros((n_w, 3)))
 
@@ -296,8 +296,8 @@ def descend(posed: Posed, best: Local, most: int, normal: Floats, descent: Float
     evaluations, converged = 0, False
     while evaluations < most:
         evaluations += 1
-        stop_where_told(posed, trial.point, known)
-        there = look_along(posed, known, trial, work, step, here, behind)
+        stop_at_commands(posed, trial.point, known)
+        there = search_along(posed, known, trial, work, step, here, behind)
         coordinates_of(trial.point, posed.mass, posed.slots, x)
         if there < np.inf:
             there += prior_cost(posed, x)

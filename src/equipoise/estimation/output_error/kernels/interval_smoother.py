@@ -16,8 +16,8 @@ from equipoise.estimation.output_error.kernels.gauss_newton import (
     Local,
     Posed,
     local_for,
-    look_along,
-    stop_where_told,
+    search_along,
+    stop_at_commands,
 )
 from equipoise.estimation.output_error.kernels.normal_equations import pass_for
 from equipoise.estimation.output_error.kernels.segments import (
@@ -48,7 +48,7 @@ class Smoothed(NamedTuple):
 
 
 @kernel
-def look_back(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> None:
+def backward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> None:
     """Write information and score of every stretch, and M^-1 of every jump."""
     n, last = pieces.descent.shape[1], cuts.free.shape[0]
     for k in range(last, -1, -1):
@@ -70,7 +70,7 @@ def look_back(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> None:
 
 
 @kernel
-def look_ahead(cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: Smoothed) -> None:
+def forward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, first: Floats, out: Smoothed) -> None:
     """Write the covariances, ``first`` being that of the first stretch."""
     n, inverse = first.shape[0], out.firm
     out.covariance[0] = first
@@ -95,10 +95,10 @@ def pieces_at(posed: Posed, at: Local) -> None:
     """Write the local models of all stretches at a point and its jumps."""
     n, size = posed.slots.shape[0], at.point.shape[0]
     known = posed.known.copy()
-    stop_where_told(posed, at.point, known)
+    stop_at_commands(posed, at.point, known)
     work = pass_for(posed.columns.kinds.shape[0], n)
     step, here, behind = np.empty(n), np.empty(size), np.empty(size)
-    look_along(posed, known, at, work, step, here, behind)
+    search_along(posed, known, at, work, step, here, behind)
 
 
 def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothed:
@@ -110,6 +110,6 @@ def smooth(posed: Posed, point: Floats, jumps: Floats, first: Floats) -> Smoothe
     square, scores, small = np.zeros((2, k + 1, n, n)), np.zeros((k + 1, n)), np.zeros((2, k, a, a))
     out = Smoothed(square[0], scores, square[1], small[0], at.pieces.points, np.eye(n), small[1])
     chain = chain_for(posed.cuts, n)
-    look_back(posed.cuts, at.pieces, chain, out)
-    look_ahead(posed.cuts, at.pieces, chain, first, out)
+    backward_pass(posed.cuts, at.pieces, chain, out)
+    forward_pass(posed.cuts, at.pieces, chain, first, out)
     return out

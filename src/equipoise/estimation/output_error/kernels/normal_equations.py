@@ -20,9 +20,9 @@ import numpy as np
 
 from equipoise.dynamics.propagation import (
     Columns,
+    evaluate,
     hermite,
     interpolate,
-    look,
     slope_at,
     start,
     steady,
@@ -50,7 +50,7 @@ from equipoise.sensors.gyro import entry, gyro_matrix
 SPAN = 3 * LANES  # numbers in a block of three rows of sensitivities
 
 
-class Seen(NamedTuple):
+class Measurements(NamedTuple):
     """What the sensors reported, and at which nodes of the timeline."""
 
     attitude: Floats  # (n_q, 4)
@@ -146,16 +146,16 @@ def spot(c: int) -> int:
 
 @part
 def camera_rows(
-    seen: Seen, sensor: Floats, w: Triple, n: int, scale: float, q: Floats, S: Floats
+    data: Measurements, sensor: Floats, w: Triple, n: int, scale: float, q: Floats, S: Floats
 ) -> None:
     """Turn q into what the camera says, and the rows behind n columns into those of q_said."""
-    for j in range(seen.terms.shape[0]):
-        if seen.terms[j] == DELAY:
+    for j in range(data.terms.shape[0]):
+        if data.terms[j] == DELAY:
             i = spot(n + j)
             S[i], S[i + LANES], S[i + 2 * LANES] = -scale * w[0], -scale * w[1], -scale * w[2]
-    now = seeing(q, seen.forward, sensor)
+    now = seeing(q, data.forward, sensor)
     along, by_turn = less_cross(now.by_heading, now.turn, 0.5), to_body(q, now.heading_by_turn)
-    for c in range(n + seen.terms.shape[0]):
+    for c in range(n + data.terms.shape[0]):
         i = spot(c)
         x = (S[i], S[i + LANES], S[i + 2 * LANES])
         size = x[0] * by_turn[0] + x[1] * by_turn[1] + x[2] * by_turn[2]
@@ -163,17 +163,17 @@ def camera_rows(
         S[i] = x[0] + size * along[0]
         S[i + LANES] = x[1] + size * along[1]
         S[i + 2 * LANES] = x[2] + size * along[2]
-    for j in range(seen.terms.shape[0]):
-        if seen.terms[j] < DELAY:
-            i, x = spot(n + j), column(seen.terms[j], q, sensor, now)
+    for j in range(data.terms.shape[0]):
+        if data.terms[j] < DELAY:
+            i, x = spot(n + j), column(data.terms[j], q, sensor, now)
             S[i], S[i + LANES], S[i + 2 * LANES] = scale * x[0], scale * x[1], scale * x[2]
     q[0], q[1], q[2], q[3] = said(q, sensor, now.turn)
 
 
 @part
 def rate_rows(
-    inverse: Six, y: Floats, fb: Floats, w: Triple, by: Nine, seen: Seen, scale: float, n: int,
-    S: Floats,
+    inverse: Six, y: Floats, fb: Floats, w: Triple, by: Nine, data: Measurements, scale: float,
+    n: int, S: Floats,
 ) -> None:  # fmt: skip
     """Write (E + M) dw/dp of n columns, dw = J^-1 (dH - f), and w and b behind them, scaled."""
     for k in range(fb.shape[0] // BLOCK):
@@ -184,13 +184,13 @@ def rate_rows(
             dw = dot(by, times(inverse, x))
             S_k[c], S_k[c + LANES] = scale * dw[0], scale * dw[1]
             S_k[c + 2 * LANES] = scale * dw[2]
-    for j in range(seen.terms.shape[0]):
-        row, other = entry(seen.terms[j])
+    for j in range(data.terms.shape[0]):
+        row, other = entry(data.terms[j])
         if row >= 0:
             size = w[0] if other == 0 else (w[1] if other == 1 else w[2])
             S[spot(n + j) + row * LANES] = scale * size
     for j in range(3):
-        S[spot(n + seen.terms.shape[0] + j) + j * LANES] = scale
+        S[spot(n + data.terms.shape[0] + j) + j * LANES] = scale
 
 
 @part
@@ -204,30 +204,30 @@ def weigh(e: Triple, limit: float, S: Floats, work: Pass, left: Floats) -> float
 
 @part
 def see_attitude(
-    work: Pass, seen: Seen, sensor: Floats, now: Now, h: float, share: float, n: int, row: int,
-    limit: float, left: Floats,
+    work: Pass, data: Measurements, sensor: Floats, now: Now, h: float, share: float, n: int,
+    row: int, limit: float, left: Floats,
 ) -> float:  # fmt: skip
     """Add a row of the camera that looked within a step; return its cost."""
-    sensing = seen.terms.shape[0] > 0
-    scale, spread = 1.0 / seen.attitude_sd, seen.attitude_spread
+    sensing = data.terms.shape[0] > 0
+    scale, spread = 1.0 / data.attitude_sd, data.attitude_spread
     at = share - sensor[DELAY] / h
     q = work.at[:ROWS]
     interpolate(work.y0, work.dy0, work.y, work.dy1, h, at, spread, q)
     turn_rows(work, h, at, spread, scale, work.S_q)
     if sensing:
-        camera_rows(seen, sensor, rate_of(now, q), n, scale, q, work.S_q)
-    e = turn(q, seen.attitude[row])
+        camera_rows(data, sensor, rate_of(now, q), n, scale, q, work.S_q)
+    e = turn(q, data.attitude[row])
     return weigh((scale * e[0], scale * e[1], scale * e[2]), limit, work.S_q, work, left)
 
 
 @part
 def see_rate(
-    work: Pass, now: Now, by: Nine, w: Triple, bias: Floats, seen: Seen, row: int, n: int,
+    work: Pass, now: Now, by: Nine, w: Triple, bias: Floats, data: Measurements, row: int, n: int,
     limit: float, left: Floats,
 ) -> float:  # fmt: skip
     """Add a row of the gyro, the state and the forcing being as it saw them; return its cost."""
-    scale, x, r = 1.0 / seen.rate_sd, dot(by, w), seen.rate[row]
-    rate_rows(now.inverse, work.at, work.fb, w, by, seen, scale, n, work.S_w)
+    scale, x, r = 1.0 / data.rate_sd, dot(by, w), data.rate[row]
+    rate_rows(now.inverse, work.at, work.fb, w, by, data, scale, n, work.S_w)
     e = (
         scale * (r[0] - x[0] - bias[0]),
         scale * (r[1] - x[1] - bias[1]),
@@ -239,7 +239,7 @@ def see_rate(
 @part
 def accumulate(
     body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    q0: Floats, w0: Floats, sensor: Floats, bias: Floats, seen: Seen, limit: float,
+    q0: Floats, w0: Floats, sensor: Floats, bias: Floats, data: Measurements, limit: float,
     stretch: tuple[int, int], rows: tuple[int, int], work: Pass, left_q: Floats, left_w: Floats,
 ) -> tuple[float, int, int]:  # fmt: skip
     """Sum the normal equations of the steps from one node to another (``stretch``).
@@ -249,8 +249,8 @@ def accumulate(
     """
     y, y0, dy0, dy1, at, dy, total, regress, fb = work[:9]
     n, last = columns.kinds.shape[0], t.shape[0] - 2
-    q_node, w_node, q_share, w_share = (seen.attitude_node, seen.rate_node, seen.attitude_share,
-                                        seen.rate_share)  # fmt: skip
+    q_node, w_node, q_share, w_share = (data.attitude_node, data.rate_node, data.attitude_share,
+                                        data.rate_share)  # fmt: skip
     work.normal[:], work.descent[:] = 0.0, 0.0
     cost, moving, was_steady, by = 0.0, drifts(body), False, gyro_matrix(sensor)
     iq, iw = rows
@@ -270,13 +270,13 @@ def accumulate(
         h, was_steady = t[i + 1] - t[i], is_steady
         while iq < q_node.shape[0] and (q_node[iq] == i or i == last):
             share = q_share[iq] if q_node[iq] == i else 1.0
-            cost += see_attitude(work, seen, sensor, now, h, share, n, iq, limit, left_q[iq])
+            cost += see_attitude(work, data, sensor, now, h, share, n, iq, limit, left_q[iq])
             iq += 1
         while iw < w_node.shape[0] and (w_node[iw] == i or i == last):
             share = w_share[iw] if w_node[iw] == i else 1.0
-            interpolate(y0, dy0, y, dy1, h, share, seen.rate_spread, at)
+            interpolate(y0, dy0, y, dy1, h, share, data.rate_spread, at)
             now = body_within(body, maps, t, known, i, share, fixed, here)
-            w, _ = look(body, now, maps, t, known, owners, columns, i, share, at, regress, fb)
-            cost += see_rate(work, now, by, w, bias, seen, iw, n, limit, left_w[iw])
+            w, _ = evaluate(body, now, maps, t, known, owners, columns, i, share, at, regress, fb)
+            cost += see_rate(work, now, by, w, bias, data, iw, n, limit, left_w[iw])
             iw += 1
     return cost, iq, iw

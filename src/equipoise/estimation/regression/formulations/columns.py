@@ -83,6 +83,10 @@ def columns(
     torque = full[:, :, [*range(MOMENT, TORQUE), *wanted]]
     torque[:, :, :3] *= testbed.body.mass
     k, dmu = known_momentum(recording, testbed, t, w)
-    told, shifted = recording.torque, np.cross(dmu, g)
-    impulse = integral_at(t, told.t, told.values) if told is not None and len(told) else 0 * k
+    reported, shifted = recording.torque, np.cross(dmu, g)
+    impulse = (
+        integral_at(t, reported.t, reported.values)
+        if reported is not None and len(reported)
+        else 0 * k
+    )
     return Columns(full[:, :, :MOMENT], torque, k, shifted, impulse, R, g)

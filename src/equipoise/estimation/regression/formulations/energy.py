@@ -32,6 +32,6 @@ def energy(posed: Posed) -> Rows:
     given = np.sum(w * (at.shifted - slope_h), axis=1)
     given -= 0.5 * np.einsum("ni,nij,nj->n", w, slope_J, w)
     push = np.sum(0.5 * (w[1:] + w[:-1]) * np.diff(at.impulse, axis=0), axis=1)
-    told = np.append(0.0, np.cumsum(push))
-    b = by_piece(t, given, piece) + told - 0.5 * np.einsum("ni,nij,nj->n", w, bend, w)
+    reported = np.append(0.0, np.cumsum(push))
+    b = by_piece(t, given, piece) + reported - 0.5 * np.einsum("ni,nij,nj->n", w, bend, w)
     return Rows(t, A[:, None, :], b[:, None], (*BODY, *posed.terms), piece, notes=motion.notes)

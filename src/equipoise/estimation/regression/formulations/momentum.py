@@ -57,10 +57,10 @@ def laboratory_balance(t: Series1, piece: Ints, at: Columns) -> tuple[Floats, Fl
     """Return A and b in laboratory axes."""
     k, push = (np.einsum("nij,nj->ni", at.R, x) for x in (at.known_momentum, at.shifted))
     A = np.concatenate([at.R @ at.momentum, -by_piece(t, at.R @ at.torque, piece)], axis=2)
-    return A, by_piece(t, push, piece) + told_in(at) - k
+    return A, by_piece(t, push, piece) + known_side(at) - k
 
 
-def told_in(at: Columns) -> Series3:
+def known_side(at: Columns) -> Series3:
     """Return the integral of R tau (n, 3), N m s: R is even where tau may jump."""
     middle, parts = 0.5 * (at.R[1:] + at.R[:-1]), np.diff(at.impulse, axis=0)
     total = np.cumsum(np.einsum("nij,nj->ni", middle, parts), axis=0)

@@ -71,7 +71,7 @@ def _restart(x: Floats, P: Floats, first: int, variance: float) -> None:
 
 
 @part
-def _look(
+def _update(
     A: Floats, noise: Floats, varying: bool, lam: float, recent: Floats, last: Floats
 ) -> None:
     """Count a row among the recent ones."""
@@ -155,7 +155,7 @@ def _advance(
             recent[:], last[2] = 0.0, 0.0
         last[0], last[1] = t[k], piece[k]
         if lam < 1.0:
-            _look(A[k], noise, s > c, lam, recent, last)
+            _update(A[k], noise, s > c, lam, recent, last)
             _widen(P, recent[m], limit, free, still, lam, gain)
         if new:
             _restart(x, P, c, free**2)
