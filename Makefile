@@ -16,7 +16,7 @@ PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
 SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench verify lint format pins clean
+.PHONY: help demo test bench verify lint format rooms pins clean
 .DELETE_ON_ERROR:
 
 help:  ## list the targets
@@ -44,6 +44,9 @@ lint: $(TEST)  ## style, formatting, types, import contracts
 format: $(TEST)  ## put the code in the house format
 	@$(BIN)/ruff check --quiet --fix $(LINTED)
 	@$(BIN)/ruff format --quiet $(LINTED)
+
+rooms: $(TEST)  ## draw the picture of the rooms in docs/architecture.md
+	@$(BIN)/python -m tests.support.rooms
 
 clean:  ## remove the environment, caches and outputs
 	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis .benchmarks

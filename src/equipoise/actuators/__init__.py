@@ -1,1 +1,1 @@
-"""What can be done to a platform: forward and inverse maps side by side."""
+"""What masses, wheels, gyros, coils and jets do to a platform, and the inverse maps."""

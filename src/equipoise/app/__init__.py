@@ -1,1 +1,1 @@
-"""What people touch."""
+"""Commands, dashboard and reports: where people, files and benches meet the algorithms."""

@@ -1,1 +1,1 @@
-"""What a record says by itself: one metric, one file."""
+"""What a recording shows by itself: its quality, its content, measures of balance."""

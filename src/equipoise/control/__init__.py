@@ -1,1 +1,1 @@
-"""Balancing laws: one file each, a state and a sample to a state and a command."""
+"""Balancing laws as pure functions of state and sample; no device is known here."""

@@ -1,1 +1,1 @@
-"""Which manoeuvre tells most, before it is made."""
+"""What a testbed can show before it is used: manoeuvres, reach, error budget."""

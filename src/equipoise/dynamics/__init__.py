@@ -1,1 +1,1 @@
-"""The rigid body about a fixed point, in momentum form."""
+"""The rigid body about a fixed point in momentum form: regressor and propagator."""

@@ -1,1 +1,1 @@
-"""One method, one file."""
+"""Estimators of mass properties and what they rest on; no file, port or clock."""

@@ -1,1 +1,1 @@
-"""Ports to nouns and back: drivers of motor boards and sensors, and the bench made of them."""
+"""Ports to records and back: drivers, links, and the real bench made of them."""

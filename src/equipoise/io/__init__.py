@@ -1,1 +1,1 @@
-"""Files to nouns and back."""
+"""Files to records and back."""

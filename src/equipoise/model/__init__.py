@@ -1,1 +1,1 @@
-"""Nouns: what the rooms above talk about."""
+"""Records and protocols that all rooms share."""

@@ -1,1 +1,1 @@
-"""Identify and balance, as generators of Steps."""
+"""Identify, assess, calibrate and balance, as generators of Steps."""

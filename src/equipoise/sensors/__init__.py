@@ -1,1 +1,1 @@
-"""What is seen of a platform."""
+"""What sensors measure of a platform: times, frames, noise."""

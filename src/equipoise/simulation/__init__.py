@@ -1,1 +1,1 @@
-"""A bench made of equations."""
+"""A bench made of equations: truth, sensors with noise, actuators with faults."""

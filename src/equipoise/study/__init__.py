@@ -1,1 +1,1 @@
-"""Many runs: what methods and laws are worth."""
+"""Many runs: methods and laws compared against the simulated truth, papers reproduced."""

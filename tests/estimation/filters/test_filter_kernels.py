@@ -98,7 +98,7 @@ def test_kernels_are_the_plain_filters(observed, name):
     assert np.abs(separation).max() < 1e-6
     scale = np.sqrt(np.diag(end.covariance))
     assert np.abs((found[-1].P - end.covariance) / np.outer(scale, scale)).max() < 1e-6
-    np.testing.assert_allclose(found[-1].H, end.posterior[4:7], rtol=1e-7)
+    np.testing.assert_allclose(found[-1].H, end.mean[4:7], rtol=1e-7)
     assert np.array_equal(end.covariance, end.covariance.T)
 
 
@@ -215,7 +215,7 @@ def carried(kind, scale, dt=0.2):
     state = driver.State(kind, model, COM_NAMES, np.eye(9)[:3], posterior, P)
     rows = Rows(drive, np.array([1]), np.array([False]), np.zeros((1, 3)))
     after, _ = driver.advance(state, rows)
-    return after.posterior, after.covariance / scale**2
+    return after.mean, after.covariance / scale**2
 
 
 def differences(twin, drive, first, sizes):
@@ -330,7 +330,7 @@ def test_rows_one_by_one_give_what_a_file_gives(observed, name, chunk):
     for k in range(0, n, chunk):
         state, passed = driver.advance(state, taken(rows, k, min(k + chunk, n)))
         parts.append(passed)
-    assert np.array_equal(state.posterior, whole.posterior)
+    assert np.array_equal(state.mean, whole.mean)
     assert np.array_equal(state.covariance, whole.covariance)
     for field in ("t", "values", "sd"):
         joined = np.concatenate([getattr(part.course, field) for part in parts])
@@ -344,12 +344,10 @@ def test_nothing_given_is_changed_and_twice_is_the_same(observed, name):
     kind, testbed = KINDS[name], bench()
     rows, noise = rows_of(kind, observed, testbed)
     state = driver.begin(kind, testbed, noise, WALKS)
-    kept = [
-        x.copy() for x in (state.posterior, state.covariance, *rows.drive, rows.node, rows.observed)
-    ]
+    kept = [x.copy() for x in (state.mean, state.covariance, *rows.drive, rows.node, rows.observed)]
     a, _ = driver.advance(state, rows)
     b, _ = driver.advance(state, rows)
-    now = (state.posterior, state.covariance, *rows.drive, rows.node, rows.observed)
+    now = (state.mean, state.covariance, *rows.drive, rows.node, rows.observed)
     assert all(np.array_equal(x, y) for x, y in zip(kept, now, strict=True))
-    assert np.array_equal(a.posterior, b.posterior)
+    assert np.array_equal(a.mean, b.mean)
     assert np.array_equal(a.covariance, b.covariance)

@@ -1,1 +1,1 @@
-"""The terminal: console, tables, questions, notices, worker processes."""
+"""The terminal: rendering, questions, notices, worker processes."""

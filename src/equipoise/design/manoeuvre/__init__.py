@@ -1,1 +1,1 @@
-"""Which manoeuvre shows most, before it is made."""
+"""Choosing the manoeuvre whose record carries most information."""

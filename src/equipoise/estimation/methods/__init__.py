@@ -1,1 +1,1 @@
-"""One method, one file: a card and what it names."""
+"""Estimation methods: one file each with its card, and their registry."""

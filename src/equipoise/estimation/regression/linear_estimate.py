@@ -189,7 +189,8 @@ def outcome_of(rows: Rows, answer: Answer, open_scale: bool, possible: bool) -> 
                     "inertia away: do not trust the intervals.")  # fmt: skip
     if answer.excess > DROWNED:
         texts.append("The rows leave far more than the sensors' noise: something moves the "
-                    "platform that the model does not know; do not trust the intervals.")  # fmt: skip
+                    "platform that the model does not know; do not trust the intervals."
+                    )  # fmt: skip
     elif answer.excess > 1:
         texts.append(f"The rows leave more than the sensors' noise, {answer.excess:.2g} times its "
                     "power where it is most: intervals are widened "

@@ -1,1 +1,1 @@
-"""A camera that looks at a board of markers: its lens, the board, and the attitude that it sees."""
+"""A camera that observes a board of markers: lens, board, attitude."""

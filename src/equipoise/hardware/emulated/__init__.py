@@ -1,1 +1,1 @@
-"""The far side of each wire: devices that speak the real protocols, for tests and for trying."""
+"""Counterparts of devices that speak the real protocols, for tests and rehearsals."""

@@ -1,1 +1,0 @@
-"""How rows are solved for the unknowns."""
