@@ -21,7 +21,7 @@ from equipoise.app.bench.open_bench import KeptBench, Wanted
 from equipoise.estimation.tracker.tracker import Params, State, first_state, track
 from equipoise.hardware.bench.controller_process import DistantKeeper
 from equipoise.hardware.bench.real_bench import RealBench
-from equipoise.hardware.emulated.far_side import PtyFarSide
+from equipoise.hardware.emulated.counterpart import PtyCounterpart
 from equipoise.hardware.emulated.vectornav import EmulatedVectorNav
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording
@@ -53,7 +53,7 @@ def testbed() -> Testbed:
 
 def speak(pipe: Pipe, messages: Sequence[bytes]) -> None:
     """Write a message each 5 ms once told to; tell the port first and the times (s) at last."""
-    wire = PtyFarSide()
+    wire = PtyCounterpart()
     pipe.send(wire.address)
     pipe.recv()
     begun, times = time.monotonic(), list[float]()

@@ -1,4 +1,4 @@
-"""A board's driver and its emulated far side, turn by turn, and the true way of every mass."""
+"""A board's driver and its emulated counterpart, turn by turn, and the true place of each mass."""
 
 from dataclasses import replace
 

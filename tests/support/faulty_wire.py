@@ -3,7 +3,7 @@
 import numpy as np
 
 from equipoise.hardware.emulated.camera import part
-from equipoise.hardware.emulated.far_side import TcpFarSide
+from equipoise.hardware.emulated.counterpart import TcpCounterpart
 
 
 class FaultyWire:
@@ -24,7 +24,7 @@ class FaultyWire:
 
     def plug_in(self):
         """Put it back where it was: behind the same port of TCP."""
-        self._wire = TcpFarSide(number=int(self.address.rpartition(":")[2]))
+        self._wire = TcpCounterpart(number=int(self.address.rpartition(":")[2]))
 
     def send(self, data):
         if self.spoil is not None and data:

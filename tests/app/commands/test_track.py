@@ -12,7 +12,7 @@ cv2 = pytest.importorskip("cv2", reason="the extra 'camera' is not installed")
 
 from equipoise.hardware.camera.eye import eye_of  # noqa: E402
 from equipoise.hardware.emulated.camera import EmulatedCamera, renderer_of  # noqa: E402
-from equipoise.hardware.emulated.far_side import TcpFarSide  # noqa: E402
+from equipoise.hardware.emulated.counterpart import TcpCounterpart  # noqa: E402
 from equipoise.hardware.emulated.rendering import Appearance  # noqa: E402
 from equipoise.io.recording.recording_file import read_recording  # noqa: E402
 from equipoise.io.testbed.presets import read_preset  # noqa: E402
@@ -105,7 +105,7 @@ def test_a_level_board_determines_the_up_direction(equipoise, tmp_path):
 
 
 def test_a_camera_on_the_network_is_watched(equipoise, tmp_path):
-    wire, camera, ended = TcpFarSide("http", "/stream"), EmulatedCamera(UNIT), threading.Event()
+    wire, camera, ended = TcpCounterpart("http", "/stream"), EmulatedCamera(UNIT), threading.Event()
 
     def serve():
         begin, sent = time.monotonic(), 0

@@ -1,4 +1,4 @@
-"""What every driver of a motor board does, at its emulated far side."""
+"""What every driver of a motor board does, at its emulated counterpart."""
 
 from dataclasses import replace
 

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from equipoise.hardware.emulated.far_side import far_side
+from equipoise.hardware.emulated.counterpart import counterpart
 from equipoise.hardware.emulated.rosbridge import EmulatedRosBridge
 from equipoise.hardware.sensors.rosbridge import RosBridge
 from equipoise.hardware.transport.port import PortLost, open_port
@@ -172,7 +172,7 @@ def until(take, patience=2.0):
 
 @pytest.fixture
 def socket():
-    outlying = far_side(Port("ws://ros:9090/bridge"))
+    outlying = counterpart(Port("ws://ros:9090/bridge"))
     near = open_port(Port(outlying.address))
     yield near, outlying
     near.close()

@@ -1,4 +1,4 @@
-"""Ports and their far sides on this computer: what is sent arrives, what is gone is told."""
+"""Ports and their emulated counterparts: what is sent arrives, what is gone is reported."""
 
 import os
 import subprocess
@@ -8,7 +8,7 @@ import time
 import pytest
 
 from equipoise.hardware.bench.port_lock import BenchTaken, commanding
-from equipoise.hardware.emulated.far_side import TcpFarSide, far_side
+from equipoise.hardware.emulated.counterpart import TcpCounterpart, counterpart
 from equipoise.hardware.transport.port import PortLost, open_port
 from equipoise.hardware.transport.reconnecting_port import AGAIN, Connection
 from equipoise.model.errors import InputError
@@ -36,7 +36,7 @@ def wait_for(take, wanted=bytes):
 
 @pytest.fixture(params=KINDS)
 def wire(request):
-    outlying = far_side(Port(request.param))
+    outlying = counterpart(Port(request.param))
     near = open_port(Port(outlying.address))
     yield near, outlying
     near.close()
@@ -70,7 +70,7 @@ def test_receiving_does_not_wait(wire):
 
 @pytest.mark.parametrize("kind", KINDS[:2])
 def test_a_port_that_is_pulled_out_is_lost(kind):
-    outlying = far_side(Port(kind))
+    outlying = counterpart(Port(kind))
     near = open_port(Port(outlying.address))
     outlying.receive()
     outlying.close()
@@ -89,7 +89,7 @@ def test_an_unreachable_port_is_reported_with_its_address():
 
 
 def test_a_connection_comes_back_when_the_device_does():
-    outlying = far_side(Port("tcp:host:23"))
+    outlying = counterpart(Port("tcp:host:23"))
     line = Connection(Port(outlying.address), open_port)
     assert line.turn(0.0).opened
     outlying.receive()
@@ -102,7 +102,7 @@ def test_a_connection_comes_back_when_the_device_does():
     assert lost
     assert not line.turn(t + AGAIN + 0.01).opened
     assert line.why
-    again = TcpFarSide(number=number)
+    again = TcpCounterpart(number=number)
     assert line.turn(t + 2 * AGAIN + 0.1).opened
     assert line.why == ""
     line.close()

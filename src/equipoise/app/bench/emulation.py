@@ -11,8 +11,8 @@ from functools import partial
 from typing import Generic, TypeVar
 
 from equipoise.app.bench.held_platform import HeldPlatform, later
+from equipoise.hardware.emulated.counterpart import Counterpart, counterpart
 from equipoise.hardware.emulated.device import EmulatedBoard, EmulatedSensor, Leg
-from equipoise.hardware.emulated.far_side import FarSide, far_side
 from equipoise.hardware.emulated.registry import BOARDS, SENSORS
 from equipoise.hardware.transport.driver_protocol import driver_named
 from equipoise.maths.attitude import tilt
@@ -33,7 +33,7 @@ class Station(Generic[Device]):
     """A device and its wire."""
 
     device: Device
-    wire: FarSide
+    wire: Counterpart
 
 
 class EmulatedBench:
@@ -153,12 +153,13 @@ def emulate(testbed: Testbed, seed: int) -> EmulatedBench:
     hardware = hardware_of(testbed)
     boards = [
         Station(
-            driver_named(BOARDS, board.driver, "board")(board, testbed.masses), far_side(board.port)
+            driver_named(BOARDS, board.driver, "board")(board, testbed.masses),
+            counterpart(board.port),
         )
         for board in hardware.boards
     ]
     sensors = [
-        Station(driver_named(SENSORS, unit.driver, "sensor")(unit), far_side(unit.port))
+        Station(driver_named(SENSORS, unit.driver, "sensor")(unit), counterpart(unit.port))
         for unit in hardware.sensors
     ]
     return EmulatedBench(partial(SimulatedBench, testbed, seed), boards, sensors)

@@ -47,8 +47,8 @@ def calibrate_camera(
     check_writable(out)
     square, marker = positive("--square-mm", square_mm), positive("--marker-mm", marker_mm)
     board = Charuco(dictionary, columns, rows, 1e-3 * square, 1e-3 * marker)
-    with counted("looking") as so_far:
-        found = lens_from_files(pictures, board, so_far)
+    with counted("looking") as on_progress:
+        found = lens_from_files(pictures, board, on_progress)
     write_camera_keys(settings_of_lens(found.lens), out)
     lens, console = found.lens, stdout()
     console.print(f"{found.views} pictures used, corners fit to {lens.rms:.3f} px")

@@ -65,11 +65,11 @@ def track(
     )
     rate = None if rate_hz is None else positive("--rate-hz", rate_hz)
     duration = positive("--duration-s", duration_s)
-    with counted("tracking") as so_far:
+    with counted("tracking") as on_progress:
         if source.startswith(CAMERAS):
-            found = camera_tracking.watched_camera(unit, duration, so_far)
+            found = camera_tracking.watched_camera(unit, duration, on_progress)
         else:
-            found = camera_tracking.tracked(Path(source), unit, rate, so_far)
+            found = camera_tracking.tracked(Path(source), unit, rate, on_progress)
     recording = camera_tracking.recording_of_track(found, source)
     _report(found)
     if level:

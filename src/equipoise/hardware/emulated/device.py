@@ -24,7 +24,7 @@ class Leg:
 
 
 class EmulatedSensor(Protocol):
-    """A sensor's far side."""
+    """A sensor's emulated counterpart."""
 
     def take(self, data: bytes, t: float) -> bytes:
         """Return the answer to what the host sent."""
@@ -40,7 +40,7 @@ class EmulatedSensor(Protocol):
 
 
 class EmulatedBoard(Protocol):
-    """A motor board's far side."""
+    """A motor board's emulated counterpart."""
 
     @property
     def homing(self) -> bool:

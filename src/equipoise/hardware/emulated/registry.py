@@ -1,4 +1,4 @@
-"""The far sides of devices by the name of their driver."""
+"""The emulated counterparts of devices by the name of their driver."""
 
 from collections.abc import Callable, Sequence
 

@@ -1,7 +1,7 @@
 """Ports: bytes out, and whatever has arrived, at once and without waiting.
 
 An address is as in ``model.hardware``. A port that is gone says so by PortLost, whether it was
-pulled out, closed by the far side or never there.
+pulled out, closed by the emulated counterpart or never there.
 """
 
 import select
@@ -83,7 +83,7 @@ class SocketPort:
             except OSError as error:
                 raise PortLost(self._address, why(error)) from error
             if self._stream and not data:
-                raise PortLost(self._address, "the far side closed the connection")
+                raise PortLost(self._address, "the other end closed the connection")
             found.append(data)
         return found
 

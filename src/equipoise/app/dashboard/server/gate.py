@@ -114,14 +114,14 @@ def _token(scope: Scope, headers: dict[str, str]) -> str:
 
 def _limited(receive: Receive) -> Receive:
     """Return a receiver that ends a request which turns out larger than it said."""
-    so_far = 0
+    received = 0
 
     async def limited() -> Event:
-        nonlocal so_far
+        nonlocal received
         event = await receive()
         if event["type"] == "http.request":
-            so_far += len(event.get("body", b""))
-            if so_far > LARGEST:
+            received += len(event.get("body", b""))
+            if received > LARGEST:
                 return {"type": "http.disconnect"}
         return event
 

@@ -1,4 +1,4 @@
-"""The far side of a WebSocket: a server of the loopback, for one listener at a time.
+"""The emulated counterpart of a WebSocket: a server of the loopback, for one listener at a time.
 
 A listener waits for the answer to its handshake, and may do so in the very thread that runs the
 emulated devices. So a thread of its own hears; what is sent goes out at once, in the caller's.
@@ -10,13 +10,13 @@ import threading
 from contextlib import suppress
 from typing import Any
 
-from equipoise.hardware.emulated.far_side import CHUNK, FULL, LOOPBACK, Outbox
+from equipoise.hardware.emulated.counterpart import CHUNK, FULL, LOOPBACK, Outbox
 from equipoise.hardware.transport.optional_libraries import needed
 
 POLL = 0.05  # s, chosen: between looks whether it has been closed
 
 
-class WsFarSide:
+class WsCounterpart:
     """A server; the newest listener counts. What comes is a line for each message."""
 
     def __init__(self, path: str = "") -> None:

@@ -19,7 +19,7 @@ CHUNK = 65536  # bytes, taken at once
 FULL = 1 << 20  # bytes, chosen: kept for a listener that is slow; what is older is dropped
 
 
-class FarSide(Protocol):
+class Counterpart(Protocol):
     """The end of a wire where the device is."""
 
     @property
@@ -55,7 +55,7 @@ class Outbox:
         self.waiting = self.waiting[count:]
 
 
-class PtyFarSide:
+class PtyCounterpart:
     """A pseudo terminal; whether anybody holds its other end is known from reading."""
 
     def __init__(self) -> None:
@@ -98,7 +98,7 @@ class PtyFarSide:
                 self._outbox.sent(os.write(self._master, self._outbox.waiting))
 
 
-class TcpFarSide:
+class TcpCounterpart:
     """A server on the loopback, for one listener at a time; the newest counts."""
 
     def __init__(self, scheme: str = "tcp", path: str = "", number: int = 0) -> None:
@@ -159,7 +159,7 @@ class TcpFarSide:
         self._line, self._outbox = None, Outbox()
 
 
-class UdpFarSide:
+class UdpCounterpart:
     """A sender of datagrams to a port of the loopback; without one, to whoever last sent any."""
 
     def __init__(self, number: int | None) -> None:
@@ -199,20 +199,20 @@ def free_udp_port() -> int:
         return int(trial.getsockname()[1])
 
 
-def far_side(port: Port) -> FarSide:
-    """Return a far side of the kind that a port's address asks for."""
+def counterpart(port: Port) -> Counterpart:
+    """Return a emulated counterpart of the kind that a port's address asks for."""
     scheme, _, rest = port.address.partition(":")
     if scheme == "serial":
-        return PtyFarSide() if hasattr(os, "openpty") else TcpFarSide()
+        return PtyCounterpart() if hasattr(os, "openpty") else TcpCounterpart()
     if scheme == "tcp":
-        return TcpFarSide()
+        return TcpCounterpart()
     if scheme == "http":
-        return TcpFarSide("http", "/" + rest.removeprefix("//").partition("/")[2])
+        return TcpCounterpart("http", "/" + rest.removeprefix("//").partition("/")[2])
     if scheme in ("udp", "udpout"):
-        return UdpFarSide(free_udp_port() if scheme == "udp" else None)
+        return UdpCounterpart(free_udp_port() if scheme == "udp" else None)
     if scheme == "ws":
-        from equipoise.hardware.emulated.ws_far_side import WsFarSide
+        from equipoise.hardware.emulated.ws_counterpart import WsCounterpart
 
-        return WsFarSide("/" + rest.removeprefix("//").partition("/")[2])
+        return WsCounterpart("/" + rest.removeprefix("//").partition("/")[2])
     known = "serial, tcp, udp, udpout, ws or http to emulate"
     raise InputError(f"port {port.address}", f"'{scheme}:'", known)
