@@ -12,7 +12,7 @@ from equipoise.app.cli import run
 from equipoise.estimation.model_selection import initial_model, reference_fit
 from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.io.recording.recording_file import write_recording
-from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.maths.attitude import tilt
 from equipoise.model.errors import InputError
 from equipoise.procedure.identification.identify import IdentifyOptions, identify

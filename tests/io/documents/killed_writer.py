@@ -11,8 +11,9 @@ import sys
 import time
 from pathlib import Path
 
-from equipoise.io.documents.logbook import INDEX, RUN, open_logbook
-from equipoise.io.documents.run_file import TESTBED, text_of_run
+from equipoise.io.documents.logbook import INDEX, open_logbook
+from equipoise.io.documents.run_file import text_of_run
+from equipoise.io.documents.run_folder import RUN, TESTBED
 from equipoise.io.files.atomic_folder import write_folder
 from equipoise.model.estimate import Parameter
 from equipoise.model.logged_run import LoggedRun

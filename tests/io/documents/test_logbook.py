@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from equipoise.io.documents.logbook import INDEX, RUN, open_logbook
+from equipoise.io.documents.logbook import INDEX, open_logbook
 from equipoise.io.documents.logbook_schema import MIGRATIONS
 from equipoise.io.documents.run_file import read_run, text_of_run
+from equipoise.io.documents.run_folder import RUN
 from equipoise.model.errors import InputError
 from tests.io.documents import killed_writer
 from tests.io.documents.killed_writer import put, run

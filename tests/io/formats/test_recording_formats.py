@@ -10,7 +10,7 @@ from pyulog import ULog
 from rosbags.rosbag1 import Writer as Writer1
 from scipy.io import savemat
 
-from equipoise.io.formats.ulog_messages import ulog_topics
+from equipoise.io.formats.ulog_file import ulog_topics
 from equipoise.io.recording.format_registry import FORMATS
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from equipoise.io.testbed.testbed_file import json_schema, parse_testbed
-from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.testbed.testbed_file import json_schema, parse_testbed, text_of_testbed
 from equipoise.model.devices import at_start
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed

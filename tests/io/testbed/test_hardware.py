@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.io.testbed.presets import preset_text, read_preset
-from equipoise.io.testbed.testbed_file import parse_testbed
-from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.testbed.testbed_file import parse_testbed, text_of_testbed
 from equipoise.model.errors import InputError
 
 TEXT = preset_text("nanosat")
@@ -58,9 +57,13 @@ def test_settings_of_a_driver_come_back():
         ('{ mass = "y", letter = "Y"', '{ mass = "w", letter = "Y"', "mass 'w'"),
         ('{ mass = "y", letter = "Y"', '{ mass = "x", letter = "Y"', "mass 'x' twice"),
         ('{ mass = "y", letter = "Y"', '{ mass = "y", letter = "X"', "each letter once"),
-        ('{ mass = "y", letter = "Y"', '{ mass = "y", letter = "Q"', "letter"),
+        (
+            '{ mass = "y", letter = "Y"',
+            '{ mass = "y", letter = "Q"',
+            "letter.*the board's name of the axis",
+        ),
         ('"serial:/dev/ttyUSB1"', '"serial:/dev/ttyUSB0"', "two devices at"),
-        ('"serial:/dev/ttyUSB1"', '"/dev/ttyUSB1"', "port"),
+        ('"serial:/dev/ttyUSB1"', '"/dev/ttyUSB1"', r"port.*serial:COM3"),
         ('name = "imu"', 'name = "masses"', "two devices 'masses'"),
         ("[0.0, 0.0, -1.0]]", "[0.0, 0.0, 1.0]]", "right-handed"),
         ("[0.0, 0.0, -1.0]]", "[0.0, 0.1, -1.0]]", "a rotation"),

@@ -8,8 +8,7 @@ import pytest
 
 from equipoise.dynamics.regressor import TORQUE, WIDTH, regressor
 from equipoise.io.testbed.presets import preset_names, preset_text, read_preset
-from equipoise.io.testbed.testbed_file import parse_testbed
-from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.testbed.testbed_file import parse_testbed, text_of_testbed
 from equipoise.maths.attitude import from_euler321, tilt, to_matrix
 from equipoise.model.errors import InputError
 from equipoise.simulation.draw_truth import coefficients, draw_truth

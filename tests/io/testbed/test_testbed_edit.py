@@ -8,7 +8,6 @@ import pytest
 from equipoise.io.testbed.presets import preset_text
 from equipoise.io.testbed.testbed_edit import with_drives
 from equipoise.io.testbed.testbed_file import parse_testbed
-from equipoise.model.errors import InputError
 
 TEXT = preset_text("sputnix")
 
@@ -31,12 +30,26 @@ def test_only_changed_keys_change():
     assert all(m.gain == 1.0 for k, m in enumerate(read) if k != 2)
 
 
-def test_a_layout_that_it_does_not_understand_is_refused():
+def test_a_mass_in_one_line_is_edited_there():
+    """An inline table can hold no comment, so that its remark is left out."""
     head, rest = TEXT.split("[platform]")
     platform = rest.split("[[sliding_mass]]")[0]
     mass = '{name = "x1", mass_g = 1, home_mm = [0, 0, 0], axis = [1, 0, 0], travel_mm = [-1, 1]}'
     text = f"{head}sliding_mass = [{mass}]\n[platform]{platform}"
     bed = parse_testbed(text, "t")
     other = replace(bed, masses=(replace(bed.masses[0], gain=1.1),))
-    with pytest.raises(InputError, match="layout"):
-        with_drives(text, other, {}, "t")
+    new = with_drives(text, other, {"gain x1": "calibrated"}, "t")
+    assert new == text.replace("[-1, 1]}", "[-1, 1], gain = 1.1}")
+
+
+def test_what_is_said_beside_a_changed_value_and_of_the_next_table_stays_in_its_place():
+    """The next table's comment stands before its head, where the table before it ends."""
+    old = "axis = [0.0, 1.0, 0.0]"
+    text = TEXT.replace(old, f"{old} # along the beam", 1)
+    text = text.replace(
+        '\n[[sliding_mass]]\nname = "y2"', '\n# opposite\n[[sliding_mass]]\nname = "y2"'
+    )
+    lines = with_drives(text, mended(), {}, "t").splitlines()
+    assert "axis = [0.0, 0.8, 0.6] # along the beam" in lines
+    assert lines[lines.index("# opposite") + 1 :][:2] == ["[[sliding_mass]]", 'name = "y2"']
+    assert lines.index("backlash_mm = 0.4") < lines.index("# opposite")

@@ -15,7 +15,7 @@ from equipoise.io.testbed.testbed_file import (
     read_testbed,
     write_testbed,
 )
-from equipoise.io.testbed.testbed_text import text_of_testbed as text_of
+from equipoise.io.testbed.testbed_file import text_of_testbed as text_of
 from equipoise.model.testbed import Fault
 
 MINIMAL = """

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from equipoise.io.testbed.presets import read_preset
-from equipoise.io.testbed.testbed_file import json_schema, parse_testbed
-from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.testbed.testbed_file import json_schema, parse_testbed, text_of_testbed
 from equipoise.model.errors import InputError
 from equipoise.model.weights import places_of
 

@@ -23,7 +23,7 @@ from equipoise.hardware.transport.port import open_port
 from equipoise.hardware.transport.reconnecting_port import Connection, Opener
 from equipoise.io.mcap.foxglove_server import ADDRESS, LiveView
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
-from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.hardware import Gives
 from equipoise.model.testbed import Testbed

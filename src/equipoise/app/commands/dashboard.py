@@ -75,7 +75,7 @@ def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Openin
     from equipoise.app.dashboard.protocol.data_folder import data_folder
     from equipoise.app.dashboard.runner.runner_process import Opening
     from equipoise.app.report.logbook_entry import RECORDING
-    from equipoise.io.documents.run_file import TESTBED
+    from equipoise.io.documents.run_folder import TESTBED
 
     path = Path(shown)
     if path.is_dir():

@@ -8,10 +8,10 @@ import numpy as np
 
 from equipoise.app.report.run_record import Account
 from equipoise.io.columns.native_columns import native_columns
-from equipoise.io.documents.logbook import RUN
-from equipoise.io.documents.run_file import TESTBED, text_of_run
-from equipoise.io.formats.csv_text import csv_text
-from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.documents.run_file import text_of_run
+from equipoise.io.documents.run_folder import RUN, TESTBED
+from equipoise.io.formats.csv_table import csv_text
+from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.estimate import COM, Parameter
 from equipoise.model.logged_run import Kind, LoggedRun, Outcome
 from equipoise.model.recording import Recording

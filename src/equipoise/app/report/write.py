@@ -12,7 +12,7 @@ from equipoise.app.report.pdf import can_set, pdf
 from equipoise.app.report.run_record import Account
 from equipoise.app.text.blocks import Page, page_of_text, text_of_page, typeset_page
 from equipoise.app.text.json_document import View, dump
-from equipoise.io.documents.run_file import A_RUN
+from equipoise.io.documents.run_folder import A_RUN
 from equipoise.io.files.atomic_folder import write_folder
 from equipoise.io.files.source_file import read_bytes
 

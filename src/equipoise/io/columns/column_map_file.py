@@ -73,7 +73,9 @@ class AttitudeTable(Table):
     columns: Annotated[list[str], Field(min_length=3, max_length=4)]
     order: Literal["wxyz", "xyzw"] | None = None
     unit: str | None = None
-    sequence: Annotated[str, Field(pattern=r"^([XYZ]{3}|[xyz]{3})$")] | None = None
+    sequence: Annotated[str, Field(pattern=r"^([XYZ]{3}|[xyz]{3})$")] | None = Field(
+        None, description="three letters of X, Y, Z, or of x, y, z about fixed axes"
+    )
     turns: Literal["body to laboratory", "laboratory to body"] = "body to laboratory"
 
 

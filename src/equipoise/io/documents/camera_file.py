@@ -10,7 +10,7 @@ from pathlib import Path
 from equipoise.io.files.atomic_file import write_whole
 from equipoise.io.toml.key_types import Positive, Table
 from equipoise.io.toml.read_toml import read_toml
-from equipoise.io.toml.write_toml import Value, table
+from equipoise.io.toml.write_toml import Value, toml_text
 
 WANTED = "a TOML file with the keys of a board or a lens"
 
@@ -48,4 +48,4 @@ def read_camera_keys(path: Path) -> dict[str, str | int | float]:
 
 def write_camera_keys(keys: Mapping[str, Value], path: Path) -> None:
     """Write keys to a file, whole or not at all."""
-    write_whole(path, table("", keys))
+    write_whole(path, toml_text(keys))

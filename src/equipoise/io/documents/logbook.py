@@ -15,11 +15,12 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.io.documents.logbook_schema import migrate
+from equipoise.io.documents.run_folder import RUN, read_configuration
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Parameter
 from equipoise.model.logged_run import Build, LoggedRun
 
-INDEX, RUN = "logbook.sqlite", "run.json"
+INDEX = "logbook.sqlite"
 PATIENCE = 30.0  # s, chosen: for another process to end what it writes
 REMADE = "a logbook's index; delete it, and it is made anew from the folders of the runs"
 COLUMNS = ("name", "kind", "made_at", "platform", "configuration", "method", "bench", "outcome",
@@ -111,7 +112,7 @@ class Logbook:
 
     def _enter(self, name: str, stamp: int) -> None:
         # Where nothing is new, nothing needs to be read: listing does without what reading needs.
-        from equipoise.io.documents.run_file import read_configuration, read_run
+        from equipoise.io.documents.run_file import read_run
 
         try:
             run = read_run(self.folder / name)

@@ -1,7 +1,8 @@
 """The file of a balancing by hand: what was asked, every recording, and what lies where since.
 
-It is written anew as a whole with every recording. A person who placed something else than was
-asked for puts it right here, under ``placed``: all that lies on the platform, not what was added.
+It gets a round with every recording; a person's remarks stay. A person who placed something else
+than was asked for puts it right here, under ``placed``: all that lies on the platform, not what
+was added.
 """
 
 import re
@@ -14,7 +15,7 @@ from pydantic import Field
 from equipoise.io.files.atomic_file import write_whole
 from equipoise.io.toml.key_types import Table, Triple
 from equipoise.io.toml.read_toml import read_toml
-from equipoise.io.toml.write_toml import Value, table
+from equipoise.io.toml.write_toml import edited
 from equipoise.model.arrays import Ints
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.testbed import Testbed
@@ -80,12 +81,7 @@ def read_session(path: Path) -> Session:
 
 
 def write_session(session: Session, path: Path) -> None:
-    """Write a session, whole or not at all."""
-    write_whole(path, text_of_session(session))
-
-
-def text_of_session(session: Session) -> str:
-    """Return TOML that reads back as the same session."""
-    head: dict[str, Value] = session.model_dump(exclude={"round"})
-    rounds = [each.model_dump(exclude_none=True) for each in session.round]
-    return "\n".join([table("", head), *(table("[[round]]", each) for each in rounds)])
+    """Write a session, whole or not at all; of a file that is there all else stays."""
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    keys = session.model_dump(exclude_none=True, exclude_defaults=True)
+    write_whole(path, edited(text, keys))

@@ -1,23 +1,86 @@
-"""Plan files: TOML to a manoeuvre that a testbed can make, and back."""
+"""Plan files: TOML to a manoeuvre that a testbed can make, and back. A unit is part of its key."""
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
+from pydantic import Field
 
-from equipoise.io.documents.plan_schema import DEG, Move, PlanFile, Start, Wave
 from equipoise.io.files.atomic_file import write_whole
+from equipoise.io.toml.key_types import Name, NotNegative, Positive, Table, Triple
 from equipoise.io.toml.read_toml import parse_toml, read_toml
-from equipoise.io.toml.write_toml import Value, number, numbers, table
+from equipoise.io.toml.write_toml import number, numbers, toml_text
 from equipoise.model.arrays import Vector3
 from equipoise.model.devices import ControlMomentGyro, ReactionWheel
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.manoeuvre import Manoeuvre, Plan, SquareWave
+from equipoise.model.manoeuvre import HAND_RATE, HAND_TILT, Manoeuvre, Plan, SquareWave
 from equipoise.model.testbed import Testbed
 
 WANTED = "a plan file (TOML); `equipoise plan` writes one"
-MM, UM = 1e-3, 1e-6
+MM, UM, DEG = 1e-3, 1e-6, math.pi / 180
 HEAD = "# A manoeuvre. `equipoise plan` wrote it; simulate, identify and balance take it.\n"
+Six = Annotated[list[float], Field(min_length=6, max_length=6)]
+Targets = dict[Name, float]
+
+
+class Start(Table):
+    """How the platform is let go."""
+
+    tilt_deg: Annotated[float, Field(ge=0, le=180)]
+    low_side: Triple = Field([1.0, 0.0, 0.0], description="body direction that is lowest")
+    rate_deg_s: Triple = Field([0.0, 0.0, 0.0], description="body axes")
+    tilt_sd_deg: NotNegative = Field(
+        round(HAND_TILT / DEG, 9), description="one sd, chosen: how well a hand meets a tilt"
+    )
+    rate_sd_deg_s: NotNegative = Field(
+        round(HAND_RATE / DEG, 9), description="one sd of each component, chosen: of a push"
+    )
+
+
+class Standing(Table):
+    """Where masses stand before, those that are not at home."""
+
+    at_mm: Targets
+
+
+class Move(Table):
+    """Masses that are sent off at a time."""
+
+    time_s: NotNegative
+    to_mm: Targets = Field(description="displacements from home by mass", min_length=1)
+
+
+class Wave(Table):
+    """A square wave: a torque on a wheel's rotor, or a rate of a gyro's gimbal."""
+
+    device: Name
+    torque_N_m: float | None = None
+    gimbal_rate_deg_s: float | None = None
+    period_s: Positive
+    phase: Annotated[float, Field(ge=0, lt=1)] = Field(
+        0.25, description="of a period, at the start"
+    )
+
+
+class Promised(Table):
+    """One sd of what a fit of the record should find."""
+
+    com_sd_um: Triple
+    inertia_sd_kg_m2: Six = Field(description="xx yy zz xy xz yz, about P")
+
+
+class PlanFile(Table):
+    """A plan."""
+
+    testbed: str = ""
+    duration_s: Positive
+    start: Start
+    standing: Standing | None = None
+    move: list[Move] = Field([])
+    wave: list[Wave] = Field([])
+    predicted: Promised | None = None
 
 
 def read_plan(path: str | Path, testbed: Testbed) -> Plan:
@@ -130,30 +193,30 @@ def write_plan(plan: Plan, testbed: Testbed, path: str | Path) -> None:
 def text_of_plan(plan: Plan, testbed: Testbed) -> str:
     """Return a plan as TOML."""
     m = plan.manoeuvre
-    tables = [
-        table("", {"testbed": plan.testbed, "duration_s": number(m.duration)}),
-        table("[start]", {
-            "tilt_deg": number(m.tilt, 1 / DEG),
+    keys: dict[str, Any] = {
+        "testbed": plan.testbed,
+        "duration_s": number(m.duration),
+        "start": {
+            "tilt_deg": number(m.tilt / DEG),
             "low_side": numbers(np.round(m.low_side, 6) + 0.0),
             "rate_deg_s": numbers(np.round(m.rate / DEG, 6) + 0.0),
-            "tilt_sd_deg": number(m.tilt_sd, 1 / DEG),
-            "rate_sd_deg_s": number(m.rate_sd, 1 / DEG),
-        }),
-        table("[standing.at_mm]", in_mm(m.standing)),
-        *(part for t, goals in m.moves for part in (
-            table("[[move]]", {"time_s": number(t)}), table("[move.to_mm]", in_mm(goals)))),
-        *(table("[[wave]]", wave_keys(wave, testbed)) for wave in m.waves),
-        predicted_table(plan),
-    ]  # fmt: skip
-    return HEAD + "\n".join(part for part in tables if part)
+            "tilt_sd_deg": number(m.tilt_sd / DEG),
+            "rate_sd_deg_s": number(m.rate_sd / DEG),
+        },
+        "standing": {"at_mm": in_mm(m.standing)} if m.standing else {},
+        "move": [{"time_s": number(t), "to_mm": in_mm(goals)} for t, goals in m.moves],
+        "wave": [wave_keys(wave, testbed) for wave in m.waves],
+        "predicted": predicted_keys(plan),
+    }
+    return HEAD + toml_text({key: value for key, value in keys.items() if value})
 
 
-def in_mm(displacements: Mapping[str, float]) -> dict[str, Value]:
+def in_mm(displacements: Mapping[str, float]) -> dict[str, float]:
     """Return displacements by mass, mm."""
-    return {name: number(d, 1 / MM) for name, d in displacements.items()}
+    return {name: number(d / MM) for name, d in displacements.items()}
 
 
-def wave_keys(wave: SquareWave, testbed: Testbed) -> dict[str, Value]:
+def wave_keys(wave: SquareWave, testbed: Testbed) -> dict[str, Any]:
     """Return the keys of a wave."""
     device = next(d for d in (*testbed.wheels, *testbed.cmgs) if d.name == wave.device)
     key, _, unit = limit_of(device)
@@ -162,10 +225,10 @@ def wave_keys(wave: SquareWave, testbed: Testbed) -> dict[str, Value]:
             "phase": number(wave.phase)}  # fmt: skip
 
 
-def predicted_table(plan: Plan) -> str:
+def predicted_keys(plan: Plan) -> dict[str, list[float]]:
     """Return what a plan promises, if all of it is seen."""
     if plan.com_sd is None or plan.inertia_sd is None:
-        return ""
+        return {}
     com = [float(f"{x / UM:.4g}") for x in plan.com_sd]
     inertia = [float(f"{x:.4g}") for x in plan.inertia_sd]
-    return table("[predicted]", {"com_sd_um": com, "inertia_sd_kg_m2": inertia})
+    return {"com_sd_um": com, "inertia_sd_kg_m2": inertia}

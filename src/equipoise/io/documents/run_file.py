@@ -1,7 +1,4 @@
-"""``run.json``: what a logbook knows of the run in whose folder it stands.
-
-It is the last file that comes into the folder of a run: where it is, the run is whole.
-"""
+"""``run.json``: what a logbook knows of the run in whose folder it stands."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,13 +6,10 @@ from typing import Literal
 
 from pydantic import ConfigDict, TypeAdapter, ValidationError, with_config
 
-from equipoise.io.documents.logbook import RUN
+from equipoise.io.documents.run_folder import A_RUN, RUN
 from equipoise.io.files.source_file import read_bytes
 from equipoise.model.errors import InputError
 from equipoise.model.logged_run import LoggedRun
-
-TESTBED = "testbed.toml"
-A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
 
 
 @with_config(ConfigDict(ser_json_inf_nan="strings"))  # JSON has no infinite number
@@ -46,11 +40,3 @@ def read_run(folder: Path) -> LoggedRun:
         where = ": ".join((str(path), *map(str, first["loc"])))
         raise InputError(where, first["msg"], "a run, equipoise/run/1") from error
     return replace(document.run, name=folder.name)
-
-
-def read_configuration(folder: Path) -> str:
-    """Return the text of the testbed that a run was made with; empty if it is not there."""
-    try:
-        return (folder / TESTBED).read_text(encoding="utf-8")
-    except OSError:
-        return ""

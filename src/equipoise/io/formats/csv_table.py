@@ -1,90 +1,79 @@
 """A separated text table: find separator and header, cut into cells, turn cells into numbers.
 
-Cells stay text until a column is asked for: foreign tables carry many columns nobody needs.
+What we write reads back to the last bit.
+
+Motive writes several header lines (kind, name, identity, rotation or position) above the one with
+X, Y, Z, W; a name that occurs twice there is told apart by what stands above it.
 """
 
 import csv
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
 
 from equipoise.io.columns.column_map import Layout
-from equipoise.io.formats.csv_header import column_names, header_row
+from equipoise.io.columns.table import Table
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
 SEPARATORS = (";", "\t")  # looked for before the comma, which may be a decimal comma
 HEAD_LINES = 50  # lines; chosen: more than any header has
+SHARE = 0.5  # of a row's filled cells that must be numbers for it to hold data (chosen)
+ABOVE = 3  # filled cells that a line above the header needs to belong to it (chosen)
 csv.field_size_limit(1 << 20)  # characters; a cell beyond this is not a table's
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TextTable:
-    """A table of text cells."""
-
-    source: str
-    names: tuple[str, ...]
-    cells: tuple[tuple[str, ...], ...]  # by column
-    lines: tuple[int, ...]  # the line of the file each row ends on
-    decimal: str
-    notes: tuple[str, ...] = ()
-
-    def __len__(self) -> int:
-        """Return the number of rows."""
-        return len(self.lines)
-
-    def place(self, row: int) -> str:
-        """Return the line of a row."""
-        return f"line {self.lines[row]}"
-
-    def numbers(self, name: str) -> Series1:
-        """Return a column, NaN where a cell is blank."""
-        if self.names.count(name) > 1:
-            raise InputError(f"{self.source}, header", f"two columns '{name}'", "one")
-        column = self.cells[self.names.index(name)]
-        try:
-            values = np.array([float(cell) if cell else math.nan for cell in column])
-        except ValueError:
-            values = np.array([self._number(cell, row, name) for row, cell in enumerate(column)])
-        for row in np.flatnonzero(~np.isfinite(values)).tolist():
-            if column[row] and column[row].strip():
-                raise self._not_a_number(row, name)
-        return values
-
-    def _number(self, cell: str, row: int, name: str) -> float:
-        """Return one cell's number, NaN if it is blank."""
-        text = cell.strip()
-        if not text:
-            return math.nan
-        try:
-            return float(text.replace(",", ".") if self.decimal == "," else text)
-        except ValueError:
-            raise self._not_a_number(row, name) from None
-
-    def _not_a_number(self, row: int, name: str) -> InputError:
-        where = f"{self.source}, {self.place(row)}, column '{name}'"
-        cell = self.cells[self.names.index(name)][row].strip()
-        return InputError(where, f"'{cell}'", "a finite number, or a blank cell for no reading")
-
-
-def cut(text: str, source: str, layout: Layout) -> TextTable:
+def cut(text: str, source: str, layout: Layout) -> Table:
     """Return the table in a text."""
     separator = layout.separator or _separator(text)
     rows, lines = _rows(text, source, separator)
     if not rows:
         raise InputError(source, "nothing but blank lines", "a header and rows of numbers")
-    head = header_row(rows) if layout.skip_rows is None else _row_after(lines, layout.skip_rows)
+    head = _header_row(rows) if layout.skip_rows is None else _row_after(lines, layout.skip_rows)
     if head >= len(rows):
         raise InputError(source, f"only {len(rows)} rows", "a header and rows of numbers")
-    names = column_names(rows, head)
+    names = _column_names(rows, head)
     body, kept, notes = _even(rows[head + 1 :], lines[head + 1 :], len(names), source)
     if not body:
         raise InputError(source, "a header but no rows", "rows of numbers")
     decimal = layout.decimal or ("," if separator != "," else ".")
-    columns = tuple(zip(*body, strict=True))
-    return TextTable(source, names, columns, tuple(kept), decimal, notes)
+    column = partial(_numbers, cells=tuple(zip(*body, strict=True)), decimal=decimal)
+    return Table(source, names, len(body), column, tuple(kept), notes)
+
+
+def csv_text(columns: Mapping[str, Series1]) -> str:
+    """Return a header and rows; NaN becomes a blank cell."""
+    # Python prints the fewest digits (up to 17) that give the same double again.
+    cells = [["" if x != x else repr(x) for x in map(float, v)] for v in columns.values()]
+    rows = map(",".join, zip(*cells, strict=True))
+    return "\n".join([",".join(columns), *rows]) + "\n"
+
+
+def _numbers(table: Table, name: str, cells: tuple[tuple[str, ...], ...], decimal: str) -> Series1:
+    """Return a column of cells (by column) as numbers, NaN where a cell is blank."""
+    if table.names.count(name) > 1:
+        raise InputError(f"{table.source}, header", f"two columns '{name}'", "one")
+    column = cells[table.names.index(name)]
+    try:
+        values = np.array([float(cell) if cell else math.nan for cell in column])
+    except ValueError:
+        values = np.array([_number(cell, decimal) for cell in column])
+    for row in np.flatnonzero(~np.isfinite(values)).tolist():
+        found = column[row].strip()
+        if found:
+            raise table.not_a_number(row, name, found, "a blank cell")
+    return values
+
+
+def _number(cell: str, decimal: str) -> float:
+    """Return one cell's number, NaN if it is blank or no number."""
+    text = cell.strip()
+    try:
+        return float(text.replace(",", ".") if decimal == "," else text)
+    except ValueError:
+        return math.nan
 
 
 def _separator(text: str) -> str:
@@ -134,3 +123,48 @@ def _fitted(row: list[str], line: int, width: int, source: str) -> list[str]:
     if len(row) < width or any(map(str.strip, row[width:])):
         raise InputError(f"{source}, line {line}", f"{len(row)} cells", f"{width}, as the header")
     return row[:width]
+
+
+def _header_row(rows: list[list[str]]) -> int:
+    """Return the row before the first that holds data, as the next does; the first if none does.
+
+    Motive's line of identities is all numbers as well, but more header follows it.
+    """
+    data = [_holds_data(row) for row in rows[:HEAD_LINES]]
+    pairs = zip(data, [*data[1:], True], strict=True)
+    first = next((i for i, (this, after) in enumerate(pairs) if this and after), 1)
+    return max(first - 1, 0)
+
+
+def _column_names(rows: list[list[str]], head: int) -> tuple[str, ...]:
+    """Return a name for each column; it is empty where the header has none."""
+    names = [name.strip() for name in rows[head]]
+    filled = [name for name in names if name]
+    if len(set(filled)) == len(filled):
+        return tuple(names)
+    # Motive leaves the first cell of these lines blank; its line of settings begins with text.
+    above = [row for row in rows[:head] if not row[0].strip() and _filled(row) >= ABOVE]
+    return tuple(_full_name(name, i, above) for i, name in enumerate(names))
+
+
+def _full_name(name: str, column: int, above: list[list[str]]) -> str:
+    """Return a name with what stands above it, as kind/name/rotation/X."""
+    parents = [row[column].strip() for row in above if column < len(row)]
+    return "/".join([*filter(None, parents), name])
+
+
+def _filled(row: list[str]) -> int:
+    return sum(bool(cell.strip()) for cell in row)
+
+
+def _holds_data(row: list[str]) -> bool:
+    filled = [cell for cell in row if cell.strip()]
+    return len(filled) > 1 and sum(map(_is_number, filled)) > SHARE * len(filled)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell.replace(",", "."))
+    except ValueError:
+        return False
+    return True

@@ -17,6 +17,7 @@ import numpy as np
 from equipoise.io.columns.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
 from equipoise.io.columns.device_columns import si_column
 from equipoise.io.columns.native_columns import ATTITUDE, MOMENTUM, RATE, TEMPERATURE, TIME, TORQUE
+from equipoise.io.columns.table import Table
 from equipoise.io.formats.clock_units import seconds
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.errors import InputError
@@ -48,35 +49,9 @@ class LogChannel:
         return GROUPS[self.name]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LogTable:
-    """Named columns of numbers over the union of all times."""
-
-    source: str
-    columns: dict[str, Series1]
-    notes: tuple[str, ...] = ()
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Return the columns' names."""
-        return tuple(self.columns)
-
-    def __len__(self) -> int:
-        """Return the number of rows."""
-        return len(next(iter(self.columns.values())))
-
-    def place(self, row: int) -> str:
-        """Return a row's number, counted from 1."""
-        return f"row {row + 1}"
-
-    def numbers(self, name: str) -> Series1:
-        """Return a column, NaN where the log has no row."""
-        return self.columns[name]
-
-
 def log_table(
     source: str, channels: Sequence[LogChannel], zero_ns: int | None, notes: tuple[str, ...] = ()
-) -> LogTable:
+) -> Table:
     """Return a log's channels as a table; ``zero_ns`` is time zero, None: the first row is.
 
     InputError if there is no row.
@@ -92,7 +67,8 @@ def log_table(
         wide = np.full((len(times), channel.values.shape[1]), np.nan)
         wide[np.searchsorted(times, channel.ns)] = channel.values
         columns.update(dict(zip(channel.columns, wide.T, strict=True)))
-    return LogTable(source, columns, (*notes, *(note for _, reported in full for note in reported)))
+    notes = (*notes, *(note for _, reported in full for note in reported))
+    return Table(source, tuple(columns), len(times), lambda _, name: columns[name], notes=notes)
 
 
 def log_map(

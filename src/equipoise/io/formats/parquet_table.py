@@ -5,51 +5,20 @@ pyarrow is an extra and heavy, so it is imported when a Parquet file is met and 
 
 import io
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
 from typing import Any
 
 import numpy as np
 
+from equipoise.io.columns.table import Table
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
 MAGIC = b"PAR1"  # a Parquet file begins and ends with it
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ParquetTable:
-    """A table of typed columns."""
-
-    source: str
-    names: tuple[str, ...]
-    arrow: Any
-    notes: tuple[str, ...] = ()
-
-    def __len__(self) -> int:
-        """Return the number of rows."""
-        return self.arrow.num_rows
-
-    def place(self, row: int) -> str:
-        """Return a row's number, counted from 1."""
-        return f"row {row + 1}"
-
-    def numbers(self, name: str) -> Series1:
-        """Return a column, NaN where it is null."""
-        column = self.arrow.column(self.names.index(name))
-        where = f"{self.source}, column '{name}'"
-        try:
-            values = np.array(column.cast("float64").to_numpy(), dtype=np.float64)
-        except (ValueError, NotImplementedError) as error:
-            raise InputError(where, f"values of type {column.type}", "numbers") from error
-        blank = np.array(column.is_null().to_numpy(), dtype=bool)
-        for row in np.flatnonzero(~np.isfinite(values) & ~blank):
-            place = f"{self.source}, {self.place(int(row))}, column '{name}'"
-            raise InputError(place, f"'{values[row]}'", "a finite number, or null for no reading")
-        return values
-
-
-def read_parquet(content: bytes, source: str) -> ParquetTable:
+def read_parquet(content: bytes, source: str) -> Table:
     """Return the table in a Parquet file's bytes."""
     parquet = _pyarrow("pyarrow.parquet", source)
     try:
@@ -57,7 +26,21 @@ def read_parquet(content: bytes, source: str) -> ParquetTable:
         names = tuple(arrow.column_names)
     except (OSError, ValueError) as error:
         raise InputError(source, "broken Parquet", "a whole Parquet file") from error
-    return ParquetTable(source, names, arrow)
+    return Table(source, names, arrow.num_rows, partial(_numbers, arrow=arrow))
+
+
+def _numbers(table: Table, name: str, arrow: Any) -> Series1:
+    """Return a column, NaN where it is null."""
+    column = arrow.column(table.names.index(name))
+    try:
+        values = np.array(column.cast("float64").to_numpy(), dtype=np.float64)
+    except (ValueError, NotImplementedError) as error:
+        where = f"{table.source}, column '{name}'"
+        raise InputError(where, f"values of type {column.type}", "numbers") from error
+    blank = np.array(column.is_null().to_numpy(), dtype=bool)
+    for row in np.flatnonzero(~np.isfinite(values) & ~blank).tolist():
+        raise table.not_a_number(row, name, values[row], "null")
+    return values
 
 
 def parquet_bytes(columns: Mapping[str, Series1], source: str) -> bytes:

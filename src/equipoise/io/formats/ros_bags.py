@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.io.columns.column_map import ColumnMap
-from equipoise.io.formats.log_table import LogTable, log_map, log_table
+from equipoise.io.columns.table import Table
+from equipoise.io.formats.log_table import log_map, log_table
 from equipoise.io.formats.log_topics import Topic, chosen
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.formats.ros_messages import DECODERS, stamp_of, values_of
@@ -21,7 +22,7 @@ FOLDER_MARK = "metadata.yaml"  # of a ROS 2 bag's folder
 SUFFIXES = {ROS_1: ".bag", ROS_2: ".db3"}
 
 
-def read_bag(path: Path, content: bytes) -> tuple[LogTable, ColumnMap]:
+def read_bag(path: Path, content: bytes) -> tuple[Table, ColumnMap]:
     """Return a bag's rows and what they mean; InputError if it is broken or holds none."""
     suffix = next((s for mark, s in SUFFIXES.items() if content.startswith(mark)), "")
     try:

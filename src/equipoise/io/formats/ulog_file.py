@@ -1,6 +1,6 @@
 """Logs of PX4 (ULog): attitude and rate of the vehicle.
 
-Topics (public: PX4's message reference), read by ``ulog_messages``:
+Topics (public: PX4's message reference):
 
     vehicle_attitude           q[0..3]: w x y z, turns FRD body axes into NED
     vehicle_angular_velocity   xyz[0..2]: rad/s, FRD, filtered; or, where that is not logged,
@@ -10,16 +10,30 @@ Times are timestamp_sample where there is one, else timestamp, both microseconds
 started. FRD (x ahead, y right, z down) becomes ahead, left, up; NED becomes north, west, up: half
 a turn about x on either side. So a platform that is level in the log is level here, and a
 testbed's body axes are ahead, left, up of the board.
+
+Format (public: docs.px4.io/main/en/dev_log/ulog_file_format.html), all numbers least byte first: a
+header of 16 bytes (magic, version, time); messages of a length (2 bytes, of the body), a type (1
+byte) and a body:
+
+    F   a topic's layout as text: "name:type field;type[n] field;..."; types may be layouts
+    A   a subscription: instance (1 byte), number (2 bytes), name
+    D   a row: number (2 bytes), the fields in order
+    S   eight bytes that never stand elsewhere: a place to go on after broken ones
+
+All other types are passed over. Fields named _padding at the end may be left out of a row.
+Broken bytes are stepped over.
 """
 
+import struct
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.io.columns.column_map import ColumnMap
-from equipoise.io.formats.log_table import LogChannel, LogTable, log_map, log_table
-from equipoise.io.formats.ulog_messages import ulog_topics
+from equipoise.io.columns.table import Table
+from equipoise.io.formats.log_table import LogChannel, log_map, log_table
 
 MAGIC = b"ULog\x01\x12\x35"
 PER_US = 1000  # ns
@@ -32,10 +46,20 @@ SOURCES = {
         ("sensor_combined", tuple(f"gyro_rad[{k}]" for k in range(3))),
     ),
 }
+HEADER = 16  # bytes
+SYNC = b"\x2f\x73\x13\x20\x25\x0c\xbb\x12"
+KINDS = frozenset(b"BFIMPQADSOLCR")  # of messages
+TYPES = {
+    "int8_t": "<i1", "uint8_t": "<u1", "int16_t": "<i2", "uint16_t": "<u2", "int32_t": "<i4",
+    "uint32_t": "<u4", "int64_t": "<i8", "uint64_t": "<u8", "float": "<f4", "double": "<f8",
+    "bool": "<u1", "char": "<u1",
+}  # fmt: skip
+DEEPEST = 4  # layouts within layouts; chosen: PX4 has two
+Column = tuple[str, str]  # name, type of NumPy
 FLU = ("x", "-y", "-z")  # ahead, left, up in terms of ahead, right, down
 
 
-def read_ulog(content: bytes, source: str) -> tuple[LogTable, ColumnMap]:
+def read_ulog(content: bytes, source: str) -> tuple[Table, ColumnMap]:
     """Return a log's rows and what they mean; InputError if it holds none."""
     log = ulog_topics(content)
     channels: list[LogChannel] = []
@@ -60,3 +84,83 @@ def _channel(
     with np.errstate(invalid="ignore"):  # broken bytes may be a NaN that signals
         values = np.stack([np.array(data[each], dtype=np.float64) for each in columns], axis=1)
     return LogChannel(name, us[timed].astype(np.int64) * PER_US, values[: len(us)][timed])
+
+
+@dataclass(slots=True)
+class UlogTopics:
+    """What a file's topics hold: rows of the first instance of each, as bytes until asked for."""
+
+    layouts: dict[str, str] = field(default_factory=dict[str, str])
+    numbers: dict[int, str] = field(default_factory=dict[int, str])  # of subscriptions
+    rows: dict[str, list[bytes]] = field(default_factory=dict[str, list[bytes]])
+    broken: int = 0  # places that made no sense
+
+    def columns(self, topic: str) -> dict[str, NDArray[np.generic]]:
+        """Return a topic's columns, 'q[0]' of an array; none if it is not there."""
+        flat = _flat(self.layouts, topic, DEEPEST)
+        if not flat or topic not in self.rows:
+            return {}
+        kind = np.dtype([(f"c{k}", type_) for k, (_, type_) in enumerate(flat)])
+        whole = b"".join(r[: kind.itemsize] for r in self.rows[topic] if len(r) >= kind.itemsize)
+        table = np.frombuffer(whole, dtype=kind)
+        return {name: table[f"c{k}"] for k, (name, _) in enumerate(flat)}
+
+
+def ulog_topics(content: bytes) -> UlogTopics:
+    """Return the topics of a file that begins as a ULog does."""
+    found, at = UlogTopics(), HEADER
+    while at + 3 <= len(content):
+        size, kind = struct.unpack_from("<HB", content, at)
+        if kind not in KINDS or at + 3 + size > len(content):
+            found.broken += 1
+            place = content.find(SYNC, at)
+            if place < 0:
+                break
+            at = place + len(SYNC)
+            continue
+        _take(found, kind, content[at + 3 : at + 3 + size])
+        at += 3 + size
+    return found
+
+
+def _take(found: UlogTopics, kind: int, body: bytes) -> None:
+    if kind == ord("F"):
+        name, _, layout = body.decode("ascii", errors="replace").partition(":")
+        found.layouts.setdefault(name, layout)
+    elif kind == ord("A") and len(body) > 3 and body[0] == 0:
+        found.numbers.setdefault(
+            int.from_bytes(body[1:3], "little"), body[3:].decode(errors="replace")
+        )
+    elif kind == ord("D") and len(body) > 2:
+        topic = found.numbers.get(int.from_bytes(body[:2], "little"))
+        if topic is not None:
+            found.rows.setdefault(topic, []).append(body[2:])
+
+
+def _flat(layouts: dict[str, str], topic: str, deep: int) -> list[Column]:
+    """Return a topic's columns in the order of their bytes; none if its layout makes no sense."""
+    columns: list[Column] = []
+    parts = [part.split(" ") for part in layouts.get(topic, "").split(";") if part]
+    while parts and parts[-1][-1].startswith("_padding"):
+        parts.pop()
+    for part in parts:
+        if len(part) != 2 or not deep:
+            return []
+        within = _field(layouts, part[0], part[1], deep)
+        if not within:
+            return []
+        columns += within
+    return columns
+
+
+def _field(layouts: dict[str, str], kind: str, name: str, deep: int) -> list[Column]:
+    """Return the columns of one field, which may be an array or a layout."""
+    base, bracket, rest = kind.partition("[")
+    count = rest.removesuffix("]")
+    if bracket and not (count.isdecimal() and 0 < int(count) < 1 << 16):
+        return []
+    names = [f"{name}[{k}]" for k in range(int(count))] if bracket else [name]
+    if base in TYPES:
+        return [(each, TYPES[base]) for each in names]
+    inner = _flat(layouts, base, deep - 1) if base in layouts else []
+    return [(f"{each}.{part}", type_) for each in names for part, type_ in inner]

@@ -15,9 +15,10 @@ from typing import Any
 import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.table import Table
 from equipoise.io.files.source_file import read_bytes
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
-from equipoise.io.formats.log_table import LogChannel, LogTable, log_map, log_table
+from equipoise.io.formats.log_table import LogChannel, log_map, log_table
 from equipoise.io.formats.log_topics import LATEST, chosen
 from equipoise.io.mcap.foreign_mcap import foreign_topics
 from equipoise.io.mcap.foxglove_messages import frame_transform
@@ -53,7 +54,7 @@ class LoggedEvent:
     data: Mapping[str, Any]
 
 
-def read_mcap(content: bytes, source: str) -> tuple[LogTable, ColumnMap]:
+def read_mcap(content: bytes, source: str) -> tuple[Table, ColumnMap]:
     """Return an MCAP file's rows and what they mean; InputError if there are none."""
     found = salvaged(content, source)
     notes = loss_notes(found)

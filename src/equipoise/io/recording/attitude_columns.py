@@ -4,7 +4,7 @@ import numpy as np
 
 from equipoise.io.columns.axis_permutation import axes_matrix, to_z_up
 from equipoise.io.columns.column_map import ColumnMap
-from equipoise.io.columns.table_protocol import Table
+from equipoise.io.columns.table import Table
 from equipoise.io.recording.channels import Channel
 from equipoise.maths.attitude import (
     conjugate,

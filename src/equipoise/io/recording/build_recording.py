@@ -5,10 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
-from equipoise.io.columns.table_protocol import Table
+from equipoise.io.columns.table import Table
 from equipoise.io.recording.attitude_columns import euler_angles, lengths, quaternions
 from equipoise.io.recording.channels import Channel, in_body_axes, read_channel, read_time
-from equipoise.io.recording.dead_columns import without_dead
 from equipoise.io.recording.time_stamps import forward_rows, gap_notes, without_duplicates
 from equipoise.model.arrays import Ints, Series1
 from equipoise.model.errors import InputError
@@ -36,7 +35,7 @@ class Rows:
         channel, twice = without_duplicates(channel, self.table)
         if name in ("masses", "devices", "temperature"):
             return channel, twice  # what never changes is a fact, not a dead column
-        kept, dead = without_dead(channel, columns, self.columns.native)
+        kept, dead = _without_dead(channel, columns, self.columns.native)
         return kept, (*twice, *dead)
 
     def vector(self, name: str, columns: Columns | None) -> tuple[Channel | None, Notes]:
@@ -119,3 +118,19 @@ def _check_enough(table: Table, *sensors: Channel | None) -> None:
 
 def _samples(channel: Channel | None) -> Samples | None:
     return None if channel is None else channel.samples()
+
+
+def _without_dead(channel: Channel, columns: Columns, native: bool) -> tuple[Channel | None, Notes]:
+    """Return a channel that something was connected to: None if it is all zero, with notes.
+
+    A foreign gyro with one dead axis is left out as a whole: two true axes and a false zero
+    mislead every estimator. In a native file a zero axis can be an exact simulation's.
+    """
+    dead = np.abs(channel.values).max(axis=0) == 0
+    names = " ".join(n for n, zero in zip(columns.names, dead.tolist(), strict=True) if zero)
+    misleads = channel.name == "rate" and not native and bool(dead.any())
+    if dead.all() or misleads:
+        return None, (f"{channel.name}: zero in every row ({names}); the channel was ignored.",)
+    if dead.any() and channel.name == "rate":
+        return channel, (f"{channel.name}: zero in every row ({names}).",)
+    return channel, ()

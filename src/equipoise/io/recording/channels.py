@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from equipoise.io.columns.axis_permutation import axes_matrix
 from equipoise.io.columns.column_map import ColumnMap, Columns
-from equipoise.io.columns.table_protocol import Table
+from equipoise.io.columns.table import Table
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.recording import Samples

@@ -9,11 +9,10 @@ from pathlib import Path
 
 from equipoise.io.columns.column_map import ColumnMap, Layout
 from equipoise.io.columns.native_columns import native_columns
-from equipoise.io.columns.table_protocol import Table
+from equipoise.io.columns.table import Table
 from equipoise.io.files.atomic_file import whole_file, write_whole
 from equipoise.io.files.source_file import read_bytes, text_of
-from equipoise.io.formats.csv_table import cut
-from equipoise.io.formats.csv_text import csv_text
+from equipoise.io.formats.csv_table import csv_text, cut
 from equipoise.io.formats.mat_table import MAGIC as MAT
 from equipoise.io.formats.mat_table import MAGIC_73, mat_bytes, read_mat
 from equipoise.io.formats.parquet_table import MAGIC as PARQUET

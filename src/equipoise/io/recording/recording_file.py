@@ -8,7 +8,7 @@ import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap, Layout
 from equipoise.io.columns.dialects import detect, dialect_map
-from equipoise.io.columns.table_protocol import Table
+from equipoise.io.columns.table import Table
 from equipoise.io.recording.build_recording import recording_of
 from equipoise.io.recording.format_registry import content_of, format_of, format_to_write
 from equipoise.model.errors import InputError, nearest

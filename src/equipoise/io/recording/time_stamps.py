@@ -3,7 +3,7 @@
 import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap
-from equipoise.io.columns.table_protocol import Table
+from equipoise.io.columns.table import Table
 from equipoise.io.recording.channels import Channel
 from equipoise.model.arrays import Ints, Series1
 from equipoise.model.errors import InputError

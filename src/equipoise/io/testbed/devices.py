@@ -1,18 +1,23 @@
-"""The tables of a testbed file that tell of wheels, gyros, magnetorquers, jets and the field.
+"""Wheels, gyros, magnetorquers, jets and the field: their tables, and their records in SI."""
 
-A unit is part of its key. Nothing is converted here; ``devices_build`` does that once.
-"""
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
 
 from pydantic import Field
 
-from equipoise.io.toml.key_types import Name, NotNegative, Positive, Table, Triple
+from equipoise.io.toml.key_types import Direction, Holds, Name, NotNegative, Positive, Triple
+from equipoise.io.toml.table_records import RecordTable, record_of
+from equipoise.io.toml.unit_vectors import square_axis, unit_vector
+from equipoise.io.toml.units import key_factor
+from equipoise.model import devices as model
+from equipoise.model.errors import InputError
 
 
-class ReactionWheel(Table):
+class ReactionWheel(RecordTable):
     """A rotor with a fixed axis; its inertia is the greatest momentum by the greatest speed."""
 
     name: Name
-    axis: Triple
+    axis: Direction
     max_momentum_N_m_s: Positive = Field(description="at the greatest speed")
     max_speed_rpm: Positive = Field(description="against the platform")
     max_torque_N_m: Positive
@@ -20,12 +25,25 @@ class ReactionWheel(Table):
     speed_noise_rpm: NotNegative = Field(0.0, description="one sd of a tachometer row")
     lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the torque")
 
+    def record(self, where: str) -> model.ReactionWheel:
+        """Return the wheel."""
+        if abs(self.speed_rpm) > self.max_speed_rpm:
+            wanted = f"at most max_speed_rpm = {self.max_speed_rpm:g} either way"
+            raise InputError(f"{where}.speed_rpm", f"{self.speed_rpm:g}", wanted)
+        inertia = self.max_momentum_N_m_s / (self.max_speed_rpm * key_factor("max_speed_rpm"))
+        return record_of(model.ReactionWheel, self, where, inertia=inertia)
 
-class ControlMomentGyro(Table):
+    @classmethod
+    def more_keys(cls, record: Any) -> Mapping[str, Any]:
+        """Return the momentum."""
+        return {"max_momentum_N_m_s": record.inertia * record.max_speed}
+
+
+class ControlMomentGyro(RecordTable):
     """A rotor of constant momentum whose axis turns about a gimbal."""
 
     name: Name
-    gimbal_axis: Triple
+    gimbal_axis: Direction
     spin_axis: Triple = Field(description="at angle zero; at right angles to the gimbal axis")
     momentum_N_m_s: Positive
     max_rate_deg_s: Positive
@@ -39,30 +57,66 @@ class ControlMomentGyro(Table):
         0.0, description="inertia of the same about the spin axis less about the third axis"
     )
 
+    def record(self, where: str) -> model.ControlMomentGyro:
+        """Return the gyro, its spin axis exactly square to the gimbal's."""
+        gimbal = unit_vector(self.gimbal_axis, f"{where}.gimbal_axis")
+        spin = square_axis(self.spin_axis, gimbal, f"{where}.spin_axis", "gimbal axis")
+        return record_of(model.ControlMomentGyro, self, where, spin_axis=spin)
 
-class Magnetorquer(Table):
+
+class Magnetorquer(RecordTable):
     """A coil or rod."""
 
     name: Name
-    axis: Triple
+    axis: Direction
     max_dipole_A_m2: Positive
     lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the dipole")
 
+    def record(self, where: str) -> model.Magnetorquer:
+        """Return the magnetorquer."""
+        return record_of(model.Magnetorquer, self, where)
 
-class JetPair(Table):
+
+class JetPair(RecordTable):
     """On-off jets that give a pure torque about an axis, either way."""
 
     name: Name
-    axis: Triple
+    axis: Direction
     torque_N_m: Positive = Field(description="while on")
     min_pulse_ms: NotNegative = 0.0
     lag_ms: NotNegative = Field(0.0, description="first-order, from the valve to the torque")
 
+    def record(self, where: str) -> model.JetPair:
+        """Return the pair."""
+        return record_of(model.JetPair, self, where)
 
-class MagneticField(Table):
+
+class MagneticField(RecordTable):
     """The field in the laboratory, uniform; of a Helmholtz cage, say."""
 
-    field_uT: Triple = Field(description="laboratory axes, z up")
+    field_uT: Annotated[Triple, Holds("field_N")] = Field(description="laboratory axes, z up")
     noise_uT: Positive | None = Field(
         None, description="one sd per axis of a magnetometer's row; left out: there is none"
     )
+
+    def record(self, where: str) -> model.MagneticField:
+        """Return the field, which must not be zero."""
+        if not any(self.field_uT):
+            wanted = "the field, in laboratory axes"
+            raise InputError(f"{where}.field_uT", "a field of zero", wanted)
+        return record_of(model.MagneticField, self, where)
+
+
+Device = ReactionWheel | ControlMomentGyro | Magnetorquer | JetPair
+
+
+def check_device_names(devices: Mapping[str, Sequence[Device]], source: str) -> None:
+    """Raise InputError for two devices of one name: they are driven by name, whatever the kind."""
+    owners: dict[str, str] = {}
+    for kind, rows in devices.items():
+        for i, device in enumerate(rows, 1):
+            owner = f"{kind}[{i}]"
+            if device.name in owners:
+                found = f"'{device.name}', the name of {owners[device.name]}"
+                raise InputError(f"{source}: {owner}.name", found, "a name that no device has yet")
+            owners[device.name] = owner

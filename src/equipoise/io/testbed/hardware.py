@@ -1,13 +1,16 @@
-"""The tables of a testbed file that tell what is connected: motor boards, sensors, limits.
+"""What is connected, motor boards, sensors and limits: their tables, and their records in SI."""
 
-A unit is part of its key. Nothing is converted here; ``hardware_build`` does that once.
-"""
-
+from collections.abc import Sequence
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import Field
 
-from equipoise.io.toml.key_types import Name, Positive, Square, Table
+from equipoise.io.toml.key_types import Holds, Name, Positive, Square
+from equipoise.io.toml.table_records import RecordTable, record_of
+from equipoise.model import hardware as model
+from equipoise.model.arrays import Matrix3
+from equipoise.model.errors import InputError, nearest
 
 Address = Annotated[
     str,
@@ -15,28 +18,36 @@ Address = Annotated[
         pattern=r"^(serial:.+|tcp:.+:\d+|udp:(.+:)?\d+|udpout:.+:\d+|ws://.+|wss://.+|https?://.+"
         r"|camera:\d+(@\d+x\d+)?)$"
     ),
+    Holds("port.address"),
 ]
 ADDRESSES = (
     "serial:/dev/ttyUSB0, serial:COM3, tcp:HOST:PORT, udp:PORT, udpout:HOST:PORT, ws://..., "
     "http://..., camera:0"
 )
-Baud = Annotated[int, Field(gt=0)]
+Baud = Annotated[int, Field(gt=0), Holds("port.baud")]
 IDENTITY = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+ORTHOGONAL = 1e-3  # chosen: a rotation written to three digits
 
 
-class Axis(Table):
+class Axis(RecordTable):
     """One axis of a motor board and the mass that it moves."""
 
     mass: str
     letter: Annotated[str, Field(pattern=r"^([XYZABC]|[0-9])$")] = Field(
         description="the board's name of the axis; of a Trinamic module the motor's number"
     )
-    steps_per_mm: Positive = Field(description="as set in the board, which is asked for it")
+    steps_per_mm: Annotated[Positive, Holds("steps_per_m", 1e3)] = Field(
+        description="as set in the board, which is asked for it"
+    )
     zero_mm: float = Field(0.0, description="the board's position where the mass is at home")
     reversed: bool = Field(False, description="the board counts against the mass's axis")
 
+    def record(self, where: str) -> model.Axis:
+        """Return the axis."""
+        return record_of(model.Axis, self, where)
 
-class Board(Table):
+
+class Board(RecordTable):
     """A board that moves sliding masses."""
 
     name: Name
@@ -44,10 +55,15 @@ class Board(Table):
     port: Address = Field(description=ADDRESSES)
     baud: Baud = 115200
     homing: bool = Field(True, description="it has switches; else a person puts masses at home")
-    axis: Annotated[list[Axis], Field(min_length=1)]
+    axis: Annotated[list[Axis], Field(min_length=1), Holds("axes")]
+
+    def record(self, where: str) -> model.MotorBoard:
+        """Return the board."""
+        port = record_of(model.Port, self, where, within="port")
+        return record_of(model.MotorBoard, self, where, port=port)
 
 
-class SensorUnit(Table):
+class SensorUnit(RecordTable):
     """A device that sees attitude, rate or both."""
 
     name: Name
@@ -63,14 +79,76 @@ class SensorUnit(Table):
         {}, description="the driver's own, such as the columns of a line"
     )
 
+    def record(self, where: str) -> model.SensorUnit:
+        """Return the sensor, its alignment exactly a rotation."""
+        return record_of(
+            model.SensorUnit,
+            self,
+            where,
+            port=record_of(model.Port, self, where, within="port"),
+            alignment=_rotation(self.alignment, f"{where}.alignment"),
+            settings={key: _setting(value) for key, value in self.settings.items()},
+        )
 
-class Hardware(Table):
+
+class Hardware(RecordTable):
     """What is connected, and beyond which limits every motor is stopped."""
 
-    rate_limit_deg_s: Positive = Field(60.0, description="chosen: far above any free swing")
-    stale_s: Positive = Field(0.5, description="chosen: without a row or an answer for so long")
-    mismatch_mm: Positive = Field(
+    rate_limit_deg_s: Annotated[Positive, Holds("limits.rate")] = Field(
+        60.0, description="chosen: far above any free swing"
+    )
+    stale_s: Annotated[Positive, Holds("limits.stale")] = Field(
+        0.5, description="chosen: without a row or an answer for so long"
+    )
+    mismatch_mm: Annotated[Positive, Holds("limits.mismatch")] = Field(
         1.0, description="chosen: between where a mass should be and where its board says it is"
     )
-    board: list[Board] = Field([])
-    sensor: list[SensorUnit] = Field([])
+    board: Annotated[list[Board], Holds("boards")] = Field([])
+    sensor: Annotated[list[SensorUnit], Holds("sensors")] = Field([])
+
+    def record(self, where: str) -> model.Hardware:
+        """Return what is connected; each name and each port must be there once."""
+        names = [each.name for each in (*self.board, *self.sensor)]
+        ports = [each.port for each in (*self.board, *self.sensor)]
+        _check_once(names, where, "'{}'", "a name for each board and sensor")
+        _check_once(ports, where, "at {}", "a port for each")
+        limits = record_of(model.SafetyLimits, self, where, within="limits")
+        return record_of(model.Hardware, self, where, limits=limits)
+
+
+def check_moved_masses(boards: Sequence[Board], masses: Sequence[str], source: str) -> None:
+    """Raise InputError unless each axis moves a mass of the file that no other axis moves."""
+    moved: list[str] = []
+    for i, board in enumerate(boards, 1):
+        where = f"{source}: hardware.board[{i}].axis"
+        letters = [axis.letter for axis in board.axis]
+        if len(set(letters)) < len(letters):
+            raise InputError(where, f"letters {' '.join(letters)}", "each letter once")
+        for axis in board.axis:
+            if axis.mass not in masses:
+                known = nearest(axis.mass, list(masses)) if masses else "a [[sliding_mass]] first"
+                raise InputError(where, f"mass '{axis.mass}'", known)
+            if axis.mass in moved:
+                raise InputError(where, f"mass '{axis.mass}' twice", "one axis for each mass")
+            moved.append(axis.mass)
+
+
+def _check_once(words: list[str], where: str, shown: str, wanted: str) -> None:
+    for i, word in enumerate(words):
+        if word in words[:i]:
+            raise InputError(where, f"two devices {shown.format(word)}", wanted)
+
+
+def _setting(value: str | float | bool | list[str]) -> model.Setting:
+    return tuple(value) if isinstance(value, list) else value
+
+
+def _rotation(rows: list[list[float]], where: str) -> Matrix3:
+    """Return a matrix made exactly a rotation; it must be nearly one."""
+    matrix = np.array(rows, float)
+    u, _, vt = np.linalg.svd(matrix)
+    nearest_turn = u @ vt
+    if np.abs(nearest_turn - matrix).max() > ORTHOGONAL or np.linalg.det(nearest_turn) < 0:
+        wanted = "a rotation: rows of unit length at right angles, right-handed"
+        raise InputError(where, f"{rows}", wanted)
+    return nearest_turn

@@ -1,13 +1,13 @@
-"""Testbed files: TOML to the noun. ``testbed_text`` is the way back."""
+"""Testbed files: TOML to the noun, and the noun to TOML."""
 
 from pathlib import Path
 from typing import Any
 
 from equipoise.io.files.atomic_file import write_whole
-from equipoise.io.testbed.testbed_build import testbed_of
-from equipoise.io.testbed.testbed_schema import TestbedFile
-from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.testbed.testbed import TestbedFile
 from equipoise.io.toml.read_toml import parse_toml, read_toml
+from equipoise.io.toml.table_records import keys_written
+from equipoise.io.toml.write_toml import toml_text
 from equipoise.model.testbed import Testbed
 
 WANTED = "a testbed file (TOML); `equipoise new` writes one to start from"
@@ -15,12 +15,17 @@ WANTED = "a testbed file (TOML); `equipoise new` writes one to start from"
 
 def read_testbed(path: str | Path) -> Testbed:
     """Return the testbed a file describes; InputError names file, key, found and wanted."""
-    return testbed_of(read_toml(path, TestbedFile, WANTED), str(path))
+    return read_toml(path, TestbedFile, WANTED).record(str(path))
 
 
 def parse_testbed(text: str, source: str) -> Testbed:
     """Return the testbed a text describes; ``source`` names it in errors."""
-    return testbed_of(parse_toml(text, source, TestbedFile), source)
+    return parse_toml(text, source, TestbedFile).record(source)
+
+
+def text_of_testbed(testbed: Testbed) -> str:
+    """Return TOML that reads back as the same testbed (to the 15th digit)."""
+    return toml_text(keys_written(testbed, TestbedFile))
 
 
 def write_testbed(testbed: Testbed | str, path: str | Path) -> None:

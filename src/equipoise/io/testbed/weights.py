@@ -1,19 +1,19 @@
-"""The tables of a testbed file that tell of weights to be placed by hand, and of their places.
-
-A unit is part of its key. Nothing is converted here; ``weights_build`` does that once.
-"""
+"""Weights to be placed by hand and the places for them: their tables, and their records in SI."""
 
 from typing import Annotated
 
 from pydantic import Field
 
-from equipoise.io.toml.key_types import Name, NotNegative, Positive, Table, Triple
-from equipoise.model.weights import LETTERS
+from equipoise.io.toml.key_types import Direction, Name, NotNegative, Positive, Triple
+from equipoise.io.toml.table_records import RecordTable, check_names, record_of
+from equipoise.io.toml.unit_vectors import square_axis, unit_vector
+from equipoise.model import weights as model
+from equipoise.model.errors import InputError, nearest
 
 Count = Annotated[int, Field(ge=1)]
 
 
-class Weight(Table):
+class Weight(RecordTable):
     """A kind of weight in the stock; not part of the platform's mass."""
 
     name: Name
@@ -22,21 +22,46 @@ class Weight(Table):
     mass_sd_g: NotNegative = Field(0.0, description="one sd of each; 0: weighed well enough")
     height_mm: NotNegative = Field(0.0, description="by which each makes a pile higher")
 
+    def record(self, where: str) -> model.Weight:
+        """Return the kind of weight."""
+        return record_of(model.Weight, self, where)
 
-class WeightGrid(Table):
+
+class WeightGrid(RecordTable):
     """Places on a regular grid: letters along one axis, numbers along the other."""
 
     name: Name
     first_mm: Triple = Field(description="foot of a pile at A1, from P")
-    letter_axis: Triple
+    letter_axis: Direction
     number_axis: Triple = Field(
         description="at right angles to the letters; piles grow along letters x numbers"
     )
     step_mm: Positive
-    letters: Annotated[int, Field(ge=1, le=LETTERS)]
+    letters: Annotated[int, Field(ge=1, le=model.LETTERS)]
     numbers: Count
     capacity: Count = Field(1, description="weights in a pile")
     place_sd_mm: NotNegative = Field(
         0.5, description="one sd of where a pile stands, each way, chosen: play in a drilled hole"
     )
     taken: list[str] = Field([], description="places that are not free, such as C4")
+
+    def record(self, where: str) -> model.WeightGrid:
+        """Return the grid, its numbers' axis exactly square to the letters'."""
+        letters = unit_vector(self.letter_axis, f"{where}.letter_axis")
+        axis = square_axis(self.number_axis, letters, f"{where}.number_axis", "letters' axis")
+        grid = record_of(model.WeightGrid, self, where, number_axis=axis)
+        known = model.place_names(grid)
+        for name in grid.taken:
+            if name not in known:
+                found = f"'{name}', which is no place of it"
+                raise InputError(f"{where}.taken", found, nearest(name, known))
+        return grid
+
+
+def check_weights(weights: list[Weight], grids: list[WeightGrid], source: str) -> None:
+    """Raise InputError for two of one name, or for weights without places and the other way."""
+    check_names(weights, f"{source}: weight")
+    check_names(grids, f"{source}: weight_grid")
+    if bool(weights) != bool(grids):
+        has, lacks = ("weight", "weight_grid") if weights else ("weight_grid", "weight")
+        raise InputError(f"{source}: {has}", f"no [[{lacks}]]", "a stock of weights and a grid")

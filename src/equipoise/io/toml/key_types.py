@@ -1,13 +1,30 @@
 """Kinds of keys and tables that our TOML files are made of."""
 
-from typing import Annotated
+from dataclasses import dataclass
+from typing import Annotated, Any, get_args
 
 from pydantic import BaseModel, ConfigDict, Field
 
+
+@dataclass(frozen=True, slots=True)
+class Holds:
+    """What a key gives, where it is not the attribute of the key's name without its unit."""
+
+    attribute: str  # of the record; dotted within a record of it; ``ITSELF``: a table of its own
+    unit: float | None = None  # in SI; None: the unit at the end of the key
+
+
+@dataclass(frozen=True, slots=True)
+class UnitVector:
+    """Marks a key whose three numbers are made a unit vector."""
+
+
+ITSELF = "."
 Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 Five = Annotated[list[float], Field(min_length=5, max_length=5)]
 Square = Annotated[list[Triple], Field(min_length=3, max_length=3)]
+Direction = Annotated[list[float], Field(min_length=3, max_length=3), UnitVector()]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
 SdTriple = Annotated[list[Positive], Field(min_length=3, max_length=3)]
@@ -20,3 +37,10 @@ class Table(BaseModel):
     """One table of the file: an unknown key is an error, and a number must be a finite number."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+def table_in(annotation: Any) -> type[Table] | None:
+    """Return the table inside ``list[table]``, ``table | None`` or the table itself."""
+    if isinstance(annotation, type) and issubclass(annotation, Table):
+        return annotation
+    return next(filter(None, map(table_in, get_args(annotation))), None)

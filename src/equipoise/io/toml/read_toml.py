@@ -3,16 +3,18 @@
 import tomllib
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, TypeVar, get_args
+from typing import Any, TypeVar
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
+from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from equipoise.io.files.source_file import read_bytes, text_of
+from equipoise.io.toml.key_types import Table, table_in
 from equipoise.io.toml.units import split_unit, spoken
 from equipoise.model.errors import InputError
 
-Model = TypeVar("Model", bound=BaseModel)
+Model = TypeVar("Model", bound=Table)
 SHOWN = 60  # characters of a found value that are repeated; chosen: one line of a terminal
 # What pydantic calls a problem: what the person should have written.
 PLAIN = {
@@ -67,17 +69,22 @@ def _syntax_error(text: str, source: str, error: tomllib.TOMLDecodeError) -> Inp
     return InputError(f"{source}, line {line}", f"'{shown}' ({message})", "valid TOML")
 
 
-def _sentence(problem: ErrorDetails, source: str, schema: type[BaseModel]) -> InputError:
+def _sentence(problem: ErrorDetails, source: str, schema: type[Table]) -> InputError:
     """Return one problem as found and wanted."""
     place = problem["loc"]
     where = f"{source}: {dotted(place)}"
     key = str(place[-1])
     if problem["type"] == "extra_forbidden":
-        return InputError(where, f"unknown key '{key}'", _meant(key, _table_at(schema, place)))
+        return InputError(
+            where, f"unknown key '{key}'", _meant(key, list(_table_at(schema, place)))
+        )
     if problem["type"] == "missing":
         return InputError(where, "no such key", f"'{key}'{_in_unit(key)}")
     plain = PLAIN.get(problem["type"], problem["msg"]).format(**problem.get("ctx", {}))
-    unit = "" if problem["type"] == "literal_error" else _in_unit(_last_name(place))
+    name = _last_name(place)
+    unit = "" if problem["type"] == "literal_error" else _in_unit(name)
+    if problem["type"] == "string_pattern_mismatch" and name in _table_at(schema, place):
+        plain = _table_at(schema, place)[name].description or plain
     return InputError(where, _shown(problem["input"]), plain + unit)
 
 
@@ -114,17 +121,10 @@ def _shown(value: Any) -> str:
     return text if len(text) <= SHOWN else text[: SHOWN - 3] + "..."
 
 
-def _table_at(schema: type[BaseModel], place: tuple[int | str, ...]) -> list[str]:
-    """Return the keys of the table that holds ``place``."""
+def _table_at(schema: type[Table], place: tuple[int | str, ...]) -> dict[str, FieldInfo]:
+    """Return the keys of the table that holds ``place``, as they are declared."""
     table = schema
     for part in place[:-1]:
         if isinstance(part, str) and part in table.model_fields:
-            table = _model_in(table.model_fields[part].annotation) or table
-    return list(table.model_fields)
-
-
-def _model_in(annotation: Any) -> type[BaseModel] | None:
-    """Return the record inside ``list[record]``, ``record | None`` or the record itself."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return annotation
-    return next(filter(None, map(_model_in, get_args(annotation))), None)
+            table = table_in(table.model_fields[part].annotation) or table
+    return dict(table.model_fields)

@@ -4,7 +4,7 @@ import math
 
 from equipoise.model.errors import InputError, nearest
 
-# As written in a column map's ``unit``: the factor to SI.
+# As written in a column map's ``unit`` or as said of a key: the factor to SI.
 TO_SI = {
     "s": 1.0,
     "ms": 1e-3,
@@ -32,6 +32,20 @@ TO_SI = {
     "mT": 1e-3,
     "uT": 1e-6,
     "nT": 1e-9,
+    "N m s2": 1.0,
+    "kg m2": 1.0,
+    "kg": 1.0,
+    "g": 1e-3,
+    "mg": 1e-6,
+    "m/s2": 1.0,
+    "m/s": 1.0,
+    "cm/s": 1e-2,
+    "mm/s": 1e-3,
+    "um/min": 1e-6 / 60,
+    "deg/s per root Hz": math.pi / 180,
+    "Hz": 1.0,
+    "kHz": 1e3,
+    "percent": 1e-2,
 }
 KINDS = {
     "time": ("s", "ms", "us", "ns", "min"),
@@ -90,6 +104,12 @@ def split_unit(key: str) -> tuple[str, str]:
         if key.endswith(f"_{unit}"):
             return key.removesuffix(f"_{unit}"), unit
     return key, ""
+
+
+def key_factor(key: str) -> float:
+    """Return what one of a key's unit is in SI; 1 for a key without a unit."""
+    unit = split_unit(key)[1]
+    return TO_SI[SPOKEN[unit]] if unit else 1.0
 
 
 def spoken(unit: str) -> str:

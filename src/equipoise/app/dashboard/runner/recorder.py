@@ -6,7 +6,7 @@ from time import time_ns
 from equipoise.app.dashboard.protocol.data_folder import new_recording
 from equipoise.io.formats.clock_units import nanoseconds
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
-from equipoise.io.testbed.testbed_text import text_of_testbed
+from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording
 

@@ -1,0 +1,15 @@
+"""What the folder of a run holds, by the names of its files."""
+
+from pathlib import Path
+
+RUN = "run.json"  # the last file that comes into it: where it is, the run is whole
+TESTBED = "testbed.toml"
+A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
+
+
+def read_configuration(folder: Path) -> str:
+    """Return the text of the testbed that a run was made with; empty if it is not there."""
+    try:
+        return (folder / TESTBED).read_text(encoding="utf-8")
+    except OSError:
+        return ""

@@ -1,0 +1,125 @@
+"""The platform and its sliding masses: their tables, and their records in SI."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from equipoise.io.testbed.inertia_check import check_inertia
+from equipoise.io.toml.key_types import (
+    Direction,
+    Holds,
+    Name,
+    NotNegative,
+    Pair,
+    Positive,
+    SdTriple,
+    Square,
+    Triple,
+)
+from equipoise.io.toml.table_records import RecordTable, record_of
+from equipoise.io.toml.unit_vectors import unit_vector
+from equipoise.io.toml.units import key_factor
+from equipoise.model import testbed as model
+from equipoise.model.arrays import Vector3
+from equipoise.model.errors import InputError
+from equipoise.model.mass_properties import MassProperties, from_centre
+
+HANGS = 1e-3  # m: a centre of mass guessed this far off P hangs there on purpose (chosen)
+STANDS_OUT = 10.0  # times the other components, for its axis to be the vertical one (chosen)
+
+
+class Platform(RecordTable):
+    """Everything that floats, with the sliding masses at home."""
+
+    mass_kg: Annotated[Positive, Holds("body.mass")]
+    inertia_kg_m2: Annotated[Square, Holds("body.inertia_P")] = Field(
+        description="tensor elements: products are minus the integrals"
+    )
+    inertia_sd_percent: Positive = Field(10.0, description="one sd, chosen: usual for CAD")
+    about: Literal["C", "P"] = Field("C", description="C: centre of mass, P: centre of rotation")
+    com_um: Annotated[Triple, Holds("body.com")] = Field(
+        [0.0, 0.0, 0.0], description="first guess, from P"
+    )
+    com_sd_um: SdTriple = Field(
+        [500.0, 500.0, 500.0], description="one sd, chosen: a platform balanced by hand"
+    )
+    up: Direction | None = Field(None, description="body axis that points up when level")
+    tilt_limit_deg: Annotated[float, Field(gt=0, le=180)] = Field(
+        30.0, description="chosen: usual for a table on a hemisphere"
+    )
+    gravity_m_s2: Positive = Field(9.80665, description="standard gravity")
+
+    def record(self, where: str) -> MassProperties:
+        """Return the body, whose inertia must be possible."""
+        place = f"{where}.inertia_kg_m2"
+        com = np.array(self.com_um) * key_factor("com_um")
+        inertia = np.array(self.inertia_kg_m2)
+        check_inertia(inertia, place)
+        if self.about == "C":
+            return from_centre(self.mass_kg, com, inertia)
+        body = MassProperties(self.mass_kg, com, inertia)
+        check_inertia(body.inertia_C, f"{place}, moved to the centre of mass")
+        return body
+
+    @classmethod
+    def more_keys(cls, record: Any) -> Mapping[str, Any]:
+        """Return the point of the inertia."""
+        return {"about": "P"}
+
+
+class SlidingMass(RecordTable):
+    """A mass on a rail; its displacement counts from home along ``axis``."""
+
+    name: Name
+    mass_g: Positive
+    home_mm: Triple
+    axis: Direction
+    travel_mm: Pair = Field(description="least and greatest displacement")
+    resolution_mm: NotNegative = Field(0.0, description="0: any displacement can be asked for")
+    accuracy_mm: NotNegative = Field(0.1, description="one sd, chosen: a lead screw's")
+    backlash_mm: NotNegative = 0.0
+    speed_mm_s: Positive = Field(10.0, description="chosen: a small stepper on a lead screw")
+    lag_sd_ms: NotNegative = Field(
+        1e3 * model.LAG_SD,
+        description="one sd of how late it follows a recorded command, chosen: a soft servo's; "
+        "masses with one value share one lag; 0: at once, or the log is a measurement",
+    )
+    sag_sd_mm: NotNegative = Field(
+        1e3 * model.SAG_SD,
+        description="one sd of how far it hangs below a command on an upright rail, chosen: a "
+        "soft servo's; 0: a stiff drive, a lead screw's",
+    )
+    gain: Positive = Field(
+        1.0,
+        description="first moment that it really gives, over mass_g times the commanded "
+        "displacement; equipoise calibrate finds it",
+    )
+
+    def record(self, where: str) -> model.SlidingMass:
+        """Return the mass, whose travel must go up and hold its home."""
+        low, high = self.travel_mm
+        if not low < high or not low <= 0 <= high:
+            wanted = "the least and the greatest displacement, home (0) among them"
+            raise InputError(f"{where}.travel_mm", f"[{low:g}, {high:g}]", wanted)
+        unit = key_factor("travel_mm")
+        return record_of(model.SlidingMass, self, where, travel=(low * unit, high * unit))
+
+
+def up_of(platform: Platform, com: Vector3, where: str) -> Vector3:
+    """Return the axis given, else the axis along which the centre of mass hangs, else z."""
+    if platform.up is not None:
+        return unit_vector(platform.up, f"{where}.up")
+    size = np.abs(com)
+    main = int(np.argmax(size))
+    hangs = np.linalg.norm(com) > HANGS and np.all(np.delete(size, main) * STANDS_OUT < size[main])
+    return np.eye(3)[main if hangs else 2]
+
+
+def check_total_mass(platform: Platform, masses: list[SlidingMass], source: str) -> None:
+    """Raise InputError unless the platform weighs more than its sliding masses."""
+    total = sum(mass.mass_g for mass in masses) * key_factor("mass_g")
+    if total >= platform.mass_kg:
+        found = f"{platform.mass_kg:g} kg, but the sliding masses weigh {total:g} kg"
+        raise InputError(f"{source}: platform.mass_kg", found, "the mass of everything that floats")

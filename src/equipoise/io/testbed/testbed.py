@@ -1,0 +1,182 @@
+"""A testbed file as a whole: its tables, and the testbed that they describe, in SI."""
+
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, cast
+
+from pydantic import Field
+
+from equipoise.io.testbed.devices import (
+    ControlMomentGyro,
+    JetPair,
+    MagneticField,
+    Magnetorquer,
+    ReactionWheel,
+    check_device_names,
+)
+from equipoise.io.testbed.hardware import Hardware, check_moved_masses
+from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mass, up_of
+from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
+from equipoise.io.testbed.weights import Weight, WeightGrid, check_weights
+from equipoise.io.toml.key_types import ITSELF, Holds, NotNegative, Positive, Table
+from equipoise.io.toml.table_records import RecordTable, check_names, record_of
+from equipoise.io.toml.units import key_factor
+from equipoise.model import testbed as model
+from equipoise.model.errors import InputError
+from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import expand
+
+# A density is written as noise per sample, and what is assumed of it goes along.
+WRITTEN_AS = {"sensor.gyro.noise_density_deg_s_rthz": "sensor.gyro.noise_deg_s"}
+
+
+class Attitude(RecordTable):
+    """A camera or motion capture."""
+
+    rate_hz: Positive
+    noise_deg: Positive = Field(description="one sd per axis and sample")
+    delay_s: NotNegative = 0.0
+    averaging_s: NotNegative = 0.0
+    quantum_deg: NotNegative = Field(0.0, description="last digit of roll, pitch, yaw (3-2-1)")
+    plumb_sd_deg: NotNegative = Field(
+        math.degrees(model.PLUMB_SD),
+        description="one sd of how far its vertical may lean from gravity's, chosen: levelled by "
+        "eye; 0: it does not lean",
+    )
+
+    def record(self, where: str) -> model.AttitudeSensor:
+        """Return the sensor."""
+        return record_of(model.AttitudeSensor, self, where)
+
+
+class Gyro(RecordTable):
+    """A rate gyro triad; give its noise per sample or as a density, not both."""
+
+    rate_hz: Positive
+    noise_deg_s: Positive | None = Field(None, description="one sd per axis and sample")
+    noise_density_deg_s_rthz: Positive | None = Field(None, description="noise / sqrt(rate)")
+    bias_sd_deg_s: NotNegative = Field(1.0, description="chosen: usual for a low-cost gyro")
+    delay_s: NotNegative = 0.0
+    averaging_s: NotNegative = 0.0
+    quantum_deg_s: NotNegative = Field(0.0, description="last digit of a rate")
+
+    def record(self, where: str) -> model.Gyro:
+        """Return the gyro; InputError unless its noise is given once."""
+        noise, density = self.noise_deg_s, self.noise_density_deg_s_rthz
+        if (noise is None) == (density is None):
+            found = "neither" if noise is None else "both"
+            raise InputError(where, found, "one of 'noise_deg_s' and 'noise_density_deg_s_rthz'")
+        if density is None:
+            return record_of(model.Gyro, self, where)
+        per_sample = density * math.sqrt(self.rate_hz)
+        return record_of(model.Gyro, self, where, noise=per_sample * key_factor("noise_deg_s"))
+
+    @classmethod
+    def more_keys(cls, record: Any) -> Mapping[str, Any]:
+        """Return no density: a record has the noise per sample."""
+        return {"noise_density_deg_s_rthz": None}
+
+
+class Sensors(Table):
+    """What sees the platform."""
+
+    attitude: Attitude | None = None
+    gyro: Gyro | None = None
+
+
+class Disturbance(Table):
+    """Which torques to consider beside gravity."""
+
+    consider: Annotated[list[str], Holds("disturbances")] = Field(default=[])
+
+
+class TestbedFile(RecordTable):
+    """A testbed file as a whole."""
+
+    __test__ = False  # not a test case, whatever its name suggests
+
+    name: Annotated[str, Field(min_length=1)]
+    platform: Annotated[Platform, Holds(ITSELF)]
+    sliding_mass: Annotated[list[SlidingMass], Holds("masses")] = Field([])
+    reaction_wheel: Annotated[list[ReactionWheel], Holds("wheels")] = Field([])
+    control_moment_gyro: Annotated[list[ControlMomentGyro], Holds("cmgs")] = Field([])
+    magnetorquer: Annotated[list[Magnetorquer], Holds("magnetorquers")] = Field([])
+    jet_pair: Annotated[list[JetPair], Holds("jets")] = Field([])
+    magnetic_field: MagneticField | None = None
+    weight: Annotated[list[Weight], Holds("weights")] = Field([])
+    weight_grid: Annotated[list[WeightGrid], Holds("grids")] = Field([])
+    sensor: Annotated[Sensors, Holds(ITSELF)] = Sensors()
+    disturbance: Annotated[Disturbance, Holds(ITSELF)] = Disturbance()
+    hardware: Hardware | None = None
+    truth: Truth | None = None
+    assumed: dict[str, str] = Field({}, description="dotted key of this file: why it is assumed")
+
+    def record(self, where: str) -> Testbed:
+        """Return the testbed; ``where`` is the file."""
+        _check(self, where)
+        body = self.platform.record(f"{where}: platform")
+        consider, truth = tuple(self.disturbance.consider), None
+        if self.truth is not None:
+            truth = truth_of(self.truth, self.platform, body.com, f"{where}: truth")
+        return record_of(
+            Testbed,
+            self,
+            f"{where}:",
+            body=body,
+            up=up_of(self.platform, body.com, f"{where}: platform"),
+            disturbances=expand(consider, f"{where}: disturbance.consider"),
+            truth=truth,
+            source=where,
+        )
+
+    @classmethod
+    def more_keys(cls, record: Any) -> Mapping[str, Any]:
+        """Return what is assumed of the keys that are written."""
+        return {"assumed": {WRITTEN_AS.get(k, k): why for k, why in record.assumed.items()}}
+
+
+def _check(file: TestbedFile, source: str) -> None:
+    """Raise InputError for tables that do not fit each other."""
+    masses = [mass.name for mass in file.sliding_mass]
+    check_names(file.sliding_mass, f"{source}: sliding_mass")
+    check_total_mass(file.platform, file.sliding_mass, source)
+    kinds = ("reaction_wheel", "control_moment_gyro", "magnetorquer", "jet_pair")
+    check_device_names({kind: getattr(file, kind) for kind in kinds}, source)
+    check_weights(file.weight, file.weight_grid, source)
+    _check_field(file, source)
+    _check_assumed(file, source)
+    if file.truth is not None:
+        check_true_drives(file.truth, masses, f"{source}: truth")
+    if file.hardware is not None:
+        check_moved_masses(file.hardware.board, masses, source)
+
+
+def _check_field(file: TestbedFile, source: str) -> None:
+    if file.magnetic_field is not None:
+        return
+    if file.magnetorquer:
+        wanted = "a table [magnetic_field] with field_uT, in laboratory axes"
+        raise InputError(f"{source}: magnetorquer", "magnetorquers but no magnetic field", wanted)
+    if file.truth is not None and file.truth.field_uT is not None:
+        wanted = "a table [magnetic_field] with the field as known beforehand"
+        raise InputError(f"{source}: truth.field_uT", "a true field but none that is known", wanted)
+
+
+def _check_assumed(file: TestbedFile, source: str) -> None:
+    """Raise InputError for an assumed key that the file does not have."""
+    content = file.model_dump(exclude_none=True)
+    for key in file.assumed:
+        if not _holds(content, key.split(".")):
+            wanted = "the dotted name of a key in use"
+            raise InputError(f"{source}: assumed.'{key}'", "no such key", wanted)
+
+
+def _holds(content: Any, path: list[str]) -> bool:
+    """Say whether a dotted key is there; for a list of tables, in its first."""
+    if not path:
+        return True
+    if isinstance(content, list):
+        tables = cast("list[Any]", content)
+        return bool(tables) and _holds(tables[0], path)
+    table = cast("dict[str, Any]", content) if isinstance(content, dict) else {}
+    return path[0] in table and _holds(table[path[0]], path[1:])
