@@ -91,9 +91,9 @@ def test_an_empty_list_that_is_lost_is_noticed():
 
 
 def test_a_tolerance_is_relative():
-    near, far = (with_verdict(com_um=[1.5, -2.25 * (1 + off), None]) for off in (1e-7, 1e-5))
+    near, distant = (with_verdict(com_um=[1.5, -2.25 * (1 + off), None]) for off in (1e-7, 1e-5))
     assert said(near, rtol=1e-6) == []
-    assert len(said(near)) == len(said(far, rtol=1e-6)) == 1
+    assert len(said(near)) == len(said(distant, rtol=1e-6)) == 1
 
 
 def test_what_is_declared_passes_and_nothing_else():
