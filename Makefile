@@ -16,7 +16,7 @@ PYTHONS := python3 python3.14 python3.13 python3.12 python3.11 python3.15 python
 SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 15))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench verify lint format rooms pins clean
+.PHONY: help demo test bench verify mutants lint format rooms pins clean
 .DELETE_ON_ERROR:
 
 help:  ## list the targets
@@ -25,15 +25,25 @@ help:  ## list the targets
 demo: $(RUN) $(VENDORED)  ## identify and balance a simulated microsatellite mock-up
 	@$(BIN)/equipoise demo
 
+# A worker more than cores, since some tests wait for a page or a bench in real time.
+# Tests start many programs: each would compile all modules again if nobody kept the bytecode.
+test bench verify mutants: export PYTHONPYCACHEPREFIX := $(abspath $(VENV))/bytecode
+test bench verify mutants: export PYTHONDONTWRITEBYTECODE :=
+
 test: $(TEST) $(VENDORED)  ## run every test, and the examples of README and docs, on two cores
 	@$(BIN)/python -m tests.support.warm_cache
-	@$(BIN)/pytest -q -n 2 --dist worksteal
+	@$(BIN)/pytest -q -n 3 --dist worksteal
 
 bench: $(TEST)  ## time the fit, the tracker and the simulator beside other tools
 	@$(BIN)/python -m benchmarks
 
-verify: $(TEST)  ## the long Monte Carlo and MuJoCo checks
+verify: $(TEST) $(VENDORED)  ## the long Monte Carlo and MuJoCo checks, and the long tests whole
+	@EQUIPOISE_THOROUGH=1 $(BIN)/pytest -q -n 3 --dist worksteal -m thorough
 	@$(BIN)/python -m verification
+
+mutants: $(TEST)  ## break signs, factors and guards one by one: tests have to fail
+	@$(BIN)/python -m tests.support.warm_cache
+	@$(BIN)/python -m verification.mutants
 
 lint: $(TEST)  ## style, formatting, types, import contracts
 	@$(BIN)/ruff check --quiet $(LINTED)

@@ -10,7 +10,7 @@ import sys  # noqa: E402
 from rich.console import Console  # noqa: E402
 from rich.table import Table  # noqa: E402
 
-from benchmarks import fits, others, steps  # noqa: E402
+from benchmarks import doors, fits, others, steps  # noqa: E402
 
 CUT = 2.0  # s between cuts, chosen: a short record then has a few, a long one thousands
 console = Console(width=110)
@@ -69,7 +69,18 @@ def show_others() -> None:
                       f"({1e3 / together:.2f} ms a fit).")  # fmt: skip
 
 
+def show_doors() -> None:
+    """Print what a person waits for."""
+    table = Table(title="At the doors")
+    for title in ("what", "s", "wanted, at most"):
+        table.add_column(title, justify="left" if title == "what" else "right")
+    for what, seconds, wanted in doors.table():
+        table.add_row(what, f"{seconds:.3g}", f"{wanted:g}")
+    console.print(table)
+
+
 if __name__ == "__main__":
     show_fits("--quick" in sys.argv)
     show_steps()
     show_others()
+    show_doors()

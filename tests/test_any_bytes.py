@@ -6,10 +6,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.support import thorough
 from tests.support.driver_fuzz_targets import TARGETS as DEVICES
 from tests.support.file_fuzz_targets import TARGETS as FILES
 
-EXAMPLES, FEWEST = int(os.environ.get("EQUIPOISE_FUZZ", "150")), 10
+EXAMPLES, FEWEST = int(os.environ.get("EQUIPOISE_FUZZ", thorough.count(150, 50))), 10
 
 
 @pytest.mark.parametrize("target", [*DEVICES, *FILES], ids=lambda each: each.name)

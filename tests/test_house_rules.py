@@ -27,10 +27,6 @@ NOT_CODE = {
 WITH_DOCSTRING = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
-every_module = pytest.mark.parametrize(
-    "path", MODULES, ids=lambda path: path.relative_to(PACKAGE).as_posix()
-)
-
 
 def lines_of(node: ast.AST) -> set[int]:
     return set(range(node.lineno, node.end_lineno + 1))
@@ -53,11 +49,10 @@ def code_lines(source: str) -> set[int]:
     return found - docstring_lines(ast.parse(source))
 
 
-def long_functions(source: str, most: int) -> list[str]:
-    code = code_lines(source)
+def long_functions(tree: ast.Module, code: set[int], most: int) -> list[str]:
     sizes = {
         f"{node.name}, line {node.lineno}": len(lines_of(node) & code)
-        for node in ast.walk(ast.parse(source))
+        for node in ast.walk(tree)
         if isinstance(node, FUNCTIONS)
     }
     return [f"{where}: {size} lines" for where, size in sizes.items() if size > most]
@@ -67,42 +62,123 @@ def test_lines_are_counted_as_a_reader_would():
     source = (
         '"""Doc."""\n\n# note\ndef f(\n    x,\n):\n    """Doc\n    string."""\n\n    return x\n'
     )
-    assert code_lines(source) == {4, 5, 6, 10}
-    assert long_functions(source, 4) == []
-    assert long_functions(source, 3) == ["f, line 4: 4 lines"]
+    tree, code = ast.parse(source), code_lines(source)
+    assert code == {4, 5, 6, 10}
+    assert long_functions(tree, code, 4) == []
+    assert long_functions(tree, code, 3) == ["f, line 4: 4 lines"]
 
 
-@every_module
-def test_module_is_short(path):
-    assert len(code_lines(path.read_text(encoding="utf-8"))) <= MODULE_LINES, "split it by idea"
+@pytest.fixture(scope="module")
+def sources() -> dict[str, str]:
+    """Return the text of every module of the package by its path in it."""
+    return {
+        path.relative_to(PACKAGE).as_posix(): path.read_text(encoding="utf-8") for path in MODULES
+    }
 
 
-@every_module
-def test_functions_are_short(path):
-    assert long_functions(path.read_text(encoding="utf-8"), FUNCTION_LINES) == []
+@pytest.fixture(scope="module")
+def trees(sources) -> dict[str, ast.Module]:
+    return {path: ast.parse(source) for path, source in sources.items()}
 
 
-@every_module
-def test_module_says_what_it_is(path):
-    assert ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
+@pytest.fixture(scope="module")
+def code(sources) -> dict[str, set[int]]:
+    return {path: code_lines(source) for path, source in sources.items()}
 
 
-@every_module
-def test_name_means_something(path):
-    words = {word for part in path.relative_to(PACKAGE).parts for word in re.split(r"[_.]", part)}
-    assert not words & VAGUE
+def test_every_module_is_measured_at(sources):
+    assert len(sources) > 500
 
 
-@every_module
-def test_only_the_app_prints(path):
-    calls = [
-        node.lineno
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+def test_modules_are_short(code):
+    """A module that is longer is split by idea."""
+    long = {path: len(lines) for path, lines in code.items() if len(lines) > MODULE_LINES}
+    assert long == {}
+
+
+def test_functions_are_short(trees, code):
+    long = [
+        f"{path}: {found}"
+        for path, tree in trees.items()
+        for found in long_functions(tree, code[path], FUNCTION_LINES)
+    ]
+    assert long == []
+
+
+def test_modules_say_what_they_are(trees):
+    assert [path for path, tree in trees.items() if not ast.get_docstring(tree)] == []
+
+
+def test_names_of_files_and_folders_mean_something(sources):
+    assert [path for path in sources if VAGUE & set(re.split(r"[_./]", path))] == []
+
+
+def test_only_the_app_prints(trees):
+    printing = [
+        f"{path}, line {node.lineno}"
+        for path, tree in trees.items()
+        if not path.startswith("app/")
+        for node in ast.walk(tree)
         if isinstance(node, ast.Call)
         and isinstance(node.func, ast.Name)
         and node.func.id == "print"
     ]
-    assert not calls or path.is_relative_to(PACKAGE / "app")
+    assert printing == []
+
+
+# --- Time ------------------------------------------------------------------------------------
+
+CLOCKS = {"perf_counter", "monotonic", "process_time", "thread_time"}
+CLOCKS |= {f"{clock}_ns" for clock in CLOCKS}
+TESTS = sorted((ROOT / "tests").rglob("*.py"))
+
+
+def reads_clock(node: ast.AST, held: set[str]) -> bool:
+    """Say whether an expression calls a clock, or takes a name that holds what one said."""
+    for part in ast.walk(node):
+        if isinstance(part, ast.Call):
+            called = part.func
+            name = called.attr if isinstance(called, ast.Attribute) else getattr(called, "id", "")
+            if name in CLOCKS:
+                return True
+        if isinstance(part, ast.Name) and part.id in held:
+            return True
+    return False
+
+
+def timed_assertions(tree: ast.Module) -> list[int]:
+    """Return the lines of assertions on what a clock said."""
+    found: list[int] = []
+    for function in ast.walk(tree):
+        if not isinstance(function, FUNCTIONS):
+            continue
+        held: set[str] = set()
+        for node in ast.walk(function):
+            if isinstance(node, ast.Assign) and reads_clock(node.value, held):
+                held |= {part.id for each in node.targets for part in ast.walk(each)
+                         if isinstance(part, ast.Name)}  # fmt: skip
+        found += [node.lineno for node in ast.walk(function)
+                  if isinstance(node, ast.Assert) and reads_clock(node.test, held)]  # fmt: skip
+    return sorted(set(found))
+
+
+def test_no_test_asserts_how_long_something_takes():
+    """A busy computer is slow: time is for `benchmarks/`, work can be counted."""
+    timed = {
+        path.relative_to(ROOT).as_posix(): lines
+        for path in TESTS
+        if (lines := timed_assertions(ast.parse(path.read_text(encoding="utf-8"))))
+    }
+    assert timed == {}
+
+
+def test_an_assertion_on_time_is_found():
+    source = (
+        "def test():\n    start = time.perf_counter()\n    work()\n"
+        "    taken = time.perf_counter() - start\n    assert taken < 1.0\n    assert work() == 2\n"
+    )
+    assert timed_assertions(ast.parse(source)) == [5]
+    assert timed_assertions(ast.parse("def f():\n    assert process_time() < 1")) == [2]
 
 
 # --- Pins ------------------------------------------------------------------------------------

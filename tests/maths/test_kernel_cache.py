@@ -1,116 +1,182 @@
-"""Compiled kernels never outlive the sources that they were made from."""
+"""Kernels outlive copies and checkouts, and never the sources that they were made from."""
 
 import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
-from equipoise.maths.kernel_cache import MARK, PACKAGE, drop_stale, fingerprint
+from equipoise.maths import kernel_cache
+from equipoise.maths.kernel_cache import PACKAGE, folder_of, imported, stamp
 
-IMPORT = "from equipoise.maths.compiled import kernel\n"
+CALLER = """\
+'''A kernel that calls a part of another module.'''
+from equipoise.low.part import twice
+from equipoise.maths.compiled import kernel
+
+@kernel
+def above(x: float) -> float:
+    return 1.0 + twice(x)
+"""
+PART = """\
+'''A part.'''
+from equipoise.low.factor import FACTOR
+from equipoise.maths.compiled import part
+
+@part
+def twice(x: float) -> float:
+    return FACTOR * x
+"""
+RUN = """\
+import sys
+from equipoise.high.caller import above
+from numba.core import event
+from equipoise.maths import kernel_cache
+compiled = []
+class Listener(event.Listener):
+    def on_start(self, event): compiled.append(event)
+    def on_end(self, event): pass
+with event.install_listener("numba:compile", Listener()):
+    print(above(3.0), len(compiled) > 0)
+"""
 
 
 @pytest.fixture
 def package(tmp_path):
-    """A package of two rooms with a compiled kernel in each."""
-    for room in ("low", "high"):
-        cache = tmp_path / room / "__pycache__"
-        cache.mkdir(parents=True)
-        (tmp_path / room / "kernel.py").write_text(f"{IMPORT}x = 1\n")
-        (tmp_path / room / "plain.py").write_text("y = 1\n")
-        (cache / "kernel.nbi").write_text("index")
-        (cache / "kernel.1.nbc").write_text("code")
-        (cache / "kernel.cpython-311.pyc").write_text("python's own")
-    return tmp_path
+    """A package of two rooms beside our own compiler's door, in a checkout of its own."""
+    package = tmp_path / "one" / "equipoise"
+    for room in ("low", "high", "maths"):
+        (package / room).mkdir(parents=True)
+        (package / room / "__init__.py").write_text("")
+    (package / "__init__.py").write_text("")
+    for name in ("compiled.py", "kernel_cache.py"):
+        shutil.copy(PACKAGE / "maths" / name, package / "maths")
+    (package / "low" / "factor.py").write_text("FACTOR = 2.0\n")
+    (package / "low" / "part.py").write_text(PART)
+    (package / "low" / "plain.py").write_text("x = 1\n")
+    (package / "high" / "caller.py").write_text(CALLER)
+    return package
 
 
 @pytest.fixture
-def stamp(package):
-    return package / "low" / "__pycache__" / "kernels.stamp"
+def called(tmp_path):
+    """Return a function that calls the kernel in a process of its own: its value, and whether it
+    was compiled."""
+
+    def call(package: Path) -> tuple[float, bool]:
+        own = {
+            "PYTHONPATH": str(package.parent),
+            "NUMBA_CACHE_DIR": str(tmp_path / "kept"),
+            "PYTHONDONTWRITEBYTECODE": "1",  # two edits of one size within a second look the same
+        }
+        words = [sys.executable, "-P", "-c", RUN]
+        run = subprocess.run(words, capture_output=True, text=True, env=os.environ | own)
+        assert run.returncode == 0, run.stderr
+        value, compiled = run.stdout.split()
+        return float(value), compiled == "True"
+
+    return call
 
 
-def compiled(package):
-    return sorted(path.name for path in package.rglob("*.nb?"))
+def copied(package: Path) -> Path:
+    """Return a copy in another place, every file of which was changed at another time."""
+    there = package.parents[1] / "two" / "equipoise"
+    shutil.copytree(package, there, ignore=shutil.ignore_patterns("__pycache__"))
+    for path in there.rglob("*.py"):
+        os.utime(path, (1e9, 1e9))
+    return there
 
 
-def compile_again(package):
-    (package / "high" / "__pycache__" / "kernel.nbi").write_text("index")
+def test_a_copy_with_other_times_compiles_nothing(package, called):
+    assert called(package) == (7.0, True)
+    assert called(copied(package)) == (7.0, False)
 
 
-def test_unknown_kernels_go_and_python_keeps_its_own(package, stamp):
-    """Without a stamp nobody knows what the kernels were made from."""
-    assert drop_stale(package, stamp)
-    assert compiled(package) == []
-    assert len(list(package.rglob("*.pyc"))) == 2
+def test_an_edited_sign_or_constant_below_is_compiled_above(package, called):
+    """And what was compiled before the edit is there when it is taken back."""
+    part, factor = package / "low" / "part.py", package / "low" / "factor.py"
+    assert called(package) == (7.0, True)
+    part.write_text(PART.replace("FACTOR * x", "-FACTOR * x"))
+    assert called(package) == (-5.0, True)
+    factor.write_text("FACTOR = 3.0\n")
+    assert called(package) == (-8.0, True)
+    part.write_text(PART)
+    factor.write_text("FACTOR = 2.0\n")
+    assert called(package) == (7.0, False)
 
 
-def test_fresh_kernels_stay(package, stamp):
-    """With the sources untouched, what was compiled since is kept."""
-    drop_stale(package, stamp)
-    compile_again(package)
-    assert not drop_stale(package, stamp)
-    assert compiled(package) == ["kernel.nbi"]
+@pytest.fixture
+def fresh():
+    """Sources are read once a process: here they change in between."""
+
+    def forget():
+        for function in (kernel_cache.content, kernel_cache.imported, kernel_cache.stamp):
+            function.cache_clear()
+
+    forget()
+    yield forget
+    forget()
 
 
-def edit(source):
-    source.write_text(f"{IMPORT}x = -1\n")
+def test_a_stamp_depends_on_what_is_imported_and_on_nothing_else(package, fresh):
+    caller = package / "high" / "caller.py"
+    before = stamp(caller, package)
+    (package / "low" / "plain.py").write_text("x = 2\n")
+    fresh()
+    assert stamp(caller, package) == before
+    (package / "low" / "factor.py").write_text("FACTOR = 2.5\n")
+    fresh()
+    assert stamp(caller, package) != before
 
 
-def touch(source):
-    later = source.stat().st_mtime_ns + 1_000_000
-    os.utime(source, ns=(later, later))
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from equipoise.low.part import twice",
+        "from equipoise.low import part",
+        "from equipoise.low import (\n    factor,\n    part as p,\n)",
+        "import equipoise.low.part",
+        "import equipoise.low.part as p",
+        "def f():\n    from equipoise.low.part import twice",
+    ],
+)
+def test_every_way_to_import_is_followed(package, line, fresh):
+    source = package / "high" / "other.py"
+    source.write_text(f"{line}\n")
+    assert package / "low" / "part.py" in imported(source, package)
 
 
-def rename(source):
-    source.rename(source.with_name("other.py"))
+def test_no_module_imports_by_a_relative_name():
+    """Those would not be followed."""
+    relative = [path for path in PACKAGE.rglob("*.py") if b"\nfrom ." in path.read_bytes()]
+    assert relative == []
 
 
-def add(source):
-    source.with_name("new.py").write_text(IMPORT)
+def test_kernels_that_nobody_used_for_a_month_are_forgotten(tmp_path, monkeypatch):
+    monkeypatch.setattr(kernel_cache.config, "CACHE_DIR", str(tmp_path))
+    source = PACKAGE / "maths" / "turns.py"
+    place = folder_of(source).parent
+    for name, days in (("old", 31), ("recent", 29)):
+        (place / name).mkdir()
+        for file in ("kernel.nbc", "used"):
+            (place / name / file).touch()
+        last = (folder_of(source) / "used").stat().st_mtime - 86400 * days
+        os.utime(place / name / "used", (last, last))
+    shutil.rmtree(folder_of(source))
+    folder_of(source)
+    assert {path.name for path in place.iterdir()} == {"recent", folder_of(source).name}
 
 
-def remove(source):
-    source.unlink()
+def test_a_place_that_cannot_be_written_is_passed_over(tmp_path, monkeypatch):
+    """A file stands where the folder would be: refused to everyone, root too."""
+    (tmp_path / "file").touch()
+    monkeypatch.setattr(kernel_cache.config, "CACHE_DIR", str(tmp_path / "file"))
+    found = folder_of(PACKAGE / "maths" / "turns.py")
+    assert found.is_relative_to(PACKAGE)
+    shutil.rmtree(found)
 
 
-@pytest.mark.parametrize("change", [edit, touch, rename, add, remove])
-def test_any_change_below_drops_the_kernels_above(package, stamp, change):
-    """A part is merged into callers in other files, so a change anywhere drops them all."""
-    drop_stale(package, stamp)
-    compile_again(package)
-    change(package / "low" / "kernel.py")
-    assert drop_stale(package, stamp)
-    assert compiled(package) == []
-
-
-def test_sources_without_kernels_may_change(package, stamp):
-    """An edited command or table costs nobody a compilation."""
-    drop_stale(package, stamp)
-    compile_again(package)
-    (package / "low" / "plain.py").write_text("y = 2\n")
-    assert not drop_stale(package, stamp)
-    assert compiled(package) == ["kernel.nbi"]
-
-
-def test_every_source_with_a_kernel_is_marked():
-    """What is not marked could live on in a kernel after it changed."""
-    sources = list(PACKAGE.rglob("*.py"))
-    compiling = [
-        s for s in sources if b"\n@kernel" in s.read_bytes() or b"\n@part" in s.read_bytes()
-    ]
-    assert len(compiling) > 10
-    assert all(MARK in source.read_bytes() for source in compiling)
-
-
-def test_fingerprint_does_not_depend_on_where_the_package_lies(package):
-    """Moved as a whole, with its times, it is the same package."""
-    before = fingerprint(package)
-    there = package.with_name("moved")
-    package.rename(there)
-    assert fingerprint(there) == before
-
-
-def test_missing_cache_folder_is_made(package, tmp_path):
-    """First start after installation: the stamp's folder need not exist yet."""
-    stamp = tmp_path / "new" / "kernels.stamp"
-    assert drop_stale(package, stamp)
-    assert not drop_stale(package, stamp)
+def test_another_package_keeps_its_kernels_where_it_likes(tmp_path):
+    assert folder_of(tmp_path / "theirs.py") is None

@@ -15,6 +15,7 @@ from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, Samples
+from tests.support import thorough
 from tests.support.builders import (
     CAMERA_SD,
     COM,
@@ -67,7 +68,7 @@ def record_before_gap(record: Recording) -> Recording:
 
 def test_means_lose_less_than_a_fifth_of_an_sd() -> None:
     """What four rows lose in their mean is 0.01 % here, and the few rows before a gap."""
-    for seed in range(3):
+    for seed in range(thorough.count(3, 1)):
         record = logged(seed)
         few = condensed(record, BED)
         assert few is not None

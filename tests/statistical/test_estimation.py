@@ -7,22 +7,23 @@ seeds (the seeds here are fixed, so a test that passes goes on passing).
 import pytest
 
 from tests.oracle.defects import COM_STEPS, CONTACTS, HEADING
+from tests.support import thorough
 from verification import defective_logs, efficiency, real_record, tracker_honesty, tracker_knows
 
 
 def test_fit_is_at_the_bound_and_its_intervals_are_honest() -> None:
-    """60 paper-like runs, and 60 of a body that is not flat."""
-    assert efficiency.measure(range(60)).missed == ()
+    """Paper-like runs, and as many of a body that is not flat."""
+    assert efficiency.measure(range(thorough.count(60, 20))).missed == ()
 
 
 def test_tracker_is_at_the_bound_and_honest() -> None:
-    """40 paper-like runs, moves fed and moves ignored."""
-    assert tracker_honesty.measure(range(40)).missed == ()
+    """Paper-like runs, moves fed and moves ignored."""
+    assert tracker_honesty.measure(range(thorough.count(40, 15))).missed == ()
 
 
 def test_tracker_knows_what_it_does_not_know() -> None:
-    """Eight runs of each kind: doubtful inertia, contacts, steps, a gap, loud noise."""
-    assert tracker_knows.measure(range(8)).missed == ()
+    """Some runs of each kind: doubtful inertia, contacts, steps, a gap, loud noise."""
+    assert tracker_knows.measure(range(thorough.count(8, 4))).missed == ()
 
 
 @pytest.mark.skipif(not real_record.RECORD.is_file(), reason="the real recording is not at hand")
@@ -33,7 +34,7 @@ def test_real_record_is_explained_and_predicts() -> None:
 
 
 def test_known_defects_are_found_and_intervals_stay_honest() -> None:
-    """Two records each with contacts, with slips, with heading errors, and with five at once."""
+    """A record or two each with contacts, slips, heading errors, and five defects at once."""
     kinds = {
         "contacts": (CONTACTS,),
         "steps": (COM_STEPS,),
@@ -41,5 +42,7 @@ def test_known_defects_are_found_and_intervals_stay_honest() -> None:
         "together": defective_logs.TOGETHER,
     }
     for what, names in kinds.items():
-        logs = [defective_logs.identified(names, False, seed) for seed in range(2)]
+        logs = [
+            defective_logs.identified(names, False, seed) for seed in range(thorough.count(2, 1))
+        ]
         assert [row for row in defective_logs.rows_for(what, logs) if not row.ok] == []

@@ -5,6 +5,7 @@ import pytest
 pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 
 from tests.oracle import cases
+from tests.support import thorough
 from verification import independent_truth, lagging_masses, long_record, mujoco_platforms
 
 
@@ -14,8 +15,8 @@ def test_propagator_agrees_with_mujoco() -> None:
 
 
 def test_errors_on_mujoco_records_are_as_large_as_stated() -> None:
-    """Three platforms, camera alone and camera with gyro; the band is that of 27 errors each."""
-    assert mujoco_platforms.measure(range(3)).missed == ()
+    """Platforms, camera alone and camera with gyro; the band is that of nine errors each."""
+    assert mujoco_platforms.measure(range(thorough.count(3, 2))).missed == ()
 
 
 def test_a_dense_record_is_identified_as_well_as_stated() -> None:
@@ -29,5 +30,5 @@ def test_a_dense_record_is_identified_as_well_as_stated() -> None:
 
 
 def test_lag_of_servos_is_found_and_their_sag_carried() -> None:
-    """Two platforms, by their commands: the bands are as wide as that costs."""
-    assert lagging_masses.measure(range(2)).missed == ()
+    """Platforms, by their commands: the bands are as wide as that costs."""
+    assert lagging_masses.measure(range(thorough.count(2, 1))).missed == ()

@@ -1,11 +1,12 @@
 """The claims of `make verify` about procedures, on fewer platforms."""
 
+from tests.support import thorough
 from verification import balanced, drift
 
 
 def test_balancing_ends_within_tolerance_and_its_verdict_knows() -> None:
-    """Ten platforms: as many good ones as 95 % leaves in all but one of 1000 such tests."""
-    assert balanced.measure(range(10)).missed == ()
+    """Some platforms: as many good ones as 95 % leaves in all but one of 1000 such tests."""
+    assert balanced.measure(range(thorough.count(10, 5))).missed == ()
 
 
 def test_drifting_platform_is_held() -> None:

@@ -54,7 +54,8 @@ class AtTerminal:
         """Wait until something has been written."""
         end = time.monotonic() + PATIENCE
         while text not in self.written:
-            assert time.monotonic() < end, self.written
+            if time.monotonic() > end:
+                raise TimeoutError(self.written)
             assert self._process.poll() is None, self.written
             time.sleep(0.02)
 

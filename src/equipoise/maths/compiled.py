@@ -9,7 +9,7 @@ from typing import Any, TypeVar, cast
 
 import numba
 
-from equipoise.maths.kernel_cache import drop_stale
+from equipoise.maths.kernel_cache import install
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 FAST = {"contract", "reassoc", "nsz", "arcp"}
@@ -21,7 +21,7 @@ OPTIONS: dict[str, Any] = {
 }
 MERGED: dict[str, Any] = {**OPTIONS, "forceinline": True, "_nrt": False}
 
-drop_stale()
+install()
 
 
 def kernel(function: Function) -> Function:

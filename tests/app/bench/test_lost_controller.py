@@ -207,6 +207,5 @@ def test_ports_are_free_again_after_a_kill(tmp_path):
     script = "import os, signal\nfrom equipoise.hardware.bench.port_lock import commanding\n"
     script += "with commanding(['tcp:x:1']):\n    os.kill(os.getpid(), signal.SIGKILL)\n"
     subprocess.run([sys.executable, "-c", script], check=False)
-    start = time.monotonic()
-    with commanding(["tcp:x:1"]):
-        assert time.monotonic() - start < 1.0
+    with commanding(["tcp:x:1"]):  # else BenchTaken: nobody waits for a lock
+        pass

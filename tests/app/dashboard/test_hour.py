@@ -2,11 +2,13 @@
 
 import pytest
 
+from tests.support import thorough
 from tests.support.dashboard_program import CHROMIUM
 from verification.dashboard_hour import SHARE, growth, share, soaked
 from verification.dashboard_hour import Observed as At
 
 
+@thorough.whole
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
 def test_a_quarter_of_a_minute_at_100_hz_costs_little():
     """Of a core; the page, whose beginning counts more here, twice what is wanted of an hour."""

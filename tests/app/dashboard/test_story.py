@@ -10,7 +10,8 @@ from playwright.sync_api import expect
 
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.maths.attitude import tilt
-from tests.support.dashboard_program import CHROMIUM, Received, browser, started
+from tests.support import thorough
+from tests.support.dashboard_program import CHROMIUM, Received, browser, dashboard, started
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
 SOON, LATER = 15_000, 120_000  # ms: a busy computer
@@ -55,6 +56,19 @@ def wait_until(page, condition, most=LATER):
     page.wait_for_function(condition, timeout=most)
 
 
+def test_a_platform_is_balanced_and_another_stopped_from_the_page(chromium, tmp_path):
+    """What of the story below a change breaks most easily."""
+    with dashboard(tmp_path, "nanosat") as running:
+        page, received = opened(chromium, running)
+        take_command(page, running.token)
+        expect(button(page, "Start balancing")).to_be_enabled(timeout=SOON)
+        balanced_until_it_passes(page)
+        stopped_by_hand(page)
+        assert received.wrong == []
+        assert received.requested == {f"127.0.0.1:{running.port}"}
+
+
+@thorough.whole
 def test_the_whole_story(chromium, tmp_path):
     running = started(tmp_path, "nanosat")
     try:

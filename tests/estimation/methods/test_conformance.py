@@ -15,6 +15,7 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.procedure.steps.clean_record import sound as made_sound
 from equipoise.study.candour import warns
 from tests.estimation.methods.faulty_records import AWKWARD, bed, sound
+from tests.support import thorough
 from tests.support.builders import COM as TRUE_COM
 from tests.support.builders import INERTIA as TRUE_INERTIA
 
@@ -122,8 +123,7 @@ def test_an_estimate_says_where_it_comes_from(name):
         assert estimate.provenance["version"]
 
 
-@every_method
-@pytest.mark.parametrize("trouble", TROUBLES)
+@pytest.mark.parametrize(("name", "trouble"), thorough.pairs(METHODS, TROUBLES, 3))
 def test_a_faulty_record_is_handled_or_reported(name, trouble):
     """As `identify` runs it: an answer within 6 sd of the truth, or word that it is not to be
     trusted, or a refusal with its reason. (What stands level has its com above or below P.)"""

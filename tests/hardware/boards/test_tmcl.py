@@ -14,6 +14,7 @@ from equipoise.hardware.boards.tmcl_settings import disagreement, guards, questi
 from equipoise.hardware.boards.tmcl_talk import Answer, Talk
 from equipoise.hardware.boards.tmcl_words import Reply, Request, packed, replies_in
 from equipoise.hardware.emulated.tmcl import EmulatedTmcl
+from tests.support import thorough
 from tests.support.board_wire import BED, MM, TURN, Wire, board_of
 
 BOARD = board_of("tmcl")
@@ -301,7 +302,7 @@ frames = st.builds(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=thorough.count(150, 50), deadline=None)
 @given(said=st.lists(frames, max_size=80), begin=st.integers(0, 60))
 def test_whatever_a_module_answers_nothing_raises(said, begin):
     """Whole datagrams with any content, from any point of a conversation on."""

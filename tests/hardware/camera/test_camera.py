@@ -33,6 +33,7 @@ from equipoise.maths.attitude import (  # noqa: E402
 from equipoise.model.errors import InputError  # noqa: E402
 from equipoise.model.hardware import Port, SensorUnit  # noqa: E402
 from equipoise.model.recording import Recording, Samples  # noqa: E402
+from tests.support import thorough  # noqa: E402
 from verification import camera as check  # noqa: E402
 
 DEG = math.pi / 180
@@ -299,7 +300,7 @@ def test_a_server_that_refuses_gives_no_rows():
 
 
 @given(st.binary(max_size=400), st.integers(0, 1999), st.integers(1, 300))
-@settings(max_examples=150)
+@settings(max_examples=thorough.count(150, 50))
 def test_no_bytes_raise(garbage, at, step):
     """Before the answer's head, within it, and within a part."""
     hello = b"HTTP/1.1 200 OK\r\nContent-Type: multipart/x-mixed-replace;boundary=b\r\n\r\n"

@@ -18,6 +18,7 @@ from equipoise.hardware.transport.port import PortLost, open_port
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port
 from equipoise.model.reading import Reading
+from tests.support import thorough
 from tests.support.sensor_units import unit
 
 POSE = "geometry_msgs/msg/PoseStamped"
@@ -133,7 +134,7 @@ def places(reported, path=()):
 WHOLE = json.loads(published(imu()))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=thorough.count(200, 60), deadline=None)
 @given(st.sampled_from(places(WHOLE)[1:]), ANY_JSON)
 def test_anything_in_the_place_of_anything_raises_nothing(path, value):
     reported = copy.deepcopy(WHOLE)
@@ -196,14 +197,10 @@ def test_messages_arrive_whole_both_ways(socket):
 
 
 def test_a_listener_who_takes_nothing_keeps_nobody_waiting(socket):
-    """40 MB to one who does not look: calls are short, what is too much is left out whole."""
+    """40 MB to one who takes nothing yet: who sends returns, what is too much is left out whole."""
     near, outlying = socket
-    longest = 0.0
     for _ in range(400):
-        start = time.monotonic()
-        outlying.send(b"x" * 100_000)
-        longest = max(longest, time.monotonic() - start)
-    assert longest < 0.5
+        outlying.send(b"x" * 100_000)  # would never return if it waited for the other end
     found = []
     while until(
         lambda: (outlying.receive(), found.extend(fresh := near.receive()), fresh)[-1], 0.2

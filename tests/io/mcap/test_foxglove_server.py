@@ -37,7 +37,8 @@ def test_a_client_receives_rows_with_their_times():
             assert "clientPublish" not in reported.get("capabilities", [])
             wanted = {"id": 7, "channelId": offered["/rate"]["id"]}
             client.send(json.dumps({"op": "subscribe", "subscriptions": [wanted]}))
-            until, observed = time.monotonic() + PATIENCE, b""
+            until = time.monotonic() + PATIENCE
+            observed = b""
             while not observed and time.monotonic() < until:
                 view.rows(rows(0.25))
                 try:

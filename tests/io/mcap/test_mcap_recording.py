@@ -25,8 +25,9 @@ from equipoise.io.mcap.protobuf_fields import double, fields, whole
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
+from tests.support import thorough
 
-EXAMPLES = int(os.environ.get("EQUIPOISE_FUZZ", "300"))
+EXAMPLES = int(os.environ.get("EQUIPOISE_FUZZ", thorough.count(300, 90)))
 
 
 def record(chunks: int = 6, each: int = 4) -> Recording:

@@ -2,7 +2,6 @@
 
 import hashlib
 import sys
-import time
 from typing import Any
 
 import numpy as np
@@ -198,20 +197,3 @@ def test_without_pyarrow_the_sentence_names_the_extra(tmp_path, monkeypatch) -> 
     (tmp_path / "r.parquet").write_bytes(b"PAR1....PAR1")
     with pytest.raises(InputError, match=r"pip install equipoise\[parquet\]"):
         read_recording(tmp_path / "r.parquet")
-
-
-def test_half_an_hour_at_100_hz_is_read_in_seconds(tmp_path) -> None:
-    """180 000 rows of 8 columns; 15 s is several times what a slow, busy machine needs."""
-    n = 180_000
-    rng = np.random.default_rng(1)
-    t = np.arange(n) * 0.01
-    q = exponential(np.cumsum(rng.normal(scale=1e-3, size=(n, 3)), axis=0))
-    write_recording(
-        Recording(attitude=Samples(t, q), rate=Samples(t, rng.normal(size=(n, 3)))),
-        tmp_path / "r.csv",
-    )
-    start = time.perf_counter()
-    recording = read_recording(tmp_path / "r.csv")
-    assert time.perf_counter() - start < 15
-    assert recording.rate is not None
-    assert len(recording.rate) == n

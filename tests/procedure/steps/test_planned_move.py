@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from equipoise.actuators.sliding_masses import displacements_for
 from equipoise.estimation.tracker import tracker
@@ -40,6 +41,16 @@ def test_each_mass_that_moves_adds_a_stop():
     gone = (first.mass * 1e-2 * first.axis - last.mass * 2e-2 * last.axis) / bed().body.mass
     np.testing.assert_allclose(move.predicted_com, com + gone, rtol=1e-12)
     np.testing.assert_allclose(move.predicted_covariance, known + stop(first) + stop(last))
+
+
+def test_a_move_lasts_as_long_as_the_mass_that_arrives_last():
+    """x has half of z's way, at a fifth of its speed; y stays."""
+    x, y, z = bed().masses
+    slow = replace(bed(), masses=(replace(x, speed=z.speed / 5), y, z))
+    known = np.zeros(3), np.zeros((3, 3))
+    move = planned_move(slow, np.zeros(3), np.array([1e-2, 0, -2e-2]), known, "test")
+    assert move.duration == pytest.approx(5 * 1e-2 / z.speed)
+    assert move.travel == pytest.approx(3e-2)
 
 
 def test_while_holding_a_mass_away_from_home_takes_a_stop_along():

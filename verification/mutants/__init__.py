@@ -1,0 +1,1 @@
+"""Signs, factors and guards that are broken on purpose: tests have to notice each."""
