@@ -72,12 +72,16 @@ class Comparison:
     def differences(self, case: str, before: Document, after: Document) -> list[Difference]:
         """Return how a case's documents differ beyond what is declared."""
         wanted, found = self._expected(case, before), self._remaining(case, after)
-        former = {path: f"lost, was {wanted[path].value!r}" for path in wanted.keys() - found.keys()}
+        former = {
+            path: f"lost, was {wanted[path].value!r}" for path in wanted.keys() - found.keys()
+        }
         former |= {path: f"new, {found[path]!r}" for path in found.keys() - wanted.keys()}
         for path in wanted.keys() & found.keys():
             if not self._same(wanted[path], found[path]):
                 former[path] = _changed(wanted[path], found[path])
-        return [Difference(case, ".".join(path), former[path]) for path in sorted(former, key=_order)]
+        return [
+            Difference(case, ".".join(path), former[path]) for path in sorted(former, key=_order)
+        ]
 
     def _expected(self, case: str, before: Document) -> dict[KeyPath, Expected]:
         """Return the leaves of the former document, each where it is expected now."""

@@ -13,9 +13,17 @@ It is empty: no key, unit or word may change. A change of the schema is declared
 The first rename that meets a key counts. Ignored keys are declared by their former names.
 """
 
-from tests.schema_change.changes import Ignored, SchemaChange
+from tests.schema_change.changes import Ignored, Recoded, Rename, SchemaChange
 
-CHANGE = SchemaChange()
+CHANGE = SchemaChange(
+    renamed=(
+        Rename("assess_*", "**.looks", "metrics"),
+        Rename("assess_*", "**.looks_alone", "measurements_alone"),
+        Rename("design", "looks", "measurements"),
+        Rename("plan", "**.asked", "requested"),
+    ),
+    recoded=(Recoded("*", "**.kind", (("look", "measurement"),)),),
+)
 
 PROSE = "a sentence for people, which may be worded anew; the numbers in it stand beside it"
 PLACE = "says where a file lay and what it was called"
