@@ -21,8 +21,12 @@ CHANGE = SchemaChange(
         Rename("assess_*", "**.looks_alone", "measurements_alone"),
         Rename("design", "looks", "measurements"),
         Rename("plan", "**.asked", "requested"),
+        Rename("compare", "methods.methods.*.believed", "trusted"),
     ),
-    recoded=(Recoded("*", "**.kind", (("look", "measurement"),)),),
+    recoded=(
+        Recoded("*", "**.kind", (("look", "measurement"),)),
+        Recoded("design", "budget.*.name", (("look", "measurement"),)),
+    ),
 )
 
 PROSE = "a sentence for people, which may be worded anew; the numbers in it stand beside it"
