@@ -16,14 +16,6 @@ from scipy.optimize import linprog
 
 from equipoise.actuators.mass_allocation import allocate, rails_of
 from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
-from equipoise.design.manoeuvre.reference_swing import usual_swing
-from equipoise.design.sizing.budget import SOME, budget_of, mean_square, platforms
-from equipoise.design.sizing.case import Case
-from equipoise.design.sizing.expected_torque import expected_torque
-from equipoise.design.sizing.likely_offsets import even_normals
-from equipoise.design.sizing.measurement_bound import first_bound
-from equipoise.design.sizing.move_error import at_home, move
-from equipoise.design.sizing.reachable_set import contains, reach_of
 from equipoise.estimation.model_selection.model_choice import PLUMB
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
@@ -31,6 +23,14 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.model.defects import CameraErrors
 from equipoise.model.estimate import END, INERTIA
 from equipoise.model.testbed import SlidingMass, Testbed
+from equipoise.planning.manoeuvre.reference_swing import usual_swing
+from equipoise.planning.sizing.budget import SOME, budget_of, mean_square, platforms
+from equipoise.planning.sizing.case import Case
+from equipoise.planning.sizing.expected_torque import expected_torque
+from equipoise.planning.sizing.likely_offsets import even_normals
+from equipoise.planning.sizing.measurement_bound import first_bound
+from equipoise.planning.sizing.move_error import at_home, move
+from equipoise.planning.sizing.reachable_set import contains, reach_of
 from equipoise.simulation import actuator
 from equipoise.simulation.carried_out import bench_for, carried_out
 from equipoise.simulation.draw_truth import own_truth

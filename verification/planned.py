@@ -27,18 +27,18 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.design.manoeuvre.criterion import sizes
-from equipoise.design.manoeuvre.manoeuvre_space import Space
-from equipoise.design.manoeuvre.plan import TRIALS, Wish, planned
-from equipoise.design.manoeuvre.predicted_sd import Promise, promise
-from equipoise.design.manoeuvre.reference_manoeuvre import usual
-from equipoise.design.manoeuvre.scenario import stated_prior
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.trajectory import params_of
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed, Truth
+from equipoise.planning.manoeuvre.criterion import sizes
+from equipoise.planning.manoeuvre.manoeuvre_space import Space
+from equipoise.planning.manoeuvre.plan import TRIALS, Wish, planned
+from equipoise.planning.manoeuvre.predicted_sd import Promise, promise
+from equipoise.planning.manoeuvre.reference_manoeuvre import usual
+from equipoise.planning.manoeuvre.scenario import stated_prior
 from verification.chance import mean_square_band
 from verification.planned_runs import BODY, Run, by_bench, by_mujoco
 from verification.result import Result, Row, Spread, at_least, at_most, between, in_turn

@@ -1,3 +1,100 @@
-"""Equipoise: mass properties and balance of a satellite mock-up on an air bearing."""
+"""Equipoise: mass properties and balance of a satellite mock-up on an air bearing.
 
-__version__ = "0.1.0"
+`import equipoise as eq` is the front door: every name below, and nothing else, is public. A name
+is loaded when it is first used, so that the import itself takes no time.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from equipoise.model.presentation import Presenter, present_with
+from equipoise.model.version import __version__
+
+if TYPE_CHECKING:
+    from equipoise.app.api.assess import assess
+    from equipoise.app.api.balance import balance
+    from equipoise.app.api.calibrate import calibrate
+    from equipoise.app.api.catalogues import laws, methods
+    from equipoise.app.api.compare import compare
+    from equipoise.app.api.design import design
+    from equipoise.app.api.files import preset, read_recording, read_testbed, write_recording
+    from equipoise.app.api.identify import identify
+    from equipoise.app.api.observe import observe
+    from equipoise.app.api.open_bench import open_bench
+    from equipoise.app.api.plan import plan
+    from equipoise.app.api.simulate import simulate
+    from equipoise.model.estimate import Estimate
+    from equipoise.model.mass_properties import MassProperties
+    from equipoise.model.recording import Recording
+    from equipoise.simulation.bench import SimulatedBench
+
+HOMES = {
+    "read_testbed": "equipoise.app.api.files",
+    "preset": "equipoise.app.api.files",
+    "read_recording": "equipoise.app.api.files",
+    "write_recording": "equipoise.app.api.files",
+    "identify": "equipoise.app.api.identify",
+    "assess": "equipoise.app.api.assess",
+    "observe": "equipoise.app.api.observe",
+    "balance": "equipoise.app.api.balance",
+    "plan": "equipoise.app.api.plan",
+    "design": "equipoise.app.api.design",
+    "calibrate": "equipoise.app.api.calibrate",
+    "compare": "equipoise.app.api.compare",
+    "simulate": "equipoise.app.api.simulate",
+    "open_bench": "equipoise.app.api.open_bench",
+    "methods": "equipoise.app.api.catalogues",
+    "laws": "equipoise.app.api.catalogues",
+    "SimulatedBench": "equipoise.simulation.bench",
+    "MassProperties": "equipoise.model.mass_properties",
+    "Recording": "equipoise.model.recording",
+    "Estimate": "equipoise.model.estimate",
+}
+
+__all__ = [
+    "Estimate",
+    "MassProperties",
+    "Recording",
+    "SimulatedBench",
+    "__version__",
+    "assess",
+    "balance",
+    "calibrate",
+    "compare",
+    "design",
+    "identify",
+    "laws",
+    "methods",
+    "observe",
+    "open_bench",
+    "plan",
+    "preset",
+    "read_recording",
+    "read_testbed",
+    "simulate",
+    "write_recording",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Return a public name from the module that has it; AttributeError for any other."""
+    if name not in HOMES:
+        raise AttributeError(f"module 'equipoise' has no attribute '{name}'")
+    value = getattr(import_module(HOMES[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """Return the public names."""
+    return sorted(__all__)
+
+
+def _presenter() -> Presenter:
+    """Return what shows records; it is loaded when a record is first shown."""
+    from equipoise.app.presentation import presenter
+
+    return presenter
+
+
+present_with(_presenter)

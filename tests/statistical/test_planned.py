@@ -5,10 +5,10 @@ from functools import cache
 
 import numpy as np
 
-from equipoise.design.manoeuvre.predicted_information import predicted
-from equipoise.design.manoeuvre.predicted_sd import promise
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.planning.manoeuvre.predicted_information import predicted
+from equipoise.planning.manoeuvre.predicted_sd import promise
 from verification.chance import mean_square_band
 from verification.planned import BODY, CHANCE, chance_of, hand_balanced, wish_of
 from verification.planned_runs import by_mujoco, truth_of

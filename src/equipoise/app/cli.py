@@ -11,7 +11,6 @@ from io import TextIOWrapper
 
 from cyclopts import App, CycloptsError, Parameter
 
-from equipoise import __version__
 from equipoise.app.commands.assess import assess
 from equipoise.app.commands.balance import balance
 from equipoise.app.commands.calibrate import calibrate
@@ -42,6 +41,7 @@ from equipoise.app.commands.simulate import simulate
 from equipoise.app.commands.track import track
 from equipoise.app.console.terminal import complain
 from equipoise.model.errors import EquipoiseError
+from equipoise.model.version import __version__
 
 WRONG_USE = 2
 BY_HAND = 130  # what shells give a program that Ctrl-C ended

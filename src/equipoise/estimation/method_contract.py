@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from equipoise import __version__
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
+from equipoise.model.version import __version__
 
 if TYPE_CHECKING:
     from equipoise.estimation.regression.linear_method import Linear

@@ -8,6 +8,7 @@ import numpy as np
 from equipoise.model.arrays import Floats, Matrix3, Series, Series1, Square, Vector3
 from equipoise.model.event import Event
 from equipoise.model.outcome import Outcome
+from equipoise.model.presentation import Plotted
 
 COM = ("com_x", "com_y", "com_z")
 END = ("com_end_x", "com_end_y", "com_end_z")  # with the masses as they stand at the end
@@ -74,8 +75,8 @@ class Course:
     sd: Series  # (n, k)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Estimate:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Estimate(Plotted):
     """What a method concluded. ``covariance`` is in the order of ``parameters``."""
 
     method: str

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.presentation import Plotted
 
 EYE = np.eye(3)
 
@@ -20,8 +21,8 @@ def parallel_axis(mass: float, offset: Vector3) -> Matrix3:
     return mass * (offset @ offset * EYE - np.outer(offset, offset))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class MassProperties:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class MassProperties(Plotted):
     """A rigid body as seen from the point P, in body axes."""
 
     mass: float  # kg

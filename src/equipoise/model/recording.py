@@ -15,14 +15,22 @@ import numpy as np
 from equipoise.model.arrays import Series, Series1
 from equipoise.model.devices import Device, at_start, recorded_name
 from equipoise.model.errors import InputError, nearest
+from equipoise.model.presentation import Plotted
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Samples:
     """One channel."""
 
     t: Series1  # s
     values: Series  # (n, k), SI
+
+    def __repr__(self) -> str:
+        """Return how many rows there are, and from when to when."""
+        if not len(self):
+            return "Samples(no rows)"
+        rows = f"{len(self)} rows of {self.values.shape[1]}"
+        return f"Samples({rows}, {self.t[0]:g} to {self.t[-1]:g} s)"
 
     def __len__(self) -> int:
         """Return the number of rows."""
@@ -37,8 +45,8 @@ class Samples:
         return float(np.median(np.diff(self.t)))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Recording:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Recording(Plotted):
     """What was recorded. Any channel may be absent."""
 
     attitude: Samples | None = None  # (n, 4) unit quaternions, scalar first, body to laboratory

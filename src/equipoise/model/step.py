@@ -1,6 +1,6 @@
 """A step of a procedure. Terminal, report and log are views of one list of them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from equipoise.model.estimate import Estimate
@@ -20,9 +20,10 @@ class Step:
     kind: Kind
     time: float  # s, bench time when the step ended
     sentence: str
-    recording: Recording | None = None
-    estimate: Estimate | None = None
-    move: Move | None = None
-    verdict: Verdict | None = None
-    following: Following | None = None  # what masses can follow from now on
-    placing: Placing | None = None  # of weights, by hand
+    recording: Recording | None = field(default=None, repr=False)
+    estimate: Estimate | None = field(default=None, repr=False)
+    move: Move | None = field(default=None, repr=False)
+    verdict: Verdict | None = field(default=None, repr=False)
+    # what masses can follow from now on
+    following: Following | None = field(default=None, repr=False)
+    placing: Placing | None = field(default=None, repr=False)  # of weights, by hand

@@ -20,6 +20,7 @@ from equipoise.model.devices import (
 )
 from equipoise.model.hardware import Hardware
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.presentation import Shown
 from equipoise.model.weights import Weight, WeightGrid
 
 SAG_SD = 0.001  # m, chosen: g / w^2 of a servo of w = 100 rad/s
@@ -134,8 +135,8 @@ class Truth:
     drives: tuple[TrueDrive, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Testbed:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Testbed(Shown):
     """A platform on its bearing, as known before anything is measured."""
 
     __test__ = False  # not a test case, whatever its name suggests

@@ -68,7 +68,8 @@ AT_ONCE = 1e-3  # s, chosen: a leg that begins so soon after another is the same
 class SimulatedBench:
     """A bench made of equations; see ``model.bench.Bench``. ``platform`` is what it really is.
 
-    Masses stand at home, or where ``standing`` says that they were left (m).
+    The testbed's [truth] says what the platform is like; the seed draws what it leaves open. Masses
+    stand at home, or where ``standing`` says that they were left (m).
     """
 
     def __init__(
@@ -104,6 +105,11 @@ class SimulatedBench:
     def testbed(self) -> Testbed:
         """What is known of it beforehand."""
         return self._testbed
+
+    @property
+    def seed(self) -> int:
+        """What all that is drawn comes from."""
+        return self._seed
 
     @property
     def time(self) -> float:

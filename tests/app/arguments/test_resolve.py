@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from equipoise.app.api.inputs import part_of
 from equipoise.app.arguments import resolve
-from equipoise.app.arguments.recording_window import Reading
-from equipoise.app.arguments.resolve import move_of, part_of
+from equipoise.app.arguments.resolve import move_of
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples, arranged
@@ -47,8 +47,8 @@ def test_a_move_behind_the_last_row_is_left_out():
     q = np.tile([1.0, 0, 0, 0], (10, 1))
     masses = Samples(np.array([0.0, 5.0, 20.0, 21.0]), np.array([[0.0], [0.0], [0.0], [0.01]]))
     recording = Recording(Samples(np.arange(10.0), q), None, ("x1",), masses)
-    for reading in (Reading(), Reading(from_s=2.0)):
-        known = part_of(recording, reading).masses
+    for start in (None, 2.0):
+        known = part_of(recording, start, None).masses
         assert known is not None
         assert known.t[-1] == 20.0
 
@@ -56,6 +56,6 @@ def test_a_move_behind_the_last_row_is_left_out():
 def test_a_window_that_leaves_nothing_is_refused():
     q = np.tile([1.0, 0, 0, 0], (10, 1))
     recording = Recording(attitude=Samples(np.arange(10.0), q), source="run.csv")
-    assert len(part_of(recording, Reading(2.0, 6.0)).attitude or ()) == 5
+    assert len(part_of(recording, 2.0, 6.0).attitude or ()) == 5
     with pytest.raises(InputError, match="within 0 to 9 s"):
-        part_of(recording, Reading(from_s=20.0))
+        part_of(recording, 20.0, None)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from cyclopts import Parameter
 
 if TYPE_CHECKING:
-    from equipoise.design.sizing.environment import Surroundings
+    from equipoise.planning.sizing.environment import Surroundings
 
 
 @Parameter(name="*")
@@ -65,7 +65,7 @@ def surroundings_of(exposure: Exposure) -> "Surroundings":
 
     from equipoise.app.arguments.checks import not_negative
     from equipoise.app.text.units import PER_DEG, UM
-    from equipoise.design.sizing.environment import Surroundings
+    from equipoise.planning.sizing.environment import Surroundings
 
     reported = asdict(exposure)
     for name, value in reported.items():

@@ -6,17 +6,10 @@ from typing import TYPE_CHECKING
 from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag, Triple
-from equipoise.app.console.terminal import busy, watched
+from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from equipoise.app.views.assess_views import AssessmentView
-    from equipoise.model.recording import Recording
-    from equipoise.model.step import Step
-    from equipoise.model.testbed import Testbed
-    from equipoise.procedure.identification.assess import Assessment, AssessOptions
-    from equipoise.procedure.identification.drift_metrics import OverHours
+    from equipoise.app.runs.assessment import AssessedPlatform
 
 
 def assess(
@@ -82,56 +75,28 @@ def assess(
     recording = fitting_recording_of(file, reading, bed)
     earlier = None if before is None else fitting_recording_of(before, WHOLE, bed)
     with busy("assessing", announce=False):
-        from equipoise.app.views.assess_views import AssessmentView
-        from equipoise.assessment.findings.record_findings import findings
+        from equipoise.app.console.waiting import AT_TERMINAL
+        from equipoise.app.runs.assessment import Recordings, run
         from equipoise.procedure.identification.assess import AssessOptions
 
         options = AssessOptions(goal, tilt, torque, offset, seeking.term, seeking.hold)
-    done, steps = _carried_out(recording, bed, options)
-    past = None if earlier is None else _carried_out(earlier, bed, options)[0]
-    hours = None if windows is None else _measured(done, windows)
-    reported = AssessmentView(done, past, steps, findings(recording, bed), hours)
-    _report(reported, json, out)
-    verdict = steps[-1].verdict
+    done = run(Recordings(recording, earlier, windows), bed, options, AT_TERMINAL)
+    _report(done, json, out)
+    verdict = done.verdict
     good = done.estimate.outcome.usable if verdict is None else verdict.passed
     return 0 if good else 1
 
 
-def _measured(done: "Assessment", seconds: float) -> "OverHours":
-    """Return looks along the recording, at the inertia that was found."""
-    from equipoise.procedure.identification.drift_metrics import metrics_over_hours
-
-    with busy("looking again and again"):
-        return metrics_over_hours(
-            done.recording, done.testbed, seconds, done.estimate.outcome.usable
-        )
-
-
-def _report(reported: "AssessmentView", json: bool, out: Path | None) -> None:
+def _report(done: "AssessedPlatform", json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.report.write import write_account
     from equipoise.app.views.assess_json import document_of
     from equipoise.app.views.assess_views import account_of, show_result
 
-    document = document_of(reported)
+    document = document_of(done)
 
     def written(folder: Path) -> list[Path]:
-        return write_account(account_of(reported), document, "assess", folder)
+        return write_account(account_of(done), document, "assess", folder)
 
-    hand_over(document, lambda: show_result(reported), written, json, out)
-
-
-def _carried_out(
-    recording: "Recording", testbed: "Testbed", options: "AssessOptions"
-) -> "tuple[Assessment, list[Step]]":
-    """Return the assessment and its steps, with a sign of life."""
-    from equipoise.procedure.identification.assess import assess as procedure
-
-    found: list[Assessment] = []
-
-    def steps() -> "Iterator[Step]":
-        found.append((yield from procedure(recording, testbed, options)))
-
-    taken = list(watched(steps(), "assessing"))
-    return found[0], taken
+    hand_over(document, lambda: show_result(done), written, json, out)

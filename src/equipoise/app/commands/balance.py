@@ -106,6 +106,7 @@ def balance(
     if out is not None:
         check_folder(out)
     with busy("preparing the bench", announce=False):
+        from equipoise.app.live.terminal_observer import at_terminal
         from equipoise.app.runs.balancing import Goal, Limits, run
         from equipoise.app.views.balance_views import show_step
         from equipoise.procedure.balancing.catalogue import CARDS
@@ -115,8 +116,8 @@ def balance(
     if on_bench.bench:
         prepare(bed, goal, limits, on_bench)
     with let_go(bed, on_bench) if on_bench.bench else _simulated(bed, planned, seed) as bench:
-        done = run(bench, goal, limits, None if json else show_step)
-    _report(done, limits.law, seed, json, out)
+        done = run(bench, goal, limits, None if json else show_step, at_terminal(bed))
+    _report(done, seed, json, out)
     return 0 if done.verdict.passed else 1
 
 
@@ -158,14 +159,13 @@ def _planned(plan: Path, bed: "Testbed") -> "Manoeuvre":
 def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Generator[Bench]":
     """Return the simulated platform, let go as planned if there is a plan."""
     with busy("preparing the bench", announce=False):
-        from equipoise.simulation.bench import SimulatedBench
-        from equipoise.simulation.carried_out import bench_for
+        from equipoise.app.runs.simulation import bench_of
 
-        bench = SimulatedBench(bed, seed) if planned is None else bench_for(bed, planned, seed)
+        bench = bench_of(bed, seed, planned)
     yield bench
 
 
-def _report(done: "Balancing", law: str, seed: int, json: bool, out: Path | None) -> None:
+def _report(done: "Balancing", seed: int, json: bool, out: Path | None) -> None:
     """Print the result, and write it down if that is asked for."""
     from equipoise.app.logbook.output import hand_over, keep
     from equipoise.app.report.write import write_run
@@ -174,7 +174,9 @@ def _report(done: "Balancing", law: str, seed: int, json: bool, out: Path | None
     document = document_of(done, seed)
 
     def written(folder: Path) -> list[Path]:
-        return write_run(account_of(done, seed), document, "balance", kept_of(done, law), folder)
+        return write_run(
+            account_of(done, seed), document, "balance", kept_of(done, done.law), folder
+        )
 
     hand_over(document, lambda: show_result(done), written, json, out)
     if out is None:

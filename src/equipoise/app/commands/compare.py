@@ -9,13 +9,10 @@ from equipoise.app.arguments.types import Flag, Names, Whole
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.app.views.comparison_report import Compared
-    from equipoise.model.arrays import Vector3
+    from equipoise.app.runs.comparison import Compared, LawGoal
     from equipoise.model.testbed import Testbed
     from equipoise.simulation.record import Moves
     from equipoise.study.method_record import Scene
-
-    Goal = tuple[Vector3, Vector3, float, float, float]
 
 
 def compare(
@@ -69,27 +66,20 @@ def compare(
     from equipoise.app.arguments.checks import positive
     from equipoise.app.arguments.resolve import move_of, spelt_out, testbed_of
     from equipoise.io.files.atomic_folder import check_folder
-    from equipoise.model.errors import InputError
 
-    if not (methods or laws):
-        raise InputError("compare", "nothing to compare", "--methods or --laws")
     bed, seeds = testbed_of(testbed), _seeds(seed, runs)
     moves = [move_of(text, bed) for text in move]
     duration, seeking = positive("--duration-s", duration_s), spelt_out(seeking)
-    many, goal = int(positive("--workers", workers)), _goal(judging)
+    many = int(positive("--workers", workers))
     if out is not None:
         check_folder(out)
     with busy("preparing", announce=False):
-        from equipoise.app.runs import comparison
-        from equipoise.app.views.comparison_report import Compared
+        from equipoise.app.console.waiting import AT_TERMINAL
+        from equipoise.app.runs.comparison import Contest, names_of, run_all
 
-        kinds = comparison.by_kind(only, methods, laws)
-        names = comparison.chosen_methods(kinds[0]) if methods else ()
-        cards = comparison.chosen(bed, kinds[1]) if laws else []
+        goal, names = _goal(judging), names_of(bed, only, methods, laws)
         scene = _scene(bed, duration, moves, seeking)
-    measured = comparison.run_methods(scene, names, seeds, many) if methods else None
-    balanced = comparison.run(comparison.Request(bed, cards, seeds, *goal), many) if laws else None
-    done = Compared(bed, _requested(seeds, duration, move, goal), measured, balanced)
+    done = run_all(Contest(names, scene, seeds, goal), many, AT_TERMINAL)
     _report(done, json, out)
     return _code(done)
 
@@ -110,25 +100,16 @@ def _scene(bed: "Testbed", duration: float, moves: "Moves", seeking: Seeking) ->
     return Scene(bed, duration, moves, Options(seeking.term, seeking.hold, seeking.prior))
 
 
-def _requested(seeds: range, duration: float, moves: Names, goal: "Goal") -> dict[str, str]:
-    """Return what was asked, as the report has it."""
-    *_, torque, time = goal
-    return {
-        "platforms": f"{len(seeds)}, seeds {seeds[0]} to {seeds[-1]}",
-        "records": f"{duration:g} s; moves: {', '.join(moves) or 'none'}",
-        "laws": f"{time:g} s at most, {torque:g} N m required",
-    }
-
-
-def _goal(judging: JudgingLaws) -> "Goal":
-    """Return target and tolerance (m), tilt (deg), torque (N m) and time (s), checked."""
+def _goal(judging: JudgingLaws) -> "LawGoal":
+    """Return what laws are to reach, checked."""
     from equipoise.app.arguments.checks import not_negative, positive, tolerance, vector
-    from equipoise.app.text.units import UM
+    from equipoise.app.runs.comparison import LawGoal
+    from equipoise.app.text.units import PER_DEG, UM
 
-    return (
+    return LawGoal(
         vector("--target-um", judging.target_um, 1 / UM),
         tolerance("--tolerance-um", judging.tolerance_um, 1 / UM),
-        not_negative("--tilt-deg", judging.tilt_deg),
+        not_negative("--tilt-deg", judging.tilt_deg) / PER_DEG,
         positive("--require-torque", judging.require_torque),
         positive("--max-time-s", judging.max_time_s),
     )

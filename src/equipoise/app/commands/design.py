@@ -8,7 +8,7 @@ from equipoise.app.arguments.types import Flag, Several, Triple, Whole
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.design.sizing.sizing import Sizing
+    from equipoise.planning.sizing.sizing import Sizing
 
 
 def design(
@@ -51,8 +51,8 @@ def design(
     out
         Folder for reach.png, budget.png and design.json.
     """
+    from equipoise.app.api.inputs import testbed_with_masses
     from equipoise.app.arguments.checks import not_negative, positive, vector
-    from equipoise.app.arguments.resolve import testbed_with_masses
     from equipoise.app.text.units import PER_DEG, UM
     from equipoise.io.files.atomic_folder import check_folder
 
@@ -67,8 +67,8 @@ def design(
     if out is not None:
         check_folder(out)
     with busy("reckoning"):
-        from equipoise.design.sizing.case import Case
-        from equipoise.design.sizing.sizing import sized
+        from equipoise.planning.sizing.case import Case
+        from equipoise.planning.sizing.sizing import sized
 
         case = Case(bed, target, tilt, lengths[0], count, lean, around)
         found = sized(case, lengths, require_torque)

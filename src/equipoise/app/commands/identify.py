@@ -7,13 +7,10 @@ from typing import TYPE_CHECKING
 from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import busy, watched
+from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.app.views.identify_views import Identification
-    from equipoise.model.recording import Recording
-    from equipoise.model.testbed import Testbed
-    from equipoise.procedure.identification.identify import IdentifyOptions
+    from equipoise.app.runs.identification import Identification
 
 
 def identify(
@@ -61,35 +58,18 @@ def identify(
     recording = fitting_recording_of(file, reading, bed)
     planned = None if plan is None else read_plan(plan, bed)
     with busy("identifying", announce=False):
+        from equipoise.app.console.waiting import AT_TERMINAL
+        from equipoise.app.runs.identification import run
+        from equipoise.app.views.identify_views import show_findings
         from equipoise.estimation.methods.registry import METHODS
         from equipoise.procedure.identification.identify import IdentifyOptions
 
     one_of("--method", method, ["auto", *METHODS])
     options = IdentifyOptions(method, seeking.term, seeking.hold, seeking.prior, robust)
-    done = _carried_out(recording, bed, options, quiet=json)
-    done = replace(done, plan=planned)
+    show = None if json else show_findings
+    done = replace(run(recording, bed, options, AT_TERMINAL, show), plan=planned)
     _report(done, json, out)
     return 0 if done.estimate.outcome.usable else 1
-
-
-def _carried_out(
-    recording: "Recording", testbed: "Testbed", options: "IdentifyOptions", quiet: bool
-) -> "Identification":
-    """Identify; what the recording holds is told before."""
-    from equipoise.app.views.identify_views import Identification, show_findings
-    from equipoise.assessment.findings.event_findings import event_findings
-    from equipoise.assessment.findings.record_findings import findings
-    from equipoise.procedure.identification.identify import identify as procedure
-
-    found = findings(recording, testbed)
-    if not quiet:
-        show_findings(found)
-    steps = list(watched(procedure(recording, testbed, options), "identifying"))
-    last = steps[-1].estimate
-    happened = [] if last is None else event_findings(last)
-    if not quiet:
-        show_findings(happened)
-    return Identification(testbed, recording, [*found, *happened], steps)
 
 
 def _report(done: "Identification", json: bool, out: Path | None) -> None:

@@ -33,22 +33,15 @@ def observe(
     bed, seeking = testbed_of(testbed), spelt_out(seeking)
     recording = fitting_recording_of(file, reading, bed)
     with busy("following the motion"):
-        from equipoise.estimation.information.filter_observability import filters_along
-        from equipoise.estimation.information.fisher_information import information_along
-        from equipoise.estimation.information.reference_motion import followed
+        from equipoise.app.runs.observation import run
         from equipoise.estimation.method_contract import Options
-        from equipoise.estimation.methods.trajectory import params_of
-        from equipoise.procedure.steps.clean_record import sound
 
-        sound_recording, as_observed = sound(recording, bed)
-        requested = params_of(bed, Options(seeking.term, seeking.hold, seeking.prior))
-        motion = followed(sound_recording, as_observed, requested)
-        information, filters = information_along(motion), filters_along(motion)
+        done = run(recording, bed, Options(seeking.term, seeking.hold, seeking.prior))
     from equipoise.app.text.json_document import dump
     from equipoise.app.views.observe_views import observe_json, show_observability
 
     if json:
-        print(dump(observe_json(recording, information, filters)))
+        print(dump(observe_json(done)))
     else:
-        show_observability(information, filters)
+        show_observability(done)
     return 0

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Literal
 
 from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
+from equipoise.app.arguments.recording_window import WHOLE
 from equipoise.app.arguments.types import Flag, Whole
 
 
@@ -56,23 +57,29 @@ def plan(
         Plan file to write; simulate, identify and balance take it with --plan.
     """
     from equipoise.app.arguments.checks import not_negative, positive, seed_of
-    from equipoise.app.arguments.resolve import spelt_out, testbed_of
+    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
+    from equipoise.app.text.units import PER_DEG
     from equipoise.io.files.atomic_file import check_writable
 
     bed, seeking, seed = testbed_of(testbed), spelt_out(seeking), seed_of(seed)
     duration = positive("--duration-s", duration_s)
-    rate, count = positive("--max-rate-deg-s", max_rate_deg_s), not_negative("--moves", moves)
+    rate = positive("--max-rate-deg-s", max_rate_deg_s) / PER_DEG
+    count = int(not_negative("--moves", moves))
     tries = int(positive("--trials", trials))
     if out is not None:
         check_writable(out)
+    earlier = None if prior_record is None else fitting_recording_of(str(prior_record), WHOLE, bed)
+    from equipoise.app.console.waiting import AT_TERMINAL
     from equipoise.app.runs.planning import Request, plan_file_of, run
     from equipoise.app.text.json_document import dump
     from equipoise.app.views.plan_views import plan_json, show_plan
+    from equipoise.estimation.method_contract import Options
 
+    requested = Options(seeking.term, seeking.hold, seeking.prior)
     request = Request(
-        bed, duration, quantity, criterion, int(count), rate, seeking, prior_record, tries, seed
+        bed, duration, quantity, criterion, count, rate, requested, earlier, tries, seed
     )
-    done = run(request)
+    done = run(request, AT_TERMINAL)
     if json:
         print(dump(plan_json(done)))
     else:

@@ -48,13 +48,12 @@ def simulate(
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
     check_writable(out)
     with busy("simulating"):
-        from equipoise.simulation.carried_out import simulated
-        from equipoise.simulation.record import record
+        from equipoise.app.runs.simulation import free_swing, planned_swing
 
         recording = (
-            record(bed, duration, moves, drawn)
+            free_swing(bed, duration, moves, drawn)
             if planned is None
-            else simulated(bed, planned.manoeuvre, drawn)
+            else planned_swing(bed, planned.manoeuvre, drawn)
         )
         write_recording(recording, out)
     stdout().print(f"wrote {out}", markup=False)

@@ -6,9 +6,9 @@ from equipoise.app.figures.base.files import rendered
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.study import reach, torque_budget
 from equipoise.app.text.json_document import View, dump
-from equipoise.design.sizing.limits import worth_listing
-from equipoise.design.sizing.sizing import Sizing
 from equipoise.io.files.atomic_folder import write_folder
+from equipoise.planning.sizing.limits import worth_listing
+from equipoise.planning.sizing.sizing import Sizing
 
 
 def pictures_of(found: Sizing) -> tuple[Picture, Picture]:

@@ -1,7 +1,7 @@
 """A page as one HTML file that needs no other."""
 
 import base64
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial, singledispatch
 from html import escape
 from importlib.resources import files
@@ -30,6 +30,11 @@ def html(page: Page, images: Images) -> str:
     body = "\n".join(_section(section, images) for section in page.sections)
     title, platform = escape(page.title), escape(page.platform)
     return TEMPLATE.substitute(title=title, platform=platform, body=body)
+
+
+def fragment(blocks: Iterable[Block]) -> str:
+    """Return blocks without figures as a part of a page."""
+    return "".join(map(_set, blocks))
 
 
 def _section(section: Section, images: Images) -> str:

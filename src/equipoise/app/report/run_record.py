@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 
-from equipoise import __version__
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.text.before_after import Change
 from equipoise.app.text.sheet import Sheet
@@ -17,6 +16,7 @@ from equipoise.model.finding import Finding
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
+from equipoise.model.version import __version__
 
 LIBRARIES = ("numpy", "scipy", "numba", "matplotlib")
 

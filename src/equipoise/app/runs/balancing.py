@@ -2,14 +2,12 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
 from equipoise.app.bench.recorded_bench import RecordedBench
-from equipoise.app.console.terminal import watched
 from equipoise.app.figures.balancing.balanced_com import Marked
-from equipoise.app.live.status_block import TerminalView, watched_by
+from equipoise.app.runs.waiting import as_they_come
 from equipoise.app.text.before_after import Change
 from equipoise.app.text.com_estimate import ComEstimate, com_after
 from equipoise.model.arrays import Matrix3, Vector3
@@ -18,6 +16,7 @@ from equipoise.model.errors import BenchStopped, InputError
 from equipoise.model.estimate import INERTIA, Estimate
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.presentation import Plotted
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -39,8 +38,8 @@ class Goal:
     tolerance: Vector3
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Balancing:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Balancing(Plotted):
     """What was done, and the truth at every step when it is known."""
 
     testbed: Testbed
@@ -50,6 +49,8 @@ class Balancing:
     truth_before: MassProperties | None = None
     truths: Sequence[MassProperties] = ()
     before: ComEstimate | None = None  # as known otherwise; None: the first estimate's
+    law: str = OWN.name
+    seed: int | None = None  # of all that was drawn; None: a real bench, or not known
 
     @property
     def simulated(self) -> bool:
@@ -86,16 +87,12 @@ class Through:
     awaited: Callable[[Iterator[Step], str], Iterator[Step]]
 
 
-def at_terminal(testbed: Testbed) -> Through:
-    """Return how a person at the terminal looks on."""
-    view = TerminalView(testbed)
+def unobserved(bench: Bench) -> Bench:
+    """Return the bench as it is: nobody looks on."""
+    return bench
 
-    def awaited(steps: Iterator[Step], what: str) -> Iterator[Step]:
-        for step in watched(steps, what, view):
-            view.step(step)
-            yield step
 
-    return Through(partial(watched_by, view), awaited)
+QUIETLY = Through(unobserved, as_they_come)
 
 
 def run(
@@ -103,16 +100,15 @@ def run(
     goal: Goal,
     limits: Limits,
     show: Callable[[Step], None] | None,
-    through: Through | None = None,
+    through: Through = QUIETLY,
 ) -> Balancing:
     """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
 
     What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a
-    simulated one alone. Who looks on is a person at the terminal, or as ``through`` says.
+    simulated one alone. Who looks on is as ``through`` says.
     """
     simulated = bench if isinstance(bench, SimulatedBench) else None
     before = None if simulated is None else simulated.truth()
-    through = through or at_terminal(bench.testbed)
     recorded = RecordedBench(through.observe(bench))
     steps: list[Step] = []
     truths: list[MassProperties] = []
@@ -136,7 +132,10 @@ def run(
     known = None if limits.law == OWN.name else ComEstimate(body.com, sd)
     planned = limits.plan is not None and bool(truths)
     began = truths[0] if planned else before  # after the manoeuvre
-    return Balancing(bench.testbed, goal, steps, recorded.recording(), began, truths, known)
+    seed = None if simulated is None else simulated.seed
+    return Balancing(
+        bench.testbed, goal, steps, recorded.recording(), began, truths, known, limits.law, seed
+    )
 
 
 def halted(bench: Bench) -> str:

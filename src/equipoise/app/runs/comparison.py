@@ -1,16 +1,17 @@
 """What laws and methods are compared by, as it is asked for, and the comparison carried out."""
 
-import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from equipoise.app.arguments.checks import one_of
-from equipoise.app.console.process_pool import spread_over
 from equipoise.app.runs.resource_use import metered
+from equipoise.app.runs.waiting import QUIET, Waiting
+from equipoise.app.text.units import MM
 from equipoise.control.law import LawCard
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
+from equipoise.model.presentation import Plotted
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import CARDS
@@ -22,7 +23,16 @@ from equipoise.study.law_run import Task
 from equipoise.study.method_record import Scene
 from equipoise.study.method_run import MethodTask
 
-DEG = math.pi / 180
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LawGoal:
+    """What laws are to reach, and within what."""
+
+    target: Vector3  # m
+    tolerance: Vector3  # m
+    tilt: float  # rad, torque counts over directions within it of level
+    required: float  # N m, rms over that range
+    max_time: float  # s, of each run
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,11 +42,72 @@ class Request:
     testbed: Testbed
     cards: Sequence[LawCard]
     seeds: Sequence[int]
-    target: Vector3  # m
-    tolerance: Vector3  # m
-    tilt_deg: float
-    required: float  # N m
-    max_time: float  # s
+    goal: LawGoal
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Names:
+    """Which methods and laws are compared; of a kind that is not compared, none."""
+
+    methods: tuple[str, ...] | None
+    laws: Sequence[LawCard] | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contest:
+    """What is compared, on what, and by what it is judged."""
+
+    names: Names
+    scene: Scene  # of the recordings for methods; its testbed is that of the laws, too
+    seeds: range
+    goal: LawGoal
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Compared(Plotted):
+    """What was compared; None: not asked for."""
+
+    testbed: Testbed
+    requested: Mapping[str, str]
+    methods: MethodComparison | None
+    laws: Comparison | None
+
+
+def names_of(testbed: Testbed, only: Sequence[str], methods: bool, laws: bool) -> Names:
+    """Return what is to be compared; InputError for nothing, and for what cannot be."""
+    if not (methods or laws):
+        raise InputError("compare", "nothing to compare", "--methods or --laws")
+    of_methods, of_laws = by_kind(only, methods, laws)
+    return Names(
+        chosen_methods(of_methods) if methods else None,
+        chosen(testbed, of_laws) if laws else None,
+    )
+
+
+def run_all(contest: Contest, workers: int, waiting: Waiting = QUIET) -> Compared:
+    """Return methods compared on the scene's recordings, and laws on the same platforms."""
+    scene, seeds, names = contest.scene, contest.seeds, contest.names
+    measured = balanced = None
+    if names.methods is not None:
+        measured = run_methods(scene, names.methods, seeds, workers, waiting)
+    if names.laws is not None:
+        requested = Request(scene.testbed, names.laws, seeds, contest.goal)
+        balanced = run(requested, workers, waiting)
+    return Compared(scene.testbed, texts_of(contest), measured, balanced)
+
+
+def texts_of(contest: Contest) -> dict[str, str]:
+    """Return what was asked, as the report has it."""
+    scene, seeds, goal = contest.scene, contest.seeds, contest.goal
+    moves = ", ".join(
+        f"{t:g}: " + " ".join(f"{name}={d * MM:.6g}" for name, d in targets.items())
+        for t, targets in scene.moves
+    )
+    return {
+        "platforms": f"{len(seeds)}, seeds {seeds[0]} to {seeds[-1]}",
+        "records": f"{scene.duration:g} s; moves: {moves or 'none'}",
+        "laws": f"{goal.max_time:g} s at most, {goal.required:g} N m required",
+    }
 
 
 def chosen(testbed: Testbed, only: Sequence[str]) -> list[LawCard]:
@@ -70,20 +141,24 @@ def by_kind(only: Sequence[str], methods: bool, laws: bool) -> tuple[list[str], 
     return [n for n in names if methods and n in METHODS], [n for n in names if n in CARDS]
 
 
-def run(requested: Request, workers: int) -> Comparison:
+def run(requested: Request, workers: int, waiting: Waiting = QUIET) -> Comparison:
     """Return the comparison; runs of one platform by all laws come one after the other."""
-    options = BalanceOptions(requested.target, requested.tolerance, FIRST_MOVES, requested.max_time)
-    tilt = requested.tilt_deg * DEG
+    goal = requested.goal
+    options = BalanceOptions(goal.target, goal.tolerance, FIRST_MOVES, goal.max_time)
     tasks = [
-        Task(card.name, requested.testbed, seed, options, requested.max_time, tilt)
+        Task(card.name, requested.testbed, seed, options, goal.max_time, goal.tilt)
         for seed in requested.seeds
         for card in requested.cards
     ]
-    return compared(tasks, requested.cards, requested.required, spread_over(workers, "balancing"))
+    return compared(tasks, requested.cards, goal.required, waiting.spread(workers, "balancing"))
 
 
 def run_methods(
-    scene: Scene, methods: tuple[str, ...], seeds: Sequence[int], workers: int
+    scene: Scene,
+    methods: tuple[str, ...],
+    seeds: Sequence[int],
+    workers: int,
+    waiting: Waiting = QUIET,
 ) -> MethodComparison:
     """Return the comparison; memory is measured on as many records as there are processes.
 
@@ -93,4 +168,4 @@ def run_methods(
         MethodTask(scene, methods, seed, metered, weighed=k < workers)
         for k, seed in enumerate(seeds)
     ]
-    return compared_methods(tasks, spread_over(workers, "estimating"))
+    return compared_methods(tasks, waiting.spread(workers, "estimating"))

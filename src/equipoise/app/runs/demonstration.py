@@ -9,6 +9,7 @@ from equipoise.app.console.rich_results import estimate_tables
 from equipoise.app.console.terminal import busy, stdout, watched
 from equipoise.app.figures.catalogue import Picture, TrueCourse, of_fit, of_move, of_tracking
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
+from equipoise.app.live.terminal_observer import at_terminal
 from equipoise.app.report.run_record import Account
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.app.text.com_estimate import at_home
@@ -60,7 +61,7 @@ def run_demo(testbed: Testbed, seed: int) -> Demonstration:
     console.print()
     console.print(estimate_tables(estimate)[0])
     console.print("\n2  Balance: the same platform, set level and let go again", style="bold")
-    done = run(SimulatedBench(testbed, seed), GOAL, Limits(), show_step)
+    done = run(SimulatedBench(testbed, seed), GOAL, Limits(), show_step, at_terminal(testbed))
     return Demonstration(recording, truth, steps, replace(done, before=at_home(estimate)))
 
 

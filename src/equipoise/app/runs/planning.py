@@ -1,29 +1,26 @@
-"""One planning: what is known, the search with a sign of life, and what comes of it."""
+"""One planning: what is known, the search, and what comes of it."""
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
-from equipoise.app.arguments.estimated_terms import Seeking
-from equipoise.app.arguments.recording_window import WHOLE
-from equipoise.app.arguments.resolve import fitting_recording_of
-from equipoise.app.console.terminal import busy, counted
-from equipoise.app.text.units import PER_DEG
-from equipoise.design.manoeuvre.criterion import NAMES, Criterion, Quantity
-from equipoise.design.manoeuvre.manoeuvre_space import Space
-from equipoise.design.manoeuvre.plan import Wish, planned
-from equipoise.design.manoeuvre.predicted_sd import Promise, promise
-from equipoise.design.manoeuvre.prior_from_record import RecordPrior, record_prior
-from equipoise.design.manoeuvre.reference_manoeuvre import usual
-from equipoise.design.manoeuvre.scenario import stated_prior
+from equipoise.app.runs.waiting import QUIET, Waiting
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.trajectory import METHOD, params_of
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import Plan
+from equipoise.model.presentation import Shown
+from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
+from equipoise.planning.manoeuvre.criterion import NAMES, Criterion, Quantity
+from equipoise.planning.manoeuvre.manoeuvre_space import Space
+from equipoise.planning.manoeuvre.plan import Wish, planned
+from equipoise.planning.manoeuvre.predicted_sd import Promise, promise
+from equipoise.planning.manoeuvre.prior_from_record import RecordPrior, record_prior
+from equipoise.planning.manoeuvre.reference_manoeuvre import usual
+from equipoise.planning.manoeuvre.scenario import stated_prior
 from equipoise.procedure.steps.clean_record import sound
 
 
@@ -36,26 +33,25 @@ class Request:
     requested: Quantity
     criterion: Criterion
     moves: int
-    rate_deg_s: float
-    seeking: Seeking
-    prior_record: Path | None
+    rate: float  # rad/s, greatest
+    options: Options  # of the fit that the record is meant for
+    earlier: Recording | None  # what it tells is known, masses stand where it left them
     trials: int
     seed: int
 
     @property
     def names(self) -> tuple[str, ...]:
         """Return what is asked for, by name."""
-        return tuple(n for n in NAMES[self.requested] if n not in self.seeking.hold)
+        return tuple(n for n in NAMES[self.requested] if n not in self.options.hold)
 
     @property
     def params(self) -> Params:
         """Return what a fit of the record is told."""
-        wanted = Options(self.seeking.term, self.seeking.hold, self.seeking.prior)
-        return params_of(self.testbed, wanted)
+        return params_of(self.testbed, self.options)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Planning:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Planning(Shown):
     """The plan beside the usual manoeuvre."""
 
     request: Request
@@ -63,35 +59,42 @@ class Planning:
     planned: Promise
     alone: Promise  # the plan's record, without what was seen before
 
+    @property
+    def plan(self) -> Plan:
+        """Return the plan as it is written down, with what a fit of its record should find."""
+        return plan_file_of(self)
 
-def run(request: Request) -> Planning:
-    """Plan, with a sign of life."""
+
+def run(request: Request, waiting: Waiting = QUIET) -> Planning:
+    """Plan; InputError for a testbed without a sensor, or an earlier recording of no use."""
     testbed, params = request.testbed, request.params
     if testbed.attitude is None and testbed.gyro is None:
         raise InputError(testbed.name, "no sensor", "a camera or a gyro")
-    learnt = None if request.prior_record is None else learnt_from(request.prior_record, request)
+    earlier = request.earlier
+    learnt = None if earlier is None else learnt_from(earlier, request, waiting)
     prior = stated_prior(testbed) if learnt is None else learnt.prior
     known, standing = (None, {}) if learnt is None else (learnt.known, learnt.standing)
     wish = Wish(request.requested, request.criterion, params, prior, known)
-    rate = request.rate_deg_s / PER_DEG
-    space = Space(testbed, request.duration, request.moves, testbed.tilt_limit, rate, standing)
-    with counted("planning") as report:
+    rate, limit = request.rate, testbed.tilt_limit
+    space = Space(testbed, request.duration, request.moves, limit, rate, standing)
+    with waiting.search("planning") as report:
         best = planned(space, wish, request.seed, request.trials, report)
     before = usual(testbed, request.duration, standing)
-    with busy("trying it on other platforms", announce=False):
+    with waiting.doing("trying it on other platforms"):
         first, second = (promise(testbed, m, wish, request.seed, rate) for m in (before, best))
         fresh = replace(wish, known=None)
         alone = promise(testbed, best, fresh, request.seed, rate) if known else second
     return Planning(request, first, second, alone)
 
 
-def learnt_from(file: Path, request: Request) -> RecordPrior:
+def learnt_from(recording: Recording, request: Request, waiting: Waiting) -> RecordPrior:
     """Return what an earlier recording tells, the testbed's body being its prior."""
-    testbed, seeking = request.testbed, request.seeking
-    recording = fitting_recording_of(str(file), WHOLE, testbed)
-    with busy("identifying what was seen"):
+    testbed, requested = request.testbed, request.options
+    with waiting.doing("identifying what was seen"):
         rows, as_observed = sound(recording, testbed)
-        found = METHOD.run(rows, as_observed, Options(seeking.term, seeking.hold, use_prior=True))
+        found = METHOD.run(
+            rows, as_observed, Options(requested.terms, requested.hold, use_prior=True)
+        )
     return record_prior(recording, found, testbed)
 
 

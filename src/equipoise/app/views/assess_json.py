@@ -1,7 +1,7 @@
 """An assessment as one JSON document, SI units."""
 
+from equipoise.app.runs.assessment import AssessedPlatform
 from equipoise.app.text.json_document import View, estimate_json, numbers
-from equipoise.app.views.assess_views import AssessmentView
 from equipoise.assessment.metrics.swing_height import Hanging
 from equipoise.estimation.regression.inverse_dynamics_torque import ResidualTorque
 from equipoise.model.estimate import COM, Estimate
@@ -12,7 +12,7 @@ from equipoise.procedure.identification.requirement import Judged
 SCHEMA = "equipoise/assess/1"
 
 
-def document_of(reported: AssessmentView) -> View:
+def document_of(reported: AssessedPlatform) -> View:
     """Return the assessment; what the recording before showed beside it."""
     done, before, verdict = reported.done, reported.before, reported.steps[-1].verdict
     return {

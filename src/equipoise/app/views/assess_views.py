@@ -1,7 +1,6 @@
 """An assessment for terminal, JSON and report."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.recording import swing_spectrum
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
 from equipoise.app.report.run_record import Account, origin
+from equipoise.app.runs.assessment import AssessedPlatform
 from equipoise.app.text.numbers import significant, with_sd
 from equipoise.app.text.sheet import Sheet
 from equipoise.app.text.units import MICRO, UM
@@ -22,25 +22,12 @@ from equipoise.assessment.metrics.swing_height import Hanging
 from equipoise.maths.gaussian_length import Bounded
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.estimate import COM
-from equipoise.model.finding import Finding
-from equipoise.model.step import Step
 from equipoise.procedure.identification.assess import Assessment
 from equipoise.procedure.identification.drift_metrics import OverHours
 
 MODES = {0: "slow swing", 1: "quick swing", None: "both swings, as one"}
 PERCENT = 100.0
 Row = tuple[str, str, str, str, str, str]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class AssessmentView:
-    """What is told of an assessment."""
-
-    done: Assessment
-    before: Assessment | None  # of a recording made earlier
-    steps: Sequence[Step]
-    findings: Sequence[Finding]
-    hours: OverHours | None = None  # looks along the recording
 
 
 def sheets_of(done: Assessment) -> list[Sheet]:
@@ -161,7 +148,7 @@ def residual_torque_sheet(done: Assessment) -> Sheet:
     return Sheet("Along the record: all torques together, and energy", heads, lines, remarks)
 
 
-def show_result(reported: AssessmentView) -> None:
+def show_result(reported: AssessedPlatform) -> None:
     """Print what the recording holds, steps, tables and the verdict."""
     console, done, steps = stdout(), reported.done, reported.steps
     verdict = steps[-1].verdict
@@ -232,7 +219,7 @@ def fall(before: Bounded, after: Bounded) -> str:
     return "no change that the recordings show"
 
 
-def account_of(reported: AssessmentView) -> Account:
+def account_of(reported: AssessedPlatform) -> Account:
     """Return the assessment as a report."""
     done, before, options = reported.done, reported.before, reported.done.options
     requested = {
@@ -260,7 +247,7 @@ def account_of(reported: AssessmentView) -> Account:
     )
 
 
-def pictures_of(reported: AssessmentView) -> Iterator[Picture]:
+def pictures_of(reported: AssessedPlatform) -> Iterator[Picture]:
     """Yield the figures."""
     done, hours = reported.done, reported.hours
     if done.estimate.outcome.usable:

@@ -36,7 +36,7 @@ def show_result(done: Balancing) -> None:
         console.print(floor, style="dim", markup=False)
 
 
-def document_of(done: Balancing, seed: int) -> View:
+def document_of(done: Balancing, seed: int | None) -> View:
     """Return the run as JSON."""
     truth = done.truths[-1] if done.truths else None
     return balance_json(done.steps, done.verdict, truth, _origin(done, seed))
@@ -68,9 +68,9 @@ def wanted(goal: Goal) -> Wanted:
     return Wanted(goal.target, goal.tolerance)
 
 
-def _origin(done: Balancing, seed: int) -> dict[str, str]:
+def _origin(done: Balancing, seed: int | None) -> dict[str, str]:
     """Return where it comes from; what is drawn by a seed is the simulated platform."""
-    drawn = {"seed": str(seed)} if done.simulated else {}
+    drawn = {"seed": str(seed)} if done.simulated and seed is not None else {}
     return origin(testbed=done.testbed.source, **drawn)
 
 

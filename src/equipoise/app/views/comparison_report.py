@@ -1,7 +1,6 @@
 """Methods and laws compared: terminal, one JSON document, and the files of a folder."""
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 from rich.text import Text
 
@@ -12,6 +11,7 @@ from equipoise.app.figures.study import compared_accuracy, compared_coverage, co
 from equipoise.app.report.run_record import Account, origin
 from equipoise.app.report.write import Files
 from equipoise.app.report.write import files_of as report_files
+from equipoise.app.runs.comparison import Compared
 from equipoise.app.text.json_document import View, dump
 from equipoise.app.text.sheet import Sheet
 from equipoise.app.text.units import MICRO
@@ -19,21 +19,9 @@ from equipoise.app.views.law_views import comparison_json, laws_csv, laws_sheet
 from equipoise.app.views.method_comparison import methods_csv, methods_json, sheets, shown_order
 from equipoise.app.views.review_views import laws_sheet as table_3
 from equipoise.app.views.review_views import methods_sheet as table_2
-from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
-from equipoise.study.compare_laws import Comparison
 from equipoise.study.compare_methods import MethodComparison
 from equipoise.study.recommend import Advice, advised_law, advised_method, least_share
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Compared:
-    """What was compared; None: not asked for."""
-
-    testbed: Testbed
-    requested: Mapping[str, str]
-    methods: MethodComparison | None
-    laws: Comparison | None
 
 
 def advice(done: Compared) -> list[Advice]:

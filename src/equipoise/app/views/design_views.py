@@ -10,17 +10,17 @@ from equipoise.app.console.rich_tables import quiet_table, titled
 from equipoise.app.console.terminal import stdout
 from equipoise.app.text.json_document import View, numbers
 from equipoise.app.text.units import GRAM, MICRO, MM, PER_DEG, UM
-from equipoise.design.sizing.budget import Budget
-from equipoise.design.sizing.case import Case
-from equipoise.design.sizing.contribution import Line
-from equipoise.design.sizing.environment import not_stated
-from equipoise.design.sizing.limits import plain, worth_listing
-from equipoise.design.sizing.mass_steps import MassStep
-from equipoise.design.sizing.measurement_bound import MeasurementBound
-from equipoise.design.sizing.reachable_set import furthest, tolerance, volume, weakest
-from equipoise.design.sizing.sensitivity import Bettered
-from equipoise.design.sizing.sizing import Sizing
 from equipoise.model.arrays import Floats, Matrix3
+from equipoise.planning.sizing.budget import Budget
+from equipoise.planning.sizing.case import Case
+from equipoise.planning.sizing.contribution import Line
+from equipoise.planning.sizing.environment import not_stated
+from equipoise.planning.sizing.limits import plain, worth_listing
+from equipoise.planning.sizing.mass_steps import MassStep
+from equipoise.planning.sizing.measurement_bound import MeasurementBound
+from equipoise.planning.sizing.reachable_set import furthest, tolerance, volume, weakest
+from equipoise.planning.sizing.sensitivity import Bettered
+from equipoise.planning.sizing.sizing import Sizing
 
 SCHEMA = "equipoise/design/1"
 AXES = ("x", "y", "z")

@@ -1,7 +1,6 @@
 """An identification for terminal, JSON and report."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from equipoise.app.console.rich_results import (
     estimate_tables,
@@ -14,32 +13,10 @@ from equipoise.app.figures.catalogue import of_estimate
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
 from equipoise.app.report.logbook_entry import Kept
 from equipoise.app.report.run_record import Account, origin
+from equipoise.app.runs.identification import Identification
 from equipoise.app.text.json_document import View, estimate_json
 from equipoise.app.views.plan_check import kept_json, kept_table, promise_sentences
-from equipoise.model.estimate import Estimate
 from equipoise.model.finding import Finding
-from equipoise.model.manoeuvre import Plan
-from equipoise.model.recording import Recording
-from equipoise.model.step import Step
-from equipoise.model.testbed import Testbed
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Identification:
-    """What was done with a recording; the last step has the estimate that counts."""
-
-    testbed: Testbed
-    recording: Recording
-    findings: Sequence[Finding]
-    steps: Sequence[Step]
-    plan: Plan | None = None  # that the recording was made by
-
-    @property
-    def estimate(self) -> Estimate:
-        """Return the last word."""
-        found = self.steps[-1].estimate
-        assert found is not None
-        return found
 
 
 def show_findings(findings: Sequence[Finding]) -> None:

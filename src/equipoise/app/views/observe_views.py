@@ -8,6 +8,7 @@ from rich.text import Text
 
 from equipoise.app.console.rich_tables import quiet_table, titled
 from equipoise.app.console.terminal import stdout
+from equipoise.app.runs.observation import Observation
 from equipoise.app.text.json_document import View, numbers, parameter_json
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import PER_DEG, unit_for
@@ -15,7 +16,6 @@ from equipoise.estimation.information.filter_observability import FilterView
 from equipoise.estimation.information.fisher_information import Observability
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Parameter
-from equipoise.model.recording import Recording
 
 SCHEMA = "equipoise/observe/1"
 BODY = (*COM, *INERTIA)
@@ -100,9 +100,9 @@ def rank_line(information: Observability) -> str:
     )
 
 
-def show_observability(information: Observability, filters: Sequence[FilterView]) -> None:
+def show_observability(done: Observation) -> None:
     """Print bounds, filters, and what is not seen."""
-    console = stdout()
+    console, information, filters = stdout(), done.bounds, done.filters
     others = [name for name in information.names if name not in BODY]
     tables = [
         bound_table("Centre of mass and inertia about P, masses at home", information, BODY),
@@ -121,10 +121,9 @@ def show_observability(information: Observability, filters: Sequence[FilterView]
     console.print(rank_line(information), markup=False, style="bold")
 
 
-def observe_json(
-    recording: Recording, information: Observability, filters: Sequence[FilterView]
-) -> View:
+def observe_json(done: Observation) -> View:
     """Return what a recording can show, schema equipoise/observe/1."""
+    recording, information, filters = done.recording, done.bounds, done.filters
     return {
         "schema": SCHEMA,
         "source": recording.source,

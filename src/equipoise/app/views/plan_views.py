@@ -12,13 +12,13 @@ from equipoise.app.runs.planning import Planning, Request
 from equipoise.app.text.json_document import View, schedule_json
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import MM, PER_DEG, Unit, unit_for
-from equipoise.design.manoeuvre.criterion import OF_COM, OF_MOMENT, size_of
-from equipoise.design.manoeuvre.predicted_sd import Promise, times_better
 from equipoise.model.arrays import Vector3
 from equipoise.model.devices import ReactionWheel
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import Manoeuvre, SquareWave
 from equipoise.model.testbed import Testbed
+from equipoise.planning.manoeuvre.criterion import OF_COM, OF_MOMENT, size_of
+from equipoise.planning.manoeuvre.predicted_sd import Promise, times_better
 
 SCHEMA = "equipoise/plan/1"
 UPRIGHT = 0.999  # cosine, chosen: a body's z that counts as upright
@@ -56,7 +56,7 @@ def promise_table(done: Planning) -> Group:
         requested = name in done.request.names
         shown = f"{ratio:.2g}" if math.isfinite(ratio) and "held" not in texts else ""
         table.add_row(name, *texts, shown, unit.name, style="" if requested else "dim")
-    after = ", known what was seen" if done.request.prior_record else ""
+    after = ", known what was seen" if done.request.earlier else ""
     return titled(f"Predicted sd over {done.planned.platforms} platforms that may be there{after}",
                   table)  # fmt: skip
 
@@ -126,7 +126,7 @@ def limits_line(promise: Promise, request: Request, who: str) -> str:
         f"{who} tilts the platform that is expected by {PER_DEG * expected.peak_tilt:.3g} deg at "
         f"most, {n} others by up to {PER_DEG * promise.greatest_tilt:.3g} deg, and reaches "
         f"{PER_DEG * promise.greatest_rate:.3g} deg/s; {promise.kept} of them keep the limits of "
-        f"{PER_DEG * testbed.tilt_limit:.3g} deg and {request.rate_deg_s:g} deg/s"
+        f"{PER_DEG * testbed.tilt_limit:.3g} deg and {PER_DEG * request.rate:g} deg/s"
     )
     if any(isinstance(d, ReactionWheel) for d in testbed.devices) or testbed.cmgs:
         text += f", stored momentum {expected.peak_momentum:.2g} N m s"
@@ -158,7 +158,7 @@ def verdict(done: Planning) -> str:
         return text
     advice = (
         "a shorter record or more --trials may keep it"
-        if done.request.prior_record
+        if done.request.earlier
         else "too little is known of the centre of mass: record a short swing, halted before the "
         "limit, and plan again with --prior-record"
     )

@@ -20,12 +20,12 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from equipoise import __version__
 from equipoise.io.files.append_file import DurableFile
 from equipoise.io.formats.optional_libraries import log_library
 from equipoise.io.mcap.log_messages import Topics
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording
+from equipoise.model.version import __version__
 
 EVERY = 0.5  # s, chosen: half of the second that a crash may cost; the rest is for a slow system
 METADATA, TESTBED_FILE, ZERO_KEY = "equipoise", "testbed.toml", "zero_ns"

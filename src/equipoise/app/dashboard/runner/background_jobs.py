@@ -12,9 +12,9 @@ from equipoise.app.report.logbook_entry import Kept
 from equipoise.app.report.run_record import Account
 from equipoise.app.report.write import write_run
 from equipoise.app.runs.balancing import Balancing
+from equipoise.app.runs.identification import Identification
 from equipoise.app.text.json_document import View
 from equipoise.app.views import balance_views, identify_views
-from equipoise.app.views.identify_views import Identification
 from equipoise.assessment.findings.record_findings import findings
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording

@@ -6,7 +6,7 @@ and no server; whoever listens gets the same.
 """
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 from equipoise.app.console.compile_notice import compiler_notices
@@ -27,6 +27,7 @@ from equipoise.app.dashboard.runner.recorder import Recorder
 from equipoise.app.live.observed_bench import WatchedBench
 from equipoise.app.runs.balancing import HALTED, Balancing, Goal, Limits, Through, run
 from equipoise.app.runs.rehearsal import practised
+from equipoise.app.runs.waiting import as_they_come
 from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.hardware.bench.replayed_bench import RecordingEnded
 from equipoise.maths.attitude import tilt
@@ -191,7 +192,7 @@ class Runner:
             self.say("Practising on a simulated platform ...")
             practised(bench.testbed, goal, limits)
             let_go(bench, self.say)
-        return run(bench, goal, limits, self.step, Through(self._replayed, _plain))
+        return run(bench, goal, limits, self.step, Through(self._replayed, as_they_come))
 
     def identify(self, method: str) -> None:
         """Identify from what was seen, beside; InputError where nothing was."""
@@ -240,8 +241,3 @@ class Runner:
             self.kept = None if what is None else str(what)
         else:
             self.note = str(what)
-
-
-def _plain(steps: Iterator[Step], _what: str) -> Iterator[Step]:
-    """Return the steps as they are: the page itself is the sign of life."""
-    return steps

@@ -7,8 +7,8 @@ from matplotlib.patches import Circle, Ellipse
 
 from equipoise.app.figures.base.style import AXES, BLUE, GREEN, GREY, ORANGE, WIDE, legend, styled
 from equipoise.app.text.units import UM
-from equipoise.design.sizing.case import Case
-from equipoise.design.sizing.reachable_set import Reach, outline, tolerance
+from equipoise.planning.sizing.case import Case
+from equipoise.planning.sizing.reachable_set import Reach, outline, tolerance
 
 CAPTION = (
     "Shifts of the centre of mass that the masses can make from home, um (shaded), those that "

@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
 from equipoise.app.text.units import MICRO
-from equipoise.design.sizing.budget import Budget
-from equipoise.design.sizing.sensitivity import Bettered
+from equipoise.planning.sizing.budget import Budget
+from equipoise.planning.sizing.sensitivity import Bettered
 
 CAPTION = (
     "Torque that is left, uN m rms within the tilt: each cause by itself, all together (their root "

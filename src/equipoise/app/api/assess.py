@@ -1,0 +1,83 @@
+"""Assess: what a recording proves about a platform."""
+
+import math
+from collections.abc import Callable, Sequence
+
+from equipoise.app.api.inputs import (
+    AnyRecording,
+    AnyTestbed,
+    options_from,
+    recording_from,
+    testbed_from,
+)
+from equipoise.app.arguments.checks import between, positive, vector
+from equipoise.app.runs import assessment
+from equipoise.app.runs.assessment import AssessedPlatform, Recordings
+from equipoise.app.runs.waiting import passing_on
+from equipoise.model.step import Step
+from equipoise.procedure.identification.assess import AssessOptions
+
+TILT = math.radians(20.0)
+
+
+def assess(
+    recording: AnyRecording,
+    testbed: AnyTestbed,
+    *,
+    before: AnyRecording | None = None,
+    tilt: float = TILT,
+    target: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    require_torque: float | None = None,
+    require_offset: float | None = None,
+    windows: float | None = None,
+    terms: Sequence[str] = (),
+    hold: Sequence[str] = (),
+    on_step: Callable[[Step], None] | None = None,
+) -> AssessedPlatform:
+    """Say what gravity still does to a platform, how surely, and whether that is good enough.
+
+    The result has ``estimate``, ``verdict``, ``steps`` and ``findings``.
+
+    Parameters
+    ----------
+    recording
+        Recording of the platform swinging freely, or its file.
+    testbed
+        Testbed, its file, or a preset's name. Its inertia counts as known to its sd.
+    before
+        A recording made before balancing, or its file, to compare with.
+    tilt
+        Torque counts over directions within this angle of level, rad.
+    target
+        Where the centre of mass is wanted, from the centre of rotation, body axes, m.
+    require_torque
+        Torque of gravity that is allowed, rms over that range, N m.
+    require_offset
+        Distance of the centre of mass from its target that is allowed, m.
+    windows
+        Assess windows of this length along the recording too, s: drift and Allan deviation.
+    terms
+        Torques to consider too: viscous, quadratic, constant, swirl, sag or drift.
+    hold
+        Parameters to keep at the testbed's value, such as inertia_P_zz.
+    on_step
+        Called with each step as it is done, those of ``before`` last.
+
+    Raises
+    ------
+    InputError
+        For files that cannot be read, unknown names, limits that are not above zero, and a
+        recording that does not fit the testbed.
+    """
+    bed, requested = testbed_from(testbed), options_from(terms, hold)
+    for name, limit in (("require_torque", require_torque), ("require_offset", require_offset),
+                        ("windows", windows)):  # fmt: skip
+        if limit is not None:
+            positive(name, limit)
+    goal, angle = vector("target", target, 1.0), between("tilt", tilt, 0.0, math.pi / 2)
+    options = AssessOptions(
+        goal, angle, require_torque, require_offset, requested.terms, requested.hold
+    )
+    earlier = None if before is None else recording_from(before, bed)
+    of = Recordings(recording_from(recording, bed), earlier, windows)
+    return assessment.run(of, bed, options, passing_on(on_step))

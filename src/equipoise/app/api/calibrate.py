@@ -1,0 +1,52 @@
+"""Calibrate: what masses really do for their commands, and how sensors are aligned."""
+
+from collections.abc import Sequence
+
+from equipoise.app.api.inputs import (
+    AnyRecording,
+    AnyTestbed,
+    options_from,
+    recording_from,
+    testbed_from,
+)
+from equipoise.estimation.calibration.calibration import CalibrateOptions
+from equipoise.model.estimate import Estimate
+from equipoise.procedure.identification import calibrate as procedure
+
+
+def calibrate(
+    recording: AnyRecording,
+    testbed: AnyTestbed,
+    *,
+    reference: Sequence[str] = (),
+    terms: Sequence[str] = (),
+    hold: Sequence[str] = (),
+    use_prior: bool = False,
+) -> Estimate:
+    """Estimate gain, rail and backlash of masses from commanded moves; alignment of sensors too.
+
+    Whether the calibration is usable is its ``outcome``.
+
+    Parameters
+    ----------
+    recording
+        Recording of commanded moves, or its file.
+    testbed
+        Testbed, its file, or a preset's name.
+    reference
+        Masses whose weight and steps you trust, which fixes the scale.
+    terms
+        Torques to estimate too: viscous, quadratic, constant, swirl, sag or drift.
+    hold
+        Parameters to keep at the testbed's value, such as inertia_P_zz.
+    use_prior
+        Use the testbed's inertia and centre of mass with their sd.
+
+    Raises
+    ------
+    InputError
+        For files that cannot be read, unknown names, and a recording that does not fit the testbed.
+    """
+    bed, requested = testbed_from(testbed), options_from(terms, hold, use_prior)
+    options = CalibrateOptions(tuple(reference), requested.terms, requested.hold, use_prior)
+    return procedure.calibrate(recording_from(recording, bed), bed, options)

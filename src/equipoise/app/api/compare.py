@@ -1,0 +1,94 @@
+"""Compare: methods on the same recordings, laws on the same platforms."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+from equipoise.app.api.inputs import AnyTestbed, options_from, testbed_from
+from equipoise.app.arguments import checks
+from equipoise.app.runs.comparison import Compared, Contest, LawGoal, names_of, run_all
+from equipoise.study.method_record import Scene
+
+TILT = math.radians(20.0)
+Triple = tuple[float, float, float]
+
+
+def compare(
+    testbed: AnyTestbed,
+    *,
+    methods: bool = False,
+    laws: bool = False,
+    only: Sequence[str] = (),
+    runs: int = 20,
+    seed: int = 1,
+    duration: float = 120.0,
+    moves: Sequence[tuple[float, Mapping[str, float]]] = (),
+    terms: Sequence[str] = (),
+    hold: Sequence[str] = (),
+    use_prior: bool = False,
+    target: Triple = (0.0, 0.0, 0.0),
+    tolerance: Triple = (2e-6, 2e-6, 3e-6),
+    tilt: float = TILT,
+    require_torque: float = 1e-5,
+    max_time: float = 600.0,
+    workers: int = 1,
+) -> Compared:
+    """Run methods on the same recordings, or laws on the same platforms; the truth judges.
+
+    Platforms are simulated. The result has ``methods`` and ``laws``, None where not requested.
+
+    Parameters
+    ----------
+    testbed
+        Testbed, its file, or a preset's name. Its [truth] says what the platforms are like.
+    methods
+        Compare methods.
+    laws
+        Compare laws.
+    only
+        Methods and laws to compare. Of a kind of which none is named: all that can be.
+    runs
+        Platforms, each with one recording for all methods and one balancing by each law.
+    seed
+        Seed of the first platform; the others follow.
+    duration
+        Methods: length of each recording, s.
+    moves
+        Methods: moves of masses, each a time (s) and displacements from home (m) by mass.
+    terms
+        Methods: torques to estimate too.
+    hold
+        Methods: parameters to keep at the testbed's value.
+    use_prior
+        Methods: use the testbed's inertia and centre of mass with their sd.
+    target
+        Laws: where the centre of mass is wanted, from the centre of rotation, body axes, m.
+    tolerance
+        Laws: how near to the target is near enough, along each axis, m.
+    tilt
+        Laws: torque counts over directions within this angle of level, rad.
+    require_torque
+        Laws: torque that is wanted at most, rms over that range, N m.
+    max_time
+        Laws: bench time that each run may take, s.
+    workers
+        Processes to spread the runs over. More than one needs a script whose start is guarded by
+        ``if __name__ == "__main__":``.
+
+    Raises
+    ------
+    InputError
+        For nothing to compare, unknown names, laws that the testbed lacks a device for.
+    """
+    bed, first = testbed_from(testbed), checks.seed_of(seed)
+    seeds = range(first, first + int(checks.positive("runs", runs)))
+    requested = options_from(terms, hold, use_prior)
+    scene = Scene(bed, checks.positive("duration", duration), tuple(moves), requested)
+    goal = LawGoal(
+        checks.vector("target", target, 1.0),
+        checks.tolerance("tolerance", tolerance, 1.0),
+        checks.not_negative("tilt", tilt),
+        checks.positive("require_torque", require_torque),
+        checks.positive("max_time", max_time),
+    )
+    many = int(checks.positive("workers", workers))
+    return run_all(Contest(names_of(bed, only, methods, laws), scene, seeds, goal), many)

@@ -1,0 +1,88 @@
+"""Testbeds and recordings, from files and into them."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from equipoise.app.api.inputs import part_of
+from equipoise.io.columns.column_map_file import read_column_map
+from equipoise.io.recording import recording_file
+from equipoise.io.testbed import testbed_file
+from equipoise.io.testbed.presets import read_preset
+from equipoise.model.errors import InputError
+from equipoise.model.recording import Recording
+from equipoise.model.testbed import Testbed
+
+
+def read_testbed(path: str | Path) -> Testbed:
+    """Return the testbed that a TOML file describes, in SI units.
+
+    Raises
+    ------
+    InputError
+        With file, key, what was found and what was wanted.
+    """
+    return testbed_file.read_testbed(path)
+
+
+def preset(name: str) -> Testbed:
+    """Return a testbed that ships with the package, such as ``"sputnix"``, in SI units.
+
+    Raises
+    ------
+    InputError
+        For an unknown name, with the nearest known one.
+    """
+    return read_preset(name)
+
+
+def read_recording(
+    path: str | Path,
+    *,
+    dialect: str | None = None,
+    columns: str | Path | None = None,
+    start: float | None = None,
+    end: float | None = None,
+) -> Recording:
+    """Return what a file holds: channels in SI units, each at its own times.
+
+    Parameters
+    ----------
+    path
+        CSV, Parquet, MCAP, MAT, or a log of another program.
+    dialect
+        How to read a table: native, optitrack or ros. None: by its header.
+    columns
+        Column map (TOML) for a table of any other kind.
+    start
+        Leave out what is before this time, s. None: keep it; verbs then leave out what a bench's
+        own recording has from before the platform was let go.
+    end
+        Leave out what is after this time, s.
+
+    Raises
+    ------
+    InputError
+        For what cannot be read, with file, line or column; for ``dialect`` beside ``columns``; for
+        times that leave fewer than three rows.
+    """
+    if dialect is not None and columns is not None:
+        raise InputError("dialect and columns", "both", "one of them")
+    layout = dialect if columns is None else read_column_map(columns)
+    recording = recording_file.read_recording(path, layout)
+    if start is None and end is None:
+        return recording
+    part = part_of(recording, start, end)
+    return part if start is None else replace(part, free_from=None)
+
+
+def write_recording(recording: Recording, path: str | Path) -> None:
+    """Write a recording whole or not at all, in the format of the path's suffix.
+
+    The suffix is .csv, .parquet, .mcap or .mat; columns have their units in their names.
+
+    Raises
+    ------
+    InputError
+        For another suffix, and for values that are not finite.
+    """
+    recording_file.write_recording(recording, path)

@@ -1,0 +1,70 @@
+"""Identify: mass properties from a recording."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from equipoise.app.api.inputs import (
+    AnyPlan,
+    AnyRecording,
+    AnyTestbed,
+    options_from,
+    plan_from,
+    recording_from,
+    testbed_from,
+)
+from equipoise.app.runs import identification
+from equipoise.app.runs.identification import Identification
+from equipoise.app.runs.waiting import passing_on
+from equipoise.model.step import Step
+from equipoise.procedure.identification.identify import IdentifyOptions
+
+
+def identify(
+    recording: AnyRecording,
+    testbed: AnyTestbed,
+    *,
+    method: str = "auto",
+    terms: Sequence[str] = (),
+    hold: Sequence[str] = (),
+    use_prior: bool = False,
+    robust: bool = False,
+    plan: AnyPlan | None = None,
+    on_step: Callable[[Step], None] | None = None,
+) -> Identification:
+    """Estimate centre of mass (m) and inertia about P (kg m^2), and say what cannot be observed.
+
+    The result has ``estimate``, ``steps``, ``findings`` and ``recording``. Whether the estimate is
+    usable is its ``outcome``; poor data raise nothing.
+
+    Parameters
+    ----------
+    recording
+        Recording, or its file.
+    testbed
+        Testbed, its file, or a preset's name.
+    method
+        auto, or one of ``methods()``.
+    terms
+        Torques to estimate too: viscous, quadratic, constant, swirl, sag or drift.
+    hold
+        Parameters to keep at the testbed's value, such as inertia_P_zz.
+    use_prior
+        Use the testbed's inertia and centre of mass with their sd; this fixes an open scale.
+    robust
+        Give outliers less weight.
+    plan
+        Plan that the recording was made by, or its file; its predictions are compared.
+    on_step
+        Called with each step as it is done.
+
+    Raises
+    ------
+    InputError
+        For files that cannot be read, unknown names, and a recording that does not fit the testbed.
+    """
+    bed, requested = testbed_from(testbed), options_from(terms, hold, use_prior, robust)
+    planned = None if plan is None else plan_from(plan, bed)
+    options = IdentifyOptions(method, requested.terms, requested.hold, use_prior, robust)
+    rows = recording_from(recording, bed)
+    done = identification.run(rows, bed, options, passing_on(on_step))
+    return replace(done, plan=planned)

@@ -1,0 +1,22 @@
+"""How a person at the terminal watches a balancing: live numbers above a sign of life."""
+
+from collections.abc import Iterator
+from functools import partial
+
+from equipoise.app.console.terminal import watched
+from equipoise.app.live.status_block import TerminalView, watched_by
+from equipoise.app.runs.balancing import Through
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+
+
+def at_terminal(testbed: Testbed) -> Through:
+    """Return how a person at the terminal watches."""
+    view = TerminalView(testbed)
+
+    def awaited(steps: Iterator[Step], what: str) -> Iterator[Step]:
+        for step in watched(steps, what, view):
+            view.step(step)
+            yield step
+
+    return Through(partial(watched_by, view), awaited)

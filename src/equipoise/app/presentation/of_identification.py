@@ -1,0 +1,53 @@
+"""An identification: its estimate, after what was done."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from equipoise.app.presentation import of_estimate
+from equipoise.app.presentation.block_parts import moments
+from equipoise.app.presentation.tables import Arrays, Table
+from equipoise.app.runs.identification import Identification
+from equipoise.app.text.blocks import Block, Items
+from equipoise.app.text.json_document import View
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def lines(done: Identification) -> Iterator[str]:
+    """Yield what was identified, how it ended, and the parameters."""
+    estimate = done.estimate
+    yield f"Identification of {done.testbed.name} by {estimate.method}: {estimate.outcome.sentence}"
+    yield from of_estimate.parameter_lines(estimate)
+
+
+def blocks(done: Identification) -> Iterator[Block]:
+    """Yield findings, steps and the estimate."""
+    yield Items(tuple(finding.sentence for finding in done.findings))
+    yield from moments(done.steps)
+    yield from of_estimate.blocks(done.estimate)
+
+
+def document(done: Identification) -> View:
+    """Return what `equipoise identify --json` prints."""
+    from equipoise.app.views.identify_views import document_of
+
+    return document_of(done)
+
+
+def table(done: Identification) -> Table:
+    """Return a row a parameter."""
+    return of_estimate.table(done.estimate)
+
+
+def arrays(done: Identification) -> Arrays:
+    """Return the estimate's arrays."""
+    return of_estimate.arrays(done.estimate)
+
+
+def figure(done: Identification) -> "Figure | None":
+    """Return the first figure of the report, else the intervals."""
+    from equipoise.app.figures.catalogue import of_estimate as pictures
+
+    first = next(pictures(done.recording, done.testbed, done.estimate), None)
+    return of_estimate.figure(done.estimate) if first is None else first.figure

@@ -1,0 +1,89 @@
+"""Mass, centre of mass and inertia of a body."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from equipoise.app.presentation.tables import Arrays, Table, Variable
+from equipoise.app.text.blocks import Block, Grid
+from equipoise.app.text.json_document import View, numbers
+from equipoise.app.text.units import unit_for
+from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.mass_properties import MassProperties, is_possible
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SCHEMA = "equipoise/mass_properties/1"
+ELEMENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # in the order of INERTIA
+AXES = ("x", "y", "z")
+
+
+def lines(body: MassProperties) -> Iterator[str]:
+    """Yield mass, centre of mass and inertia about P."""
+    unit = unit_for("com_x", "m")
+    com = ", ".join(f"{value * unit.factor:.4g}" for value in body.com)
+    elements = (f"{name[-2:]} {value:.4g}" for name, value in _elements(body))
+    yield f"MassProperties: {body.mass:.5g} kg"
+    yield f"  com        x, y, z {com} {unit.name}"
+    yield f"  inertia_P  {', '.join(elements)} kg m2"
+
+
+def _elements(body: MassProperties) -> list[tuple[str, float]]:
+    """Return the inertia's elements by name, kg m^2."""
+    return [(name, float(body.inertia_P[at])) for name, at in zip(INERTIA, ELEMENTS, strict=True)]
+
+
+def blocks(body: MassProperties) -> Iterator[Block]:
+    """Yield one table."""
+    of = table(body).columns
+    rows = list[tuple[str, str, str]]()
+    for name, si, value in zip(of["name"], of["unit"], of["value"], strict=True):
+        unit = unit_for(name, si) if si == "m" else None
+        shown = value * (1.0 if unit is None else unit.factor)
+        rows.append((name, f"{shown:.5g}", si if unit is None else unit.name))
+    yield Grid(("", "value", "unit"), tuple(rows))
+
+
+def document(body: MassProperties) -> View:
+    """Return the numbers, SI."""
+    return {
+        "schema": SCHEMA,
+        "mass_kg": body.mass,
+        "com_m": numbers(body.com),
+        "inertia_P_kg_m2": numbers(body.inertia_P),
+        "possible": is_possible(body),
+    }
+
+
+def table(body: MassProperties) -> Table:
+    """Return a row a number."""
+    elements = [value for _, value in _elements(body)]
+    return Table(
+        "name",
+        {
+            "name": ["mass", *COM, *INERTIA],
+            "unit": ["kg", *["m"] * len(COM), *["kg m2"] * len(INERTIA)],
+            "value": [body.mass, *body.com.tolist(), *elements],
+        },
+    )
+
+
+def arrays(body: MassProperties) -> Arrays:
+    """Return mass, centre of mass and inertia along the body axes."""
+    variables = {
+        "mass": Variable((), np.array(body.mass), "kg"),
+        "com": Variable(("axis",), body.com, "m"),
+        "inertia_P": Variable(("axis", "axis_2"), body.inertia_P, "kg m2"),
+    }
+    return Arrays(
+        variables, {"axis": Variable(("axis",), AXES), "axis_2": Variable(("axis_2",), AXES)}
+    )
+
+
+def figure(body: MassProperties) -> "Figure | None":
+    """Return the ellipsoid of even density with this inertia, and its centre of mass."""
+    from equipoise.app.figures.estimate import inertia_ellipsoid
+
+    return inertia_ellipsoid.draw(body) if is_possible(body) else None

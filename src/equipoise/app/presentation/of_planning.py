@@ -1,0 +1,72 @@
+"""A plan beside the usual manoeuvre."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from equipoise.app.presentation.tables import Arrays, Table, of_table
+from equipoise.app.runs.planning import Planning
+from equipoise.app.text.blocks import Block, Claim, Grid, Heading, Items, Pairs
+from equipoise.app.text.json_document import View
+from equipoise.app.text.units import unit_for
+from equipoise.model.estimate import COM, INERTIA
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+NAMES = (*COM, *INERTIA)
+
+
+def lines(done: Planning) -> Iterator[str]:
+    """Yield what the plan gains, and what to do."""
+    from equipoise.app.views.plan_views import steps_of, verdict
+
+    yield f"Plan for {done.request.testbed.name}: {verdict(done)}"
+    for when, what in steps_of(done.planned.manoeuvre, done.request.testbed):
+        yield f"  {when:8s} {what}"
+
+
+def blocks(done: Planning) -> Iterator[Block]:
+    """Yield predicted sd, what to do, what is not observed, and what the plan gains."""
+    from equipoise.app.views.plan_views import sd_text, steps_of, verdict
+
+    units = [unit_for(name, "m" if name in COM else "kg m2") for name in NAMES]
+    yield Heading("Predicted sd")
+    yield Grid(("", "usual", "planned", "unit"), tuple(
+        (name, sd_text(done.usual, name, unit), sd_text(done.planned, name, unit), unit.name)
+        for name, unit in zip(NAMES, units, strict=True)
+    ))  # fmt: skip
+    yield Heading("What to do")
+    yield Pairs(tuple(steps_of(done.planned.manoeuvre, done.request.testbed)))
+    if done.planned.sentences:
+        yield Items(done.planned.sentences)
+    yield Claim(verdict(done), done.planned.keeps)
+
+
+def document(done: Planning) -> View:
+    """Return what `equipoise plan --json` prints."""
+    from equipoise.app.views.plan_views import plan_json
+
+    return plan_json(done)
+
+
+def table(done: Planning) -> Table:
+    """Return a row a parameter."""
+    return Table(
+        "name",
+        {
+            "name": list(NAMES),
+            "unit": ["m"] * len(COM) + ["kg m2"] * len(INERTIA),
+            "usual_sd": done.usual.sd_of(NAMES).tolist(),
+            "planned_sd": done.planned.sd_of(NAMES).tolist(),
+        },
+    )
+
+
+def arrays(done: Planning) -> Arrays:
+    """Return the table's columns along the names."""
+    return of_table(table(done))
+
+
+def figure(done: Planning) -> "Figure | None":
+    """Return nothing: a plan has no figure."""
+    return None

@@ -1,0 +1,63 @@
+"""What masses and sensors are good for: the budget of the torque that is left."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from equipoise.app.presentation.tables import Arrays, Table, of_table
+from equipoise.app.text.blocks import Block, Claim, Grid, Heading, Paragraph
+from equipoise.app.text.json_document import View
+from equipoise.app.text.numbers import significant
+from equipoise.app.text.units import MICRO
+from equipoise.planning.sizing.sizing import Sizing
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def lines(found: Sizing) -> Iterator[str]:
+    """Yield the verdict and what limits the result."""
+    yield f"Design of {found.case.testbed.name}: {found.outcome.sentence}"
+    yield f"  {found.limit}"
+
+
+def blocks(found: Sizing) -> Iterator[Block]:
+    """Yield the budget, reach, limit and verdict."""
+    yield Heading("Torque left, by cause")
+    yield Grid(("", "uN m rms", "from"), tuple(
+        (line.name, significant(line.torque * MICRO), line.basis) for line in found.budget.lines
+    ))  # fmt: skip
+    yield Paragraph(found.reached)
+    yield Paragraph(found.limit)
+    yield Claim(found.outcome.sentence, found.outcome.usable)
+
+
+def document(found: Sizing) -> View:
+    """Return what `equipoise design --json` prints."""
+    from equipoise.app.views.design_views import design_json
+
+    return design_json(found)
+
+
+def table(found: Sizing) -> Table:
+    """Return a row a cause."""
+    budget = found.budget.lines
+    return Table(
+        "cause",
+        {
+            "cause": [line.name for line in budget],
+            "torque_N_m": [line.torque for line in budget],
+            "basis": [line.basis for line in budget],
+        },
+    )
+
+
+def arrays(found: Sizing) -> Arrays:
+    """Return the table's columns along the causes."""
+    return of_table(table(found))
+
+
+def figure(found: Sizing) -> "Figure | None":
+    """Return the budget."""
+    from equipoise.app.figures.design_catalogue import pictures_of
+
+    return pictures_of(found)[1].figure

@@ -1,0 +1,77 @@
+"""A testbed: what is stated of platform, masses, sensors and devices."""
+
+import tomllib
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from equipoise.app.presentation import of_mass_properties
+from equipoise.app.presentation.tables import Arrays, Table, of_table
+from equipoise.app.text.blocks import Block, Grid, Heading
+from equipoise.app.text.json_document import View
+from equipoise.app.text.units import GRAM, MM
+from equipoise.io.testbed.testbed_file import text_of_testbed
+from equipoise.model.testbed import Testbed
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SCHEMA = "equipoise/testbed/1"
+
+
+def lines(bed: Testbed) -> Iterator[str]:
+    """Yield name, body, masses and sensors."""
+    yield f"Testbed {bed.name}, {bed.source or 'no file'}"
+    yield from list(of_mass_properties.lines(bed.body))[1:]
+    yield f"  masses     {', '.join(bed.mass_names) or 'none'}"
+    sensors = {"attitude": bed.attitude, "gyro": bed.gyro}
+    there = [f"{name} {each.rate:g} Hz" for name, each in sensors.items() if each is not None]
+    yield f"  sensors    {', '.join(there) or 'none'}"
+    if bed.devices:
+        yield f"  devices    {', '.join(bed.device_names)}"
+
+
+def blocks(bed: Testbed) -> Iterator[Block]:
+    """Yield the body and the masses."""
+    yield Heading("Body, first guess, masses at home")
+    yield from of_mass_properties.blocks(bed.body)
+    yield Heading("Sliding masses")
+    yield Grid(("mass", "g", "travel, mm", "step, mm", "accuracy, mm"), tuple(
+        (mass.name, f"{mass.mass * GRAM:.4g}",
+         f"{mass.travel[0] * MM:g} to {mass.travel[1] * MM:g}", f"{mass.resolution * MM:g}",
+         f"{mass.accuracy * MM:.3g}") for mass in bed.masses
+    ))  # fmt: skip
+
+
+def document(bed: Testbed) -> View:
+    """Return what a testbed file says, with the units in its keys."""
+    return {"schema": SCHEMA, **tomllib.loads(text_of_testbed(bed))}
+
+
+def table(bed: Testbed) -> Table:
+    """Return a row a sliding mass."""
+    masses = bed.masses
+    return Table(
+        "mass",
+        {
+            "mass": [mass.name for mass in masses],
+            "mass_kg": [mass.mass for mass in masses],
+            **{
+                f"home_{axis}_m": [float(m.home[k]) for m in masses] for k, axis in enumerate("xyz")
+            },
+            **{f"axis_{axis}": [float(m.axis[k]) for m in masses] for k, axis in enumerate("xyz")},
+            "travel_low_m": [mass.travel[0] for mass in masses],
+            "travel_high_m": [mass.travel[1] for mass in masses],
+            "resolution_m": [mass.resolution for mass in masses],
+            "accuracy_m": [mass.accuracy for mass in masses],
+        },
+    )
+
+
+def arrays(bed: Testbed) -> Arrays:
+    """Return the table's columns along the masses."""
+    return of_table(table(bed))
+
+
+def figure(bed: Testbed) -> "Figure | None":
+    """Return nothing: a testbed has no figure."""
+    return None

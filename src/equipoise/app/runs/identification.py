@@ -1,0 +1,56 @@
+"""One identification: what a recording holds, the steps of the procedure, the estimate."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from equipoise.app.runs.waiting import QUIET, Waiting
+from equipoise.assessment.findings.event_findings import event_findings
+from equipoise.assessment.findings.record_findings import findings
+from equipoise.model.estimate import Estimate
+from equipoise.model.finding import Finding
+from equipoise.model.manoeuvre import Plan
+from equipoise.model.presentation import Plotted
+from equipoise.model.recording import Recording
+from equipoise.model.step import Step
+from equipoise.model.testbed import Testbed
+from equipoise.procedure.identification.identify import IdentifyOptions, identify
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Identification(Plotted):
+    """What was done with a recording; the last step has the estimate that counts."""
+
+    testbed: Testbed
+    recording: Recording
+    findings: Sequence[Finding]
+    steps: Sequence[Step]
+    plan: Plan | None = None  # that the recording was made by
+
+    @property
+    def estimate(self) -> Estimate:
+        """Return the estimate of the last step."""
+        found = self.steps[-1].estimate
+        assert found is not None
+        return found
+
+
+def run(
+    recording: Recording,
+    testbed: Testbed,
+    options: IdentifyOptions,
+    waiting: Waiting = QUIET,
+    on_findings: Callable[[Sequence[Finding]], None] | None = None,
+) -> Identification:
+    """Identify from a recording that fits the testbed; findings are passed on as they are made.
+
+    Raises InputError for a method or a held parameter that does not exist.
+    """
+    found = list(findings(recording, testbed))
+    if on_findings is not None:
+        on_findings(found)
+    steps = list(waiting.steps(identify(recording, testbed, options), "identifying"))
+    last = steps[-1].estimate
+    happened = [] if last is None else event_findings(last)
+    if on_findings is not None:
+        on_findings(happened)
+    return Identification(testbed, recording, [*found, *happened], steps)

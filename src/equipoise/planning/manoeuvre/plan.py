@@ -1,0 +1,141 @@
+"""Plan: the manoeuvre that tells most of what is asked for, whatever platform it is.
+
+    minimise  score(mean_k C_k) + STIFF (excess of tilt and rate over their limits)
+
+over ``choices``, C_k being the covariance of what is asked for and k platforms that may be there,
+let go by a hand that errs (``scenario``), by ``evolution``. The same seed finds the same plan.
+
+A limit is to be kept by mean + ``SIGMAS`` sd of the logarithm of the peaks of many more such
+platforms: a search finds the gaps between those that it is told of, and only a margin keeps the
+others within. Peaks have a longer tail than a normal distribution, also of their logarithm:
+``promise`` counts how many platforms keep the limit.
+
+Finds a good manoeuvre, not the best: with another seed the worst parameter was told a tenth better
+or worse. Cannot see what ``predicted`` cannot see.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.model.arrays import Floats
+from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.model.testbed import Testbed
+from equipoise.planning.manoeuvre.cma_es import least
+from equipoise.planning.manoeuvre.criterion import NAMES, Criterion, Quantity, score, size_of
+from equipoise.planning.manoeuvre.initial_population import first_choices
+from equipoise.planning.manoeuvre.limit_check import (
+    Peaks,
+    Rehearsal,
+    covariance_of,
+    for_search,
+    peaks,
+    rehearsal,
+    started,
+)
+from equipoise.planning.manoeuvre.manoeuvre_space import Space, chosen
+from equipoise.planning.manoeuvre.predicted_information import Known
+from equipoise.planning.manoeuvre.scenario import Prior, Scenario, scenarios
+
+SIGMAS = 4.0  # chosen: peaks of platforms not seen have a longer tail; with 3, 2 % of them passed
+STIFF = 30.0  # chosen: a thirtieth beyond a limit costs as much as sd that are e times as wide
+HOPELESS = 1.0  # chosen: an excess at which nothing else counts
+NOTHING = 20.0  # chosen: worse than any score, for what leaves the scale open
+SCENARIOS = 24  # chosen: with six, other platforms were told a half worse than these
+FIRST, GUARDED = 24, 96  # chosen: platforms whose peaks are looked at, the others if these keep to
+# the limits; with 24 alone, 6 % of other platforms passed them
+FIRST_TRIED = 0.15  # of all trials, chosen: most pass the limits, which is soon seen
+TRIALS = 2400  # chosen: some two minutes for sputnix on one core of its own
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Wish:
+    """What is asked for, and what is known."""
+
+    requested: Quantity
+    criterion: Criterion
+    params: Params
+    prior: Prior
+    known: Known | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Search:
+    """What does not change while manoeuvres are tried."""
+
+    space: Space
+    testbed: Testbed  # as for a search
+    wish: Wish
+    scenarios: list[Scenario]
+    guarded: list[Scenario]  # whose limits are to be kept
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Return what is asked for, by name; what is held is not sought."""
+        return tuple(n for n in NAMES[self.wish.requested] if n not in self.wish.params.hold)
+
+
+def search_for(space: Space, wish: Wish, seed: int) -> Search:
+    """Return a search, its platforms drawn."""
+    rng = np.random.default_rng(seed)
+    drawn = scenarios(wish.prior, SCENARIOS, rng)
+    guarded = scenarios(wish.prior, GUARDED + 1, rng)[1:]
+    return Search(space, for_search(space.testbed), wish, drawn, guarded)
+
+
+def excess(space: Space, found: Sequence[Peaks]) -> float:
+    """Return by how much of themselves the limits are passed, with a margin."""
+    limits = np.array([space.tilt_limit, space.rate_limit])
+    peak = np.log(found)
+    guarded = np.exp(peak.mean(axis=0) + SIGMAS * peak.std(axis=0, ddof=1))
+    return float(np.sum(np.maximum(guarded / limits - 1, 0.0)))
+
+
+def excess_of(search: Search, tried: Rehearsal) -> float:
+    """Return the excess over the first platforms, and over all where these keep to the limits."""
+    found = [peaks(tried, started(tried, scenario)) for scenario in search.guarded[:FIRST]]
+    beyond = excess(search.space, found)
+    if beyond > 0:
+        return beyond
+    found += [peaks(tried, started(tried, scenario)) for scenario in search.guarded[FIRST:]]
+    return excess(search.space, found)
+
+
+def merit(search: Search, manoeuvre: Manoeuvre) -> float:
+    """Return what is to be small of a manoeuvre."""
+    wish, names = search.wish, search.names
+    expected = search.scenarios[0]
+    tried = rehearsal(search.testbed, expected, manoeuvre, wish.params, wish.known)
+    if tried.problem.scale_open:
+        return NOTHING
+    beyond = excess_of(search, tried)
+    if beyond > HOPELESS:
+        return NOTHING + STIFF * beyond
+    truths = [started(tried, scenario) for scenario in search.scenarios]
+    where = [tried.problem.layout.names.index(name) for name in names]
+    size = size_of(wish.prior.body, names)
+    each = [covariance_of(tried, truth, wish.known)[np.ix_(where, where)] for truth in truths]
+    return score(np.mean(each, axis=0), size, wish.criterion) + STIFF * beyond
+
+
+def silent(done: float) -> None:
+    """Hear how far a search is, and say nothing."""
+
+
+def planned(
+    space: Space,
+    wish: Wish,
+    seed: int,
+    trials: int = TRIALS,
+    on_progress: Callable[[float], None] = silent,
+) -> Manoeuvre:
+    """Return the best manoeuvre found; ``on_progress`` hears what share of the search is done."""
+    search = search_for(space, wish, seed)
+    first = first_choices(space, max(int(FIRST_TRIED * trials), 1), np.random.default_rng(seed))
+
+    def worth(numbers: Floats) -> float:
+        return merit(search, chosen(space, numbers))
+
+    return chosen(space, least(worth, first, trials, seed, on_progress))

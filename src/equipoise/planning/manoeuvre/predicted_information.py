@@ -1,0 +1,162 @@
+"""How well a manoeuvre will tell a body: the information of its recording, before there is one.
+
+    covariance = (sum S_k^T S_k / sd_k^2 + priors + what is known already)^-1
+
+at the true point of a noiseless recording (``noiseless_record``). Problem, information and what is
+not seen are those of a trajectory fit and of ``fisher``, of a recording that has to be fitted
+first: unknown attitude and rate at the start, where masses stop and how late and how far they hang,
+the camera's vertical and the gyro's zero count alike.
+
+It is the least that any unbiased method reaches when the model holds and the noise is white. A
+torque that wanders, a touch, a term that the record asks for and the testbed does not: all of that
+makes what is found worse, and cannot be seen here.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.dynamics.regressor import N_TORQUES
+from equipoise.estimation.information.reference_motion import Followed
+from equipoise.estimation.model_selection.model_choice import PLUMB, is_plumb_open
+from equipoise.estimation.output_error.fit_estimate import visibility_of
+from equipoise.estimation.output_error.problem import Problem, evaluate
+from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.trajectory import Params, problem_of
+from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, physical
+from equipoise.maths import pseudo_inertia
+from equipoise.maths.attitude import tilt
+from equipoise.model import sensor_terms
+from equipoise.model.arrays import Bools, Floats, Square
+from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.model.mass_properties import MassProperties
+from equipoise.model.testbed import Testbed
+from equipoise.planning.manoeuvre.noiseless_record import Imagined, imagined
+from equipoise.sensors.camera import N_SENSOR
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Known:
+    """What earlier recordings tell of some unknowns, by the names of the layout."""
+
+    names: tuple[str, ...]
+    information: Square  # SI
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Predicted:
+    """What a manoeuvre will tell, in the order of ``names``, and how far it goes."""
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]  # SI
+    sd: Floats  # SI; infinite: not seen; 0: held
+    covariance: Square  # of what is seen
+    hidden: Bools
+    sentences: tuple[str, ...]  # directions that are not seen
+    peak_tilt: float  # rad
+    peak_rate: float  # rad/s
+    peak_momentum: float  # N m s, stored in wheels and gyros
+
+    def sd_of(self, names: tuple[str, ...]) -> Floats:
+        """Return several sd, SI."""
+        return self.sd[[self.names.index(name) for name in names]]
+
+
+def predicted(
+    testbed: Testbed,
+    body: MassProperties,
+    manoeuvre: Manoeuvre,
+    params: Params,
+    known: Known | None = None,
+) -> Predicted:
+    """Return what a manoeuvre of a platform with this body will tell."""
+    observed = imagined(testbed, body, manoeuvre)
+    problem = posed(observed, testbed, params, known)
+    return prediction(at_truth(problem, observed, body, manoeuvre, known), observed, testbed)
+
+
+def followed_truth(
+    testbed: Testbed, body: MassProperties, manoeuvre: Manoeuvre, params: Params
+) -> Followed:
+    """Return the motion as ``fisher.observed_along`` takes it."""
+    observed = imagined(testbed, body, manoeuvre)
+    fitted = at_truth(posed(observed, testbed, params, None), observed, body, manoeuvre, None)
+    return Followed(fitted, testbed, params, ())
+
+
+def posed(observed: Imagined, testbed: Testbed, params: Params, known: Known | None) -> Problem:
+    """Return the problem of a noiseless recording.
+
+    What is known already fixes the scale too; nothing is held then but what is asked.
+    """
+    problem = problem_of(observed.recording, testbed, with_plumb(observed, testbed, params))
+    if known is None or not problem.scale_open:
+        return problem
+    held = np.isin(problem.layout.names, params.hold)
+    return replace(problem, scale_open=False, prior=replace(problem.prior, held=held))
+
+
+def at_truth(
+    problem: Problem,
+    observed: Imagined,
+    body: MassProperties,
+    manoeuvre: Manoeuvre,
+    known: Known | None,
+) -> Fitted:
+    """Return the fit of a noiseless recording, which ends where the truth is."""
+    point = true_point(observed, body, manoeuvre, problem.layout)
+    return informed(problem, point, known)
+
+
+def with_plumb(observed: Imagined, testbed: Testbed, params: Params) -> Params:
+    """Return what is asked with the camera's vertical free where it may lean, as in any fit."""
+    if not is_plumb_open(observed.recording, testbed):
+        return params
+    return replace(params, sensor=sensor_terms.among((*params.sensor, *PLUMB)))
+
+
+def true_point(
+    observed: Imagined, body: MassProperties, manoeuvre: Manoeuvre, layout: Layout
+) -> Unknowns:
+    """Return the truth as a point of the search: masses where told, sensors without fault."""
+    return Unknowns(
+        observed.motion.q[0], manoeuvre.rate, pseudo_inertia.from_inertia(body.inertia_C), body.com,
+        np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(len(layout.errors)), np.zeros(3),
+    )  # fmt: skip
+
+
+def informed(problem: Problem, point: Unknowns, known: Known | None) -> Fitted:
+    """Return the fit that ended at a point, with what is known already in its information."""
+    at = evaluate(problem, point)
+    if known is not None:
+        normal, names = at.normal.copy(), problem.layout.names
+        here = [k for k, name in enumerate(known.names) if name in names]
+        where = [names.index(known.names[k]) for k in here]
+        normal[np.ix_(where, where)] += known.information[np.ix_(here, here)]
+        at = replace(at, normal=normal)
+    return Fitted(problem, point, at, True, 1, np.zeros((0, 1)))
+
+
+def prediction(fitted: Fitted, observed: Imagined, testbed: Testbed) -> Predicted:
+    """Return what a fit at the truth says of itself, with the limits of its motion."""
+    problem: Problem = fitted.problem
+    layout, held = problem.layout, problem.prior.held
+    view = visibility_of(fitted, physical(fitted.point, problem.mass, layout))
+    reported = held if not problem.scale_open else np.zeros_like(held)
+    sd = np.sqrt(np.maximum(np.diag(view.covariance), 0.0))
+    return Predicted(
+        layout.names,
+        layout.units,
+        np.where(view.hidden, np.inf, np.where(reported, 0.0, sd)),
+        view.covariance,
+        view.hidden,
+        view.sentences,
+        float(tilt(observed.motion.q, testbed.up).max()),
+        largest(observed.motion.rate),
+        0.0 if observed.recording.momentum is None else largest(observed.recording.momentum.values),
+    )
+
+
+def largest(vectors: Floats) -> float:
+    """Return the length of the longest of vectors."""
+    return float(np.linalg.norm(vectors, axis=1).max())

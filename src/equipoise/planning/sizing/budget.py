@@ -1,0 +1,157 @@
+"""What will be left of torque after looks and moves, line by line.
+
+    tau^2 = (m g)^2 tr( mean(e e^T) mean(E - n n^T) ) + sum of the squares of all else
+
+root mean square over directions n of gravity within a tilt of level, e being the offsets that looks
+and moves leave. Their causes are told line by line; they are related, so their squares may come to
+a little more or less than those of e.
+
+Platforms as the testbed states them are looked at for as long as a record lasts and moved, so many
+times (``one_move``). A look of covariance P at offsets of covariance L finds f of an offset e,
+
+    f = (1 - P / L) e + noise,    so that e - f has the covariance P and tells no more of e
+
+the first time f = e + noise, as hardly anything was known before. Lines are the mean squares of
+what the last look and the last move leave, and what room, deck and bearing add (``surroundings``).
+Platforms that the masses cannot bring to the target are left out; ``within`` is how many they can.
+
+Assumes that looks err by what a fit of their record alone is said to, and only by that.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.model.arrays import Bools, Matrix3, Series, Series3
+from equipoise.planning.sizing.case import Case
+from equipoise.planning.sizing.contribution import REQUESTED, TESTBED, Line
+from equipoise.planning.sizing.environment import surrounding_lines
+from equipoise.planning.sizing.expected_torque import expected_torque
+from equipoise.planning.sizing.likely_offsets import (
+    even_normals,
+    share_within,
+    stated_offsets,
+    with_covariance,
+    within_reach,
+)
+from equipoise.planning.sizing.measurement_bound import MeasurementBound, first_bound, later_bound
+from equipoise.planning.sizing.move_error import Left, Standing, at_home, move
+from equipoise.planning.sizing.reachable_set import Reach, reach_of, tolerance
+
+MANY, SOME = 13, 9  # powers of 2, chosen: offsets to say how many are within reach; to move
+FEWEST = 32  # chosen: offsets within reach that tell what a move leaves
+
+
+class Balanced(NamedTuple):
+    """Looks, and what the last of the moves left of each platform."""
+
+    first: MeasurementBound
+    last: MeasurementBound
+    standing: Standing
+    left: Left
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Budget:
+    """What is left, and of which platforms."""
+
+    lines: tuple[Line, ...]  # the largest first
+    torque: float  # N m, rms, of all together
+    within: float  # share of platforms, as stated, that the masses can bring to the target
+    first: MeasurementBound
+    last: MeasurementBound
+    standing: Standing  # after the last move
+    left: Left
+
+
+def budget_of(case: Case) -> Budget:
+    """Return what is left after all looks and moves."""
+    testbed = case.testbed
+    reach = reach_of(testbed.masses, testbed.body.mass)
+    along, across = spans(reach)
+    done = balanced(case, reach)
+    left, beyond = done.left, done.standing.error @ across
+    of_offsets = [
+        offset_line(case, "out of reach", "What no mass can shift", mean_square(beyond)),
+        offset_line(case, "measurement", "What the sensors tell of the centre of mass",
+                    along @ done.last.com @ along),
+        offset_line(case, "steps", "The least step of the masses", mean_square(left.steps @ along)),
+        offset_line(case, "stops", "The accuracy with which masses stop", mean_square(left.stops)),
+        offset_line(case, "backlash", "The backlash of the masses", mean_square(left.backlash)),
+        offset_line(case, "rails", "The lean of the rails", mean_square(left.rails)),
+    ]  # fmt: skip
+    others = [target_line(case), *surrounding_lines(testbed, case.around, case.tilt)]
+    there = [line for line in (*of_offsets, *others) if line.torque > 0]
+    offsets = expected_torque(testbed, mean_square(done.standing.error), case.tilt)
+    torque = float(np.linalg.norm([offsets, *(line.torque for line in others)]))
+    within = share_within(reach, stated_offsets(case, even_normals(MANY, 3)))
+    return Budget(tuple(sorted(there, key=lambda line: -line.torque)), torque, within, *done)
+
+
+def spans(reach: Reach) -> tuple[Matrix3, Matrix3]:
+    """Return the projections along what masses can shift, and across it."""
+    along: Matrix3 = reach.span @ reach.span.T
+    return along, np.eye(3) - along if reach.rank < 3 else np.zeros((3, 3))
+
+
+def mean_square(rows: Series3) -> Matrix3:
+    """Return the mean of r r^T."""
+    return rows.T @ rows / len(rows)
+
+
+def balanced(case: Case, reach: Reach) -> Balanced:
+    """Return what the looks tell, and what the last move leaves."""
+    testbed, k = case.testbed, len(case.testbed.masses)
+    normals = even_normals(SOME, 3 + 2 * k + case.moves * (3 + k))
+    start, rest = normals[:, : 3 + 2 * k], normals[:, 3 + 2 * k :]
+    kept, offsets = platforms(case, reach, start[:, :3])
+    draws = np.split(rest[kept], case.moves, axis=1)
+    first = last = first_bound(testbed, case.measurement_time)
+    standing = at_home(testbed, offsets, start[kept, 3:], case.rail_lean)
+    found = offsets + with_covariance(draws[0][:, :3], first.com)
+    standing, left = move(testbed, standing, found, draws[0][:, 3:], case.rail_lean)
+    for draw in draws[1:]:
+        before = mean_square(standing.error)
+        last = later_bound(testbed, case.measurement_time, case.target, replace(last, com=before))
+        found = estimated(standing.error, before, last.com, draw[:, :3])
+        standing, left = move(testbed, standing, found, draw[:, 3:], case.rail_lean)
+    return Balanced(first, last, standing, left)
+
+
+def estimated(error: Series3, before: Matrix3, after: Matrix3, normals: Series) -> Series3:
+    """Return what a look finds of errors of one covariance that leaves them another, m^2."""
+    share: Matrix3 = np.eye(3) - np.linalg.solve(before, after)
+    return error @ share + with_covariance(normals, after @ share)
+
+
+def platforms(case: Case, reach: Reach, normals: Series) -> tuple[Bools, Series3]:
+    """Return which rows are platforms within reach, and their offsets from the target (m).
+
+    Where hardly any is, platforms within half of what can be undone stand for them.
+    """
+    offsets = stated_offsets(case, normals)
+    kept = within_reach(reach, offsets)
+    if np.sum(kept) >= FEWEST:
+        return kept, offsets[kept]
+    along, _ = spans(reach)
+    near = 0.5 / 3 * tolerance(reach) * normals @ along
+    return np.ones(len(near), dtype=np.bool_), near
+
+
+def offset_line(case: Case, name: str, cause: str, moment: Matrix3) -> Line:
+    """Return the line of an offset of the centre of mass."""
+    return Line(name, cause, expected_torque(case.testbed, moment, case.tilt), moment, TESTBED)
+
+
+def target_line(case: Case) -> Line:
+    """Return the line of a target that is not the centre of rotation."""
+    moment: Matrix3 = np.outer(case.target, case.target)
+    torque = expected_torque(case.testbed, moment, case.tilt)
+    return Line(
+        "target",
+        "The distance of the target from the centre of rotation",
+        torque,
+        moment,
+        REQUESTED,
+    )

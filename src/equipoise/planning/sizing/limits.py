@@ -1,0 +1,122 @@
+"""What limits a design, in sentences, from its budget and from what would better it."""
+
+import numpy as np
+
+from equipoise.model.arrays import Vector3
+from equipoise.model.bench_units import MICRO, MM, UM
+from equipoise.model.outcome import Outcome
+from equipoise.model.testbed import SlidingMass
+from equipoise.planning.sizing.budget import Budget
+from equipoise.planning.sizing.case import Case
+from equipoise.planning.sizing.contribution import Line
+from equipoise.planning.sizing.reachable_set import Reach, tolerance, unreachable
+from equipoise.planning.sizing.sensitivity import Bettered
+
+ENOUGH = 0.95  # of platforms as stated, chosen: as many as a law has to balance in ``compare``
+NOTABLE = 0.01  # of the torque, chosen: a change that brings less is not worth a line
+PERCENT = 100.0
+WAYS = ("nothing", "one line", "a plane")
+
+
+def limit_sentence(case: Case, budget: Budget, better: tuple[Bettered, ...]) -> str:
+    """Say which line is the largest, and what would become of the result if it were better."""
+    line, total = budget.lines[0], plain(budget.torque * MICRO)
+    text = (
+        f"{line.cause}{detail(case, line)} limits the result: {plain(line.torque * MICRO)} of "
+        f"{total} uN m rms within {np.degrees(case.tilt):.3g} deg of level."
+    )
+    mending = [change for change in better if change.line == line.name]
+    if mending:
+        best = mending[0]
+        after = plain(best.torque * MICRO)
+        return f"{text} {capital(best.name)} would bring it from {total} to {after} uN m."
+    without = np.sqrt(max(budget.torque**2 - line.torque**2, 0.0)) * MICRO
+    return f"{text} Without it {plain(without)} uN m would be left."
+
+
+def detail(case: Case, line: Line) -> str:
+    """Return numbers of the masses that a line is about, in brackets, or nothing."""
+    if line.name == "steps":
+        return f" ({mass_figures(case, 'resolution')})"
+    if line.name == "stops":
+        return f" ({mass_figures(case, 'accuracy')})"
+    if line.name == "backlash":
+        return f" ({mass_figures(case, 'backlash')})"
+    return f" in {case.measurement_time:g} s" if line.name == "measurement" else ""
+
+
+def mass_figures(case: Case, quantity: str) -> str:
+    """Return a length of each mass in mm, those of one length together."""
+    groups: dict[float, list[str]] = {}
+    for mass in case.testbed.masses:
+        groups.setdefault(length(mass, quantity), []).append(mass.name)
+    return ", ".join(f"{size * MM:.3g} mm of {', '.join(names)}" for size, names in groups.items())
+
+
+def length(mass: SlidingMass, quantity: str) -> float:
+    """Return one of the lengths (m) that say how well a mass can be placed."""
+    return {"resolution": mass.resolution, "accuracy": mass.accuracy, "backlash": mass.backlash}[
+        quantity
+    ]
+
+
+def plain(value: float) -> str:
+    """Return a number with three digits, whole where it has more before the point."""
+    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
+
+
+def capital(text: str) -> str:
+    """Return a text with its first letter large."""
+    return text[:1].upper() + text[1:]
+
+
+def reach_sentence(reach: Reach, within: float) -> str:
+    """Say what masses can correct, and of how many platforms that is enough."""
+    share = f"{PERCENT * within:.3g} % of the platforms that the testbed states"
+    size = plain(tolerance(reach) * UM)
+    if reach.rank == 3:
+        return (
+            f"An offset from the target of up to {size} um can be corrected whatever its "
+            f"direction: balance by hand to within that. {capital(share)} can be brought there."
+        )
+    free = ", ".join(direction(v) for v in unreachable(reach).T)
+    return (
+        f"The masses reach {WAYS[reach.rank]} only, up to {size} um in any direction of it; "
+        f"nothing shifts the centre of mass along {free}. {capital(share)} can be brought to the "
+        "target."
+    )
+
+
+def direction(v: Vector3) -> str:
+    """Return a direction in body axes; its opposite is as good."""
+    positive = v if v.sum() >= 0 else -v
+    return "(" + ", ".join(f"{round(float(x), 3) + 0.0:g}" for x in positive) + ")"
+
+
+def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]) -> Outcome:
+    """Say whether the required torque (N m) can be met, and if not, what would change that."""
+    found = plain(budget.torque * MICRO)
+    if required is None:
+        return Outcome(True, f"Nothing is required; {found} uN m are expected.")
+    wanted = plain(required * MICRO)
+    missed = f"The requirement of {wanted} uN m cannot be met:"
+    if budget.within < ENOUGH:
+        return Outcome(
+            False,
+            f"{missed} only {PERCENT * budget.within:.3g} % of the platforms that the testbed "
+            f"states are within reach of the masses. Of those, {found} uN m are expected.",
+        )
+    if budget.torque <= required:
+        return Outcome(True, f"{found} uN m are expected; {wanted} uN m are required.")
+    enough = [change.name for change in better if change.torque <= required]
+    ways = f"enough would be: {'; '.join(enough)}" if enough else "no single change is enough"
+    return Outcome(False, f"{missed} {found} uN m are expected; {ways}.")
+
+
+def worth_listing(budget: Budget, better: tuple[Bettered, ...]) -> tuple[Bettered, ...]:
+    """Return the changes that bring something: less torque, or more platforms within reach."""
+    return tuple(
+        change
+        for change in better
+        if change.torque < (1 - NOTABLE) * budget.torque or change.within > budget.within + NOTABLE
+    )

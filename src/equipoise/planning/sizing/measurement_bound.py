@@ -1,0 +1,150 @@
+"""What a look will tell of the centre of mass and of inertia: the bound for a length of record.
+
+The first look is a free swing of the platform as stated, with the usual move (``usual_swing``).
+It tells the centre of mass with the masses as they stand at its end; where they really stopped is
+part of what is not known, and so is the scale, by which a platform that hangs low is off most.
+
+A later look is a free swing at the target, without a move, when the inertia is known from the first
+and the centre of mass as well as looks and moves before have left it.
+
+Both as a fit would see them that knows what the testbed states (``predicted``). Where a record does
+not show the centre of mass, what was known before is what is known of it.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from equipoise.estimation.output_error.fit_estimate import end_rows
+from equipoise.estimation.output_error.trajectory import Params
+from equipoise.maths.linalg import inverse_spd
+from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
+from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.model.mass_properties import from_centre
+from equipoise.model.testbed import Testbed
+from equipoise.model.torque_terms import GROUPS
+from equipoise.planning.manoeuvre.predicted_information import (
+    Known,
+    Predicted,
+    at_truth,
+    posed,
+    predicted,
+    prediction,
+)
+from equipoise.planning.manoeuvre.reference_manoeuvre import usual
+from equipoise.planning.manoeuvre.reference_swing import gentle_swing, usual_swing
+
+MM = 1e3
+UNSEEN = "The record does not show the centre of mass; it stays as uncertain as it was."
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MeasurementBound:
+    """What a record of a length tells."""
+
+    duration: float  # s
+    com: Matrix3  # m^2, covariance, masses as they stand at the end
+    inertia: Square  # (6, 6) kg^2 m^4, covariance of that about P, xx yy zz xy xz yz
+    inertia_observable: bool
+    peak_tilt: float  # rad
+    cautions: tuple[str, ...]
+
+    @property
+    def com_sd(self) -> Vector3:
+        """Return one sd of each component, m."""
+        return np.sqrt(np.diag(self.com))
+
+    @property
+    def inertia_sd(self) -> Floats:
+        """Return one sd of each element, kg m^2; infinite: not all are seen."""
+        return np.sqrt(np.diag(self.inertia)) if self.inertia_observable else np.full(6, np.inf)
+
+
+def first_bound(testbed: Testbed, duration: float) -> MeasurementBound:
+    """Return what a record of this length (s) with a known move will tell."""
+    swing = usual_swing(testbed, duration)
+    problem = posed(swing.observed, testbed, sought(testbed), None)
+    fitted = at_truth(problem, swing.observed, testbed.body, swing.manoeuvre, None)
+    end = end_rows(fitted, None)
+    reported = prediction(fitted, swing.observed, testbed)
+    com, stated = rows_of(reported, COM) if end is None else end[1], np.diag(testbed.com_sd**2)
+    measurement = bound_of(testbed, duration, reported, com, stated)
+    return replace(
+        measurement, cautions=(*measurement.cautions, *shortening(testbed, swing.manoeuvre))
+    )
+
+
+def shortening(testbed: Testbed, manoeuvre: Manoeuvre) -> tuple[str, ...]:
+    """Say that the usual move was shortened, as longer records then need not tell more."""
+    length = longest(manoeuvre)
+    if length >= longest(usual(testbed, manoeuvre.duration, {})):
+        return ()
+    return (
+        f"The first look's move is shortened to {length * MM:.3g} mm, for time and tilt limit; a "
+        "longer one would tell more.",
+    )
+
+
+def longest(manoeuvre: Manoeuvre) -> float:
+    """Return the longest way (m) that a mass goes from home."""
+    return max((abs(d) for _, goals in manoeuvre.moves for d in goals.values()), default=0.0)
+
+
+def later_bound(
+    testbed: Testbed, duration: float, target: Vector3, before: MeasurementBound
+) -> MeasurementBound:
+    """Return what a record of this length (s) will tell of a platform near the target (m).
+
+    ``before`` is what is known of it: inertia from a look, centre of mass after a move.
+    """
+    body = from_centre(testbed.body.mass, target, testbed.body.inertia_C)
+    names = (*COM, *INERTIA) if before.inertia_observable else COM
+    known = np.zeros((9, 9))
+    known[:3, :3], known[3:, 3:] = inverse_spd(before.com), inverse_spd(before.inertia)
+    known = known[: len(names), : len(names)]
+    manoeuvre = gentle_swing(testbed, duration)
+    reported = predicted(testbed, body, manoeuvre, sought(testbed), Known(names, known))
+    return bound_of(testbed, duration, reported, rows_of(reported, COM), before.com)
+
+
+def sought(testbed: Testbed) -> Params:
+    """Return what a fit seeks: what the testbed considers, but for sag, as ``balance`` does.
+
+    At small tilts a deck that sags is a stiff one with another centre of mass.
+    """
+    terms = tuple(term for term in testbed.disturbances if term not in GROUPS["sag"])
+    return Params(terms, use_prior=True)
+
+
+def rows_of(reported: Predicted, names: tuple[str, ...]) -> Floats:
+    """Return rows that choose some unknowns from all."""
+    return np.eye(len(reported.names))[[reported.names.index(name) for name in names]]
+
+
+def bound_of(
+    testbed: Testbed, duration: float, reported: Predicted, com: Floats, before: Matrix3
+) -> MeasurementBound:
+    """Return a look; ``com`` leads from all unknowns to the centre of mass, known ``before``."""
+    unseen = bool(np.any(np.abs(com[:, reported.hidden]) > 0))
+    moments = rows_of(reported, INERTIA)
+    return MeasurementBound(
+        duration,
+        before if unseen else com @ reported.covariance @ com.T,
+        moments @ reported.covariance @ moments.T,
+        not np.any(moments[:, reported.hidden]),
+        reported.peak_tilt,
+        cautions(reported, testbed, unseen),
+    )
+
+
+def cautions(reported: Predicted, testbed: Testbed, unseen: bool) -> tuple[str, ...]:
+    """Say what is not seen, and whether the platform would touch on its way."""
+    found = [UNSEEN] if unseen else []
+    if reported.peak_tilt > testbed.tilt_limit:
+        peak, limit = np.degrees(reported.peak_tilt), np.degrees(testbed.tilt_limit)
+        found.append(
+            f"A free swing would tilt the platform by {peak:.0f} deg, beyond its limit of "
+            f"{limit:.0f} deg; bounds are those of a bearing without one."
+        )
+    return tuple(found)

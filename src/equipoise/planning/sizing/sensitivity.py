@@ -1,0 +1,122 @@
+"""What limits the result, and what would become of it if one thing were better.
+
+Each change makes one thing half as bad, or adds one that is missing, and the whole budget is told
+anew, the look with it. Half is chosen so that changes compare; what it costs is the reader's to
+judge.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass
+from equipoise.planning.sizing.budget import budget_of
+from equipoise.planning.sizing.case import Case
+
+HALF = 0.5
+GYRO = Gyro(100.0, np.radians(0.05), np.radians(0.1))  # chosen: 0.005 deg/s/rtHz, a good MEMS gyro
+
+
+class Change(NamedTuple):
+    """One thing that can be made better."""
+
+    name: str
+    line: str  # of the budget, that is mended by it
+    case: Case
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bettered:
+    """A change and what is left then."""
+
+    name: str
+    line: str
+    torque: float  # N m rms
+    within: float  # share of the platforms within reach
+
+
+def with_masses(case: Case, changed: Callable[[SlidingMass], SlidingMass]) -> Case:
+    """Return the case with every mass changed."""
+    masses = tuple(changed(mass) for mass in case.testbed.masses)
+    return replace(case, testbed=replace(case.testbed, masses=masses))
+
+
+def mass_changes(case: Case) -> Iterator[Change]:
+    """Yield better masses and rails."""
+    masses = case.testbed.masses
+    if any(mass.resolution > 0 for mass in masses):
+        finer = with_masses(case, lambda m: replace(m, resolution=HALF * m.resolution))
+        yield Change("steps half as long", "steps", finer)
+    if any(mass.accuracy > 0 for mass in masses):
+        truer = with_masses(case, lambda m: replace(m, accuracy=HALF * m.accuracy))
+        yield Change("masses that stop twice as accurately", "stops", truer)
+    if any(mass.backlash > 0 for mass in masses):
+        tighter = with_masses(case, lambda m: replace(m, backlash=HALF * m.backlash))
+        yield Change("half the backlash", "backlash", tighter)
+    if case.rail_lean > 0:
+        yield Change("rails twice as true", "rails", replace(case, rail_lean=HALF * case.rail_lean))
+    longer = with_masses(case, lambda m: replace(m, travel=(2 * m.travel[0], 2 * m.travel[1])))
+    yield Change("twice the travel", "out of reach", longer)
+    yield Change("one move more", "stops", replace(case, moves=case.moves + 1))
+
+
+def sensor_changes(case: Case) -> Iterator[Change]:
+    """Yield better sensors, and more time for them."""
+    testbed = case.testbed
+    camera, gyro = testbed.attitude, testbed.gyro
+
+    def observed_by(**sensors: AttitudeSensor | Gyro) -> Case:
+        return replace(case, testbed=replace(testbed, **sensors))
+
+    if camera is not None:
+        sharper = replace(camera, noise=HALF * camera.noise)
+        yield Change("half the camera's noise", "measurement", observed_by(attitude=sharper))
+        if camera.plumb_sd > 0:
+            plumb = replace(camera, plumb_sd=HALF * camera.plumb_sd)
+            yield Change("a camera twice as level", "measurement", observed_by(attitude=plumb))
+    if gyro is None:
+        yield Change("a good MEMS gyro", "measurement", observed_by(gyro=GYRO))
+    else:
+        quieter = replace(gyro, noise=HALF * gyro.noise)
+        yield Change("half the gyro's noise", "measurement", observed_by(gyro=quieter))
+    yield Change(
+        "records twice as long",
+        "measurement",
+        replace(case, measurement_time=2 * case.measurement_time),
+    )
+
+
+def surrounding_changes(case: Case) -> Iterator[Change]:
+    """Yield better surroundings, of what is stated."""
+    around = case.around
+    better = (
+        ("a temperature twice as steady", "warmth", {"temperature": HALF * around.temperature}),
+        ("a deck that swings twice as fast", "sag", {"bending": 2 * around.bending}),
+        ("a bearing twice as round", "sphericity", {"form_error": HALF * around.form_error}),
+        ("air twice as steady", "buoyancy", {"air_change": HALF * around.air_change}),
+        ("half the air's torque", "air", {"air": HALF * around.air}),
+    )
+    for name, line, changed in better:
+        if all(changed.values()):
+            yield Change(name, line, replace(case, around=replace(around, **changed)))
+
+
+def changes(case: Case) -> Iterator[Change]:
+    """Yield all that can be better."""
+    yield from mass_changes(case)
+    yield from sensor_changes(case)
+    yield from surrounding_changes(case)
+
+
+def bettered(change: Change) -> Bettered:
+    """Return what is left after a change."""
+    found = budget_of(change.case)
+    return Bettered(change.name, change.line, found.torque, found.within)
+
+
+def what_to_buy(case: Case) -> tuple[Bettered, ...]:
+    """Return all changes, the one that leaves least first; of equals the one with more reach."""
+    found = [bettered(change) for change in changes(case)]
+    return tuple(sorted(found, key=lambda b: (b.torque, -b.within)))
