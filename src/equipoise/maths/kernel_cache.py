@@ -90,7 +90,7 @@ def folder_of(source: Path) -> Path | None:
 def kernels_folder() -> Path:
     """Return the user's folder of kernels, which need not be there yet."""
     wanted: str = config.CACHE_DIR  # pyright: ignore # set when numba is imported
-    users = str(AppDirs("equipoise", appauthor=False).user_cache_dir)  # pyright: ignore
+    users: str = AppDirs("equipoise", appauthor=False).user_cache_dir  # pyright: ignore
     return Path(wanted or users, "equipoise-kernels")
 
 
