@@ -16,9 +16,9 @@ from scipy.optimize import linprog
 
 from equipoise.actuators.mass_allocation import allocate, rails_of
 from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
-from equipoise.estimation.model_selection.model_choice import PLUMB
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
+from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.defects import CameraErrors
 from equipoise.model.estimate import END, INERTIA

@@ -12,7 +12,7 @@ from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Estimate
-from equipoise.study.lee import (
+from equipoise.study.papers.lee import (
     COMPARED,
     LARGE,
     SMALL,

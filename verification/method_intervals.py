@@ -7,13 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.method_contract import REGIMES, Method, Options, Regime
+from equipoise.estimation.method_contract import Method, Options
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.regression import linear_method as linear_methods
 from equipoise.estimation.regression.formulations.rows import Formulation, Posed, Rows
-from equipoise.estimation.regression.linear_method import posed_of
+from equipoise.estimation.regression.linear_method import linear_of, posed_of
 from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
 from equipoise.model.estimate import Estimate
+from equipoise.model.method_card import REGIMES, Regime
 from equipoise.study.candour import warns
 from verification.chance import share_band
 from verification.method_records import Record, regime
@@ -46,14 +47,15 @@ def remembered(formulation: Formulation, known: dict[tuple[int, int], Rows]) -> 
 def estimates(record: Record, methods: Sequence[Method]) -> list[Estimate]:
     """Return the estimates of a record; linear methods share its replicates."""
     posed = posed_of(record.recording, record.testbed, Options())
-    shared = any(method.linear for method in methods)
+    shared = any(map(linear_of, methods))
     draws = tuple(pairs(posed, Drawn(inertia=True))) if shared else ()
     known, made = dict[tuple[int, int], Rows](), list[Estimate]()
     for method in methods:
-        if method.linear is None:
+        linear = linear_of(method)
+        if linear is None:
             made.append(method.run(record.recording, record.testbed, Options()))
             continue
-        part = replace(method.linear, formulation=remembered(method.linear.formulation, known))
+        part = replace(linear, formulation=remembered(linear.formulation, known))
         made.append(linear_methods.estimate(method.card, part, posed, (), draws))
     return made
 

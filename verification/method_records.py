@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.estimation.method_contract import Regime
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import END
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.method_card import Regime
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 from tests.oracle import mujoco_bench as oracle

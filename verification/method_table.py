@@ -17,7 +17,14 @@ from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.regression.formulations.momentum import body_axes
 from equipoise.estimation.regression.formulations.rows import Formulation, Posed, Rows
 from equipoise.estimation.regression.formulations.torque import savitzky_golay, torque
-from equipoise.estimation.regression.linear_method import Question, aid_for, posed_of, posed_rows
+from equipoise.estimation.regression.linear_method import (
+    Question,
+    aid_for,
+    linear_of,
+    posed_of,
+    posed_rows,
+)
+from equipoise.estimation.regression.linear_method import method as linear_method
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA
 from verification.method_records import Condition, Record, condition
@@ -56,8 +63,9 @@ def first_estimated(posed: Posed) -> Rows:
 def variant(key: str, formulation: Formulation) -> Method:
     """Return a method of the registry with another formulation."""
     method = METHODS[key]
-    assert method.linear is not None
-    return replace(method, linear=replace(method.linear, formulation=formulation))
+    linear = linear_of(method)
+    assert linear is not None
+    return linear_method(method.card, replace(linear, formulation=formulation))
 
 
 def compared() -> dict[str, Method]:
@@ -73,7 +81,7 @@ def compared() -> dict[str, Method]:
 def values_by(method: Method, record: Record, hold: tuple[str, ...]) -> dict[str, float]:
     """Return what a method finds; of a linear one without its intervals, which take longer."""
     options = heeded(method.card, Options(hold=hold))
-    linear = method.linear
+    linear = linear_of(method)
     if linear is None:
         estimate = method.run(record.recording, record.testbed, options)
         return {p.name: p.value for p in estimate.parameters}

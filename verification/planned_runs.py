@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.estimation.model_selection.model_choice import PLUMB
+from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model import sensor_terms, torque_terms

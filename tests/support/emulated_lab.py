@@ -5,11 +5,32 @@ from dataclasses import replace
 
 from equipoise.app.bench.emulation import Station, emulate
 from equipoise.app.bench.held_platform import later
-from equipoise.app.bench.lockstep import TICK, LockstepClock
 from equipoise.app.bench.open_bench import keeper_of
 from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.model.hardware import Port
 from tests.support.faulty_wire import FaultyWire
+
+TICK = 0.02  # s, chosen: as often as a row of 50 Hz
+
+
+class LockstepClock:
+    """Time of the emulated devices: they go on by one tick whenever somebody waits.
+
+    The bench runs as fast as the computer can, and nothing is late because something else took
+    long: a tick ends when all that was sent has been read.
+    """
+
+    def __init__(self, emulated, tick=TICK):
+        self._emulated, self._tick = emulated, tick
+
+    @property
+    def now(self):
+        """Now, s."""
+        return self._emulated.time
+
+    def wait(self):
+        """Let one tick pass."""
+        self._emulated.run(self.now + self._tick)
 
 
 def over_tcp(bed):

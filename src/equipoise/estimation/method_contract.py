@@ -6,35 +6,16 @@ same three things and gives the same record, so that lists, tests and studies ne
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.method_card import Card, Choice
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.version import __version__
-
-if TYPE_CHECKING:
-    from equipoise.estimation.regression.linear_method import Linear
-
-Regime = Literal["free", "driven", "moved", "drifting", "wandering", "played", "levelled", "rests"]
-Choice = Literal["term", "hold", "prior", "robust"]
-
-REGIMES: dict[Regime, str] = {
-    "free": "free swing of a minute, inertia known; 0.05 deg and 0.005 deg/s/sqrt(Hz), 50 Hz",
-    "driven": "a minute under known square-wave torques of 10 mN m; the same sensors",
-    "moved": "two minutes with two known moves; 0.05 deg and 1e-4 rad/s, 50 Hz",
-    "drifting": "two minutes with a known move; com walks by 0.05 um/sqrt(s) and 1 uN m sqrt(s) of "
-    "torque play; J known to 5 %; 0.2 deg, 5 Hz and 1e-4 rad/s, 20 Hz",
-    "wandering": "free swing of a minute, com walks by 0.05 um/sqrt(s) and 1 uN m sqrt(s) of "
-    "torque play; J known to 5 %; 0.2 deg, 5 Hz and 1e-4 rad/s, 20 Hz",
-    "played": "the same under known square-wave torques of 10 mN m",
-    "levelled": "the same swing, com across the vertical known to 1 um",
-    "rests": "five minutes, damped, com 0.4 to 0.9 mm low, four moves with rests between; a camera",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,26 +29,11 @@ class Options:
 
 
 @dataclass(frozen=True, slots=True)
-class Card:
-    """What to expect of a method."""
-
-    name: str
-    formulation: str
-    solver: str
-    source: str  # where it is published, with equation numbers
-    needs: str
-    cannot_see: str
-    regime: Regime  # where its intervals are measured
-    heeds: tuple[Choice, ...] = ()  # which of the options it knows
-
-
-@dataclass(frozen=True, slots=True)
 class Method:
     """A card and its estimator."""
 
     card: Card
     run: Callable[[Recording, Testbed, Options], Estimate]
-    linear: "Linear | None" = None  # of which parts a linear method is made
 
 
 def ignored(card: Card, options: Options) -> tuple[str, ...]:

@@ -89,8 +89,8 @@ def folder_of(source: Path) -> Path | None:
 
 def kernels_folder() -> Path:
     """Return the user's folder of kernels, which need not be there yet."""
-    wanted: str = config.CACHE_DIR  # pyright: ignore # set when numba is imported
-    users: str = AppDirs("equipoise", appauthor=False).user_cache_dir  # pyright: ignore
+    wanted = f"{config.CACHE_DIR}"  # pyright: ignore # set when numba is imported
+    users = f"{AppDirs('equipoise', appauthor=False).user_cache_dir}"  # pyright: ignore
     return Path(wanted or users, "equipoise-kernels")
 
 

@@ -1,5 +1,6 @@
 """An estimate: named values with their covariance, and a plain statement of what was not seen."""
 
+import math
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field
 
@@ -13,6 +14,8 @@ from equipoise.model.presentation import Plotted
 COM = ("com_x", "com_y", "com_z")
 END = ("com_end_x", "com_end_y", "com_end_z")  # with the masses as they stand at the end
 INERTIA = tuple(f"inertia_P_{ij}" for ij in ("xx", "yy", "zz", "xy", "xz", "yz"))
+RATE = ("rate_x", "rate_y", "rate_z")  # at the beginning of a record
+ATTITUDE = ("attitude_x", "attitude_y", "attitude_z")
 NORMAL_95 = 1.959963984540054  # two-sided 95 % point of the normal distribution
 
 
@@ -40,6 +43,16 @@ class Parameter:
     def high95(self) -> float:
         """Upper end of the 95 % interval."""
         return self.value + NORMAL_95 * self.sd
+
+
+def normalised_difference(parameter: Parameter, other: Parameter) -> float:
+    """Return (a - b) / sqrt(sd_a^2 + sd_b^2) of independent estimates; NaN where neither has an sd.
+
+    Beyond 2 to 3 the quantity has changed, or one of the two sd is too small. An estimate that
+    shares data with the other is nearer to it than this says.
+    """
+    sd = math.hypot(parameter.sd, other.sd)
+    return (parameter.value - other.value) / sd if sd > 0 else math.nan
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,6 +104,7 @@ class Estimate(Plotted):
     events: tuple[Event, ...] = ()
     unexplained: tuple[str, ...] = ()  # sentences: what the model leaves open, and what it might do
     course: Course | None = None  # of a method that goes along the record
+    rate_course: Course | None = None  # the angular velocity, of a method that tracks it
 
     def index(self, name: str) -> int:
         """Return where a parameter stands; KeyError if it is not among them."""

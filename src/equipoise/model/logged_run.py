@@ -7,6 +7,7 @@ from typing import Literal
 from equipoise.model.estimate import Parameter
 from equipoise.model.verdict import Word
 
+RUN = "run.json"  # the file that a run's folder has when the run is whole
 Kind = Literal["balance", "identify"]
 Outcome = Literal[Word, "usable", "not usable"]
 

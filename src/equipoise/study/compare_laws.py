@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.law import LawCard
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.errors import InputError
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 from equipoise.study.law_run import LawRun, Task, law_run
 

@@ -1,6 +1,7 @@
 """The real bench at emulated devices, through real ports: it balances, or stops in words.
 
-Emulated devices and keeper share one clock that goes as fast as it can; see ``app.lockstep``.
+Emulated devices and keeper share one clock that goes as fast as it can
+(``tests.support.emulated_lab``).
 """
 
 import contextlib

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from equipoise.app.runs import comparison
-from equipoise.control.law import NEEDS
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.law_card import NEEDS
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import CARDS, OWN

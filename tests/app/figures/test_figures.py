@@ -22,6 +22,7 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential
 from equipoise.model.finding import Finding
 from equipoise.model.recording import Recording, Samples, window
+from equipoise.procedure.identification.record_courses import fit_motions, tracked_courses
 from equipoise.simulation.bench import SimulatedBench
 
 BED = read_preset("sputnix")
@@ -35,11 +36,13 @@ def pictures():
     estimate = reference_fit.estimate(recording, BED, trajectory.Params())
     measurements = [(30.0, truth[1][0], np.full(3, 1e-6)), (90.0, truth[1][-1], np.full(3, np.inf))]
     story = Story(measurements, np.array([0, 0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]), truth)
+    motions, still = fit_motions(recording, BED, estimate), window(recording, 0.0, 60.0)
+    moved = tracked_courses(recording, BED, estimate, compare=True)
     found = [
-        *of_fit(recording, BED, estimate),
-        *of_tracking(window(recording, 0.0, 60.0), BED, estimate, truth[1][0]),
-        *of_move(recording, BED, estimate, truth),
-        *of_balancing(recording, BED, estimate, story),
+        *of_fit(recording, BED, motions),
+        *of_tracking(still, tracked_courses(still, BED, estimate), truth[1][0]),
+        *of_move(recording, moved, truth),
+        *of_balancing(recording, BED, moved, story),
     ]
     return {picture.name: picture for picture in found}
 

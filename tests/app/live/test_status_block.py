@@ -14,8 +14,7 @@ from rich.console import Console
 
 from equipoise.app.cli import BY_HAND
 from equipoise.app.console import terminal
-from equipoise.app.live.recording_progress import RecordingView
-from equipoise.app.live.status_block import TerminalView, filled, watched_by
+from equipoise.app.live.status_block import RecordingView, TerminalView, filled, watched_by
 from equipoise.app.text.sparkline import BLOCKS
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording, Samples

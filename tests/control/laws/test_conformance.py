@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from equipoise.control.law import NEEDS, Law
+from equipoise.control.law import Law
 from equipoise.control.laws.registry import ALL, LAWS
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.command import Command, Measurement
 from equipoise.model.devices import JetPair, Magnetorquer, ReactionWheel
 from equipoise.model.errors import EquipoiseError, InputError
+from equipoise.model.law_card import NEEDS
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balancing.catalogue import CARDS

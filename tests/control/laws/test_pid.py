@@ -86,7 +86,9 @@ def swung(seed=0):
 
 def at_last(run):
     """The tilt over the last 5 s before it is swung for a look, or of all."""
-    swung_at = next((i for i, s in enumerate(run.states) if s.way is not None), len(run.tilt))
+    swung_at = next(
+        (i for i, s in enumerate(run.states) if s.search.way is not None), len(run.tilt)
+    )
     return run.tilt[swung_at - 20 : swung_at].max()
 
 
@@ -126,8 +128,8 @@ def test_an_uninformative_measurement_ends_the_run_level():
     state, params = pid.begin(guess(), np.zeros(3))
     loop, zero = Loop(Plant(table(), TURN, RATE)), np.zeros(3)
     level, observed = np.array([1e-6, 2e-6, 3e-6]), loop.sample(zero, zero)
-    way = height_adjustment.once_level(params.plant, state.height, observed, level, zero)
-    state = replace(state, phase="level", level=level, way=way)
+    way = height_adjustment.once_level(params.plant, state.search.height, observed, level, zero)
+    state = replace(state, phase="level", search=replace(state.search, level=level, way=way))
     blind = Estimate("trajectory", Outcome(False, "too little motion"), (), np.zeros((0, 0)))
     state, command = pid.step(state, blind, params)
     np.testing.assert_array_equal(command.shift, level)
@@ -140,7 +142,7 @@ def test_measurements_repeat_at_smaller_depth_until_the_height_is_known():
     """An open scale of 5 %: from 436 um it is known to 22, from 65 to 3, from 10 to 0.5."""
     run = flown(5)
     assert run.measurements == 3
-    depths = [s.height.depth for s in run.states if s.level is not None]
+    depths = [s.search.height.depth for s in run.states if s.search.level is not None]
     assert min(depths) == height_adjustment.SHALLOW
 
 

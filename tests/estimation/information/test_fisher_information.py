@@ -8,12 +8,8 @@ import pytest
 
 from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.timeline import timeline
-from equipoise.estimation.information import fisher_information
-from equipoise.estimation.information.fisher_information import (
-    Observability,
-    gravity_sweep,
-    information_by,
-)
+from equipoise.estimation.information import fisher_information, information_matrix
+from equipoise.estimation.information.fisher_information import gravity_sweep, information_by
 from equipoise.estimation.information.reference_motion import DAMPED, cautions, followed, halfway
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
@@ -24,6 +20,7 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.observability import Observability
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import Testbed
 from tests.support.builders import (
@@ -224,7 +221,7 @@ def test_free_motion_leaves_the_scale_and_nothing_else():
 def test_the_scale_is_the_null_direction_of_the_information():
     """(J, com) stretched: nothing of it in the information, to rounding."""
     motion = followed(clean(moved=False), level(platform()), Params())
-    information = fisher_information.free_information(motion.fitted, np.zeros(15, dtype=bool))
+    information = information_matrix.free_information(motion.fitted, np.zeros(15, dtype=bool))
     body = motion.fitted.point.body(MASS)
     xx, yy, zz = np.diag(body.inertia_P)
     (xy, xz), yz = body.inertia_P[0, 1:], body.inertia_P[1, 2]

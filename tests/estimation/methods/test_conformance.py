@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 import equipoise.estimation.methods as package
-from equipoise.estimation.method_contract import REGIMES, Options, estimated
+from equipoise.estimation.method_contract import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.method_card import REGIMES
 from equipoise.procedure.steps.clean_record import sound as made_sound
 from equipoise.study.candour import warns
 from tests.estimation.methods.faulty_records import AWKWARD, bed, sound

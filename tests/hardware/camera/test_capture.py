@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 
 cv2 = pytest.importorskip("cv2", reason="the extra 'camera' is not installed")
 
+from equipoise.hardware.bench.open_port import open_port  # noqa: E402
 from equipoise.hardware.camera.capture import CapturePort, camera_at  # noqa: E402
 from equipoise.hardware.camera.raw_picture import RawPicture, packed, unpacked  # noqa: E402
-from equipoise.hardware.transport.port import PortLost, open_port  # noqa: E402
+from equipoise.hardware.transport.port import PortLost  # noqa: E402
 from equipoise.model.errors import InputError  # noqa: E402
 from equipoise.model.hardware import Port  # noqa: E402
 

@@ -11,10 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.emulated.counterpart import counterpart
 from equipoise.hardware.emulated.rosbridge import EmulatedRosBridge
 from equipoise.hardware.sensors.rosbridge import RosBridge
-from equipoise.hardware.transport.port import PortLost, open_port
+from equipoise.hardware.transport.port import PortLost
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port
 from equipoise.model.reading import Reading

@@ -7,9 +7,10 @@ import time
 
 import pytest
 
+from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.port_lock import BenchTaken, commanding
 from equipoise.hardware.emulated.counterpart import TcpCounterpart, counterpart
-from equipoise.hardware.transport.port import PortLost, open_port
+from equipoise.hardware.transport.port import PortLost
 from equipoise.hardware.transport.reconnecting_port import AGAIN, Connection
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port

@@ -13,10 +13,10 @@ from pathlib import Path
 
 from equipoise.io.documents.logbook import INDEX, open_logbook
 from equipoise.io.documents.run_file import text_of_run
-from equipoise.io.documents.run_folder import RUN, TESTBED
+from equipoise.io.documents.run_folder import TESTBED
 from equipoise.io.files.atomic_folder import write_folder
 from equipoise.model.estimate import Parameter
-from equipoise.model.logged_run import LoggedRun
+from equipoise.model.logged_run import RUN, LoggedRun
 
 
 def run(made_at="2026-03-01T12:00:00+01:00", **more) -> LoggedRun:

@@ -14,8 +14,8 @@ from equipoise.io.documents import run_file
 from equipoise.io.documents.logbook import INDEX, open_logbook
 from equipoise.io.documents.logbook_schema import MIGRATIONS
 from equipoise.io.documents.run_file import read_run
-from equipoise.io.documents.run_folder import RUN
 from equipoise.model.errors import InputError
+from equipoise.model.logged_run import RUN
 from tests.io.documents import killed_writer
 from tests.io.documents.killed_writer import put, run
 from tests.support import thorough

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.placed_weights import handling_covariance, load_of
-from equipoise.estimation.model_selection.single_record_information import shown_by
+from equipoise.estimation.information.single_record_information import shown_by
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import tilt
 from equipoise.model.errors import InputError

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.control_moment_gyros import pyramid
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.sample import Sample
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.command import Command, Measurement
@@ -14,6 +14,7 @@ from equipoise.model.defects import Gap
 from equipoise.model.devices import JetPair, MagneticField, Magnetorquer, ReactionWheel
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, Estimate
+from equipoise.model.law_card import LawCard
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed, Truth
 from equipoise.procedure.balancing.allocation import opened_hands

@@ -11,6 +11,7 @@ from equipoise.app.bench.port_check import check_reachable
 from equipoise.app.console.terminal import complain, stderr
 from equipoise.hardware.bench.bench_controller import Keeper
 from equipoise.hardware.bench.controller_process import DistantKeeper
+from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.port_lock import commanding
 from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.hardware.boards.registry import BOARDS
@@ -19,7 +20,6 @@ from equipoise.hardware.links.device_links import Links
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.transport.driver_protocol import driver_named
-from equipoise.hardware.transport.port import open_port
 from equipoise.hardware.transport.reconnecting_port import Connection, Opener
 from equipoise.io.mcap.foxglove_server import ADDRESS, LiveView
 from equipoise.io.mcap.live_recording import LiveRecording, Opening

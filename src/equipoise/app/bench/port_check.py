@@ -1,6 +1,7 @@
 """Whether the ports of a bench can be opened at all, before anything is waited for."""
 
-from equipoise.hardware.transport.port import PortLost, open_port
+from equipoise.hardware.bench.open_port import open_port
+from equipoise.hardware.transport.port import PortLost
 from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import Hardware
 

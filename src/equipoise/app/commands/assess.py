@@ -93,10 +93,12 @@ def _report(done: "AssessedPlatform", json: bool, out: Path | None) -> None:
     from equipoise.app.report.write import write_account
     from equipoise.app.views.assess_json import document_of
     from equipoise.app.views.assess_views import account_of, show_result
+    from equipoise.procedure.identification.record_courses import RecordCourses, step_motions
 
     document = document_of(done)
 
     def written(folder: Path) -> list[Path]:
-        return write_account(account_of(done), document, "assess", folder)
+        courses = RecordCourses(steps=step_motions(done.steps, done.done.testbed))
+        return write_account(account_of(done, courses), document, "assess", folder)
 
     hand_over(document, lambda: show_result(done), written, json, out)

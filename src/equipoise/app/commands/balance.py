@@ -170,13 +170,14 @@ def _report(done: "Balancing", seed: int, json: bool, out: Path | None) -> None:
     from equipoise.app.logbook.output import hand_over, keep
     from equipoise.app.report.write import write_run
     from equipoise.app.views.balance_views import account_of, document_of, kept_of, show_result
+    from equipoise.procedure.identification.record_courses import balancing_courses
 
     document = document_of(done, seed)
 
     def written(folder: Path) -> list[Path]:
-        return write_run(
-            account_of(done, seed), document, "balance", kept_of(done, done.law), folder
-        )
+        courses = balancing_courses(done.recording, done.testbed, done.estimate, done.steps)
+        account = account_of(done, seed, courses)
+        return write_run(account, document, "balance", kept_of(done, done.law), folder)
 
     hand_over(document, lambda: show_result(done), written, json, out)
     if out is None:

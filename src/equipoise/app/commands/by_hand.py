@@ -133,12 +133,14 @@ def _report(done: "ByHand", of: dict[str, str], requested: Request) -> int:
     from equipoise.app.report.write import write_run
     from equipoise.app.views.balance_views import kept_of
     from equipoise.app.views.manual_views import account_of, document_of, show_result
+    from equipoise.procedure.identification.record_courses import RecordCourses, step_motions
 
     document = document_of(done, of)
 
     def written(folder: Path) -> list[Path]:
         kept = kept_of(done.balancing, "by hand")
-        return write_run(account_of(done, of), document, "balance", kept, folder)
+        courses = RecordCourses(steps=step_motions(done.balancing.steps, done.balancing.testbed))
+        return write_run(account_of(done, of, courses), document, "balance", kept, folder)
 
     hand_over(document, lambda: show_result(done), written, requested.json, requested.out)
     if requested.out is None and done.ended:

@@ -1,11 +1,13 @@
 """`equipoise compare`: methods on the same records, laws on the same platforms."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cyclopts import Parameter
+
 from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
-from equipoise.app.arguments.law_comparison import AS_THEY_ARE, JudgingLaws
-from equipoise.app.arguments.types import Flag, Names, Whole
+from equipoise.app.arguments.types import Flag, Names, Triple, Whole
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
@@ -13,6 +15,35 @@ if TYPE_CHECKING:
     from equipoise.model.testbed import Testbed
     from equipoise.simulation.record import Moves
     from equipoise.study.method_record import Scene
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True)
+class JudgingLaws:
+    """What laws are to reach, and within what.
+
+    Attributes
+    ----------
+    target_um
+        Laws: where the centre of mass is wanted, from the centre of rotation, body axes.
+    tolerance_um
+        Laws: how near to the target is near enough, along each axis; verdicts are about it.
+    tilt_deg
+        Laws: torque counts over directions within so many degrees of level.
+    require_torque
+        Laws: torque that is wanted at most, rms over that range, N m.
+    max_time_s
+        Laws: bench time that each run may take, its proof included.
+    """
+
+    target_um: Triple = (0.0, 0.0, 0.0)
+    tolerance_um: Triple = (2.0, 2.0, 3.0)
+    tilt_deg: float = 20.0
+    require_torque: float = 1e-5
+    max_time_s: float = 600.0
+
+
+AS_THEY_ARE = JudgingLaws()
 
 
 def compare(

@@ -24,16 +24,18 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
     check_folder(out)
     with busy("preparing the bench", announce=False):
         from equipoise.app.report.write import write_run
-        from equipoise.app.runs.demonstration import account_of, run_demo
-        from equipoise.app.views.balance_views import document_of, kept_of, show_result
+        from equipoise.app.runs.demonstration import courses_of, run_demo
+        from equipoise.app.views.balance_views import document_of, kept_of, show_result, show_step
+        from equipoise.app.views.demo_views import account_of
         from equipoise.procedure.balancing.catalogue import OWN
 
-    shown = run_demo(bed, seed)
+    shown = run_demo(bed, seed, show_step)
     show_result(shown.balancing)
     with busy("drawing"):
         document = document_of(shown.balancing, seed)
         kept = kept_of(shown.balancing, OWN.name)
-        paths = write_run(account_of(shown, seed), document, "balance", kept, out)
+        account = account_of(shown, seed, courses_of(shown))
+        paths = write_run(account, document, "balance", kept, out)
     stdout().print()
     show_paths(paths)
     return 0 if shown.balancing.verdict.passed else 1

@@ -77,11 +77,14 @@ def _report(done: "Identification", json: bool, out: Path | None) -> None:
     from equipoise.app.logbook.output import hand_over, keep
     from equipoise.app.report.write import write_run
     from equipoise.app.views.identify_views import account_of, document_of, kept_of, show_result
+    from equipoise.procedure.identification.record_courses import identification_courses
 
     document = document_of(done)
 
     def written(folder: Path) -> list[Path]:
-        return write_run(account_of(done), document, "estimate", kept_of(done), folder)
+        courses = identification_courses(done.recording, done.testbed, done.steps)
+        account = account_of(done, courses)
+        return write_run(account, document, "estimate", kept_of(done), folder)
 
     hand_over(document, lambda: show_result(done), written, json, out)
     if out is None:

@@ -46,8 +46,7 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
 
 def _record(bench: "Bench", out: Path, duration: float) -> None:
     """Read for so long (s), or until Ctrl-C; the bench itself writes the rows."""
-    from equipoise.app.live.recording_progress import RecordingView
-    from equipoise.app.live.status_block import SLICE, watched_by
+    from equipoise.app.live.status_block import SLICE, RecordingView, watched_by
 
     begin = bench.time
     view = RecordingView(bench.testbed, out, begin, duration)

@@ -7,7 +7,7 @@ from equipoise.app.arguments.types import Flag, Whole
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.study.lee import Manoeuvre
+    from equipoise.study.papers.lee import Manoeuvre
 
 PAPERS = ("lee",)
 
@@ -48,11 +48,13 @@ def _report(runs: "list[Manoeuvre]", seed: int, json: bool, out: Path | None) ->
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.report.write import write_account
     from equipoise.app.views.lee_views import account_of, document_of, show_result
+    from equipoise.study.papers.lee_course import courses_of
 
     document = document_of(runs, seed)
 
     def written(folder: Path) -> list[Path]:
-        return write_account(account_of(runs, seed), document, "reproduce", folder)
+        courses = [courses_of(run.slew.recording, run.testbed) for run in runs]
+        return write_account(account_of(runs, courses, seed), document, "reproduce", folder)
 
     hand_over(document, lambda: show_result(runs), written, json, out)
 
@@ -62,7 +64,7 @@ def _slews(seed: int) -> "list[Manoeuvre]":
     from equipoise.io.testbed.presets import read_preset
 
     with busy("preparing", announce=False):
-        from equipoise.study.lee import LARGE, SMALL, judged, slew_from
+        from equipoise.study.papers.lee import LARGE, SMALL, judged, slew_from
 
     bed, done = read_preset("kau"), list["Manoeuvre"]()
     for start in (LARGE, SMALL):

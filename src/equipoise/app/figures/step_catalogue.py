@@ -1,8 +1,7 @@
 """Which figure tells a step of a procedure."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import TypeGuard
+from dataclasses import dataclass, field
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -12,9 +11,7 @@ from equipoise.app.figures.estimate import attitude_residual, step_com
 from equipoise.app.figures.estimate.step_com import Mark, Wanted
 from equipoise.app.figures.recording import measurement
 from equipoise.app.text.com_estimate import as_it_stands, at_home
-from equipoise.estimation.output_error.predict import ATTITUDE, RATE, predict
-from equipoise.model.estimate import COM, INERTIA, Estimate
-from equipoise.model.recording import Recording
+from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 
@@ -28,6 +25,7 @@ class Frame:
     testbed: Testbed
     wanted: Wanted | None = None  # where the centre of mass is to be
     at_home: bool = False  # it is shown with the masses at home; else as they stand
+    motions: Mapping[Step, PredictedMotion] = field(default_factory=dict[Step, PredictedMotion])
 
 
 def pictures_of_steps(
@@ -52,24 +50,14 @@ def _reported(step: Step, frame: Frame, before: Mark | None) -> tuple[str, Figur
     recording, estimated, testbed = step.recording, _estimated(step, frame), frame.testbed
     if step.kind == "measurement" and recording is not None:
         return measurement.CAPTION, measurement.draw(recording, testbed.up)
-    if step.kind == "estimate" and _is_fit(step.estimate) and _has_camera(recording):
-        after = predict(recording, testbed, step.estimate)
+    if recording is not None and step in frame.motions:
         noise = testbed.attitude.noise if testbed.attitude else None
-        return attitude_residual.CAPTION, attitude_residual.draw(recording, after, noise)
+        drawn = attitude_residual.draw(recording, frame.motions[step], noise)
+        return attitude_residual.CAPTION, drawn
     if estimated is None:
         return None
     marks = [mark for mark in (before, estimated) if mark is not None]
     return step_com.caption(frame.at_home, frame.wanted), step_com.draw(marks, frame.wanted)
-
-
-def _is_fit(estimate: Estimate | None) -> TypeGuard[Estimate]:
-    """Say whether an estimate tells how its record began, so that the model can be run along it."""
-    names = (*COM, *INERTIA, *RATE, *ATTITUDE)
-    return estimate is not None and all(map(estimate.has, names)) and estimate.method != "tracker"
-
-
-def _has_camera(recording: Recording | None) -> TypeGuard[Recording]:
-    return recording is not None and recording.attitude is not None
 
 
 def _estimated(step: Step, frame: Frame) -> Mark | None:

@@ -7,6 +7,7 @@ who prints results: so it draws what never changes, and what it cannot draw it s
 
 import math
 from collections.abc import Sequence
+from pathlib import Path
 
 from rich.console import Console, ConsoleOptions, RenderResult
 from rich.text import Text
@@ -125,3 +126,18 @@ def watched_by(view: TerminalView, bench: Bench) -> Bench:
 def _um(value: float, sd: float) -> str:
     """Return a coordinate in the digits of the steps' sentences."""
     return f"{fixed(value, 1)} +/- {fixed(sd, 1)}" if math.isfinite(sd) else "not seen"
+
+
+class RecordingView(TerminalView):
+    """The newest numbers, and what share of the record there is, in which file."""
+
+    def __init__(self, testbed: Testbed, file: Path, begin: float, duration: float) -> None:
+        super().__init__(testbed)
+        self._file, self._begin, self._duration = file, begin, duration
+
+    def lines(self) -> list[list[str]]:
+        """Return what is known, in groups: a name, and short texts."""
+        share = min(max(self.newest.time - self._begin, 0.0) / self._duration, 1.0)
+        done = ["record", f"{share:4.0%} of {self._duration:g} s", self._file.name]
+        rows = [f"{name} {number}" for name, number in self.newest.counts.items()]
+        return [*super().lines(), done, ["rows", *rows] if rows else []]

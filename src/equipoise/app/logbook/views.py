@@ -10,10 +10,9 @@ from equipoise.app.text.json_document import View, parameter_json
 from equipoise.app.text.numbers import decimals_for, fixed, is_known
 from equipoise.app.text.sheet import Sheet
 from equipoise.app.text.units import unit_for
-from equipoise.assessment.metrics.normalised_difference import normalised_difference
 from equipoise.io.documents.logbook import Logbook
 from equipoise.model.errors import InputError
-from equipoise.model.estimate import COM, INERTIA, Parameter
+from equipoise.model.estimate import COM, INERTIA, Parameter, normalised_difference
 from equipoise.model.logged_run import LoggedRun
 
 STYLE = {"passed": "green", "usable": "green", "failed": "red", "halted": "red",

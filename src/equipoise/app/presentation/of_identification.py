@@ -48,6 +48,8 @@ def arrays(done: Identification) -> Arrays:
 def figure(done: Identification) -> "Figure | None":
     """Return the first figure of the report, else the intervals."""
     from equipoise.app.figures.catalogue import of_estimate as pictures
+    from equipoise.procedure.identification.record_courses import identification_courses
 
-    first = next(pictures(done.recording, done.testbed, done.estimate), None)
+    courses = identification_courses(done.recording, done.testbed, done.steps)
+    first = next(pictures(done.recording, done.testbed, done.estimate, courses), None)
     return of_estimate.figure(done.estimate) if first is None else first.figure

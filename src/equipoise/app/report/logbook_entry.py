@@ -9,11 +9,11 @@ import numpy as np
 from equipoise.app.report.run_record import Account
 from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.documents.run_file import text_of_run
-from equipoise.io.documents.run_folder import RUN, TESTBED
+from equipoise.io.documents.run_folder import TESTBED
 from equipoise.io.formats.csv_table import csv_text
 from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.estimate import COM, Parameter
-from equipoise.model.logged_run import Kind, LoggedRun, Outcome
+from equipoise.model.logged_run import RUN, Kind, LoggedRun, Outcome
 from equipoise.model.recording import Recording
 from equipoise.model.verdict import Verdict, outcome_of
 

@@ -22,9 +22,14 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions
-from equipoise.procedure.balancing.catalogue import CARDS, OWN, balanced_and_followed, balanced_by
+from equipoise.procedure.balancing.catalogue import (
+    CARDS,
+    OWN,
+    balanced_and_followed,
+    balanced_by,
+    planned_and_balanced,
+)
 from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
-from equipoise.procedure.balancing.plan_first import planned_and_balanced
 from equipoise.simulation.bench import SimulatedBench
 
 HALTED = "every mass was halted where it is"

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from equipoise.hardware.bench.open_port import open_port
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.camera.eye import Eye, eye_of
 from equipoise.hardware.camera.pictures import pictures_of
@@ -21,7 +22,6 @@ from equipoise.hardware.links.frame_transform import as_sensed, placed
 from equipoise.hardware.links.sensor_link import UNSTATED, SensorLink
 from equipoise.hardware.sensors.registry import DRIVERS
 from equipoise.hardware.transport.driver_protocol import driver_named
-from equipoise.hardware.transport.port import open_port
 from equipoise.hardware.transport.reconnecting_port import Connection
 from equipoise.io.documents.camera_file import read_camera_keys
 from equipoise.maths.attitude import continuous, from_matrix, to_matrix

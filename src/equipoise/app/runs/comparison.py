@@ -7,10 +7,10 @@ from equipoise.app.arguments.checks import one_of
 from equipoise.app.runs.resource_use import metered
 from equipoise.app.runs.waiting import QUIET, Waiting
 from equipoise.app.text.units import MM
-from equipoise.control.law import LawCard
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
+from equipoise.model.law_card import LawCard
 from equipoise.model.presentation import Plotted
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.balancing.balance import BalanceOptions

@@ -1,26 +1,30 @@
 """The demo: a record with a known move, what it tells, then balancing the same platform."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from equipoise.app.console.rich_results import estimate_tables
 from equipoise.app.console.terminal import busy, stdout, watched
-from equipoise.app.figures.catalogue import Picture, TrueCourse, of_fit, of_move, of_tracking
-from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
+from equipoise.app.figures.catalogue import TrueCourse
 from equipoise.app.live.terminal_observer import at_terminal
-from equipoise.app.report.run_record import Account
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.app.text.com_estimate import at_home
 from equipoise.app.text.units import MM, UM
-from equipoise.app.views.balance_views import account_of as account_of_balancing
-from equipoise.app.views.balance_views import pictures_of, show_step, wanted
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, join, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.record_courses import (
+    RecordCourses,
+    TrackedCourses,
+    balancing_courses,
+    fit_motions,
+    step_motions,
+    tracked_courses,
+)
 from equipoise.simulation.bench import SimulatedBench
 
 MEASURED = 60.0  # s before and after the move, as in the issue's paper-like runs
@@ -45,7 +49,17 @@ class Demonstration:
         return found
 
 
-def run_demo(testbed: Testbed, seed: int) -> Demonstration:
+@dataclass(frozen=True, slots=True, eq=False)
+class DemoCourses:
+    """What is drawn along the records of the demonstration."""
+
+    still: Recording  # before the known move
+    tracked: TrackedCourses  # along ``still``
+    identified: RecordCourses
+    balanced: RecordCourses
+
+
+def run_demo(testbed: Testbed, seed: int, show_step: Callable[[Step], None]) -> Demonstration:
     """Identify, show the tables, and balance, on one simulated platform."""
     console = stdout()
     console.print(f"{testbed.name}, simulated, seed {seed}", style="bold", markup=False)
@@ -79,35 +93,14 @@ def measured(bench: SimulatedBench) -> tuple[Recording, TrueCourse]:
     return join(first, second), (t, np.array([before, before, under_way, after, after]))
 
 
-def account_of(shown: Demonstration, seed: int) -> Account:
-    """Return the report: the balancing with the identification before it."""
-    account = account_of_balancing(shown.balancing, seed)
-    return replace(
-        account,
-        title="From unknown and unbalanced to identified, balanced and verified",
-        chapters={"Identify": shown.identified, "Balance": shown.balancing.steps},
-        estimate=shown.estimate,
-        pictures=pictures(shown),
-        step_pictures=_pictures_of_steps(shown),
+def courses_of(shown: Demonstration) -> DemoCourses:
+    """Return the courses that the report draws."""
+    done, recording, estimate = shown.balancing, shown.recording, shown.estimate
+    bed, still = done.testbed, window(recording, 0.0, MEASURED)
+    identified = RecordCourses(
+        fit_motions(recording, bed, estimate),
+        tracked_courses(recording, bed, estimate, compare=True),
+        step_motions(shown.identified, bed),
     )
-
-
-def _pictures_of_steps(shown: Demonstration) -> Mapping[Step, Picture]:
-    bed, first = shown.balancing.testbed, len(shown.identified) + 1
-    identified = pictures_of_steps(shown.identified, Frame(bed, at_home=True))
-    return {
-        **identified,
-        **pictures_of_steps(shown.balancing.steps, Frame(bed, wanted(GOAL)), first),
-    }
-
-
-def pictures(shown: Demonstration) -> list[Picture]:
-    """Return figures 6, 7, 8, 11, 12, 13, 14 and 15."""
-    bed, recording, estimate = shown.balancing.testbed, shown.recording, shown.estimate
-    still = window(recording, 0.0, MEASURED)
-    return [
-        *of_fit(recording, bed, estimate),
-        *of_tracking(still, bed, estimate, shown.truth[1][0]),
-        *of_move(recording, bed, estimate, shown.truth),
-        *pictures_of(shown.balancing),
-    ]
+    balanced = balancing_courses(done.recording, bed, done.estimate, done.steps)
+    return DemoCourses(still, tracked_courses(still, bed, estimate), identified, balanced)

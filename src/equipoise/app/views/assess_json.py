@@ -3,8 +3,8 @@
 from equipoise.app.runs.assessment import AssessedPlatform
 from equipoise.app.text.json_document import View, estimate_json, numbers
 from equipoise.assessment.metrics.swing_height import Hanging
-from equipoise.estimation.regression.inverse_dynamics_torque import ResidualTorque
 from equipoise.model.estimate import COM, Estimate
+from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
 from equipoise.procedure.identification.assess import Assessment
 from equipoise.procedure.identification.drift_metrics import OverHours
 from equipoise.procedure.identification.requirement import Judged
@@ -86,7 +86,9 @@ def judged_json(judged: Judged) -> View:
     }
 
 
-def residual_torque_json(observed: ResidualTorque | None, fit: Estimate | None) -> View | None:
+def residual_torque_json(
+    observed: NoiseCorrectedSeries | None, fit: Estimate | None
+) -> View | None:
     """Return what was felt, and the centre of mass that it tells, as the masses stand."""
     if observed is None:
         return None

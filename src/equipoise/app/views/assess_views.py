@@ -24,6 +24,7 @@ from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.estimate import COM
 from equipoise.procedure.identification.assess import Assessment
 from equipoise.procedure.identification.drift_metrics import OverHours
+from equipoise.procedure.identification.record_courses import RecordCourses
 
 MODES = {0: "slow swing", 1: "quick swing", None: "both swings, as one"}
 PERCENT = 100.0
@@ -219,7 +220,7 @@ def fall(before: Bounded, after: Bounded) -> str:
     return "no change that the recordings show"
 
 
-def account_of(reported: AssessedPlatform) -> Account:
+def account_of(reported: AssessedPlatform, courses: RecordCourses) -> Account:
     """Return the assessment as a report."""
     done, before, options = reported.done, reported.before, reported.done.options
     requested = {
@@ -237,7 +238,7 @@ def account_of(reported: AssessedPlatform) -> Account:
         requested=requested,
         testbed=done.testbed,
         chapters={"Steps": reported.steps},
-        step_pictures=pictures_of_steps(reported.steps, Frame(done.testbed)),
+        step_pictures=pictures_of_steps(reported.steps, Frame(done.testbed, motions=courses.steps)),
         origin=origin(sha256=done.recording.sha256),
         findings=reported.findings,
         estimate=done.estimate,

@@ -16,6 +16,7 @@ from equipoise.app.text.numbers import fixed
 from equipoise.app.text.units import UM
 from equipoise.model.arrays import Vector3
 from equipoise.model.step import Step
+from equipoise.procedure.identification.record_courses import RecordCourses
 
 
 def show_step(step: Step) -> None:
@@ -47,7 +48,7 @@ def kept_of(done: Balancing, law: str) -> Kept:
     return Kept("balance", law, "simulated" if done.simulated else "real", done.recording)
 
 
-def account_of(done: Balancing, seed: int) -> Account:
+def account_of(done: Balancing, seed: int, courses: RecordCourses) -> Account:
     """Return the run as a report."""
     return Account(
         title="Balancing",
@@ -58,8 +59,10 @@ def account_of(done: Balancing, seed: int) -> Account:
         estimate=done.estimate,
         verdict=done.verdict,
         change=change_of(done),
-        pictures=[*pictures_of_tracking(done), *pictures_of(done)],
-        step_pictures=pictures_of_steps(done.steps, Frame(done.testbed, wanted(done.goal))),
+        pictures=[*pictures_of_tracking(done, courses), *pictures_of(done, courses)],
+        step_pictures=pictures_of_steps(
+            done.steps, Frame(done.testbed, wanted(done.goal), motions=courses.steps)
+        ),
     )
 
 
@@ -83,20 +86,19 @@ def requested(done: Balancing) -> dict[str, str]:
     }
 
 
-def pictures_of_tracking(done: Balancing) -> list[Picture]:
+def pictures_of_tracking(done: Balancing, courses: RecordCourses) -> list[Picture]:
     """Return Figs. 11 and 12; the tracker's centre of mass is with the masses at home."""
-    if done.recording is None or done.recording.attitude is None:
+    if done.recording is None or courses.tracked is None:
         return []
-    return list(of_tracking(done.recording, done.testbed, done.estimate, None))
+    return list(of_tracking(done.recording, courses.tracked, None))
 
 
-def pictures_of(done: Balancing) -> list[Picture]:
+def pictures_of(done: Balancing, courses: RecordCourses) -> list[Picture]:
     """Return Figs. 14 and 15."""
-    recording = done.recording
-    if recording is None or recording.attitude is None:
+    if done.recording is None or courses.tracked is None:
         return []
     story = Story(measurements(done), done.goal.target, done.goal.tolerance, true_course(done))
-    return list(of_balancing(recording, done.testbed, done.estimate, story))
+    return list(of_balancing(done.recording, done.testbed, courses.tracked, story))
 
 
 def true_course(done: Balancing) -> TrueCourse | None:

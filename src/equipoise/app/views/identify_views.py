@@ -17,6 +17,7 @@ from equipoise.app.runs.identification import Identification
 from equipoise.app.text.json_document import View, estimate_json
 from equipoise.app.views.plan_check import kept_json, kept_table, promise_sentences
 from equipoise.model.finding import Finding
+from equipoise.procedure.identification.record_courses import RecordCourses
 
 
 def show_findings(findings: Sequence[Finding]) -> None:
@@ -62,7 +63,7 @@ def kept_of(done: Identification) -> Kept:
     return Kept("identify", done.estimate.method, "recording", done.recording, is_file=True)
 
 
-def account_of(done: Identification) -> Account:
+def account_of(done: Identification, courses: RecordCourses) -> Account:
     """Return the identification as a report."""
     return Account(
         title="Mass properties from a recording",
@@ -72,6 +73,8 @@ def account_of(done: Identification) -> Account:
         origin=origin(sha256=done.recording.sha256),
         findings=done.findings,
         estimate=done.estimate,
-        pictures=list(of_estimate(done.recording, done.testbed, done.estimate)),
-        step_pictures=pictures_of_steps(done.steps, Frame(done.testbed, at_home=True)),
+        pictures=list(of_estimate(done.recording, done.testbed, done.estimate, courses)),
+        step_pictures=pictures_of_steps(
+            done.steps, Frame(done.testbed, at_home=True, motions=courses.steps)
+        ),
     )

@@ -10,7 +10,7 @@ from equipoise.app.text.csv_lines import csv_lines
 from equipoise.app.text.json_document import View
 from equipoise.app.text.sheet import Sheet
 from equipoise.app.text.units import MICRO, MM, PER_DEG, UM
-from equipoise.control.law import NEEDS, LawCard
+from equipoise.model.law_card import NEEDS, LawCard
 from equipoise.study.compare_laws import Comparison, LawSummary, Middle
 from equipoise.study.law_run import LawRun
 from equipoise.study.recommend import advised_law

@@ -3,26 +3,27 @@
 from collections.abc import Sequence
 
 from equipoise.app.console.rich_tables import show_sheet
-from equipoise.app.figures.lee_catalogue import pictures_of
+from equipoise.app.figures.papers.lee_catalogue import pictures_of
 from equipoise.app.report.run_record import Account, origin
 from equipoise.app.text.json_document import View, estimate_json
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.sheet import Sheet
-from equipoise.estimation.information.fisher_information import Observability
-from equipoise.estimation.methods.registry import METHODS
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.observability import Observability
 from equipoise.model.testbed import Testbed
-from equipoise.study.lee import (
+from equipoise.study.papers.lee import (
     DAMPING,
     DURATION,
     FREQUENCY,
     INTEGRAL,
     Manoeuvre,
+    formulations,
     singular_times,
     true_values,
     warns,
 )
+from equipoise.study.papers.lee_course import Courses
 
 SCHEMA = "equipoise/reproduce-lee/1"
 SHOWN = (*INERTIA, *COM)
@@ -129,10 +130,9 @@ def run_json(run: Manoeuvre) -> View:
     }
 
 
-def account_of(runs: Sequence[Manoeuvre], seed: int) -> Account:
+def account_of(runs: Sequence[Manoeuvre], courses: Sequence[Courses], seed: int) -> Account:
     """Return the reproduction as a report; drawing its figures takes a while."""
-    large, small = runs
-    methods = {name: METHODS[name].card.formulation for name in large.estimates}
+    large, small = zip(runs, courses, strict=True)
     simulated = {
         "paper": "Lee et al., Mass Properties Estimation of a Satellite Simulator Based on the "
         "Integration Method, section V",
@@ -142,8 +142,8 @@ def account_of(runs: Sequence[Manoeuvre], seed: int) -> Account:
     }
     return Account(
         title="Lee et al.'s simulation reproduced",
-        requested=simulated | methods,
-        testbed=large.testbed,
+        requested=simulated | formulations(),
+        testbed=runs[0].testbed,
         chapters={},
         origin=origin(),
         pictures=list(pictures_of(large, small)),

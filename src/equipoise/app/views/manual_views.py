@@ -15,6 +15,7 @@ from equipoise.app.text.com_estimate import as_it_stands
 from equipoise.app.text.json_document import View, balance_json
 from equipoise.app.views.balance_views import requested, wanted
 from equipoise.model.arrays import Vector3
+from equipoise.procedure.identification.record_courses import RecordCourses
 
 TRIAL = (
     "Manual balancing by trial and error is reported to take hours and to leave some 1e-2 N m "
@@ -53,7 +54,7 @@ def document_of(done: ByHand, of: dict[str, str]) -> View:
     )
 
 
-def account_of(done: ByHand, of: dict[str, str]) -> Account:
+def account_of(done: ByHand, of: dict[str, str], courses: RecordCourses) -> Account:
     """Return the run as a report."""
     balancing = done.balancing
     bench = "simulated hands" if balancing.truths else "a person's hands"
@@ -68,7 +69,8 @@ def account_of(done: ByHand, of: dict[str, str]) -> Account:
         change=change_of(balancing),
         pictures=pictures_of(done),
         step_pictures=pictures_of_steps(
-            balancing.steps, Frame(balancing.testbed, wanted(balancing.goal))
+            balancing.steps,
+            Frame(balancing.testbed, wanted(balancing.goal), motions=courses.steps),
         ),
     )
 

@@ -7,7 +7,7 @@ from rich.table import Table
 
 from equipoise.app.console.rich_tables import named_rows, quiet_table
 from equipoise.app.text.json_document import View
-from equipoise.estimation.method_contract import REGIMES, Card
+from equipoise.model.method_card import REGIMES, Card
 
 SCHEMA = "equipoise/methods/1"
 

@@ -12,10 +12,9 @@ from equipoise.app.runs.observation import Observation
 from equipoise.app.text.json_document import View, numbers, parameter_json
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import PER_DEG, unit_for
-from equipoise.estimation.information.filter_observability import FilterView
-from equipoise.estimation.information.fisher_information import Observability
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Parameter
+from equipoise.model.observability import FilterView, Observability
 
 SCHEMA = "equipoise/observe/1"
 BODY = (*COM, *INERTIA)

@@ -10,11 +10,14 @@ plumb by an angle leaves no more than the angle times SHALLOW.
 
     shift along u = target.u - r_home.u - depth,       r_home of the last look
 
+A law that levels the platform keeps a ``HeightSearch`` in its state. It asks ``gone_on`` at each
+step before its own feedback, and says ``levelled_at`` when the platform is level and quiet.
+
 Masses are sent first, and the look or the end follows when they have arrived. What the looks do not
 see (an estimate that is not usable, or does not hold the centre of mass) is left, and said.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -53,6 +56,47 @@ class Sent(NamedTuple):
     goal: Vector3  # m, shift
     then: Command
     late: float  # s, when they should long have arrived
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HeightSearch:
+    """How far a law has come with the height."""
+
+    height: Height
+    level: Vector3 | None = None  # m, the mean shift that last levelled the platform
+    way: Sent | None = None  # None: the law levels
+
+
+def height_search(plant: Hanging) -> HeightSearch:
+    """Return the beginning: the platform hangs at the plant's depth."""
+    return HeightSearch(Height(plant.lowered, plant.depth))
+
+
+def gone_on(
+    search: HeightSearch, sample: Sample | Estimate, plant: Hanging, target: Vector3
+) -> tuple[HeightSearch, Command | None]:
+    """Return the search after a sample or a look, and its command; None: the law levels."""
+    if isinstance(sample, Sample):
+        return search, None if search.way is None else on_the_way(plant, search.way, sample)
+    assert search.level is not None
+    if sees(sample):
+        return HeightSearch(raised(plant, search.height, sample, target), search.level), None
+    assert search.way is not None
+    way = unseen(plant, sample, search.way, search.level)
+    return replace(search, way=way), Command(shift=way.goal)
+
+
+def levelled_at(
+    search: HeightSearch, sample: Sample, level: Vector3, plant: Hanging, target: Vector3
+) -> tuple[HeightSearch, Command]:
+    """Return the search where the shift ``level`` (m) levels the platform, and its command."""
+    way = once_level(plant, search.height, sample, level, target)
+    return HeightSearch(search.height, level, way), Command(shift=way.goal)
+
+
+def raised_note(height: Height) -> str:
+    """Return what to say of a platform that was raised after a look."""
+    return f"raised to {height.depth * 1e6:.3g} um below the target"
 
 
 def sees(estimate: Estimate) -> bool:

@@ -24,7 +24,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.control.elements.slew import moment_across
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.plant import move_timing
 from equipoise.control.plant.move_timing import Waiting
 from equipoise.control.plant.swing_estimates import METHOD, Shown, combined, held, shown, shows
@@ -33,6 +33,7 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.5  # s

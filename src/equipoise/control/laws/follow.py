@@ -26,7 +26,7 @@ from equipoise.control.elements.slew import (
     reference_at,
     slew,
 )
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.plant.wheel_capacity import capacity
 from equipoise.control.sample import Sample
 from equipoise.dynamics.sag_trim import trimming_shift
@@ -34,6 +34,7 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command
 from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s, chosen: a servo's beat

@@ -44,7 +44,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.control.elements.sweep import Sweep, Wanted, wanted
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.plant.actuator_limits import greatest_slew, limited
 from equipoise.control.plant.offset_bounds import (
     LIKELY,
@@ -62,6 +62,7 @@ from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s, chosen: a servo's beat

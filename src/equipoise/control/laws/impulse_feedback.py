@@ -40,7 +40,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.plant.actuator_limits import greatest_shift, limited
 from equipoise.control.plant.pendulum import level_axes
 from equipoise.control.sample import Sample
@@ -50,6 +50,7 @@ from equipoise.model.arrays import Floats, Matrix3, Series, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.2  # s, chosen: a step in which likely torques change the rate by a degree per second

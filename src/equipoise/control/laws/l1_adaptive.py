@@ -44,17 +44,15 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.control.elements.height_adjustment import (
-    Height,
-    Sent,
-    on_the_way,
-    once_level,
-    raised,
-    sees,
-    unseen,
+    HeightSearch,
+    gone_on,
+    height_search,
+    levelled_at,
+    raised_note,
 )
 from equipoise.control.elements.l1_norm import l1_norm
 from equipoise.control.elements.loop_stability import radius, steps_late, swing_input, swing_matrix
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.plant.actuator_limits import limited
 from equipoise.control.plant.pendulum import (
     SPARE,
@@ -72,6 +70,7 @@ from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.25  # s, chosen: a fiftieth of a swing
@@ -131,15 +130,13 @@ class Before(NamedTuple):
 class State:
     """Where it stands; rows of arrays are the two axes."""
 
-    height: Height
+    search: HeightSearch
     e: Floats = field(default_factory=lambda: np.zeros((2, 2)))  # rad, rad/s
     th: Floats = field(default_factory=lambda: np.zeros((2, 2)))  # 1/s^2, 1/s
     s: Floats = field(default_factory=lambda: np.zeros(2))  # rad/s^2
     u_ad: Floats = field(default_factory=lambda: np.zeros(2))  # rad/s^2
     before: Before | None = None
     rest: Rest = field(default_factory=Rest)
-    level: Vector3 | None = None  # m, the mean shift that last levelled it
-    way: Sent | None = None
 
 
 # --- Predictor and adaptation ----------------------------------------------------------------
@@ -236,7 +233,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     J = [float(axis @ testbed.body.inertia_P @ axis) for axis in (one, two, plant.up)]
     gyroscopic = np.array([(J[1] - J[2]) / J[0], (J[2] - J[0]) / J[1]])
     params = Params(plant, axes, gyroscopic, quiet, target)
-    return State(Height(plant.lowered, plant.depth)), params
+    return State(height_search(plant)), params
 
 
 # --- Step ------------------------------------------------------------------------------------
@@ -244,8 +241,9 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 
 def frequencies(state: State, sample: Sample, plant: Hanging) -> Floats:
     """Return w0 about both axes while masses raise or lower the platform, rad/s."""
-    above = float(plant.up @ sample.shift) - state.height.along
-    return np.sqrt(plant.gain * max(state.height.depth - above, FLATTEST * plant.depth))
+    height = state.search.height
+    above = float(plant.up @ sample.shift) - height.along
+    return np.sqrt(plant.gain * max(height.depth - above, FLATTEST * plant.depth))
 
 
 def turned_about_up(x: Floats, spin: float, params: Params) -> Floats:
@@ -291,7 +289,7 @@ def controlled(state: State, x: Floats, w0: Floats, params: Params) -> Vector3:
     p, d = (wanted**2 - w0**2).clip(0) / plant.gain, 2 * DAMPING * wanted / plant.gain
     f = spared(plant, p, d, x[:, 0], x[:, 1])
     v = state.u_ad / plant.gain - f * (p * x[:, 0] + d * x[:, 1])
-    return shift_for(plant, limited(v, plant.reach)) + state.height.along * plant.up
+    return shift_for(plant, limited(v, plant.reach)) + state.search.height.along * plant.up
 
 
 def sample_step(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
@@ -303,35 +301,32 @@ def sample_step(state: State, sample: Sample, params: Params) -> tuple[State, Co
     state = learnt(state, x, sample, params)
     state = replace(state, u_ad=filtered(state, x, params))
     now = Sums(sample.t, tilt, rate, sample.shift)
-    quiet = at_depth(params.quiet, plant.depth, state.height.depth)
+    quiet = at_depth(params.quiet, plant.depth, state.search.height.depth)
     rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
     state = replace(state, rest=rest, before=Before(x, w0, sample.shift, spin))
     if not is_quiet(rest, sample.t, quiet):
         return state, Command(shift=controlled(state, x, w0, params))
-    way = once_level(plant, state.height, sample, rest.shift, params.target)
-    return replace(state, level=rest.shift, way=way), Command(shift=way.goal)
+    search, command = levelled_at(state.search, sample, rest.shift, plant, params.target)
+    return replace(state, search=search), command
 
 
-def measurement_step(state: State, estimate: Estimate, params: Params) -> tuple[State, Command]:
-    """Return what follows a look."""
-    assert state.level is not None
-    if not sees(estimate):
-        assert state.way is not None
-        way = unseen(params.plant, estimate, state.way, state.level)
-        return replace(state, way=way), Command(shift=way.goal)
-    height = raised(params.plant, state.height, estimate, params.target)
-    shift = shift_for(params.plant, turned(params.plant, state.level))
-    note = f"raised to {height.depth * 1e6:.3g} um below the target"
-    state = replace(state, height=height, rest=Rest(), way=None, before=None)
-    return state, Command(shift=shift + height.along * params.plant.up, note=note)
+def level_again(state: State, params: Params) -> tuple[State, Command]:
+    """Return the first step where a look has raised the platform."""
+    plant, search = params.plant, state.search
+    assert search.level is not None
+    shift = shift_for(plant, turned(plant, search.level)) + search.height.along * plant.up
+    state = replace(state, rest=Rest(), before=None)
+    return state, Command(shift=shift, note=raised_note(search.height))
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command."""
+    search, command = gone_on(state.search, sample, params.plant, params.target)
+    state = replace(state, search=search)
+    if command is not None:
+        return state, command
     if isinstance(sample, Estimate):
-        return measurement_step(state, sample, params)
-    if state.way is not None:
-        return state, on_the_way(params.plant, state.way, sample)
+        return level_again(state, params)
     return sample_step(state, sample, params)
 
 

@@ -56,7 +56,7 @@ from equipoise.control.elements.slew import (
     slew,
     turned,
 )
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.plant.wheel_capacity import capacity
 from equipoise.control.sample import Sample
 from equipoise.dynamics.sag_trim import sag_matrix, trimmed_com
@@ -66,6 +66,7 @@ from equipoise.model.command import Command
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s

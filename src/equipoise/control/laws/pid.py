@@ -33,13 +33,11 @@ from typing import Literal
 import numpy as np
 
 from equipoise.control.elements.height_adjustment import (
-    Height,
-    Sent,
-    on_the_way,
-    once_level,
-    raised,
-    sees,
-    unseen,
+    HeightSearch,
+    gone_on,
+    height_search,
+    levelled_at,
+    raised_note,
 )
 from equipoise.control.elements.loop_stability import Sampled, closed, radius, steps_late
 from equipoise.control.elements.ziegler_nichols import (
@@ -56,7 +54,7 @@ from equipoise.control.elements.ziegler_nichols import (
     rule,
     ultimate,
 )
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.plant.actuator_limits import limited
 from equipoise.control.plant.pendulum import (
     Hanging,
@@ -73,6 +71,7 @@ from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.25  # s, chosen: a fiftieth of a swing
@@ -120,13 +119,11 @@ class State:
     phase: Literal["settle", "relay", "level"]
     gains: tuple[Gains, Gains]
     rest: Rest
-    height: Height
+    search: HeightSearch
     requested: Vector3 | None = None  # m, the last shift
     integral: Floats | None = None  # (2,) m
     relays: tuple[Relay, Relay] = (Relay(), Relay())
     started: float = 0.0  # s, the relay
-    level: Vector3 | None = None  # m, the mean shift that last levelled it
-    way: Sent | None = None
 
 
 # --- Begin -----------------------------------------------------------------------------------
@@ -175,7 +172,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     quiet = bounds(plant, max(LEVEL, 2 * plant.step), 0.5)
     rough = bounds(plant, max(quiet.shift, ROUGH * plant.depth), 0.5)
     params = Params(plant, loops, cycles, (first, second), calm, rough, quiet, target)
-    return State("settle", params.gains, Rest(), Height(plant.lowered, plant.depth)), params
+    return State("settle", params.gains, Rest(), height_search(plant)), params
 
 
 # --- Step ------------------------------------------------------------------------------------
@@ -183,7 +180,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 
 def requested_shift(state: State, plant: Hanging, v: Floats) -> Vector3:
     """Return the shift (m) that gives v within reach, and the height that is wanted."""
-    return shift_for(plant, limited(v, plant.reach)) + state.height.along * plant.up
+    return shift_for(plant, limited(v, plant.reach)) + state.search.height.along * plant.up
 
 
 def damping(state: State, sample: Sample, params: Params) -> Floats:
@@ -259,43 +256,39 @@ def level_phase(state: State, sample: Sample, params: Params) -> tuple[State, Co
     assert state.integral is not None
     assert state.requested is not None
     p, i, d = np.array(state.gains).T
-    i = i * (state.height.depth / plant.depth) ** 0.5
+    height = state.search.height
+    i = i * (height.depth / plant.depth) ** 0.5
     f = spared(plant, p, d, tilt, rate)
     undelivered = turned(plant, sample.shift - state.requested)
     integral = state.integral + PERIOD * (f * i * tilt - undelivered * i / p)
     shift = requested_shift(state, plant, -f * (p * tilt + d * rate) - integral)
     now = Sums(sample.t, tilt, rate, sample.shift)
-    wanted = params.quiet if state.height.measurements else params.rough
-    quiet = at_depth(wanted, plant.depth, state.height.depth)
+    wanted = params.quiet if height.measurements else params.rough
+    quiet = at_depth(wanted, plant.depth, height.depth)
     rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
     state = replace(state, integral=integral, requested=shift, rest=rest)
     if not is_quiet(rest, sample.t, quiet):
         return state, Command(shift=shift)
-    way = once_level(plant, state.height, sample, rest.shift, params.target)
-    return replace(state, level=rest.shift, way=way), Command(shift=way.goal)
+    search, command = levelled_at(state.search, sample, rest.shift, plant, params.target)
+    return replace(state, search=search), command
 
 
-def measurement_phase(state: State, estimate: Estimate, params: Params) -> tuple[State, Command]:
-    """Return what follows a look."""
-    assert state.level is not None
-    if not sees(estimate):
-        assert state.way is not None
-        way = unseen(params.plant, estimate, state.way, state.level)
-        return replace(state, way=way), Command(shift=way.goal)
-    height = raised(params.plant, state.height, estimate, params.target)
-    state = replace(state, phase="level", height=height, rest=Rest(), way=None)
+def level_again(state: State, params: Params) -> tuple[State, Command]:
+    """Return the first step of the PID where a look has raised the platform."""
     assert state.integral is not None
     shift = requested_shift(state, params.plant, -state.integral)
-    note = f"raised to {height.depth * 1e6:.3g} um below the target"
-    return replace(state, requested=shift), Command(shift=shift, note=note)
+    state = replace(state, phase="level", rest=Rest(), requested=shift)
+    return state, Command(shift=shift, note=raised_note(state.search.height))
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command."""
+    search, command = gone_on(state.search, sample, params.plant, params.target)
+    state = replace(state, search=search)
+    if command is not None:
+        return state, command
     if isinstance(sample, Estimate):
-        return measurement_phase(state, sample, params)
-    if state.way is not None:
-        return state, on_the_way(params.plant, state.way, sample)
+        return level_again(state, params)
     phases = {"settle": settle_phase, "relay": relay_phase, "level": level_phase}
     return phases[state.phase](state, sample, params)
 

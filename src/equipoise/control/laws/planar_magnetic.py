@@ -34,7 +34,7 @@ from equipoise.control.elements.planar_feedback import (
     loop_for,
 )
 from equipoise.control.elements.slew import moment_across
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.plant import move_timing
 from equipoise.control.plant.move_timing import Waiting
 from equipoise.control.plant.swing_estimates import METHOD, Shown, combined, held, shown, shows
@@ -44,6 +44,7 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 Phase = Literal["hang", "feedback", "kick", "level", "calm", "end"]

@@ -36,7 +36,7 @@ from equipoise.control.elements.slew import (
     slew,
     time_for,
 )
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.plant.pendulum import hanging
 from equipoise.control.plant.swing_estimates import METHOD as FREE
 from equipoise.control.plant.swing_estimates import of_group, shows
@@ -47,6 +47,7 @@ from equipoise.model.arrays import Quaternion, Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, Estimate
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s

@@ -6,10 +6,11 @@ round leaves |r_up| / (|r_up| + X), X = w_a^2 J / (m g), of what was aside: litt
 has been trimmed, and nothing only in the end.
 """
 
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.laws import two_steps
 from equipoise.control.laws.two_steps import PERIOD, Params, State
 from equipoise.model.arrays import Vector3
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 

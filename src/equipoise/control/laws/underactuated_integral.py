@@ -9,12 +9,13 @@ likely height. Not published; the integral stands still while masses are late (a
 """
 
 from equipoise.control.elements.tilt_feedback import INTEGRAL, frequency_of, routh_margin, swing_of
-from equipoise.control.law import Law, LawCard
+from equipoise.control.law import Law
 from equipoise.control.laws import two_steps
 from equipoise.control.laws.two_steps import PERIOD, Params, State
 from equipoise.control.plant.offset_bounds import likely_height
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
+from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
 MARGIN = 0.3  # chosen: of Routh's condition

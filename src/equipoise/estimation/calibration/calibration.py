@@ -46,8 +46,9 @@ from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.trajectory import params_of, run
 from equipoise.estimation.model_selection.reference_fit import check_sensors
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude
+from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.estimation.output_error.trajectory import Params, fit
-from equipoise.model import sensor_terms, torque_terms
+from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
@@ -57,7 +58,6 @@ from equipoise.model.testbed import DriveDoubt, SlidingMass, Testbed
 
 METHOD = "calibration"
 DOUBT = DriveDoubt(0.1, 0.1, 1e-3)  # chosen: a weight and a pitch unmeasured; 6 deg; a worn screw
-PLUMB = sensor_terms.GROUPS["plumb"]
 SAG = torque_terms.GROUPS["sag"]
 STEP = 1e-6  # in SI, chosen: the unknowns bend over whole units
 NEAR = 1e-3  # rad, chosen: stops err by 1e-3 mm aside then

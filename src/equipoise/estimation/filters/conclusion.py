@@ -19,11 +19,12 @@ import numpy as np
 from equipoise.estimation.filters.driver import State, advance, begin, reported
 from equipoise.estimation.filters.model import Kind
 from equipoise.estimation.filters.rows import Rows, camera_rows, gyro_rows
-from equipoise.estimation.method_contract import Card, origin_of, refused
+from equipoise.estimation.method_contract import origin_of, refused
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats, Matrix3, Series1
 from equipoise.model.estimate import INERTIA, Estimate, Parameter
 from equipoise.model.mass_properties import MassProperties, is_possible
+from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed

@@ -50,6 +50,7 @@ from equipoise.estimation.parameters.fit_parameters import CORE, JP, RATE, TURN,
 from equipoise.estimation.parameters.observability import ALONG, OBSERVABLE, describe, natural_sizes
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.observability import FilterView
 
 GROWN = 1e4  # chosen: growth behind which rounding does not hide what is seen before it
 ROUNDING = 1e-9  # of the largest singular value, chosen: integration errs by less
@@ -83,18 +84,6 @@ class Outputs(NamedTuple):
     stack: Floats  # (n + 1, rows, s)
     starts: tuple[int, ...]  # nodes at which stretches begin
     moving: int  # k, how many of the states move; the others are constant
-
-
-@dataclass(frozen=True, slots=True)
-class FilterView:
-    """What a filter sees."""
-
-    name: str
-    size: int  # of its state
-    measures: str  # "gyro" or "camera"
-    possible: int  # rank with sensors of no noise
-    rank: int | None  # with the testbed's; None: the recording has no such rows
-    sentences: tuple[str, ...]  # directions that are not seen, at ``rank`` if there is one
 
 
 def transitions(slopes: Floats, step: Series1) -> Floats:

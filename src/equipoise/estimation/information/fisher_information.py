@@ -1,13 +1,10 @@
 """What a recording can and cannot show: its Fisher information, and the Cramer-Rao bound.
 
-    I  = sum S_k^T S_k / sd_k^2 + priors          S_k = d(row k)/dx along the motion
-    sd(x_i) >= sqrt([I^-1]_ii)
-
-x is all that a trajectory fit seeks (``unknowns``), the rows are those of camera and gyro with the
-testbed's noise, and S_k the sensitivities of the one propagator along the motion that a plain fit
-follows (``followed_motion``). Priors are the testbed's for where masses stop, the gyro's zero and
-the camera's vertical, and for the body when asked. No unbiased method does better; the trajectory
-fit does as well where the model holds.
+The information matrix (``information_matrix``) is that of all that a trajectory fit seeks, of the
+rows of camera and gyro with the testbed's noise, and of the sensitivities of the one propagator
+along the motion that a plain fit follows (``reference_motion``). Priors are the testbed's for where
+masses stop, the gyro's zero and the camera's vertical, and for the body when asked. No unbiased
+method does better; the trajectory fit does as well where the model holds.
 
     rank        of D I D, D natural sizes: directions whose sd is below half of one, each that is
                 not costs one, an open scale too (``observability``)
@@ -23,46 +20,21 @@ Cannot see what is wrong with the model (torques nobody asked for, touches), or 
 that err together say less than is stated here.
 """
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 
+from equipoise.estimation.information.information_matrix import bound_at, free_information
 from equipoise.estimation.information.reference_motion import Followed, followed, halfway
-from equipoise.estimation.output_error.fit_estimate import visibility_of, without_anchor
-from equipoise.estimation.output_error.problem import evaluate, prior_of
-from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.problem import prior_of
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import CORE, physical
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.maths.attitude import tilt, to_matrix
-from equipoise.maths.linalg import symmetrise
-from equipoise.model.arrays import Bools, Floats, Matrix3, Series3, Square
-from equipoise.model.estimate import Parameter
+from equipoise.model.arrays import Floats, Series3, Square
+from equipoise.model.observability import Observability
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
 ROUNDING = 1e-13  # of the largest eigenvalue, chosen: smaller ones are zero
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Observability:
-    """What a recording shows. Arrays are in the order of ``names``."""
-
-    names: tuple[str, ...]
-    units: tuple[str, ...]  # SI
-    sd: Floats  # Cramer-Rao bound, SI; infinite: not seen
-    before: Floats  # sd that the testbed states beforehand, SI; infinite: none
-    hidden: Bools
-    held: Bools  # not sought
-    sentences: tuple[str, ...]  # directions that are not seen
-    cautions: tuple[str, ...]  # why the motion may be another than the recording's
-    ratios: tuple[Parameter, ...]  # when the scale is open
-    condition: float
-    gravity_sweep: float
-    tilt: tuple[float, float]  # rad, least and greatest
-    rank: int
-    size: int
-    inertia_P: Matrix3  # kg m^2, of the motion
 
 
 def information_by(recording: Recording, testbed: Testbed, params: Params) -> Observability:
@@ -75,16 +47,16 @@ def information_along(motion: Followed) -> Observability:
     fitted = motion.fitted
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
-    view = visibility_of(fitted, values)
     held = np.isin(layout.names, motion.params.hold)
+    bound = bound_at(fitted, held)
+    view = bound.view
     sentences = tuple(dict.fromkeys(view.sentences))
-    variance = np.maximum(np.diag(view.covariance), 0.0)
     line, path = halfway(fitted)
     upward = tilt(path.q, motion.testbed.up)
     return Observability(
-        layout.names,
-        layout.units,
-        np.where(view.hidden, np.inf, np.where(held, 0.0, np.sqrt(variance))),
+        bound.names,
+        bound.units,
+        bound.sd,
         stated_before(motion),
         view.hidden,
         held,
@@ -100,15 +72,6 @@ def information_along(motion: Followed) -> Observability:
         int(np.sum(~held)),
         fitted.point.body(problem.mass).inertia_P,
     )
-
-
-def free_information(fitted: Fitted, held: Bools) -> Square:
-    """Return the information about all but ``held``, that is about an open scale too."""
-    problem = fitted.problem
-    loose = replace(problem, prior=replace(problem.prior, held=held))
-    at = evaluate(loose, fitted.point, fitted.jumps)
-    whole = without_anchor(at.normal, replace(fitted, problem=loose))
-    return symmetrise(whole[np.ix_(~held, ~held)])
 
 
 def stated_before(motion: Followed) -> Floats:

@@ -1,9 +1,9 @@
 """Lee's averaged integral with every term averaged alike."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.averaged import centred_means
 from equipoise.estimation.regression.linear_method import Linear, method
 from equipoise.estimation.regression.solvers.least_squares import least_squares
+from equipoise.model.method_card import Card
 
 METHOD = method(
     Card(

@@ -1,9 +1,9 @@
 """Lee's averaged integral, begun with a batch, then recursive."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.averaged import centred_means
 from equipoise.estimation.regression.linear_method import recursion
 from equipoise.estimation.regression.solvers.recursion import Plan, of_means
+from equipoise.model.method_card import Card
 
 METHOD = recursion(
     Card(

@@ -1,8 +1,9 @@
 """Rest positions under known shifts of the masses: see ``estimation.equilibrium``."""
 
-from equipoise.estimation.method_contract import Card, Method, Options
+from equipoise.estimation.method_contract import Method, Options
 from equipoise.estimation.regression import rest_positions
 from equipoise.model.estimate import Estimate
+from equipoise.model.method_card import Card
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 

@@ -1,9 +1,9 @@
 """Momentum integral behind an extended tracking differentiator, recursively."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.tracked import extended
 from equipoise.estimation.regression.linear_method import recursion
 from equipoise.estimation.regression.solvers.recursion import Plan, of_extended
+from equipoise.model.method_card import Card
 
 METHOD = recursion(
     Card(

@@ -2,8 +2,9 @@
 
 from equipoise.estimation.filters.conclusion import estimate
 from equipoise.estimation.filters.model import Kind
-from equipoise.estimation.method_contract import Card, Method, Options
+from equipoise.estimation.method_contract import Method, Options
 from equipoise.model.estimate import Estimate
+from equipoise.model.method_card import Card
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 

@@ -1,9 +1,9 @@
 """The momentum integral in body axes by classical Levenberg-Marquardt."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.momentum import body_axes
 from equipoise.estimation.regression.linear_method import Linear, method
 from equipoise.estimation.regression.solvers.levenberg_marquardt import damped
+from equipoise.model.method_card import Card
 
 METHOD = method(
     Card(

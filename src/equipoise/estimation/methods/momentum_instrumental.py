@@ -1,9 +1,9 @@
 """The momentum integral in body axes by instrumental variables."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.split import split
 from equipoise.estimation.regression.linear_method import Linear, method
 from equipoise.estimation.regression.solvers.instrumental import instrumental
+from equipoise.model.method_card import Card
 
 METHOD = method(
     Card(

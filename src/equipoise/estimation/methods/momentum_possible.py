@@ -1,9 +1,9 @@
 """The momentum integral in body axes by least squares among bodies that can exist, log-Cholesky."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.momentum import body_axes
 from equipoise.estimation.regression.linear_method import Linear, method
 from equipoise.estimation.regression.solvers.physically_consistent import possible
+from equipoise.model.method_card import Card
 
 METHOD = method(
     Card(

@@ -1,9 +1,9 @@
 """The momentum integral by recursive least squares."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.momentum import body_axes
 from equipoise.estimation.regression.linear_method import recursion
 from equipoise.estimation.regression.solvers.recursion import Plan, unfiltered
+from equipoise.model.method_card import Card
 
 METHOD = recursion(
     Card(

@@ -1,9 +1,9 @@
 """The simplified model summed from the start of each piece."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.simplified import integrated
 from equipoise.estimation.regression.linear_method import Linear, method
 from equipoise.estimation.regression.solvers.least_squares import least_squares
+from equipoise.model.method_card import Card
 
 METHOD = method(
     Card(

@@ -1,9 +1,9 @@
 """The simplified model as printed: increments of rates by least squares."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.simplified import increments
 from equipoise.estimation.regression.linear_method import Linear, method
 from equipoise.estimation.regression.solvers.least_squares import least_squares
+from equipoise.model.method_card import Card
 
 METHOD = method(
     Card(

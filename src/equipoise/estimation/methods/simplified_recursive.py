@@ -1,9 +1,9 @@
 """Increments of the simplified model by recursive least squares."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.simplified import increments
 from equipoise.estimation.regression.linear_method import recursion
 from equipoise.estimation.regression.solvers.recursion import Plan, of_increments
+from equipoise.model.method_card import Card
 
 METHOD = recursion(
     Card(

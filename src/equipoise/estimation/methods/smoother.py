@@ -1,10 +1,11 @@
 """The trajectory fit with a drifting centre of mass: see ``estimation.smoother``."""
 
-from equipoise.estimation.method_contract import Card, Method, Options, refused
+from equipoise.estimation.method_contract import Method, Options, refused
 from equipoise.estimation.methods.trajectory import params_of
 from equipoise.estimation.model_selection import drift_smoother
 from equipoise.estimation.model_selection.reference_fit import FEWEST, check_sensors
 from equipoise.model.estimate import Estimate
+from equipoise.model.method_card import Card
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 

@@ -1,10 +1,10 @@
 """The torque balance behind two tracking differentiators, recursively."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.torque import torque
 from equipoise.estimation.regression.formulations.tracked import tracking
 from equipoise.estimation.regression.linear_method import recursion
 from equipoise.estimation.regression.solvers.recursion import Plan, of_tracking
+from equipoise.model.method_card import Card
 
 METHOD = recursion(
     Card(

@@ -1,9 +1,9 @@
 """The torque balance by recursive least squares."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.torque import savitzky_golay, torque
 from equipoise.estimation.regression.linear_method import recursion
 from equipoise.estimation.regression.solvers.recursion import Plan, of_slopes
+from equipoise.model.method_card import Card
 
 METHOD = recursion(
     Card(

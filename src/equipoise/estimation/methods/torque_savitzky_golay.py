@@ -1,9 +1,9 @@
 """The torque balance by a Savitzky-Golay filter of 0.51 s."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.torque import savitzky_golay, torque
 from equipoise.estimation.regression.linear_method import Linear, method
 from equipoise.estimation.regression.solvers.least_squares import least_squares
+from equipoise.model.method_card import Card
 
 METHOD = method(
     Card(

@@ -1,10 +1,10 @@
 """The torque balance behind two tracking differentiators."""
 
-from equipoise.estimation.method_contract import Card
 from equipoise.estimation.regression.formulations.torque import torque
 from equipoise.estimation.regression.formulations.tracked import tracking
 from equipoise.estimation.regression.linear_method import Linear, method
 from equipoise.estimation.regression.solvers.least_squares import least_squares
+from equipoise.model.method_card import Card
 
 METHOD = method(
     Card(

@@ -8,12 +8,13 @@ they are wider than need be.
 import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.estimation.method_contract import Card, Method, Options, origin_of, refused
+from equipoise.estimation.method_contract import Method, Options, origin_of, refused
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Vector3
-from equipoise.model.estimate import COM, END, INERTIA, Course, Estimate, Parameter
+from equipoise.model.estimate import COM, END, INERTIA, RATE, Course, Estimate, Parameter
+from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
@@ -40,6 +41,16 @@ def parameters_of(posterior: tracker.Posterior, shift: Vector3) -> tuple[Paramet
         Parameter(name, unit, float(value), float(sd))
         for name, unit, value, sd in zip(names, units, values, sds, strict=True)
     )
+
+
+def com_course(track: tracker.Track) -> Course:
+    """Return the centre of mass along a track; where moves were ignored, as the masses stand."""
+    return Course(COM, track.t, track.com, track.com_sd)
+
+
+def rate_course(track: tracker.Track) -> Course:
+    """Return the angular velocity (rad/s, body axes) along a track."""
+    return Course(RATE, track.t, track.rate, track.rate_sd)
 
 
 def outcome_of(track: tracker.Track) -> Outcome:
@@ -69,7 +80,8 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
         parameters_of(posterior, shift_at_end(recording, testbed)),
         posterior.covariance,
         provenance=origin_of(recording),
-        course=Course(COM, track.t, track.com, track.com_sd),
+        course=com_course(track),
+        rate_course=rate_course(track),
     )
 
 

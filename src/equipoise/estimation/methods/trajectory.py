@@ -1,10 +1,11 @@
 """Maximum likelihood in the model that the record supports: see ``estimation.reference``."""
 
-from equipoise.estimation.method_contract import Card, Method, Options
+from equipoise.estimation.method_contract import Method, Options
 from equipoise.estimation.model_selection import reference_fit
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.estimate import Estimate
+from equipoise.model.method_card import Card
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 

@@ -30,11 +30,11 @@ import numpy as np
 from equipoise.dynamics.regressor import DRIFT
 from equipoise.estimation.events.process_noise_spectrum import densest
 from equipoise.estimation.model_selection.initial_model import anchored
-from equipoise.estimation.model_selection.model_choice import PLUMB
 from equipoise.estimation.output_error.drift_intensity import gain, likely_steps, linear_at
 from equipoise.estimation.output_error.drift_scale import disbelieved, untied
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude, widening
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
+from equipoise.estimation.output_error.free_vertical import with_free_vertical
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.problem import Prior
 from equipoise.estimation.output_error.segment_jumps import Jump, walk
@@ -42,7 +42,6 @@ from equipoise.estimation.output_error.solution import Fitted, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.estimation.parameters.fit_parameters import FIXED, R, unknowns_of
 from equipoise.estimation.tracker import tracker
-from equipoise.model import sensor_terms
 from equipoise.model.arrays import Floats, Series, Series1, Vector3
 from equipoise.model.estimate import COM, Course, Estimate
 from equipoise.model.outcome import Outcome
@@ -80,20 +79,14 @@ def walking(nodes: Series1, names: tuple[str, ...], sd: Floats) -> tuple[Jump, .
     return walk((nodes[1:] + nodes[:-1]) / 2, names, sd)
 
 
-def levelled(recording: Recording, testbed: Testbed, params: Params) -> Params:
-    """Return the options with the camera's vertical free, where it may lean (``model_choice``)."""
-    camera, rows = testbed.attitude, recording.attitude
-    if camera is None or rows is None or not len(rows) or camera.plumb_sd == 0:
-        return params
-    return replace(params, sensor=sensor_terms.among((*params.sensor, *PLUMB)))
-
-
 def begun(recording: Recording, testbed: Testbed, params: Params, com_walk: float) -> Drifting:
     """Return the optimum with the walk that is expected (m/sqrt(s))."""
     nodes = node_times(recording)
     names = tuple(name for name in COM if name not in params.hold)
     sd = np.full(len(names), com_walk * float(np.sqrt(nodes[1] - nodes[0])))
-    params = replace(levelled(recording, testbed, params), jumps=walking(nodes, names, sd))
+    params = replace(
+        with_free_vertical(recording, testbed, params), jumps=walking(nodes, names, sd)
+    )
     _, fitted = anchored(recording, testbed, params, fit(recording, testbed, params))
     return Drifting(fitted, nodes, names, sd, fitted.problem.prior, 0.0)
 

@@ -19,15 +19,13 @@ import numpy as np
 
 from equipoise.estimation.events.record_model import RecordModel, refitted
 from equipoise.estimation.model_selection.cross_validation import posed_in
+from equipoise.estimation.output_error.free_vertical import PLUMB, may_lean, with_free_vertical
 from equipoise.estimation.output_error.problem import changes, evaluate
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import sensor_sizes, term_sizes
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats
-from equipoise.model.recording import Recording
-from equipoise.model.testbed import Testbed
 
-PLUMB = sensor_terms.GROUPS["plumb"]
 HEADING = sensor_terms.GROUPS["heading2"] + sensor_terms.GROUPS["heading3"]  # one cause, one group
 GYRO = (sensor_terms.GROUPS["gyro_scale"], sensor_terms.GROUPS["gyro_cross"])
 DELAY = sensor_terms.GROUPS["camera_delay"]
@@ -55,19 +53,11 @@ def candidates(model: RecordModel) -> list[tuple[str, ...]]:
 
 
 def levelled(model: RecordModel) -> RecordModel:
-    """Return the model with the camera's vertical free, as far as the testbed says it may lean.
-
-    Not a term to be chosen: no camera is level to what a record shows of it, and com is far off
-    long before the record asks for the term.
-    """
-    may_lean = is_plumb_open(model.recording, model.testbed)
-    return refitted(with_group(model, PLUMB)) if may_lean else model
-
-
-def is_plumb_open(recording: Recording, testbed: Testbed) -> bool:
-    """Say whether a recording has rows of a camera whose vertical may lean."""
-    camera, rows = testbed.attitude, recording.attitude
-    return camera is not None and rows is not None and len(rows) > 0 and camera.plumb_sd > 0
+    """Return the model fitted with the camera's vertical free, where it may lean."""
+    if not may_lean(model.recording, model.testbed):
+        return model
+    params = with_free_vertical(model.recording, model.testbed, model.params)
+    return refitted(replace(model, params=params))
 
 
 def with_group(model: RecordModel, group: tuple[str, ...]) -> RecordModel:

@@ -4,7 +4,8 @@ import numpy as np
 
 from equipoise.estimation.events.record_model import RecordModel, slowest
 from equipoise.estimation.model_selection.cross_validation import posed_in
-from equipoise.estimation.model_selection.model_choice import PLUMB, candidates, with_group
+from equipoise.estimation.model_selection.model_choice import candidates, with_group
+from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.estimation.output_error.problem import evaluate
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import CORE

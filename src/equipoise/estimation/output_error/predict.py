@@ -1,7 +1,6 @@
 """What a set of mass properties says the sensors should have seen."""
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,24 +15,14 @@ from equipoise.estimation.motion.sampled_motion import sampled_motion
 from equipoise.estimation.output_error.trajectory import fastest_rate
 from equipoise.maths.attitude import exponential
 from equipoise.maths.linalg import pack_symmetric
-from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4, Vector3
-from equipoise.model.estimate import Estimate
+from equipoise.model.arrays import Floats, Quaternion, Vector3
+from equipoise.model.estimate import ATTITUDE, RATE, Estimate
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS
 from equipoise.sensors.timing import measured_at
-
-RATE = ("rate_x", "rate_y", "rate_z")
-ATTITUDE = ("attitude_x", "attitude_y", "attitude_z")
-
-
-class Prediction(NamedTuple):
-    """Attitude and rate at the times of the camera's rows (or the gyro's, without a camera)."""
-
-    t: Series1
-    q: Series4
-    rate: Series3
 
 
 def run(
@@ -44,7 +33,7 @@ def run(
     w0: Vector3,
     torque: Floats,
     found: Mapping[str, float],
-) -> Prediction:
+) -> PredictedMotion:
     """Return the motion of a body through the record's moves; errors of masses are in ``found``."""
     recording = arranged(recording, testbed.mass_names)
     rows, sensor = recording.attitude, testbed.attitude
@@ -65,10 +54,10 @@ def run(
     rigid = body_of(body.mass, testbed.gravity, pack_symmetric(body.inertia_P), body.first_moment,
                     torque)  # fmt: skip
     motion = propagate(rigid, mass_maps(rails), line, q0, w0)
-    return Prediction(rows.t, motion.q[line.attitude_node], motion.rate[line.attitude_node])
+    return PredictedMotion(rows.t, motion.q[line.attitude_node], motion.rate[line.attitude_node])
 
 
-def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Prediction:
+def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> PredictedMotion:
     """Return what an estimate of the trajectory method says of its own record."""
     recording = arranged(recording, testbed.mass_names)
     torque = np.array([estimate.values((t,))[0] if estimate.has(t) else 0.0 for t in TERMS])
@@ -78,7 +67,7 @@ def predict(recording: Recording, testbed: Testbed, estimate: Estimate) -> Predi
     return run(recording, testbed, body, q0, estimate.values(RATE), torque, found)
 
 
-def before(recording: Recording, testbed: Testbed) -> Prediction:
+def before(recording: Recording, testbed: Testbed) -> PredictedMotion:
     """Return what the testbed's first guess says, from the first attitudes (paper Fig. 6a)."""
     recording = arranged(recording, testbed.mass_names)
     motion = sampled_motion(recording, testbed)

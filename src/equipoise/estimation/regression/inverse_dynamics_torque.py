@@ -16,27 +16,15 @@ Cannot see a torque that is quicker than the window of D, nor one below the nois
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from equipoise.estimation.regression.formulations.rows import Formulation, Posed, values_of
 from equipoise.model.arrays import Series, Series1
 from equipoise.model.estimate import INERTIA
+from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
 
 Draws = Sequence[tuple[Posed, Posed]]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class ResidualTorque:
-    """A series, and how large it is when noise is taken off."""
-
-    t: Series1  # s
-    values: Series  # (n, m) N m, or J
-    noise: float  # rms over all columns: what a platform that feels nothing would show
-    rms: float  # of the vector, noise taken off; 0 where there is no more than noise
-    rms_sd: float
-    greatest: float  # of the vector, noise and all
 
 
 def side_of(formulation: Formulation, posed: Posed) -> tuple[Series1, Series]:
@@ -54,7 +42,7 @@ def mean_square(values: Series) -> float:
 
 def residual_torque(
     formulation: Formulation, posed: Posed, draws: Draws, about_mean: bool = False
-) -> ResidualTorque:
+) -> NoiseCorrectedSeries:
     """Return what was felt; ``about_mean`` for what is known up to a constant, as energy is."""
 
     def side(of: Posed) -> Series:
@@ -69,6 +57,6 @@ def residual_torque(
     rms = max(square, 0.0) ** 0.5
     floor = max(rms, spread**0.5, 1e-300)
     squares: Series1 = (values**2).sum(axis=1)
-    return ResidualTorque(
+    return NoiseCorrectedSeries(
         t, values, noise**0.5, rms, spread / (2 * floor), float(squares.max()) ** 0.5
     )

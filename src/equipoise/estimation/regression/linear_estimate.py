@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.method_contract import Card, origin_of
+from equipoise.estimation.method_contract import origin_of
 from equipoise.estimation.parameters.fit_parameters import term_sizes
 from equipoise.estimation.parameters.observability import DISTANCE, OPEN, Visibility, examine
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
@@ -17,6 +17,7 @@ from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA, Course, Estimate, Parameter, Residual
 from equipoise.model.mass_properties import is_possible
+from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome
 from equipoise.model.torque_terms import TERMS, unit_of
 

@@ -22,7 +22,7 @@ import numpy as np
 from scipy.stats import chi2
 from scipy.stats import t as student
 
-from equipoise.estimation.method_contract import Card, Method, Options, refused
+from equipoise.estimation.method_contract import Method, Options, refused
 from equipoise.estimation.motion.fused_motion import at_times, led_motion
 from equipoise.estimation.regression.formulations.rows import (
     Formulation,
@@ -39,6 +39,7 @@ from equipoise.estimation.regression.solvers.solver_inputs import Aid, Solver
 from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.estimate import INERTIA, NORMAL_95, Estimate
+from equipoise.model.method_card import Card
 from equipoise.model.recording import Recording, Samples, arranged
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
@@ -87,13 +88,27 @@ def recursion(
     return method(card, Linear(formulation, recursive(plan), knows_inertia, plan=plan))
 
 
+@dataclass(frozen=True, slots=True)
+class LinearRun:
+    """The estimator of a linear method, with the parts of which it is made."""
+
+    card: Card
+    linear: Linear
+
+    def __call__(self, recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+        """Return the estimate of a record."""
+        posed = posed_of(recording, testbed, options)
+        return estimate(self.card, self.linear, posed, options.hold)
+
+
 def method(card: Card, linear: Linear) -> Method:
     """Return the method."""
+    return Method(card, LinearRun(card, linear))
 
-    def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
-        return estimate(card, linear, posed_of(recording, testbed, options), options.hold)
 
-    return Method(card, run, linear)
+def linear_of(method: Method) -> Linear | None:
+    """Return the parts of a linear method; None for any other."""
+    return method.run.linear if isinstance(method.run, LinearRun) else None
 
 
 def posed_of(recording: Recording, testbed: Testbed, options: Options) -> Posed:

@@ -11,12 +11,10 @@ import socket
 from contextlib import suppress
 from typing import Protocol
 
+from equipoise.hardware.emulated.outbox import CHUNK, LOOPBACK, Outbox
+from equipoise.hardware.emulated.ws_counterpart import WsCounterpart
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port
-
-LOOPBACK = "127.0.0.1"
-CHUNK = 65536  # bytes, taken at once
-FULL = 1 << 20  # bytes, chosen: kept for a listener that is slow; what is older is dropped
 
 
 class Counterpart(Protocol):
@@ -38,21 +36,6 @@ class Counterpart(Protocol):
     def close(self) -> None:
         """Pull it out."""
         ...
-
-
-class Outbox:
-    """Bytes on their way to a listener who may be slow; the oldest go when there are too many."""
-
-    def __init__(self) -> None:
-        self.waiting = b""
-
-    def add(self, data: bytes) -> None:
-        """Put more behind."""
-        self.waiting = (self.waiting + data)[-FULL:]
-
-    def sent(self, count: int) -> None:
-        """Take away what is gone."""
-        self.waiting = self.waiting[count:]
 
 
 class PtyCounterpart:
@@ -211,8 +194,6 @@ def counterpart(port: Port) -> Counterpart:
     if scheme in ("udp", "udpout"):
         return UdpCounterpart(free_udp_port() if scheme == "udp" else None)
     if scheme == "ws":
-        from equipoise.hardware.emulated.ws_counterpart import WsCounterpart
-
         return WsCounterpart("/" + rest.removeprefix("//").partition("/")[2])
     known = "serial, tcp, udp, udpout, ws or http to emulate"
     raise InputError(f"port {port.address}", f"'{scheme}:'", known)

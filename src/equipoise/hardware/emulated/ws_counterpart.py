@@ -10,7 +10,7 @@ import threading
 from contextlib import suppress
 from typing import Any
 
-from equipoise.hardware.emulated.counterpart import CHUNK, FULL, LOOPBACK, Outbox
+from equipoise.hardware.emulated.outbox import CHUNK, FULL, LOOPBACK, Outbox
 from equipoise.hardware.transport.optional_libraries import needed
 
 POLL = 0.05  # s, chosen: between looks whether it has been closed

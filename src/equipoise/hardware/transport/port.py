@@ -11,7 +11,7 @@ from contextlib import ExitStack, suppress
 from typing import Protocol
 
 from equipoise.hardware.transport.optional_libraries import needed
-from equipoise.model.errors import EquipoiseError, InputError
+from equipoise.model.errors import EquipoiseError
 from equipoise.model.hardware import Port as Address
 
 PATIENCE = 1.0  # s, chosen: for a computer on the same network to accept a connection
@@ -46,18 +46,6 @@ class Port(Protocol):
 def why(error: BaseException) -> str:
     """Return what the system says, without its number."""
     return getattr(error, "strerror", None) or str(error)
-
-
-def open_port(port: Address) -> Port:
-    """Return the port at an address, open. Raises PortLost, or InputError for a strange address."""
-    scheme, _, rest = port.address.partition(":")
-    opener = OPENERS.get(scheme)
-    if opener is None:
-        raise InputError(f"port {port.address}", f"'{scheme}:'", "one of " + ", ".join(OPENERS))
-    try:
-        return opener(port, rest)
-    except OSError as error:
-        raise PortLost(port.address, why(error)) from error
 
 
 class SocketPort:
@@ -246,12 +234,6 @@ def _websocket(port: Address, _rest: str) -> Port:
     return WebSocketPort(port.address)
 
 
-def _camera(port: Address, rest: str) -> Port:
-    from equipoise.hardware.camera.capture import CapturePort, camera_at
-
-    return CapturePort(port.address, *camera_at(rest))
-
-
 OPENERS: dict[str, Callable[[Address, str], Port]] = {
     "serial": _serial,
     "tcp": _tcp,
@@ -260,5 +242,4 @@ OPENERS: dict[str, Callable[[Address, str], Port]] = {
     "ws": _websocket,
     "wss": _websocket,
     "http": _http,
-    "camera": _camera,
 }

@@ -31,11 +31,6 @@ STAMPS = (
 )
 
 
-def known_dialects() -> tuple[str, ...]:
-    """Return the names that ``--dialect`` takes."""
-    return tuple(DIALECTS)
-
-
 def dialect_map(name: str, names: tuple[str, ...], source: str) -> ColumnMap:
     """Return what a header's columns mean in a dialect; InputError if it is not of that kind."""
     if name not in DIALECTS:

@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from equipoise.io.documents.logbook_schema import migrate
-from equipoise.io.documents.run_folder import RUN, read_configuration
+from equipoise.io.documents.run_folder import read_configuration
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Parameter
-from equipoise.model.logged_run import Build, LoggedRun
+from equipoise.model.logged_run import RUN, Build, LoggedRun
 
 INDEX = "logbook.sqlite"
 PATIENCE = 30.0  # s, chosen: for another process to end what it writes

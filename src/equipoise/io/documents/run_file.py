@@ -6,10 +6,10 @@ from typing import Literal
 
 from pydantic import ConfigDict, TypeAdapter, ValidationError, with_config
 
-from equipoise.io.documents.run_folder import A_RUN, RUN
+from equipoise.io.documents.run_folder import A_RUN
 from equipoise.io.files.source_file import read_bytes
 from equipoise.model.errors import InputError
-from equipoise.model.logged_run import LoggedRun
+from equipoise.model.logged_run import RUN, LoggedRun
 
 
 @with_config(ConfigDict(ser_json_inf_nan="strings"))  # JSON has no infinite number

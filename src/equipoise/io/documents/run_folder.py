@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-RUN = "run.json"  # the last file that comes into it: where it is, the run is whole
 TESTBED = "testbed.toml"
 A_RUN = "the folder of a run"  # what is wanted where a file of one is missing
 

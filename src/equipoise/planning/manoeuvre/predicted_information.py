@@ -3,9 +3,9 @@
     covariance = (sum S_k^T S_k / sd_k^2 + priors + what is known already)^-1
 
 at the true point of a noiseless recording (``noiseless_record``). Problem, information and what is
-not seen are those of a trajectory fit and of ``fisher``, of a recording that has to be fitted
-first: unknown attitude and rate at the start, where masses stop and how late and how far they hang,
-the camera's vertical and the gyro's zero count alike.
+not seen are those of a trajectory fit and of ``fisher_information``, of a recording that has to be
+fitted first: unknown attitude and rate at the start, where masses stop and how late and how far
+they hang, the camera's vertical and the gyro's zero count alike.
 
 It is the least that any unbiased method reaches when the model holds and the noise is white. A
 torque that wanders, a touch, a term that the record asks for and the testbed does not: all of that
@@ -17,16 +17,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.dynamics.regressor import N_TORQUES
+from equipoise.estimation.information.information_matrix import bound_at, ended_at
 from equipoise.estimation.information.reference_motion import Followed
-from equipoise.estimation.model_selection.model_choice import PLUMB, is_plumb_open
-from equipoise.estimation.output_error.fit_estimate import visibility_of
-from equipoise.estimation.output_error.problem import Problem, evaluate
+from equipoise.estimation.output_error.free_vertical import with_free_vertical
+from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.output_error.trajectory import Params, problem_of
-from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, physical
+from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.attitude import tilt
-from equipoise.model import sensor_terms
 from equipoise.model.arrays import Bools, Floats, Square
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
@@ -54,7 +53,6 @@ class Predicted:
     hidden: Bools
     sentences: tuple[str, ...]  # directions that are not seen
     peak_tilt: float  # rad
-    peak_rate: float  # rad/s
     peak_momentum: float  # N m s, stored in wheels and gyros
 
     def sd_of(self, names: tuple[str, ...]) -> Floats:
@@ -89,7 +87,8 @@ def posed(observed: Imagined, testbed: Testbed, params: Params, known: Known | N
 
     What is known already fixes the scale too; nothing is held then but what is asked.
     """
-    problem = problem_of(observed.recording, testbed, with_plumb(observed, testbed, params))
+    params = with_free_vertical(observed.recording, testbed, params)
+    problem = problem_of(observed.recording, testbed, params)
     if known is None or not problem.scale_open:
         return problem
     held = np.isin(problem.layout.names, params.hold)
@@ -108,13 +107,6 @@ def at_truth(
     return informed(problem, point, known)
 
 
-def with_plumb(observed: Imagined, testbed: Testbed, params: Params) -> Params:
-    """Return what is asked with the camera's vertical free where it may lean, as in any fit."""
-    if not is_plumb_open(observed.recording, testbed):
-        return params
-    return replace(params, sensor=sensor_terms.among((*params.sensor, *PLUMB)))
-
-
 def true_point(
     observed: Imagined, body: MassProperties, manoeuvre: Manoeuvre, layout: Layout
 ) -> Unknowns:
@@ -127,32 +119,29 @@ def true_point(
 
 def informed(problem: Problem, point: Unknowns, known: Known | None) -> Fitted:
     """Return the fit that ended at a point, with what is known already in its information."""
-    at = evaluate(problem, point)
-    if known is not None:
-        normal, names = at.normal.copy(), problem.layout.names
-        here = [k for k, name in enumerate(known.names) if name in names]
-        where = [names.index(known.names[k]) for k in here]
-        normal[np.ix_(where, where)] += known.information[np.ix_(here, here)]
-        at = replace(at, normal=normal)
-    return Fitted(problem, point, at, True, 1, np.zeros((0, 1)))
+    fitted = ended_at(problem, point)
+    if known is None:
+        return fitted
+    normal, names = fitted.at.normal.copy(), problem.layout.names
+    here = [k for k, name in enumerate(known.names) if name in names]
+    where = [names.index(known.names[k]) for k in here]
+    normal[np.ix_(where, where)] += known.information[np.ix_(here, here)]
+    return replace(fitted, at=replace(fitted.at, normal=normal))
 
 
 def prediction(fitted: Fitted, observed: Imagined, testbed: Testbed) -> Predicted:
     """Return what a fit at the truth says of itself, with the limits of its motion."""
     problem: Problem = fitted.problem
-    layout, held = problem.layout, problem.prior.held
-    view = visibility_of(fitted, physical(fitted.point, problem.mass, layout))
-    reported = held if not problem.scale_open else np.zeros_like(held)
-    sd = np.sqrt(np.maximum(np.diag(view.covariance), 0.0))
+    held = problem.prior.held
+    bound = bound_at(fitted, np.zeros_like(held) if problem.scale_open else held)
     return Predicted(
-        layout.names,
-        layout.units,
-        np.where(view.hidden, np.inf, np.where(reported, 0.0, sd)),
-        view.covariance,
-        view.hidden,
-        view.sentences,
+        bound.names,
+        bound.units,
+        bound.sd,
+        bound.view.covariance,
+        bound.view.hidden,
+        bound.view.sentences,
         float(tilt(observed.motion.q, testbed.up).max()),
-        largest(observed.motion.rate),
         0.0 if observed.recording.momentum is None else largest(observed.recording.momentum.values),
     )
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from equipoise.actuators.placed_weights import load_of
 from equipoise.actuators.weight_choice import Wanted, chosen
-from equipoise.estimation.model_selection.single_record_information import Shown, shown_by
+from equipoise.estimation.information.single_record_information import Shown, shown_by
 from equipoise.maths.attitude import tilt
 from equipoise.model.arrays import Ints, Vector3
 from equipoise.model.errors import InputError

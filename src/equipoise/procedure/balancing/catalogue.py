@@ -1,15 +1,18 @@
 """Every way to balance, by name: the package's own procedure, and the published laws."""
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import replace
 
-from equipoise.control.law import LawCard
 from equipoise.control.laws.follow import following_law
 from equipoise.control.laws.registry import LAWS
 from equipoise.model.bench import Bench
+from equipoise.model.law_card import LawCard
+from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.step import Step
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.procedure.balancing.run_law import LawOptions, check, run_law
+from equipoise.procedure.steps.joint_fit import Knowledge
+from equipoise.simulation.carried_out import carried_out
 
 OWN = LawCard(
     name="measure_and_move",
@@ -52,3 +55,18 @@ def balanced_and_followed(
         own = LawOptions(options.target, options.tolerance)
         law = following_law(following, bench.time + duration)
         yield from run_law(bench, law, replace(own, max_time=duration + own.proof + LEISURE))
+
+
+def planned_and_balanced(
+    bench: Bench, options: BalanceOptions, manoeuvre: Manoeuvre
+) -> Generator[Step, None, Knowledge]:
+    """Yield the manoeuvre of a bench that was let go as planned, then the steps of ``balance``.
+
+    Its time and its moves do not count among those that balancing may take. Devices rest then.
+    """
+    recording = carried_out(bench, manoeuvre)
+    if manoeuvre.waves:
+        bench.stop()
+    text = f"Carried out the planned manoeuvre of {manoeuvre.duration:g} s."
+    yield Step("measurement", bench.time, text, recording=recording)
+    return (yield from balance(bench, options, recording))

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.actuators.placed_weights import handling_covariance, load_of
-from equipoise.estimation.model_selection.single_record_information import Shown
+from equipoise.estimation.information.single_record_information import Shown
 from equipoise.maths.linalg import element_sizes, inverse_spd, pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Floats, Ints, Matrix3, Square, Vector3
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter

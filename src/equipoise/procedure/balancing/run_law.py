@@ -16,7 +16,7 @@ from equipoise.actuators.control_moment_gyros import gyros_span
 from equipoise.actuators.jets import axes_of
 from equipoise.actuators.reaction_wheels import span, wheels_span
 from equipoise.actuators.stored_momentum import with_known_inputs
-from equipoise.control.law import NEEDS, Law, LawCard, Need
+from equipoise.control.law import Law
 from equipoise.control.sample import Sample
 from equipoise.estimation.method_contract import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
@@ -28,6 +28,7 @@ from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
+from equipoise.model.law_card import NEEDS, LawCard, Need
 from equipoise.model.recording import Recording, joined, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed

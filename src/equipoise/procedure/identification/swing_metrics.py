@@ -27,17 +27,14 @@ from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.regression.formulations.energy import energy
 from equipoise.estimation.regression.formulations.rows import Formulation, Posed
 from equipoise.estimation.regression.formulations.torque import DEGREE, savitzky_golay, torque
-from equipoise.estimation.regression.inverse_dynamics_torque import (
-    Draws,
-    ResidualTorque,
-    residual_torque,
-)
+from equipoise.estimation.regression.inverse_dynamics_torque import Draws, residual_torque
 from equipoise.estimation.regression.linear_method import Linear, estimate, posed_of
 from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
 from equipoise.estimation.regression.solvers.least_squares import least_squares
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.estimate import INERTIA, Estimate
+from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
@@ -55,9 +52,9 @@ class SwingMetrics:
 
     duration: float  # s, since masses stood still
     window: float  # s, of the filter
-    torque: ResidualTorque | None
+    torque: NoiseCorrectedSeries | None
     torque_fit: Estimate | None
-    energy: ResidualTorque | None
+    energy: NoiseCorrectedSeries | None
     energy_fit: Estimate | None
     spectrum: Spectrum | None
     hanging: tuple[Hanging, ...]
@@ -119,7 +116,7 @@ def swing_metrics(recording: Recording, testbed: Testbed) -> SwingMetrics:
     )
 
 
-def blunted(observed: ResidualTorque) -> ResidualTorque:
+def blunted(observed: NoiseCorrectedSeries) -> NoiseCorrectedSeries:
     """Return a torque with what the filter may have left out of it in its sd."""
     return replace(observed, rms_sd=float(np.hypot(observed.rms_sd, (1 - SHARP) * observed.rms)))
 

@@ -21,6 +21,10 @@ from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.record_courses import (
+    balancing_courses,
+    identification_courses,
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,7 +89,8 @@ def carry_out(pipe: Pipe, task: Task) -> None:
 
 def _keep(task: Keep) -> str | None:
     done = task.done
-    account = balance_views.account_of(done, task.seed)
+    courses = balancing_courses(done.recording, done.testbed, done.estimate, done.steps)
+    account = balance_views.account_of(done, task.seed, courses)
     document = balance_views.document_of(done, task.seed)
     return _written(account, document, "balance", balance_views.kept_of(done, task.law))
 
@@ -100,7 +105,8 @@ def _fit(task: Fit, pipe: Pipe) -> str | None:
     done = Identification(task.testbed, task.recording, found, steps)
     # What was seen live is in no file yet: it is kept with the run.
     kept = Kept("identify", done.estimate.method, "recording", task.recording)
-    account, document = identify_views.account_of(done), identify_views.document_of(done)
+    courses = identification_courses(done.recording, done.testbed, done.steps)
+    account, document = identify_views.account_of(done, courses), identify_views.document_of(done)
     return _written(account, document, "estimate", kept)
 
 

@@ -6,10 +6,11 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.com_panels import Curve, draw_com, include
+from equipoise.app.figures.base.com_panels import draw_com, include
 from equipoise.app.figures.base.style import BAND, legend, panels, styled
 from equipoise.app.text.units import UM
 from equipoise.model.arrays import Series1, Series3, Vector3
+from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 
 CAPTION = (
@@ -31,12 +32,12 @@ class Story(NamedTuple):
 
 
 @styled
-def draw(curve: Curve, recording: Recording, story: Story) -> Figure:
+def draw(course: Course, recording: Recording, story: Story) -> Figure:
     """Return the figure."""
     measurements, target, tolerance, truth = story
     figure, grid = panels(3, height=1.5)
     column = [row[0] for row in grid]
-    draw_com(column, curve, recording)
+    draw_com(column, course, recording)
     for i, axes in enumerate(column):
         low, high = (target[i] - tolerance[i]) * UM, (target[i] + tolerance[i]) * UM
         axes.axhspan(low, high, color="black", alpha=0.16, linewidth=0, label="target")

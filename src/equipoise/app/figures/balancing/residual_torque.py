@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import AXES, BAND, XYZ, legend, line, panels, styled
 from equipoise.app.text.units import MICRO
-from equipoise.estimation.regression.inverse_dynamics_torque import ResidualTorque
+from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
 
 CAPTION = (
     "Torque on the platform in body axes, from its motion and inertia alone (Savitzky-Golay). "
@@ -15,7 +15,7 @@ CAPTION = (
 
 
 @styled
-def draw(response: ResidualTorque) -> Figure:
+def draw(response: NoiseCorrectedSeries) -> Figure:
     """Return the figure."""
     figure, grid = panels(3, height=1.2)
     column = [row[0] for row in grid]

@@ -7,19 +7,17 @@ from matplotlib.axes import Axes
 from equipoise.app.figures.base.style import AXES, XYZ, around, band, line, mark_travel
 from equipoise.app.text.units import UM
 from equipoise.model.arrays import Series1, Series3
+from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 
 SETTLED = 0.15  # share of the rows before a panel's scale is taken; chosen: past the first guess
 
 
-Curve = tuple[Series1, Series3, Series3]  # s, m, m (one sd)
-
-
 def draw_com(
-    every: Sequence[Axes], curve: Curve, recording: Recording, label: str = "tracker"
+    every: Sequence[Axes], course: Course, recording: Recording, label: str = "tracker"
 ) -> None:
-    """Draw x, y and z in um, scaled to what is believed after the first moments."""
-    t, com, sd = curve
+    """Draw x, y and z of a centre of mass in um, scaled to its course after the first moments."""
+    t, com, sd = course.t, course.values, course.sd
     late = slice(int(SETTLED * len(t)), None)
     for i, axes in enumerate(every):
         value, spread = com[:, i] * UM, sd[:, i] * UM

@@ -15,9 +15,9 @@ from equipoise.app.figures.base.style import (
     rings,
     styled,
 )
-from equipoise.estimation.output_error.predict import Prediction
 from equipoise.maths.attitude import continuous
 from equipoise.model.arrays import Series4
+from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording
 
 COMPONENTS = ((0, "q0", PURPLE), (1, "q1", BLUE), (2, "q2", ORANGE), (3, "q3", GREEN))
@@ -29,7 +29,7 @@ CAPTION = (
 
 
 @styled
-def draw(recording: Recording, before: Prediction, after: Prediction) -> Figure:
+def draw(recording: Recording, before: PredictedMotion, after: PredictedMotion) -> Figure:
     """Return the figure; the recording needs a camera."""
     measured = recording.attitude
     assert measured is not None

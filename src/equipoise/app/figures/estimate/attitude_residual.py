@@ -15,8 +15,8 @@ from equipoise.app.figures.base.style import (
     styled,
 )
 from equipoise.app.text.units import PER_DEG
-from equipoise.estimation.output_error.predict import Prediction
 from equipoise.maths.attitude import difference
+from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording
 
 CAPTION = (
@@ -26,7 +26,7 @@ CAPTION = (
 
 
 @styled
-def draw(recording: Recording, after: Prediction, noise: float | None) -> Figure:
+def draw(recording: Recording, after: PredictedMotion, noise: float | None) -> Figure:
     """Return the figure; ``noise`` is the camera's stated sd in rad, if there is one."""
     measured = recording.attitude
     assert measured is not None

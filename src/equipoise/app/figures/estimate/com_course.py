@@ -19,7 +19,8 @@ def draw(course: Course, method: str, recording: Recording) -> Figure:
     where = [course.names.index(name) for name in COM]
     figure, grid = panels(3, height=1.25)
     column = [row[0] for row in grid]
-    draw_com(column, (course.t, course.values[:, where], course.sd[:, where]), recording, method)
+    com = Course(COM, course.t, course.values[:, where], course.sd[:, where])
+    draw_com(column, com, recording, method)
     legend(figure, column[0])
     figure.align_ylabels()
     return figure

@@ -2,9 +2,10 @@
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.com_panels import Curve, draw_com, draw_truth, include
+from equipoise.app.figures.base.com_panels import draw_com, draw_truth, include
 from equipoise.app.figures.base.style import legend, panels, styled
 from equipoise.model.arrays import Series1, Series3
+from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 
 CAPTION = (
@@ -16,13 +17,16 @@ CAPTION = (
 
 @styled
 def draw(
-    fed: Curve, ignored: Curve, recording: Recording, truth: tuple[Series1, Series3] | None = None
+    fed: Course,
+    ignored: Course,
+    recording: Recording,
+    truth: tuple[Series1, Series3] | None = None,
 ) -> Figure:
     """Return the figure; the centres of mass are with the masses as they stand."""
     figure, grid = panels(3, 2, height=1.35)
-    for k, (curve, title) in enumerate(((fed, "(a) move fed"), (ignored, "(b) move ignored"))):
+    for k, (course, title) in enumerate(((fed, "(a) move fed"), (ignored, "(b) move ignored"))):
         column = [row[k] for row in grid]
-        draw_com(column, curve, recording)
+        draw_com(column, course, recording)
         column[0].set_title(title)
         if truth is not None:
             draw_truth(column, *truth)

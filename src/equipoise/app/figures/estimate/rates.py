@@ -13,7 +13,7 @@ from equipoise.app.figures.base.style import (
     styled,
 )
 from equipoise.app.text.units import PER_DEG
-from equipoise.estimation.output_error.predict import Prediction
+from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording
 
 CAPTION = (
@@ -23,7 +23,7 @@ CAPTION = (
 
 
 @styled
-def draw(recording: Recording, after: Prediction) -> Figure:
+def draw(recording: Recording, after: PredictedMotion) -> Figure:
     """Return the figure."""
     figure, grid = panels(1, height=2.8)
     axes = grid[0][0]

@@ -5,8 +5,8 @@ from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.com_panels import draw_com, draw_truth
 from equipoise.app.figures.base.style import legend, panels, styled
-from equipoise.estimation.tracker.tracker import Track
 from equipoise.model.arrays import Vector3
+from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 
 CAPTION = (
@@ -16,13 +16,13 @@ CAPTION = (
 
 
 @styled
-def draw(track: Track, recording: Recording, truth: Vector3 | None = None) -> Figure:
+def draw(course: Course, recording: Recording, truth: Vector3 | None = None) -> Figure:
     """Return the figure; ``truth`` (m) is drawn when the bench is simulated."""
     figure, grid = panels(3, height=1.25)
     column = [row[0] for row in grid]
-    draw_com(column, (track.t, track.com, track.com_sd), recording)
+    draw_com(column, course, recording)
     if truth is not None:
-        draw_truth(column, track.t[[0, -1]], np.array([truth, truth]))
+        draw_truth(column, course.t[[0, -1]], np.array([truth, truth]))
     legend(figure, column[0])
     figure.align_ylabels()
     return figure

@@ -13,7 +13,7 @@ from equipoise.app.figures.base.style import (
     styled,
 )
 from equipoise.app.text.units import PER_DEG
-from equipoise.estimation.tracker.tracker import Track
+from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 
 CAPTION = (
@@ -24,15 +24,15 @@ SETTLED = 0.05  # share of the rows before the scale is taken; chosen: the filte
 
 
 @styled
-def draw(track: Track, recording: Recording) -> Figure:
-    """Return the figure."""
+def draw(course: Course, recording: Recording) -> Figure:
+    """Return the figure of an angular velocity, rad/s."""
     figure, grid = panels(1, height=2.8)
     axes = grid[0][0]
     for i, colour in enumerate(XYZ):
-        rate, sd = track.rate[:, i] * PER_DEG, track.rate_sd[:, i] * PER_DEG
-        band(axes, track.t, rate, sd, colour)
-        line(axes, track.t, rate, colour, f"$\\omega_{AXES[i]}$")
-    settled = track.rate[int(SETTLED * len(track.t)) :] * PER_DEG
+        rate, sd = course.values[:, i] * PER_DEG, course.sd[:, i] * PER_DEG
+        band(axes, course.t, rate, sd, colour)
+        line(axes, course.t, rate, colour, f"$\\omega_{AXES[i]}$")
+    settled = course.values[int(SETTLED * len(course.t)) :] * PER_DEG
     low, high = float(settled.min()), float(settled.max())
     air = 0.15 * (high - low)
     axes.set(ylabel="angular velocity, deg/s", ylim=(low - air, high + air))

@@ -20,9 +20,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.estimation.model_selection.drift_smoother import levelled
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude, residual_of, widening
+from equipoise.estimation.output_error.free_vertical import with_free_vertical
 from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.fit_parameters import CORE, core_of
 from equipoise.maths.linalg import schur_complement, symmetrise
@@ -43,7 +43,7 @@ class Shown(NamedTuple):
 def shown_by(recording: Recording, testbed: Testbed) -> Shown:
     """Return what a recording says of a platform that is about as the testbed has it."""
     params = trajectory.Params(testbed.disturbances, use_prior=True)
-    params = levelled(recording, testbed, params)
+    params = with_free_vertical(recording, testbed, params)
     fitted = trajectory.fit(recording, testbed, params)
     information, pull = without_prior(fitted)
     factor = widening(residual_of(fitted)) ** 2

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from equipoise.estimation.model_selection.single_record_information import data_alone
+from equipoise.estimation.information.single_record_information import data_alone
 from equipoise.estimation.parameters.fit_parameters import CORE
 
 

@@ -20,8 +20,8 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.outcome import Outcome
 from equipoise.model.recording import window
-from equipoise.study.gyro_slew import slewed
-from equipoise.study.lee import (
+from equipoise.study.papers.gyro_slew import slewed
+from equipoise.study.papers.lee import (
     LARGE,
     SOUGHT,
     angles_of,
@@ -35,7 +35,7 @@ from equipoise.study.lee import (
     warns,
     with_printed_errors,
 )
-from equipoise.study.lee_course import course_of, rows_until, turning_from
+from equipoise.study.papers.lee_course import reported_along, rows_until, turning_from
 
 BED = read_preset("kau")
 
@@ -128,7 +128,7 @@ def recursive_least_squares(rows, first):
 def test_the_course_is_that_of_recursive_least_squares(slew):
     """The paper's recursion, written out, ends where all rows at once do."""
     bed = with_printed_errors(BED)
-    reported = course_of(as_printed, slew.recording, bed)
+    reported = reported_along(as_printed, slew.recording, bed)
     part = window(slew.recording, turning_from(slew.recording), slew.recording.span[1])
     rows = rows_until(as_printed(posed_of(part, bed, Options())), reported.t[-1])
     plain = recursive_least_squares(rows, reported.t[0])
@@ -139,7 +139,7 @@ def test_the_course_is_that_of_recursive_least_squares(slew):
 def test_indices_are_equations_9_and_10(slew):
     """Of the rows up to each time, written out; free constants go first."""
     bed = with_printed_errors(BED)
-    reported = course_of(centred_means, slew.recording, bed)
+    reported = reported_along(centred_means, slew.recording, bed)
     part = window(slew.recording, turning_from(slew.recording), slew.recording.span[1])
     rows = centred(rows_until(centred_means(posed_of(part, bed, Options())), reported.t[10]))
     H, y = rows.A.reshape(-1, 9), rows.b.reshape(-1)

@@ -40,7 +40,7 @@ class Slew(NamedTuple):
 class Row(NamedTuple):
     """One step."""
 
-    measured: Sample
+    observed: Sample
     angles: Floats
     rates: Floats
     required: Floats
@@ -82,9 +82,9 @@ def slew_of(testbed: Testbed, rows: list[Row], parts: list[Recording]) -> Slew:
     """Return the rows as columns, and one recording."""
     measure = [singularity_measure(testbed.cmgs, row.angles) for row in rows]
     return Slew(
-        np.array([row.measured.t for row in rows]),
-        np.array([row.measured.q for row in rows]),
-        np.array([row.measured.rate for row in rows]),
+        np.array([row.observed.t for row in rows]),
+        np.array([row.observed.q for row in rows]),
+        np.array([row.observed.rate for row in rows]),
         np.array([row.angles for row in rows]),
         np.array([row.rates for row in rows]),
         np.array([row.required for row in rows]),

@@ -22,21 +22,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.control.elements.attitude_pid import Gains
-from equipoise.estimation.information.fisher_information import Observability, information_by
+from equipoise.estimation.information.fisher_information import information_by
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.regression import linear_method
-from equipoise.estimation.regression.linear_method import SPARE, posed_of
+from equipoise.estimation.regression.linear_method import SPARE, linear_of, posed_of
 from equipoise.estimation.regression.monte_carlo_replicates import PAIRS, Drawn, pairs
 from equipoise.maths.attitude import from_euler321, level, multiply, to_euler321
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Quaternion, Series3
 from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.observability import Observability
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Testbed
 from equipoise.study import candour
-from equipoise.study.gyro_slew import Slew, slewed
+from equipoise.study.papers.gyro_slew import Slew, slewed
 
 LARGE, SMALL = (70.0, 30.0, -30.0), (30.0, 10.0, -10.0)  # deg: roll, pitch, yaw
 DURATION = 100.0  # s, chosen: the slew is over after 60, the integral's tail after 100
@@ -108,12 +109,17 @@ def estimates_of(
     draws = tuple(pairs(posed, Drawn(), max(PAIRS, UNKNOWNS + SPARE)))
     found = dict[str, Estimate]()
     for name in methods:
-        method = METHODS[name]
-        if method.linear is None:
+        method, linear = METHODS[name], linear_of(METHODS[name])
+        if linear is None:
             found[name] = method.run(recording, testbed, Options())
         else:
-            found[name] = linear_method.estimate(method.card, method.linear, posed, (), draws)
+            found[name] = linear_method.estimate(method.card, linear, posed, (), draws)
     return found
+
+
+def formulations() -> dict[str, str]:
+    """Return what each method that is compared takes the motion to be."""
+    return {name: METHODS[name].card.formulation for name in COMPARED}
 
 
 def coarser(recording: Recording, testbed: Testbed) -> Recording:

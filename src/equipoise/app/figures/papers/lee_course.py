@@ -13,7 +13,7 @@ from equipoise.model.arrays import Floats, Series, Series1
 TITLES = ("as printed", "corrected")
 
 
-class Curves(NamedTuple):
+class Reported(NamedTuple):
     """One quantity along the record: a curve for each column."""
 
     t: Series1  # s
@@ -22,7 +22,7 @@ class Curves(NamedTuple):
 
 @styled
 def draw_estimates(
-    sides: Sequence[Curves], truth: Floats, labels: Sequence[str], ylabel: str, air: float
+    sides: Sequence[Reported], truth: Floats, labels: Sequence[str], ylabel: str, air: float
 ) -> Figure:
     """Return estimates of both sides with the truth dashed; ``air`` is shown around the truth."""
     figure, grid = beside()
@@ -38,7 +38,7 @@ def draw_estimates(
 
 @styled
 def draw_indices(
-    sides: Sequence[Curves], labels: Sequence[str], ylabel: str, wide: bool = True
+    sides: Sequence[Reported], labels: Sequence[str], ylabel: str, wide: bool = True
 ) -> Figure:
     """Return error indices of both sides; on a logarithmic scale, if they range ``wide``."""
     figure, grid = beside()

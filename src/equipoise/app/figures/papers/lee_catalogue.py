@@ -1,19 +1,17 @@
 """Figures 3 to 18 of Lee et al., by the paper's numbers; names, captions, drawings."""
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
 
 import numpy as np
 
 from equipoise.app.figures.catalogue import Picture
-from equipoise.app.figures.study import lee_course, lee_slew
-from equipoise.app.figures.study.lee_slew import Shown
+from equipoise.app.figures.papers import lee_course, lee_slew
+from equipoise.app.figures.papers.lee_slew import Shown
 from equipoise.app.text.units import PER_DEG
-from equipoise.estimation.regression.formulations.averaged import as_printed, centred_means
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM, INERTIA
-from equipoise.study.lee import NEAR, Manoeuvre, angles_of, singular_times, true_values
-from equipoise.study.lee_course import Course, course_of
+from equipoise.study.papers.lee import NEAR, Manoeuvre, angles_of, singular_times, true_values
+from equipoise.study.papers.lee_course import Courses
 
 KG_CM = 100.0  # kg cm in a kg m
 SINGULAR = f" Grey: the gyros' measure is below {NEAR:g}."
@@ -30,24 +28,14 @@ RATES = tuple(f"$\\omega_{axis}$" for axis in "xyz")
 UNBALANCE = "mass unbalance, kg cm"
 
 
-class Sides(NamedTuple):
-    """The courses of one slew."""
-
-    printed: Course
-    corrected: Course
+Drawn = tuple[Manoeuvre, Courses]
 
 
-def courses_of(done: Manoeuvre) -> Sides:
-    """Return how estimates grow along a slew."""
-    record, bed = done.slew.recording, done.testbed
-    return Sides(course_of(as_printed, record, bed), course_of(centred_means, record, bed))
-
-
-def pictures_of(large: Manoeuvre, small: Manoeuvre) -> Iterator[Picture]:
+def pictures_of(large: Drawn, small: Drawn) -> Iterator[Picture]:
     """Yield all figures."""
-    yield from slew_pictures(large)
-    yield from course_pictures(large, courses_of(large))
-    yield from small_pictures(small, courses_of(small))
+    yield from slew_pictures(large[0])
+    yield from course_pictures(*large)
+    yield from small_pictures(*small)
 
 
 def slew_pictures(done: Manoeuvre) -> Iterator[Picture]:
@@ -99,7 +87,7 @@ def number(name: str) -> str:
     return f"Lee Fig. {int(name[6:8])}. "
 
 
-def course_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
+def course_pictures(done: Manoeuvre, sides: Courses) -> Iterator[Picture]:
     """Yield Figs. 10 to 16."""
     mass = done.testbed.body.mass
     yield estimates(
@@ -109,7 +97,7 @@ def course_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
     yield estimates(
         "figure12_poi", "Products of inertia, kg m2", "POI, kg m$^2$", (done, sides), PRODUCTS
     )
-    total = [lee_course.Curves(side.t, side.total[:, None]) for side in sides]
+    total = [lee_course.Reported(side.t, side.total[:, None]) for side in sides]
     drawn = lee_course.draw_indices(total, ("EI",), "total error index", wide=False)
     yield Picture("figure13_error_index", f"Lee Fig. 13. Total error index (Eq. 9).{BOTH}.", drawn)
     for name, what, unit, group in (
@@ -118,7 +106,7 @@ def course_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
         ("figure16_unbalance_index", "mass unbalance", "kg cm", COM),
     ):
         reported = [
-            lee_course.Curves(side.t, picked(side.names, side.parameter, group, mass))
+            lee_course.Reported(side.t, picked(side.names, side.parameter, group, mass))
             for side in sides
         ]
         drawn = lee_course.draw_indices(reported, labels_of(group), f"PEI of {what}, {unit}")
@@ -132,7 +120,7 @@ def course_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
 MOI = ("Moments of inertia, kg m2", "MOI, kg m$^2$")
 
 
-def small_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
+def small_pictures(done: Manoeuvre, sides: Courses) -> Iterator[Picture]:
     """Yield Figs. 17 and 18."""
     caption = "Lee Fig. 17. Angular velocity as the gyro saw it, deg/s, from small angles."
     drawn = lee_slew.draw(gyro_rate(done), singular_times(done.slew))
@@ -141,16 +129,14 @@ def small_pictures(done: Manoeuvre, sides: Sides) -> Iterator[Picture]:
                     MOMENTS)  # fmt: skip
 
 
-def estimates(
-    name: str, caption: str, ylabel: str, run: tuple[Manoeuvre, Sides], group: tuple[str, ...]
-) -> Picture:
+def estimates(name: str, caption: str, ylabel: str, run: Drawn, group: tuple[str, ...]) -> Picture:
     """Return a figure of estimates along a slew."""
     done, sides = run
     mass = done.testbed.body.mass
     truth = true_values(done.testbed)
     true = np.array([truth[k] for k in group]) * scale_of(group, mass)
     reported = [
-        lee_course.Curves(side.t, picked(side.names, side.values, group, mass)) for side in sides
+        lee_course.Reported(side.t, picked(side.names, side.values, group, mass)) for side in sides
     ]
     air = 2.0 * float(np.abs(true).max()) if group == COM else 9.0
     drawn = lee_course.draw_estimates(reported, true, labels_of(group), ylabel, air)

@@ -17,6 +17,7 @@ import numpy as np
 
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.regression.error_indices import error_indices
+from equipoise.estimation.regression.formulations.averaged import as_printed, centred_means
 from equipoise.estimation.regression.formulations.rows import Formulation, Rows, centred
 from equipoise.estimation.regression.linear_method import posed_of
 from equipoise.estimation.regression.solvers.least_squares import flat, solved
@@ -31,7 +32,7 @@ EVERY = 1.0  # s
 SMOOTHED = 20  # rows of the gyro, to see whether it turns
 
 
-class Course(NamedTuple):
+class Reported(NamedTuple):
     """What rows up to each time tell; columns in the order of ``names``."""
 
     names: tuple[str, ...]
@@ -39,6 +40,19 @@ class Course(NamedTuple):
     values: Series  # (n, c) SI
     total: Floats  # (n,) EI
     parameter: Series  # (n, c) PEI as printed, in units of the values
+
+
+class Courses(NamedTuple):
+    """The courses of one slew."""
+
+    printed: Reported  # the rows as the paper has them
+    corrected: Reported
+
+
+def courses_of(recording: Recording, testbed: Testbed) -> Courses:
+    """Return how estimates grow along a slew; InputError if the platform never turns."""
+    printed = reported_along(as_printed, recording, testbed)
+    return Courses(printed, reported_along(centred_means, recording, testbed))
 
 
 def turning_from(recording: Recording) -> float:
@@ -53,17 +67,19 @@ def turning_from(recording: Recording) -> float:
     return float(rate.t[turns[0]])
 
 
-def course_of(formulation: Formulation, recording: Recording, testbed: Testbed) -> Course:
+def reported_along(formulation: Formulation, recording: Recording, testbed: Testbed) -> Reported:
     """Return the course of a formulation's estimates from where the platform turns."""
     start = turning_from(recording)
     part = window(recording, start, recording.span[1])
     rows = formulation(posed_of(part, testbed, Options()))
     times = np.arange(start + BATCH, rows.t[-1] + 1e-9, EVERY)
-    reported = [course_at(rows, t) for t in times]
-    return Course(rows.names, times, *(np.array(column) for column in zip(*reported, strict=True)))
+    reported = [reported_at(rows, t) for t in times]
+    return Reported(
+        rows.names, times, *(np.array(column) for column in zip(*reported, strict=True))
+    )
 
 
-def course_at(rows: Rows, t: float) -> tuple[Floats, float, Floats]:
+def reported_at(rows: Rows, t: float) -> tuple[Floats, float, Floats]:
     """Return values, EI and PEI of the rows up to a time; nan where they tell nothing."""
     first = centred(rows_until(rows, t))
     H, y = flat(first)

@@ -1,0 +1,1 @@
+"""Figures of papers' simulations, by the papers' numbers."""

@@ -1,0 +1,29 @@
+"""What to expect of a balancing law, and which devices it needs."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Need = Literal["masses", "momentum", "magnetorquers", "jets", "gyro", "attitude"]
+
+NEEDS: dict[Need, str] = {
+    "masses": "sliding masses",
+    "momentum": "reaction wheels or control moment gyros along all three axes",
+    "magnetorquers": "magnetorquers and a known magnetic field",
+    "jets": "jets about all three axes",
+    "gyro": "a gyro",
+    "attitude": "an attitude sensor",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class LawCard:
+    """What to expect of a law."""
+
+    name: str
+    idea: str  # one sentence
+    source: str  # where it is published, with equation numbers; errata by their numbers
+    needs: tuple[Need, ...]
+    leaves: str  # what it does not remove, and what it cannot see
+    stable: str  # where it is stable: sampling, rate limits, size of the offset
+    period: float  # s, between steps
+    follows: bool = False  # it tells what masses can follow when it has ended

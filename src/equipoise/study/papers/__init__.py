@@ -1,0 +1,1 @@
+"""Papers' simulations run again."""
