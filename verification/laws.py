@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from equipoise.app.text.units import MICRO, MM, UM
-from equipoise.app.views.law_views import both
+from equipoise.app.views.study.law_views import both
 from equipoise.io.testbed.presets import read_preset
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import CARDS

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.app.runs.resource_use import metered
+from equipoise.app.runs.comparison import metered
 from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.io.testbed.presets import read_preset

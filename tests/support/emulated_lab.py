@@ -13,26 +13,6 @@ from tests.support.faulty_wire import FaultyWire
 TICK = 0.02  # s, chosen: as often as a row of 50 Hz
 
 
-class LockstepClock:
-    """Time of the emulated devices: they go on by one tick whenever somebody waits.
-
-    The bench runs as fast as the computer can, and nothing is late because something else took
-    long: a tick ends when all that was sent has been read.
-    """
-
-    def __init__(self, emulated, tick=TICK):
-        self._emulated, self._tick = emulated, tick
-
-    @property
-    def now(self):
-        """Now, s."""
-        return self._emulated.time
-
-    def wait(self):
-        """Let one tick pass."""
-        self._emulated.run(self.now + self._tick)
-
-
 def over_tcp(bed):
     """Return a testbed whose serial devices are behind network bridges.
 
@@ -76,6 +56,26 @@ class FaultyMotors:
         at += self.done.get(leg.mass, 1.0) * (leg.displacement - reported)
         self._reported[leg.mass], self._at[leg.mass] = leg.displacement, at
         return replace(leg, displacement=at)
+
+
+class LockstepClock:
+    """Time of the emulated devices, which go on by one tick whenever somebody waits.
+
+    The bench then runs as fast as the computer can, and nothing is late because something else
+    took long: a tick ends when all that was sent has been read.
+    """
+
+    def __init__(self, emulated, tick=TICK):
+        self._emulated, self._tick = emulated, tick
+
+    @property
+    def now(self):
+        """Now, s."""
+        return self._emulated.time
+
+    def wait(self):
+        """Let one tick pass."""
+        self._emulated.run(self.now + self._tick)
 
 
 class PlannedClock(LockstepClock):

@@ -42,7 +42,7 @@ def test_measurements_along_a_recording_are_reported_and_plotted(records, tmp_pa
     assert assess(records[0], "--windows-s", "11", "--out", str(tmp_path / "o")) == 0
     text = capsys.readouterr().out
     assert "The centre of mass over time, by 4 looks" in text
-    assert "Allan deviation, 22 s, um" in text
+    assert "Allan deviation, 22 s" in text
     assert (tmp_path / "o" / "figures" / "com_over_hours.png").exists()
 
 

@@ -54,11 +54,12 @@ def test_the_directions_that_a_single_rail_cannot_shift_are_reported(equipoise, 
     assert "(0, 1, 0), (0, 0, 1)" in said or "(0, 0, 1), (0, 1, 0)" in said
 
 
-def test_figures_and_document_are_written(equipoise, tmp_path):
-    assert equipoise("design", "sputnix", *SHORT, "--out", "told").code == 0
-    assert sorted(path.name for path in (tmp_path / "told").iterdir()) == [
-        "budget.png", "design.json", "reach.png",
-    ]  # fmt: skip
+def test_report_figures_and_document_are_written(equipoise, tmp_path):
+    assert equipoise("design", "sputnix", *SHORT, "--out", "found").code == 0
+    files = {path.relative_to(tmp_path / "found").as_posix()
+             for path in (tmp_path / "found").rglob("*.*")}  # fmt: skip
+    assert files >= {"report.html", "report.pdf", "report.json", "design.json"}
+    assert files >= {"figures/reach.png", "figures/budget.svg"}
 
 
 @pytest.mark.parametrize(

@@ -1,50 +1,68 @@
-"""A report's blocks come through JSON, HTML and PDF as they are."""
+"""Every kind of block comes through JSON, terminal, HTML and PDF as it is."""
 
 from html.parser import HTMLParser
+from typing import get_args
 
 import pypdfium2
 import pytest
+from rich.console import Console
 
+from equipoise.app.console.rich_blocks import renderable, show
 from equipoise.app.report.html import html
 from equipoise.app.report.pdf import pdf
 from equipoise.app.text.blocks import (
+    Block,
     Claim,
-    Drawn,
-    Grid,
+    Column,
+    Document,
+    Figure,
     Heading,
+    Item,
     Items,
     Moment,
-    Page,
     Pairs,
     Paragraph,
+    Row,
     Section,
-    page_of_text,
-    text_of_page,
+    Table,
+    Tone,
+    document_of_text,
+    number,
+    printed,
+    prose,
+    table,
+    text_of_document,
 )
 from equipoise.model.errors import InputError
 
 ODD = r"""#let *a* _b_ $x$ @c `d` \e <f> & "g" 'h' [i] {j} ~ = + - / // 4. k"""
 DOT = b"\x89PNG"
 SVG = b'<svg xmlns="http://www.w3.org/2000/svg" width="40" height="30"/>'
-PAGE = Page(
-    f"Title {ODD}",
-    f"Platform {ODD}",
-    (
-        Section("", (Claim("It is not so.", False), Claim("It is so.", True))),
-        Section(
-            f"Section {ODD}",
-            (
-                Heading(f"Heading {ODD}"),
-                Paragraph(f"Paragraph {ODD}"),
-                Items((f"Item {ODD}", "Another")),
-                Pairs(((f"name {ODD}", f"value {ODD}"),)),
-                Grid(("", "what"), (("1", f"cell {ODD}"), ("2", "words " * 40)), (1,)),
-                Moment("1.5 s", "measurement", f"Moment {ODD}"),
-                Drawn("one", f"Caption {ODD}"),
-            ),
+TONES = get_args(Tone)
+SAMPLES = {
+    Heading: [Heading(f"Heading {ODD}")],
+    Paragraph: [Paragraph(f"{tone} paragraph {ODD}", tone) for tone in TONES],
+    Claim: [Claim(f"{tone} claim {ODD}", tone) for tone in TONES],
+    Items: [Items(tuple(Item(f"{tone} item {ODD}", tone) for tone in TONES))],
+    Pairs: [Pairs(((f"name {ODD}", f"value {ODD}"),))],
+    Table: [
+        Table(
+            f"Table {ODD}",
+            (Column(), number("what", "mm"), prose("why")),
+            tuple(Row(("1", f"cell {ODD}", f"{tone} words " * 20), tone) for tone in TONES),
+            (f"Note {ODD}",),
         ),
-    ),
-)
+        table("No rows", (), (), ("too few",)),
+        table("", (Column(), Column()), (("no title", "no headings"),)),
+    ],
+    Moment: [Moment("1.5 s", "measurement", f"Moment {ODD}")],
+    Figure: [Figure("one", f"Caption {ODD}")],
+}
+EVERY = tuple(block for blocks in SAMPLES.values() for block in blocks)
+
+
+def document_with(*blocks):
+    return Document(f"Title {ODD}", f"Platform {ODD}", (Section(f"Section {ODD}", blocks),))
 
 
 class Words(HTMLParser):
@@ -59,17 +77,17 @@ class Words(HTMLParser):
         self.parts.append(data)
 
 
-def texts(page):
-    """Yield every text that a reader is told."""
-    yield from (page.title, page.platform)
-    for section in page.sections:
-        yield section.title
-        for block in section.blocks:
-            for name in ("text", "time", "what", "caption"):
-                yield getattr(block, name, "")
-            yield from getattr(block, "texts", ())
-            yield from (word for pair in getattr(block, "pairs", ()) for word in pair)
-            yield from (cell for line in getattr(block, "lines", ()) for cell in line)
+def texts(block):
+    """Yield every text of a block that a reader is shown; kinds and tones are none."""
+    if isinstance(block, str):
+        yield block
+    elif isinstance(block, tuple):
+        for part in block:
+            yield from texts(part)
+    else:
+        for name in block.__dataclass_fields__:
+            if name not in ("kind", "tone", "align", "fold", "schema"):
+                yield from texts(getattr(block, name))
 
 
 def bare(text):
@@ -81,13 +99,51 @@ def bare(text):
     )
 
 
-def reported_in_pdf(data):
-    document = pypdfium2.PdfDocument(data)
-    return bare("".join(page.get_textpage().get_text_range() for page in document))
+def in_terminal(block):
+    console = Console(width=400, color_system=None)
+    with console.capture() as capture:
+        console.print(renderable(block))
+    return capture.get()
+
+
+def in_html(*blocks):
+    return " ".join(Words(html(document_with(*blocks), {"one": DOT})).parts)
+
+
+def in_pdf(*blocks):
+    pages = pypdfium2.PdfDocument(pdf(document_with(*blocks), {"one": SVG}))
+    return "".join(page.get_textpage().get_text_range() for page in pages)
+
+
+RENDERERS = {"terminal": in_terminal, "html": in_html, "pdf": in_pdf}
+
+
+def test_a_sample_of_every_kind_of_block_is_here():
+    assert set(SAMPLES) == set(get_args(Block))
+
+
+@pytest.mark.parametrize("renderer", RENDERERS)
+@pytest.mark.parametrize("kind", get_args(Block), ids=lambda kind: kind.__name__)
+def test_every_renderer_shows_every_text_of_every_block(kind, renderer):
+    """Word by word: cells that stand side by side are broken into lines of their own."""
+    for block in SAMPLES[kind]:
+        shown = bare(RENDERERS[renderer](block))
+        hidden = ("one",) if isinstance(block, Figure) and renderer != "terminal" else ()
+        for text in texts(block):
+            for word in text.split():
+                assert text in hidden or bare(word) in shown
+
+
+@pytest.mark.parametrize("renderer", [in_html, in_pdf])
+def test_a_report_shows_its_titles(renderer):
+    shown = bare(renderer(*EVERY))
+    for text in ("Title", "Platform", "Section"):
+        assert bare(f"{text} {ODD}") in shown
 
 
 def test_every_block_comes_back_from_json():
-    assert page_of_text(text_of_page(PAGE), "here") == PAGE
+    document = document_with(*EVERY)
+    assert document_of_text(text_of_document(document), "here") == document
 
 
 @pytest.mark.parametrize(
@@ -95,19 +151,27 @@ def test_every_block_comes_back_from_json():
 )
 def test_what_is_no_report_is_refused_in_words(text):
     with pytest.raises(InputError, match="equipoise/report/1"):
-        page_of_text(text, "here")
+        document_of_text(text, "here")
 
 
-def test_html_says_it_all_as_it_is():
-    page = html(PAGE, {"one": DOT})
-    words = bare(" ".join(Words(page).parts))
-    for text in texts(PAGE):
-        assert bare(text) in words
+def test_a_printed_table_has_typeset_units_and_the_terminal_plain_ones():
+    """In headings, and in a column of units; a word that merely contains one stays."""
+    block = table("", (Column("of um"), number("com", "um")), (("kg m2", "1"), ("a um", "2")))
+    (section,) = printed(document_with(block)).sections
+    (typeset,) = section.blocks
+    assert [column.title for column in typeset.columns] == ["of um", "com, µm"]
+    assert [row.cells[0] for row in typeset.rows] == ["kg m²", "a um"]
+    assert "com, um" in in_terminal(block)
 
 
-def test_pdf_says_it_all_as_it_is():
-    """Word by word: cells that stand side by side are broken into lines of their own."""
-    reported = reported_in_pdf(pdf(PAGE, {"one": SVG}))
-    for text in texts(PAGE):
-        for word in text.split():
-            assert bare(word) in reported
+def test_tables_stand_separation_and_sentences_together(capsys):
+    one = table("One", (Column(),), (("cell",),))
+    show((Moment("1 s", "measurement", "Seen."), one, Paragraph("First."), Paragraph("Second.")))
+    lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
+    assert lines[1:] == ["", "One", "cell", "", "First.", "Second."]
+
+
+def test_what_stands_below_other_lines_is_set_off(capsys):
+    show((Paragraph("First."),), below=True)
+    show((), below=True)
+    assert capsys.readouterr().out == "\nFirst.\n"

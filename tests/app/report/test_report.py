@@ -144,7 +144,7 @@ def test_readme_shows_what_the_demo_finds(folder):
         re.MULTILINE,
     )
     page = (folder / "report.html").read_text(encoding="utf-8")
-    row = r"<td>([a-z]+_\w+)</td><td>(-?[\d.]+)</td><td>([\d.]+)</td>"
+    row = r'<td>([a-z]+_\w+)</td><td class="right">(-?[\d.]+)</td><td class="right">([\d.]+)</td>'
     found = {name: (float(value), float(sd)) for name, value, sd in re.findall(row, page)}
     assert len(shown) >= 4
     for name, value, sd in shown:

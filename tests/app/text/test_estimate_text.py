@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from equipoise.app.console.rich_results import noise_floor_line
+from equipoise.app.text.estimate_text import noise_floor_line
 from equipoise.model.verdict import Verdict
 
 

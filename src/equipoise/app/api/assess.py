@@ -3,14 +3,14 @@
 import math
 from collections.abc import Callable, Sequence
 
-from equipoise.app.api.inputs import (
+from equipoise.app.arguments.checks import between, positive, vector
+from equipoise.app.arguments.inputs import (
     AnyRecording,
     AnyTestbed,
     options_from,
     recording_from,
     testbed_from,
 )
-from equipoise.app.arguments.checks import between, positive, vector
 from equipoise.app.runs import assessment
 from equipoise.app.runs.assessment import AssessedPlatform, Recordings
 from equipoise.app.runs.waiting import passing_on

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from equipoise.app.api.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
 from equipoise.app.arguments import checks
+from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.app.runs.simulation import bench_of
 from equipoise.model.bench import Bench

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from equipoise.app.api.inputs import (
+from equipoise.app.arguments.inputs import (
     AnyRecording,
     AnyTestbed,
     options_from,

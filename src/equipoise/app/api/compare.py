@@ -3,8 +3,8 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from equipoise.app.api.inputs import AnyTestbed, options_from, testbed_from
 from equipoise.app.arguments import checks
+from equipoise.app.arguments.inputs import AnyTestbed, options_from, testbed_from
 from equipoise.app.runs.comparison import Compared, Contest, LawGoal, names_of, run_all
 from equipoise.study.method_record import Scene
 

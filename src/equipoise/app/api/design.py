@@ -3,8 +3,8 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from equipoise.app.api.inputs import AnyTestbed, testbed_with_masses
 from equipoise.app.arguments.checks import not_negative, one_of, positive, vector
+from equipoise.app.arguments.inputs import AnyTestbed, testbed_with_masses
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.environment import Surroundings
 from equipoise.planning.sizing.sizing import Sizing, sized

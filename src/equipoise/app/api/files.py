@@ -3,7 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
-from equipoise.app.api.inputs import part_of
+from equipoise.app.arguments.inputs import part_of
 from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.recording import recording_file
 from equipoise.io.testbed import testbed_file

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from equipoise.app.api.inputs import (
+from equipoise.app.arguments.inputs import (
     AnyPlan,
     AnyRecording,
     AnyTestbed,

@@ -4,7 +4,7 @@ from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
 
-from equipoise.app.api.inputs import AnyTestbed, testbed_from
+from equipoise.app.arguments.inputs import AnyTestbed, testbed_from
 from equipoise.app.bench.open_bench import Wanted, real_bench
 from equipoise.model.bench import Bench
 

@@ -4,14 +4,14 @@ import math
 from collections.abc import Sequence
 from typing import Literal
 
-from equipoise.app.api.inputs import (
+from equipoise.app.arguments.checks import not_negative, positive, seed_of
+from equipoise.app.arguments.inputs import (
     AnyRecording,
     AnyTestbed,
     options_from,
     recording_from,
     testbed_from,
 )
-from equipoise.app.arguments.checks import not_negative, positive, seed_of
 from equipoise.app.runs import planning
 from equipoise.app.runs.planning import Planning, Request
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
-from equipoise.app.api.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
 from equipoise.app.arguments.checks import positive, seed_of
+from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
 from equipoise.app.runs.simulation import free_swing, planned_swing
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording

@@ -4,7 +4,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from equipoise.app.api import inputs
+from equipoise.app.arguments import inputs
 from equipoise.app.arguments.checks import one_of
 from equipoise.app.arguments.estimated_terms import Seeking
 from equipoise.app.arguments.recording_window import Reading

@@ -1,15 +1,11 @@
 """`equipoise assess`: what a recording proves about a platform."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag, Triple
 from equipoise.app.console.terminal import busy
-
-if TYPE_CHECKING:
-    from equipoise.app.runs.assessment import AssessedPlatform
 
 
 def assess(
@@ -75,30 +71,15 @@ def assess(
     recording = fitting_recording_of(file, reading, bed)
     earlier = None if before is None else fitting_recording_of(before, WHOLE, bed)
     with busy("assessing", announce=False):
-        from equipoise.app.console.waiting import AT_TERMINAL
+        from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.assessment import Recordings, run
+        from equipoise.app.runs.at_terminal import AT_TERMINAL
+        from equipoise.app.views.assess_json import output_of
         from equipoise.procedure.identification.assess import AssessOptions
 
         options = AssessOptions(goal, tilt, torque, offset, seeking.term, seeking.hold)
     done = run(Recordings(recording, earlier, windows), bed, options, AT_TERMINAL)
-    _report(done, json, out)
+    hand_over(output_of(done), json, out)
     verdict = done.verdict
     good = done.estimate.outcome.usable if verdict is None else verdict.passed
     return 0 if good else 1
-
-
-def _report(done: "AssessedPlatform", json: bool, out: Path | None) -> None:
-    """Print the result, and write it down if that is asked for."""
-    from equipoise.app.logbook.output import hand_over
-    from equipoise.app.report.write import write_account
-    from equipoise.app.views.assess_json import document_of
-    from equipoise.app.views.assess_views import account_of, show_result
-    from equipoise.procedure.identification.record_courses import RecordCourses, step_motions
-
-    document = document_of(done)
-
-    def written(folder: Path) -> list[Path]:
-        courses = RecordCourses(steps=step_motions(done.steps, done.done.testbed))
-        return write_account(account_of(done, courses), document, "assess", folder)
-
-    hand_over(document, lambda: show_result(done), written, json, out)

@@ -25,7 +25,6 @@ from equipoise.app.commands.on_bench import (
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.app.runs.balancing import Balancing
     from equipoise.model.arrays import Vector3
     from equipoise.model.bench import Bench
     from equipoise.model.manoeuvre import Manoeuvre
@@ -106,9 +105,10 @@ def balance(
     if out is not None:
         check_folder(out)
     with busy("preparing the bench", announce=False):
-        from equipoise.app.live.terminal_observer import at_terminal
+        from equipoise.app.logbook.output import hand_over, keep
+        from equipoise.app.runs.at_terminal import at_terminal, show_step
         from equipoise.app.runs.balancing import Goal, Limits, run
-        from equipoise.app.views.balance_views import show_step
+        from equipoise.app.views.balance_views import output_of
         from equipoise.procedure.balancing.catalogue import CARDS
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
@@ -117,7 +117,10 @@ def balance(
         prepare(bed, goal, limits, on_bench)
     with let_go(bed, on_bench) if on_bench.bench else _simulated(bed, planned, seed) as bench:
         done = run(bench, goal, limits, None if json else show_step, at_terminal(bed))
-    _report(done, seed, json, out)
+    output = output_of(done, seed)
+    hand_over(output, json, out, below=True)
+    if out is None:
+        keep(output, bed.name)
     return 0 if done.verdict.passed else 1
 
 
@@ -163,22 +166,3 @@ def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Gener
 
         bench = bench_of(bed, seed, planned)
     yield bench
-
-
-def _report(done: "Balancing", seed: int, json: bool, out: Path | None) -> None:
-    """Print the result, and write it down if that is asked for."""
-    from equipoise.app.logbook.output import hand_over, keep
-    from equipoise.app.report.write import write_run
-    from equipoise.app.views.balance_views import account_of, document_of, kept_of, show_result
-    from equipoise.procedure.identification.record_courses import balancing_courses
-
-    document = document_of(done, seed)
-
-    def written(folder: Path) -> list[Path]:
-        courses = balancing_courses(done.recording, done.testbed, done.estimate, done.steps)
-        account = account_of(done, seed, courses)
-        return write_run(account, document, "balance", kept_of(done, done.law), folder)
-
-    hand_over(document, lambda: show_result(done), written, json, out)
-    if out is None:
-        keep(written, "balance", done.testbed.name)

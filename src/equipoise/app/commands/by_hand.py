@@ -8,7 +8,7 @@ from cyclopts import Parameter
 
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag, Whole
-from equipoise.app.console.terminal import busy, stdout
+from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
     from equipoise.app.runs.balancing import Goal
@@ -90,17 +90,19 @@ def balance_by_hand(requested: Request) -> int:
     if requested.by.session is not None:
         return _a_persons(requested, requested.by.session, bed, rounds)
     with busy("preparing the bench", announce=False):
+        from equipoise.app.runs.at_terminal import show_step
         from equipoise.app.runs.manual_balancing import run
-        from equipoise.app.views.balance_views import show_step
         from equipoise.simulation.hands import SimulatedHands
 
         hands = SimulatedHands(bed, requested.seed)
     done = run(hands, requested.goal, rounds, None if requested.json else show_step)
-    return _report(done, {"testbed": bed.source, "seed": str(requested.seed)}, requested)
+    return _code(done, {"testbed": bed.source, "seed": str(requested.seed)}, requested)
 
 
 def _a_persons(requested: Request, path: Path, bed: "Testbed", rounds: int) -> int:
     """Take the next recording of a session, and say what to do next."""
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.runs.at_terminal import show_step
     from equipoise.app.runs.manual_balancing import (
         begun,
         next_deed,
@@ -109,7 +111,7 @@ def _a_persons(requested: Request, path: Path, bed: "Testbed", rounds: int) -> i
         resume,
         with_recording,
     )
-    from equipoise.app.views.balance_views import show_step
+    from equipoise.app.text.blocks import Paragraph
     from equipoise.io.documents.manual_session import read_session, write_session
     from equipoise.io.files.atomic_file import check_writable
 
@@ -121,28 +123,19 @@ def _a_persons(requested: Request, path: Path, bed: "Testbed", rounds: int) -> i
         filed = with_recording(filed, requested.by.recording, requested.reading)
     done, placed = resume(filed, requested.goal, None if requested.json else show_step)
     write_session(noted(filed, placed), path)
-    code = _report(done, {"testbed": bed.source, "session": str(path)}, requested)
+    code = _code(done, {"testbed": bed.source, "session": str(path)}, requested)
     if not done.ended and not requested.json:
-        stdout().print(next_deed(requested.testbed, path, len(placed) + 1), markup=False)
+        show((Paragraph(next_deed(requested.testbed, path, len(placed) + 1)),))
     return code
 
 
-def _report(done: "ByHand", of: dict[str, str], requested: Request) -> int:
-    """Print the result, write it down if that is asked for, and return the exit code."""
+def _code(done: "ByHand", of: dict[str, str], requested: Request) -> int:
+    """Hand the result over, keep it once the verdict is there, and return the exit code."""
     from equipoise.app.logbook.output import hand_over, keep
-    from equipoise.app.report.write import write_run
-    from equipoise.app.views.balance_views import kept_of
-    from equipoise.app.views.manual_views import account_of, document_of, show_result
-    from equipoise.procedure.identification.record_courses import RecordCourses, step_motions
+    from equipoise.app.views.manual_views import output_of
 
-    document = document_of(done, of)
-
-    def written(folder: Path) -> list[Path]:
-        kept = kept_of(done.balancing, "by hand")
-        courses = RecordCourses(steps=step_motions(done.balancing.steps, done.balancing.testbed))
-        return write_run(account_of(done, of, courses), document, "balance", kept, folder)
-
-    hand_over(document, lambda: show_result(done), written, requested.json, requested.out)
+    output = output_of(done, of)
+    hand_over(output, requested.json, requested.out, below=True)
     if requested.out is None and done.ended:
-        keep(written, "balance", done.balancing.testbed.name)
+        keep(output, done.balancing.testbed.name)
     return 0 if done.verdict is None or done.verdict.passed else 1

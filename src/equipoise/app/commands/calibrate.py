@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag, Names
-from equipoise.app.console.terminal import busy, stdout
+from equipoise.app.console.terminal import busy, show_paths
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
+    from equipoise.app.views.calibration_views import Calibrated
     from equipoise.estimation.calibration.calibration import CalibrateOptions
-    from equipoise.model.estimate import Estimate
     from equipoise.model.testbed import Testbed
 
 
@@ -26,6 +26,7 @@ def calibrate(
     reading: Reading = WHOLE,
     write: Path | None = None,
     json: Flag = False,
+    out: Path | None = None,
 ) -> int:
     """Calibrate masses by a recording of commanded moves: gain, rail, backlash; sensors too.
 
@@ -45,10 +46,13 @@ def calibrate(
         Testbed file to write with what was found; comments of the old one stay.
     json
         Print one JSON document instead.
+    out
+        Folder for report and calibrate.json.
     """
     from equipoise.app.arguments.resolve import spelt_out, testbed_of
     from equipoise.estimation.calibration.calibration import CalibrateOptions
     from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.files.atomic_folder import check_folder
 
     bed = testbed_of(testbed)
     if moves:
@@ -57,42 +61,37 @@ def calibrate(
         raise InputError("calibrate", "no recording", "a file, or --moves to see which to make")
     if write is not None:
         check_writable(write)
+    if out is not None:
+        check_folder(out)
+    from equipoise.app.logbook.output import hand_over
+    from equipoise.app.views.calibration_views import output_of
+
     seeking = spelt_out(seeking)
     options = CalibrateOptions(reference, seeking.term, seeking.hold, seeking.prior)
     found = _carried_out(file, bed, reading, options)
-    _report(found, bed, json)
-    if not found.outcome.usable:
+    hand_over(output_of(found), json, out)
+    if not found.estimate.outcome.usable:
         return 1
     if write is not None:
-        _write(found, bed, testbed, write, quiet=json)
+        _write(found, testbed, write, quiet=json)
     return 0
 
 
 def _carried_out(
     file: str, bed: "Testbed", reading: Reading, options: "CalibrateOptions"
-) -> "Estimate":
+) -> "Calibrated":
     """Return the calibration."""
     from equipoise.app.arguments.resolve import fitting_recording_of
 
     recording = fitting_recording_of(file, reading, bed)
     with busy("calibrating"):
+        from equipoise.app.views.calibration_views import Calibrated
         from equipoise.procedure.identification.calibrate import calibrate as procedure
 
-        return procedure(recording, bed, options)
+        return Calibrated(bed, recording, procedure(recording, bed, options))
 
 
-def _report(found: "Estimate", bed: "Testbed", json: bool) -> None:
-    """Print the calibration."""
-    from equipoise.app.text.json_document import dump, estimate_json
-    from equipoise.app.views.calibration_views import show_calibration
-
-    if json:
-        print(dump(estimate_json(found)))
-    else:
-        show_calibration(found, bed)
-
-
-def _write(found: "Estimate", bed: "Testbed", name: str, path: Path, quiet: bool) -> None:
+def _write(found: "Calibrated", name: str, path: Path, quiet: bool) -> None:
     """Write the calibrated testbed."""
     from equipoise.app.arguments.resolve import testbed_text_of
     from equipoise.app.views.calibration_views import remarks_of
@@ -100,10 +99,10 @@ def _write(found: "Estimate", bed: "Testbed", name: str, path: Path, quiet: bool
     from equipoise.io.files.atomic_file import write_whole
     from equipoise.io.testbed.testbed_edit import with_drives
 
-    text = testbed_text_of(name)
-    write_whole(path, with_drives(text, calibrated(bed, found), remarks_of(found, bed), name))
+    text, drives = testbed_text_of(name), calibrated(found.testbed, found.estimate)
+    write_whole(path, with_drives(text, drives, remarks_of(found), name))
     if not quiet:
-        stdout().print(f"wrote {path}", markup=False)
+        show_paths([path])
 
 
 def _report_moves(bed: "Testbed", name: str) -> int:

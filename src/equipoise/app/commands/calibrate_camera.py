@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.types import Whole
-from equipoise.app.console.terminal import counted, show_paths, stdout
+from equipoise.app.console.terminal import counted, show_paths
 
 
 def calibrate_camera(
@@ -38,7 +38,9 @@ def calibrate_camera(
         Its markers: 4X4_50 or another dictionary of ArUco or AprilTag.
     """
     from equipoise.app.arguments.checks import positive
+    from equipoise.app.console.rich_blocks import show
     from equipoise.app.runs.lens_calibration import lens_from_files
+    from equipoise.app.text.blocks import paragraphs
     from equipoise.hardware.camera.aruco import Charuco
     from equipoise.hardware.camera.eye import settings_of_lens
     from equipoise.io.documents.camera_file import write_camera_keys
@@ -50,9 +52,12 @@ def calibrate_camera(
     with counted("looking") as on_progress:
         found = lens_from_files(pictures, board, on_progress)
     write_camera_keys(settings_of_lens(found.lens), out)
-    lens, console = found.lens, stdout()
-    console.print(f"{found.views} pictures used, corners fit to {lens.rms:.3f} px")
-    text = f"focal length {lens.fx:.1f} and {lens.fy:.1f} px, one sd {found.focal_sd:.1f} px"
-    console.print(text)
+    lens, sd = found.lens, found.focal_sd
+    show(
+        paragraphs(
+            f"{found.views} pictures used, corners fit to {lens.rms:.3f} px",
+            f"focal length {lens.fx:.1f} and {lens.fy:.1f} px, one sd {sd:.1f} px",
+        )
+    )
     show_paths([out])
     return 0

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import busy, stdout
+from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
     from equipoise.app.bench.bench_check import CheckResult
@@ -27,13 +27,14 @@ def check(testbed: str, /, *, yes: Flag = False) -> int:
     from equipoise.app.arguments.resolve import testbed_of
     from equipoise.app.bench.bench_check import checked_bench
     from equipoise.app.console.confirm import agreed
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.text.blocks import items
 
     bed = testbed_of(testbed)
     reported: list[CheckResult] = []
     with busy("talking to the devices", announce=False):
         steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else agreed)
         for line in steps:
-            mark, style = ("ok     ", None) if line.good else ("PROBLEM", "bold red")
-            stdout().print(f"{mark}  {line.sentence}", style=style, markup=False)
+            show(items((line.sentence,), "good" if line.good else "bad"))
             reported.append(line)
     return 0 if all(line.good for line in reported) else 1

@@ -105,13 +105,15 @@ def compare(
     if out is not None:
         check_folder(out)
     with busy("preparing", announce=False):
-        from equipoise.app.console.waiting import AT_TERMINAL
+        from equipoise.app.logbook.output import hand_over
+        from equipoise.app.runs.at_terminal import AT_TERMINAL
         from equipoise.app.runs.comparison import Contest, names_of, run_all
+        from equipoise.app.views.study.comparison_report import output_of
 
         goal, names = _goal(judging), names_of(bed, only, methods, laws)
         scene = _scene(bed, duration, moves, seeking)
     done = run_all(Contest(names, scene, seeds, goal), many, AT_TERMINAL)
-    _report(done, json, out)
+    hand_over(output_of(done), json, out)
     return _code(done)
 
 
@@ -144,18 +146,6 @@ def _goal(judging: JudgingLaws) -> "LawGoal":
         positive("--require-torque", judging.require_torque),
         positive("--max-time-s", judging.max_time_s),
     )
-
-
-def _report(done: "Compared", json: bool, out: Path | None) -> None:
-    """Print the result, and write it down if that is asked for."""
-    from equipoise.app.logbook.output import hand_over
-    from equipoise.app.views.comparison_report import document, files_of, show
-    from equipoise.io.files.atomic_folder import write_folder
-
-    def written(folder: Path) -> list[Path]:
-        return write_folder(folder, files_of(done))
-
-    hand_over(document(done), lambda: show(done), written, json, out)
 
 
 def _code(done: "Compared") -> int:

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.console.terminal import show_paths, stdout
+from equipoise.app.console.terminal import show_paths
 
 
 def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
@@ -19,6 +19,8 @@ def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
         File to write: .csv, .parquet, .mcap or .mat.
     """
     from equipoise.app.arguments.resolve import recording_of
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.text.blocks import items
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.format_registry import format_to_write
     from equipoise.io.recording.recording_file import write_recording
@@ -27,7 +29,6 @@ def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
     check_writable(out)
     recording = recording_of(file, reading)
     write_recording(recording, out)
-    for note in recording.notes:
-        stdout().print(f"~ {note}", markup=False)
+    show(items(recording.notes, "quiet"))
     show_paths([out])
     return 0

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.types import Whole
-from equipoise.app.console.terminal import busy, show_paths, stdout
+from equipoise.app.console.terminal import busy
 
 
 def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
@@ -23,19 +23,11 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
     bed, seed = read_preset("sputnix"), seed_of(seed)
     check_folder(out)
     with busy("preparing the bench", announce=False):
-        from equipoise.app.report.write import write_run
-        from equipoise.app.runs.demonstration import courses_of, run_demo
-        from equipoise.app.views.balance_views import document_of, kept_of, show_result, show_step
-        from equipoise.app.views.demo_views import account_of
-        from equipoise.procedure.balancing.catalogue import OWN
+        from equipoise.app.logbook.output import hand_over
+        from equipoise.app.runs.at_terminal import show_step
+        from equipoise.app.runs.demonstration import run_demo
+        from equipoise.app.views.demo_views import output_of
 
     shown = run_demo(bed, seed, show_step)
-    show_result(shown.balancing)
-    with busy("drawing"):
-        document = document_of(shown.balancing, seed)
-        kept = kept_of(shown.balancing, OWN.name)
-        account = account_of(shown, seed, courses_of(shown))
-        paths = write_run(account, document, "balance", kept, out)
-    stdout().print()
-    show_paths(paths)
+    hand_over(output_of(shown, seed), json=False, out=out, below=True)
     return 0 if shown.balancing.verdict.passed else 1

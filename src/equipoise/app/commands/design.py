@@ -1,14 +1,10 @@
 """`equipoise design`: are masses and sensors good enough, what limits them, what to buy next."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.environment import NOTHING_STATED, Exposure, surroundings_of
 from equipoise.app.arguments.types import Flag, Several, Triple, Whole
 from equipoise.app.console.terminal import busy
-
-if TYPE_CHECKING:
-    from equipoise.planning.sizing.sizing import Sizing
 
 
 def design(
@@ -49,10 +45,10 @@ def design(
     json
         Print one JSON document instead.
     out
-        Folder for reach.png, budget.png and design.json.
+        Folder for report, figures and design.json.
     """
-    from equipoise.app.api.inputs import testbed_with_masses
     from equipoise.app.arguments.checks import not_negative, positive, vector
+    from equipoise.app.arguments.inputs import testbed_with_masses
     from equipoise.app.text.units import PER_DEG, UM
     from equipoise.io.files.atomic_folder import check_folder
 
@@ -67,25 +63,12 @@ def design(
     if out is not None:
         check_folder(out)
     with busy("reckoning"):
+        from equipoise.app.logbook.output import hand_over
+        from equipoise.app.views.design_views import output_of
         from equipoise.planning.sizing.case import Case
         from equipoise.planning.sizing.sizing import sized
 
         case = Case(bed, target, tilt, lengths[0], count, lean, around)
         found = sized(case, lengths, require_torque)
-    _report(found, json, out)
+    hand_over(output_of(found), json, out)
     return 0 if found.outcome.usable else 1
-
-
-def _report(found: "Sizing", json: bool, out: Path | None) -> None:
-    """Print the result, and write it down if that is asked for."""
-    from equipoise.app.logbook.output import hand_over
-    from equipoise.app.views.design_views import design_json, show_design
-
-    document = design_json(found)
-
-    def written(folder: Path) -> list[Path]:
-        from equipoise.app.figures.design_catalogue import write_design
-
-        return write_design(found, document, folder)
-
-    hand_over(document, lambda: show_design(found), written, json, out)

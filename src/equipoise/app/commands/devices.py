@@ -4,7 +4,6 @@ import json as text
 from dataclasses import asdict
 
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import stdout
 
 
 def devices(*, json: Flag = False) -> int:
@@ -15,14 +14,14 @@ def devices(*, json: Flag = False) -> int:
     json
         Print one JSON document instead.
     """
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.text.blocks import paragraphs
     from equipoise.hardware.transport.serial_ports import serial_ports
 
     found = serial_ports()
     if json:
         print(text.dumps({"schema": "equipoise/devices/1", "serial": [asdict(p) for p in found]}))
         return 0
-    for port in found:
-        stdout().print(f"serial:{port.path}  {port.what}".rstrip(), markup=False)
-    if not found:
-        stdout().print("No serial port was found. Network devices are not listed.", markup=False)
+    none = "No serial port was found. Network devices are not listed."
+    show(paragraphs(*[f"serial:{p.path}  {p.what}".rstrip() for p in found] or [none]))
     return 0

@@ -10,7 +10,9 @@ from equipoise.app.arguments.types import Flag
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
-    from equipoise.app.runs.identification import Identification
+    from collections.abc import Sequence
+
+    from equipoise.model.finding import Finding
 
 
 def identify(
@@ -58,34 +60,25 @@ def identify(
     recording = fitting_recording_of(file, reading, bed)
     planned = None if plan is None else read_plan(plan, bed)
     with busy("identifying", announce=False):
-        from equipoise.app.console.waiting import AT_TERMINAL
+        from equipoise.app.console.rich_blocks import show
+        from equipoise.app.logbook.output import hand_over, keep
+        from equipoise.app.runs.at_terminal import AT_TERMINAL
         from equipoise.app.runs.identification import run
-        from equipoise.app.views.identify_views import show_findings
+        from equipoise.app.text.run_blocks import finding_items
+        from equipoise.app.views.identify_views import output_of
         from equipoise.estimation.methods.registry import METHODS
         from equipoise.procedure.identification.identify import IdentifyOptions
 
     one_of("--method", method, ["auto", *METHODS])
     options = IdentifyOptions(method, seeking.term, seeking.hold, seeking.prior, robust)
-    show = None if json else show_findings
-    done = replace(run(recording, bed, options, AT_TERMINAL, show), plan=planned)
-    _report(done, json, out)
-    return 0 if done.estimate.outcome.usable else 1
 
+    def on_findings(found: "Sequence[Finding]") -> None:
+        if not json:
+            show(finding_items(found))
 
-def _report(done: "Identification", json: bool, out: Path | None) -> None:
-    """Print the result, and write it down if that is asked for."""
-    from equipoise.app.logbook.output import hand_over, keep
-    from equipoise.app.report.write import write_run
-    from equipoise.app.views.identify_views import account_of, document_of, kept_of, show_result
-    from equipoise.procedure.identification.record_courses import identification_courses
-
-    document = document_of(done)
-
-    def written(folder: Path) -> list[Path]:
-        courses = identification_courses(done.recording, done.testbed, done.steps)
-        account = account_of(done, courses)
-        return write_run(account, document, "estimate", kept_of(done), folder)
-
-    hand_over(document, lambda: show_result(done), written, json, out)
+    done = replace(run(recording, bed, options, AT_TERMINAL, on_findings), plan=planned)
+    output = output_of(done)
+    hand_over(output, json, out, below=True)
     if out is None:
-        keep(written, "identify", done.testbed.name)
+        keep(output, bed.name)
+    return 0 if done.estimate.outcome.usable else 1

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import show_paths, stdout
+from equipoise.app.console.terminal import show_paths
 
 if TYPE_CHECKING:
     from equipoise.model.finding import Finding
@@ -38,8 +38,9 @@ def inspect(
         Page with the record and its findings to write, such as record.png.
     """
     from equipoise.app.arguments.resolve import recording_of, testbed_of
-    from equipoise.app.console.rich_results import finding_line
+    from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.json_document import dump, findings_json
+    from equipoise.app.text.run_blocks import finding_items
     from equipoise.assessment.findings.event_findings import NOT_SOUGHT
     from equipoise.assessment.findings.record_findings import findings
 
@@ -55,8 +56,7 @@ def inspect(
     if json:
         print(dump(findings_json(recording, found)))
         return 0
-    for finding in found:
-        stdout().print(finding_line(finding))
+    show(finding_items(found))
     if figure is not None:
         show_paths([figure])
     return 0

@@ -1,7 +1,6 @@
 """`equipoise laws`: how a platform can be balanced."""
 
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import stdout
 
 
 def laws(name: str | None = None, /, *, json: Flag = False) -> int:
@@ -17,8 +16,9 @@ def laws(name: str | None = None, /, *, json: Flag = False) -> int:
         Print one JSON document instead.
     """
     from equipoise.app.arguments.checks import one_of
+    from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.json_document import dump
-    from equipoise.app.views.law_views import card_table, laws_json, list_table
+    from equipoise.app.views.study.law_views import blocks, laws_json
     from equipoise.procedure.balancing.catalogue import CARDS
 
     chosen = list(CARDS) if name is None else [one_of("law", name, list(CARDS))]
@@ -26,5 +26,5 @@ def laws(name: str | None = None, /, *, json: Flag = False) -> int:
     if json:
         print(dump(laws_json(cards)))
         return 0
-    stdout().print(list_table(cards) if name is None else card_table(cards[0]))
+    show(blocks(cards))
     return 0

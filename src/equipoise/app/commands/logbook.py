@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.run_filter import LATEST, WantedRuns, condition
 from equipoise.app.arguments.types import Flag, Listed
-from equipoise.app.console.terminal import busy, complain, show_paths, stderr, stdout
+from equipoise.app.console.terminal import busy, complain, show_paths, stderr
 
 if TYPE_CHECKING:
     from equipoise.io.documents.logbook import Logbook
@@ -57,10 +57,10 @@ def logbook(
             complain(f"left out: {sentence}")
         shown = book.runs(*condition(wanted), wanted.last or None)
         if builds:
-            _report_builds(book, wanted, json)
+            _show_builds(book, wanted, json)
         else:
             earlier = book.count(*condition(wanted)) - len(shown)
-            _report(book, shown, earlier, compare, json)
+            _show(book, shown, earlier, compare, json)
         _write(book, shown, trend, export, json)
     return 0
 
@@ -75,40 +75,33 @@ def _check(path: Path | None, suffixes: str) -> None:
         check_writable(path)
 
 
-def _report_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
-    from equipoise.app.logbook.testbed_history import builds_json, show_builds
+def _show(
+    book: "Logbook", shown: "list[LoggedRun]", earlier: int, compare: Listed, json: bool
+) -> None:
+    """Print runs, or those that are to be compared side by side."""
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.logbook import views as views
+    from equipoise.app.text.json_document import dump
+
+    chosen = [views.chosen(shown, name) for name in compare]
+    if json:
+        print(dump(views.compared_json(book, chosen) if chosen else views.runs_json(book, shown)))
+        return
+    if earlier and not chosen:
+        stderr().print(f"{earlier} earlier runs are not shown (--last 0: all).", markup=False)
+    show((views.compared(book, chosen),) if chosen else views.runs_blocks(book, shown))
+
+
+def _show_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.logbook.testbed_history import builds_blocks, builds_json
     from equipoise.app.text.json_document import dump
 
     shown = book.builds(*condition(wanted))
     if json:
         print(dump(builds_json(book, shown)))
     else:
-        show_builds(book, shown)
-
-
-def _report(
-    book: "Logbook", shown: "list[LoggedRun]", earlier: int, compare: Listed, json: bool
-) -> None:
-    from equipoise.app.console.rich_tables import show_sheet
-    from equipoise.app.logbook import views as views
-    from equipoise.app.text.json_document import dump
-
-    if compare:
-        chosen = [views.chosen(shown, name) for name in compare]
-        if json:
-            print(dump(views.compared_json(book, chosen)))
-        else:
-            show_sheet(views.compared(book, chosen))
-        return
-    if json:
-        print(dump(views.runs_json(book, shown)))
-        return
-    if not shown:
-        stdout().print("No such run.")
-        return
-    if earlier:
-        stderr().print(f"{earlier} earlier runs are not shown (--last 0: all).", markup=False)
-    views.show_runs(book, shown)
+        show(builds_blocks(book, shown))
 
 
 def _write(

@@ -1,7 +1,6 @@
 """`equipoise methods`: what there is to choose from."""
 
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import stdout
 
 
 def methods(name: str | None = None, /, *, json: Flag = False) -> int:
@@ -17,8 +16,9 @@ def methods(name: str | None = None, /, *, json: Flag = False) -> int:
         Print one JSON document instead.
     """
     from equipoise.app.arguments.checks import one_of
+    from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.json_document import dump
-    from equipoise.app.views.method_views import card_table, list_table, methods_json
+    from equipoise.app.views.method_views import blocks, methods_json
     from equipoise.estimation.methods.registry import METHODS
 
     chosen = list(METHODS) if name is None else [one_of("method", name, list(METHODS))]
@@ -26,5 +26,5 @@ def methods(name: str | None = None, /, *, json: Flag = False) -> int:
     if json:
         print(dump(methods_json(cards)))
         return 0
-    stdout().print(list_table(cards) if name is None else card_table(cards[0]))
+    show(blocks(cards))
     return 0

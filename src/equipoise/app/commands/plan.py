@@ -21,6 +21,7 @@ def plan(
     seeking: Seeking = NOTHING_STATED,
     trials: Whole = 2400,
     seed: Whole = 1,
+    write: Path | None = None,
     json: Flag = False,
     out: Path | None = None,
 ) -> int:
@@ -51,28 +52,33 @@ def plan(
         How many manoeuvres to try.
     seed
         Seed of the search and of the platforms: the same seed plans the same.
+    write
+        Plan file to write; simulate, identify and balance take it with --plan.
     json
         Print one JSON document instead.
     out
-        Plan file to write; simulate, identify and balance take it with --plan.
+        Folder for report and plan.json.
     """
     from equipoise.app.arguments.checks import not_negative, positive, seed_of
     from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
     from equipoise.app.text.units import PER_DEG
     from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.files.atomic_folder import check_folder
 
     bed, seeking, seed = testbed_of(testbed), spelt_out(seeking), seed_of(seed)
     duration = positive("--duration-s", duration_s)
     rate = positive("--max-rate-deg-s", max_rate_deg_s) / PER_DEG
     count = int(not_negative("--moves", moves))
     tries = int(positive("--trials", trials))
+    if write is not None:
+        check_writable(write)
     if out is not None:
-        check_writable(out)
+        check_folder(out)
     earlier = None if prior_record is None else fitting_recording_of(str(prior_record), WHOLE, bed)
-    from equipoise.app.console.waiting import AT_TERMINAL
+    from equipoise.app.logbook.output import hand_over
+    from equipoise.app.runs.at_terminal import AT_TERMINAL
     from equipoise.app.runs.planning import Request, plan_file_of, run
-    from equipoise.app.text.json_document import dump
-    from equipoise.app.views.plan_views import plan_json, show_plan
+    from equipoise.app.views.plan_views import output_of
     from equipoise.estimation.method_contract import Options
 
     requested = Options(seeking.term, seeking.hold, seeking.prior)
@@ -80,14 +86,11 @@ def plan(
         bed, duration, quantity, criterion, count, rate, requested, earlier, tries, seed
     )
     done = run(request, AT_TERMINAL)
-    if json:
-        print(dump(plan_json(done)))
-    else:
-        show_plan(done)
-    if out is not None:
+    hand_over(output_of(done), json, out)
+    if write is not None:
         from equipoise.app.console.terminal import show_paths
         from equipoise.io.documents.plan_file import write_plan
 
-        write_plan(plan_file_of(done), bed, out)
-        show_paths([out], json)
+        write_plan(plan_file_of(done), bed, write)
+        show_paths([write], json)
     return 0 if done.planned.keeps else 1

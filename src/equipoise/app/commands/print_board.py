@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.types import Whole
-from equipoise.app.console.terminal import show_paths, stdout
+from equipoise.app.console.terminal import show_paths
 
 
 def print_board(
@@ -44,7 +44,9 @@ def print_board(
         TOML file to write with the board's keys, for `track` and for settings.
     """
     from equipoise.app.arguments.checks import positive
+    from equipoise.app.console.rich_blocks import show
     from equipoise.app.figures.base.print_sheet import DPI, check_paper, write_paper
+    from equipoise.app.text.blocks import paragraphs
     from equipoise.hardware.camera.aruco import Charuco, charuco_print
     from equipoise.hardware.camera.eye import board_of
     from equipoise.hardware.camera.tag_board import board_print
@@ -72,7 +74,7 @@ def print_board(
     board = board_of(reported, "print-board")
     write_paper(board_print(board, DPI), out)
     width, height = board.size
-    stdout().print(f"{1e3 * width:g} x {1e3 * height:g} mm over all markers", markup=False)
+    show(paragraphs(f"{1e3 * width:g} x {1e3 * height:g} mm over all markers"))
     if keys is not None:
         write_camera_keys(reported, keys)
     show_paths([out] if keys is None else [out, keys])

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import busy, stdout
+from equipoise.app.console.terminal import busy, show_paths
 
 if TYPE_CHECKING:
     from equipoise.model.bench import Bench
@@ -40,7 +40,7 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
         with busy("reaching the bench", announce=False):
             bench = held.enter_context(real_bench(Wanted(bed, out, foxglove)))
         _record(bench, out, duration)
-    stdout().print(f"wrote {out}", markup=False)
+    show_paths([out])
     return 0
 
 

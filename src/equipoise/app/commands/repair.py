@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.console.terminal import show_paths, stdout
+from equipoise.app.console.terminal import show_paths
 
 if TYPE_CHECKING:
     from equipoise.io.mcap.mcap_repair import Repaired
@@ -22,13 +22,14 @@ def repair(file: str, /, *, out: Path) -> int:
     out
         File to write, .mcap.
     """
+    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.text.blocks import paragraphs
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.mcap.mcap_repair import repair as repaired
 
     check_writable(out)
     done = repaired(file, out)
-    for sentence in _sentences(file, done):
-        stdout().print(sentence, markup=False)
+    show(paragraphs(*_sentences(file, done)))
     if done.written:
         show_paths([out])
     return 0

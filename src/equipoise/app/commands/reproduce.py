@@ -39,24 +39,11 @@ def reproduce(
     if out is not None:
         check_folder(out)
     runs = _slews(seed)
-    _report(runs, seed, json, out)
-    return 0
-
-
-def _report(runs: "list[Manoeuvre]", seed: int, json: bool, out: Path | None) -> None:
-    """Print the result, and write it down if that is asked for."""
     from equipoise.app.logbook.output import hand_over
-    from equipoise.app.report.write import write_account
-    from equipoise.app.views.lee_views import account_of, document_of, show_result
-    from equipoise.study.papers.lee_course import courses_of
+    from equipoise.app.views.study.lee_views import output_of
 
-    document = document_of(runs, seed)
-
-    def written(folder: Path) -> list[Path]:
-        courses = [courses_of(run.slew.recording, run.testbed) for run in runs]
-        return write_account(account_of(runs, courses, seed), document, "reproduce", folder)
-
-    hand_over(document, lambda: show_result(runs), written, json, out)
+    hand_over(output_of(runs, seed), json, out)
+    return 0
 
 
 def _slews(seed: int) -> "list[Manoeuvre]":

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.types import Names, Whole
-from equipoise.app.console.terminal import busy, stdout
+from equipoise.app.console.terminal import busy, show_paths
 from equipoise.model.errors import InputError
 
 
@@ -56,5 +56,5 @@ def simulate(
             else planned_swing(bed, planned.manoeuvre, drawn)
         )
         write_recording(recording, out)
-    stdout().print(f"wrote {out}", markup=False)
+    show_paths([out])
     return 0

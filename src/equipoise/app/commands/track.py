@@ -5,10 +5,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import counted, show_paths, stdout
+from equipoise.app.console.terminal import counted, show_paths
 
 if TYPE_CHECKING:
     from equipoise.app.runs.camera_tracking import Track
+    from equipoise.app.text.blocks import Blocks
+    from equipoise.model.arrays import Vector3
 
 CAMERAS = ("camera:", "http:")
 
@@ -48,6 +50,7 @@ def track(
     """
     from equipoise.app.arguments.checks import positive
     from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.console.rich_blocks import show
     from equipoise.app.runs import camera_tracking
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.format_registry import format_to_write
@@ -71,31 +74,40 @@ def track(
         else:
             found = camera_tracking.tracked(Path(source), unit, rate, on_progress)
     recording = camera_tracking.recording_of_track(found, source)
-    _report(found)
+    show(_track_blocks(found))
     if level:
-        up, spread = camera_tracking.up_from(found, unit)
-        for key, value in zip(("up_x", "up_y", "up_z"), up, strict=True):
-            stdout().print(f"{key} = {value:.6f}", markup=False)
-        stdout().print(f"~ spread {math.degrees(spread):.3f} deg from picture to picture")
+        show(_up_blocks(*camera_tracking.up_from(found, unit)))
     if out is not None:
         write_recording(recording, out)
         show_paths([out])
     return 0
 
 
-def _report(found: "Track") -> None:
-    """Say how many pictures gave an attitude, and how well."""
+def _track_blocks(found: "Track") -> "Blocks":
+    """Return how many pictures gave an attitude, and how well."""
     import numpy as np
 
-    console = stdout()
-    console.print(f"the board was seen in {len(found.t)} of {found.pictures} pictures")
-    if found.sds:
-        median = math.degrees(float(np.median(found.sds)))
-        console.print(f"stated error of an attitude: {median:.4f} deg per axis, median")
-    for count, what in (
+    from equipoise.app.text.blocks import items, paragraphs
+
+    counts = (
         (found.without, "without the board"),
         (found.ambiguous, "in which two attitudes fit alike"),
         (found.broken, "broken or dropped"),
-    ):
-        if count:
-            console.print(f"~ {count} pictures {what}")
+    )
+    median = math.degrees(float(np.median(found.sds))) if found.sds else 0.0
+    return (
+        *paragraphs(
+            f"the board was seen in {len(found.t)} of {found.pictures} pictures",
+            f"stated error of an attitude: {median:.4f} deg per axis, median" if found.sds else "",
+        ),
+        *items((f"{count} pictures {what}" for count, what in counts if count), "quiet"),
+    )
+
+
+def _up_blocks(up: "Vector3", spread: float) -> "Blocks":
+    """Return which way is up for the camera, as keys of its settings."""
+    from equipoise.app.text.blocks import items, paragraphs
+
+    keys = zip(("up_x", "up_y", "up_z"), up, strict=True)
+    off = f"spread {math.degrees(spread):.3f} deg from picture to picture"
+    return (*paragraphs(*(f"{key} = {value:.6f}" for key, value in keys)), *items((off,), "quiet"))

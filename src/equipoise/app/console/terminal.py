@@ -2,14 +2,13 @@
 
 import itertools
 import sys
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from equipoise.app.console.keyboard_interrupt import held_back
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
     from pathlib import Path
 
     from rich.console import Console, RenderableType
@@ -19,6 +18,9 @@ if TYPE_CHECKING:
 COMPILING = "compiling kernels, once"
 _DRAWN_ON: list["Console"] = []  # consoles with a sign of life
 REFRESHES = 8.0  # Hz, chosen: as often as a person can follow, at little cost
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+Spreading = Callable[[Callable[[Item], Result], Sequence[Item]], Iterator[Result]]
 
 
 def stdout() -> "Console":
@@ -124,6 +126,32 @@ def counted(what: str) -> "Generator[Callable[[float], None]]":
     with Progress(*columns, console=console, transient=True) as progress:
         bar = progress.add_task(what, total=1.0)
         yield lambda share: progress.update(bar, completed=share)
+
+
+def spread_over(workers: int, doing: str) -> Spreading[Item, Result]:
+    """Return a way to do work on items in so many processes; results come in the items' order."""
+
+    def spread(work: Callable[[Item], Result], items: Sequence[Item]) -> Iterator[Result]:
+        from concurrent.futures import ProcessPoolExecutor
+        from multiprocessing import get_context
+
+        from rich.progress import (
+            BarColumn,
+            MofNCompleteColumn,
+            Progress,
+            TextColumn,
+            TimeElapsedColumn,
+        )
+
+        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
+                   TimeElapsedColumn())  # fmt: skip
+        with (
+            Progress(*columns, console=stderr(), transient=True) as progress,
+            ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool,
+        ):
+            yield from progress.track(pool.map(work, items), len(items), description=doing)
+
+    return spread
 
 
 def watched(

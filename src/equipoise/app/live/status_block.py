@@ -100,6 +100,21 @@ class TerminalView:
         return ["com, um", *reported, f"at {self._step.time:.1f} s"]
 
 
+class RecordingView(TerminalView):
+    """The newest numbers, and what share of the record there is, in which file."""
+
+    def __init__(self, testbed: Testbed, file: Path, begin: float, duration: float) -> None:
+        super().__init__(testbed)
+        self._file, self._begin, self._duration = file, begin, duration
+
+    def lines(self) -> list[list[str]]:
+        """Return what is known, in groups: a name, and short texts."""
+        share = min(max(self.newest.time - self._begin, 0.0) / self._duration, 1.0)
+        done = ["record", f"{share:4.0%} of {self._duration:g} s", self._file.name]
+        rows = [f"{name} {number}" for name, number in self.newest.counts.items()]
+        return [*super().lines(), done, ["rows", *rows] if rows else []]
+
+
 def filled(group: Sequence[str], width: int) -> list[str]:
     """Return a name and texts side by side, as many to a line as it has room for."""
     name, *texts = group
@@ -126,18 +141,3 @@ def watched_by(view: TerminalView, bench: Bench) -> Bench:
 def _um(value: float, sd: float) -> str:
     """Return a coordinate in the digits of the steps' sentences."""
     return f"{fixed(value, 1)} +/- {fixed(sd, 1)}" if math.isfinite(sd) else "not seen"
-
-
-class RecordingView(TerminalView):
-    """The newest numbers, and what share of the record there is, in which file."""
-
-    def __init__(self, testbed: Testbed, file: Path, begin: float, duration: float) -> None:
-        super().__init__(testbed)
-        self._file, self._begin, self._duration = file, begin, duration
-
-    def lines(self) -> list[list[str]]:
-        """Return what is known, in groups: a name, and short texts."""
-        share = min(max(self.newest.time - self._begin, 0.0) / self._duration, 1.0)
-        done = ["record", f"{share:4.0%} of {self._duration:g} s", self._file.name]
-        rows = [f"{name} {number}" for name, number in self.newest.counts.items()]
-        return [*super().lines(), done, ["rows", *rows] if rows else []]

@@ -1,35 +1,34 @@
-"""What every command does with its result: print it or its JSON document, and write it down."""
+"""What every command does with its result: print its blocks or its JSON, and write it down."""
 
-from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from equipoise.app.console.rich_blocks import show
 from equipoise.app.console.terminal import busy, show_paths, stderr
 from equipoise.app.logbook.run_folder import own_folder
-from equipoise.app.text.json_document import View, dump
+from equipoise.app.report.run_record import Output
+from equipoise.app.report.write import write_output
+from equipoise.app.text.json_document import dump
 
 
-def hand_over(
-    document: View,
-    show: Callable[[], None],
-    write: Callable[[Path], Sequence[Path]],
-    json: bool,
-    out: Path | None,
-) -> None:
-    """Print the document, or show the result; write it into ``out`` if that is asked for."""
+def hand_over(output: Output, json: bool, out: Path | None, below: bool = False) -> None:
+    """Print the document or the blocks; write the report into ``out`` if that is requested.
+
+    ``below`` sets the blocks off from what was printed on the way.
+    """
     if json:
-        print(dump(document))
+        print(dump(output.document))
     else:
-        show()
+        show(output.blocks, below)
     if out is not None:
         with busy("drawing"):
-            paths = write(out)
+            paths = write_output(output, out)
         show_paths(paths, json)
 
 
-def keep(write: Callable[[Path], Sequence[Path]], kind: str, platform: str) -> None:
+def keep(output: Output, platform: str) -> None:
     """Write a result into a folder of its own among the runs, if runs are kept."""
-    own = own_folder(kind, platform)
+    own = None if output.logged is None else own_folder(output.logged.kind, platform)
     if own is not None:
         with busy("writing the report", announce=False):
-            write(own)
+            write_output(output, own)
         stderr().print(f"kept in {own}", markup=False)

@@ -5,10 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from datetime import datetime
 from typing import cast
 
-from rich.text import Text
-
-from equipoise.app.console.rich_tables import quiet_table
-from equipoise.app.console.terminal import stdout
+from equipoise.app.text.blocks import Blocks, Column, number, prose, table
 from equipoise.app.text.json_document import View
 from equipoise.io.documents.logbook import Logbook
 from equipoise.model.logged_run import Build
@@ -16,7 +13,8 @@ from equipoise.model.logged_run import Build
 BUILDS = "equipoise/builds/1"
 NOTHING = "comments or layout alone"
 NONE = "none"
-HEADS = ("platform", "build", "first run", "last run", "runs", "changed since the one before")
+COLUMNS = (prose("platform"), Column("build"), Column("first run"), Column("last run"),
+           number("runs"), prose("changed since the one before"))  # fmt: skip
 
 
 def letters(book: Logbook) -> Mapping[tuple[str, str], str]:
@@ -38,17 +36,14 @@ def lettered(number: int) -> str:
     return letters
 
 
-def show_builds(book: Logbook, shown: Sequence[Build]) -> None:
-    """Print a line for each testbed file, and below it what changed, line by line."""
-    table = quiet_table()
-    for head in HEADS:
-        justify = "right" if head == "runs" else "left"
-        table.add_column(head, justify=justify, no_wrap=head not in (HEADS[0], HEADS[-1]))
-    for build, letter, changes in described(book, shown):
-        cells = (build.platform, letter, _day(build.first), _day(build.last), str(build.runs),
-                 "\n".join(changes))  # fmt: skip
-        table.add_row(*map(Text, cells))
-    stdout().print(table)
+def builds_blocks(book: Logbook, shown: Sequence[Build]) -> Blocks:
+    """Return a line for each testbed file, and in it what changed, line by line."""
+    rows = (
+        (build.platform, letter, _day(build.first), _day(build.last), str(build.runs),
+         "\n".join(changes))
+        for build, letter, changes in described(book, shown)
+    )  # fmt: skip
+    return (table("", COLUMNS, rows),)
 
 
 def builds_json(book: Logbook, shown: Sequence[Build]) -> View:
@@ -98,8 +93,8 @@ def _values(node: object, path: str = "") -> Iterator[tuple[str, str]]:
             yield from _values(below, f"{path}.{key}" if path else key)
         return
     tables = cast("list[dict[str, object]]", node if _is_tables(node) else [])
-    for number, each in enumerate(tables, 1):
-        yield from _values(each, f"{path}.{each.get('name', number)}")
+    for k, each in enumerate(tables, 1):
+        yield from _values(each, f"{path}.{each.get('name', k)}")
     if not tables:
         yield path, str(node)
 

@@ -3,38 +3,57 @@
 import math
 from collections.abc import Sequence
 
-from equipoise.app.console.rich_tables import quiet_table
-from equipoise.app.console.terminal import stdout
 from equipoise.app.logbook.testbed_history import letters
+from equipoise.app.text.blocks import (
+    Blocks,
+    Column,
+    Paragraph,
+    Row,
+    Table,
+    Tone,
+    number,
+    paragraphs,
+    table,
+)
 from equipoise.app.text.json_document import View, parameter_json
 from equipoise.app.text.numbers import decimals_for, fixed, is_known
-from equipoise.app.text.sheet import Sheet
 from equipoise.app.text.units import unit_for
 from equipoise.io.documents.logbook import Logbook
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA, Parameter, normalised_difference
 from equipoise.model.logged_run import LoggedRun
 
-STYLE = {"passed": "green", "usable": "green", "failed": "red", "halted": "red",
-         "not usable": "red", "cannot tell": "yellow"}  # fmt: skip
+TONES: dict[str, Tone] = {
+    "passed": "good",
+    "usable": "good",
+    "failed": "bad",
+    "halted": "bad",
+    "not usable": "bad",
+    "cannot tell": "caution",
+}
 MEANING = "com: as judged, masses as they stand; of identify: masses at home"
 MINUTE = 16  # characters of a time, to the minute
 LOGBOOK, COMPARED = "equipoise/logbook/1", "equipoise/runs-compared/1"
 
 
-def show_runs(book: Logbook, runs: Sequence[LoggedRun]) -> None:
-    """Print a line for each run; the centre of mass as it was judged, else with masses at home."""
-    table = quiet_table()
-    for head in ("", "made at", "platform", "build", "what", "by", "outcome", "com, um"):
-        table.add_column(head, justify="right" if not head else "left", no_wrap=head != "platform")
+def runs_blocks(book: Logbook, runs: Sequence[LoggedRun]) -> Blocks:
+    """Return a line for each run; the centre of mass as it was judged, else with masses at home."""
+    if not runs:
+        return paragraphs("No such run.")
+    headings = ("made at", "platform", "build", "what", "by", "outcome", "com, um")
+    columns = (number(""), *(Column(h, fold=h == "platform") for h in headings))
     build = letters(book)
-    for number, run in enumerate(runs, 1):
-        table.add_row(
-            str(number), local(run), run.platform, build[run.platform, run.configuration],
-            run.kind, run.method, run.outcome, com_text(book, run), style=STYLE[run.outcome],
-        )  # fmt: skip
-    stdout().print(table)
-    stdout().print(MEANING, style="dim")
+    rows = (
+        Row(
+            (
+                str(k), local(run), run.platform, build[run.platform, run.configuration],
+                run.kind, run.method, run.outcome, com_text(book, run),
+            ),
+            TONES[run.outcome],
+        )
+        for k, run in enumerate(runs, 1)
+    )  # fmt: skip
+    return table("", columns, rows), Paragraph(MEANING, "quiet")
 
 
 def local(run: LoggedRun) -> str:
@@ -70,7 +89,7 @@ def chosen(runs: Sequence[LoggedRun], name: str) -> LoggedRun:
     return by_name[name]
 
 
-def compared(book: Logbook, runs: Sequence[LoggedRun]) -> Sheet:
+def compared(book: Logbook, runs: Sequence[LoggedRun]) -> Table:
     """Return the numbers of several runs side by side.
 
     Below each of the later ones stands how far it is from the first, in sd of the difference of
@@ -78,7 +97,11 @@ def compared(book: Logbook, runs: Sequence[LoggedRun]) -> Sheet:
     """
     numbers = [_by_name(book, run) for run in runs]
     names = [name for name in (*COM, *INERTIA) if all(name in each for each in numbers)]
-    heads = ["", "unit", *(f"{k}: {local(run)}" for k, run in enumerate(runs, 1))]
+    columns = (
+        Column(),
+        Column("unit"),
+        *(number(f"{k}: {local(r)}") for k, r in enumerate(runs, 1)),
+    )
     lines: list[list[str]] = []
     for name in names:
         first, *others = (each[name] for each in numbers)
@@ -86,7 +109,7 @@ def compared(book: Logbook, runs: Sequence[LoggedRun]) -> Sheet:
         reported = [f"{_short(p)} ({_separation(p, first)})" for p in others]
         lines.append([name, unit.name, _short(first), *reported])
     remarks = [f"{k}: {r.name}, {r.platform}, {r.method}" for k, r in enumerate(runs, 1)]
-    return Sheet("Masses at home; in brackets: from the first, in sd", heads, lines, remarks)
+    return table("Masses at home; in brackets: from the first, in sd", columns, lines, remarks)
 
 
 def _by_name(book: Logbook, run: LoggedRun) -> dict[str, Parameter]:

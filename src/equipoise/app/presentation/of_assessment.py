@@ -4,10 +4,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from equipoise.app.presentation import of_estimate
-from equipoise.app.presentation.block_parts import sheet_blocks
 from equipoise.app.presentation.tables import Arrays, Table
 from equipoise.app.runs.assessment import AssessedPlatform
-from equipoise.app.text.blocks import Block, Claim, Items
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_document import View
 
 if TYPE_CHECKING:
@@ -20,19 +19,11 @@ def lines(shown: AssessedPlatform) -> Iterator[str]:
     yield from of_estimate.parameter_lines(shown.estimate)
 
 
-def blocks(shown: AssessedPlatform) -> Iterator[Block]:
-    """Yield the verdict, findings and tables."""
-    from equipoise.app.views.assess_views import change_sheet, hours_sheet, sheets_of
+def blocks(shown: AssessedPlatform) -> Blocks:
+    """Return what the command prints."""
+    from equipoise.app.views import assess_views
 
-    last = shown.steps[-1]
-    yield Claim(last.sentence, shown.verdict is None or shown.verdict.passed)
-    yield Items(tuple(finding.sentence for finding in shown.findings))
-    for sheet in sheets_of(shown.done):
-        yield from sheet_blocks(sheet)
-    if shown.before is not None:
-        yield from sheet_blocks(change_sheet(shown.before, shown.done))
-    if shown.hours is not None:
-        yield from sheet_blocks(hours_sheet(shown.hours))
+    return assess_views.blocks(shown)
 
 
 def document(shown: AssessedPlatform) -> View:

@@ -3,17 +3,15 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from equipoise.app.presentation.block_parts import moments, step_table
+from equipoise.app.presentation.step_rows import step_table
 from equipoise.app.presentation.tables import Arrays, Table, of_table
-from equipoise.app.runs.balancing import Balancing, change_of, measurements
-from equipoise.app.text.before_after import HEADS, rows
-from equipoise.app.text.blocks import Block, Claim, Grid, Heading
+from equipoise.app.runs.balancing import Balancing, measurements
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_document import View
+from equipoise.app.text.run_blocks import moments
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-BESIDE = 2  # columns of the truth, which only a simulated platform has
 
 
 def lines(done: Balancing) -> Iterator[str]:
@@ -25,16 +23,11 @@ def lines(done: Balancing) -> Iterator[str]:
     yield f"  {len(done.steps)} steps, {moves} of them moves, {end:.4g} s of bench time"
 
 
-def blocks(done: Balancing) -> Iterator[Block]:
-    """Yield steps, before and after, and the verdict."""
-    yield from moments(done.steps)
-    change = change_of(done)
-    if change is not None:
-        found = list(rows(change))
-        count = len(HEADS) if found[0].truth_before else len(HEADS) - BESIDE
-        yield Heading("Before and after")
-        yield Grid(HEADS[:count], tuple(tuple(row)[:count] for row in found))
-    yield Claim(done.verdict.sentence, done.verdict.passed)
+def blocks(done: Balancing) -> Blocks:
+    """Return steps, before and after, and the verdict."""
+    from equipoise.app.views import balance_views
+
+    return (*moments(done.steps), *balance_views.blocks(done))
 
 
 def document(done: Balancing) -> View:

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from equipoise.app.api.catalogues import Catalogue
 from equipoise.app.presentation.tables import Arrays, Table, of_table
-from equipoise.app.text.blocks import Block, Grid
+from equipoise.app.text.blocks import Blocks, prose
+from equipoise.app.text.blocks import table as text_table
 from equipoise.app.text.json_document import View
 
 if TYPE_CHECKING:
@@ -24,16 +25,18 @@ def _texts(card: Any) -> dict[str, str]:
             for key, value in asdict(card).items()}  # fmt: skip
 
 
-def blocks(catalogue: Catalogue) -> Iterator[Block]:
-    """Yield one table."""
-    columns = table(catalogue).columns
-    rows = tuple(zip(*columns.values(), strict=True))
-    yield Grid(tuple(key.replace("_", " ") for key in columns), rows, tuple(range(len(columns))))
+def blocks(catalogue: Catalogue) -> Blocks:
+    """Return one table."""
+    of = table(catalogue).columns
+    rows = zip(*of.values(), strict=True)
+    title = f"{catalogue.kind.capitalize()}s"
+    return (text_table(title, (prose(key.replace("_", " ")) for key in of), rows),)
 
 
 def document(catalogue: Catalogue) -> View:
     """Return what `equipoise methods --json` or `equipoise laws --json` prints."""
-    from equipoise.app.views import law_views, method_views
+    from equipoise.app.views import method_views
+    from equipoise.app.views.study import law_views
 
     cards: Any = list(catalogue.cards.values())
     if catalogue.kind == "method":

@@ -3,10 +3,9 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from equipoise.app.presentation.block_parts import sheet_blocks
 from equipoise.app.presentation.tables import Arrays, Table, of_table
 from equipoise.app.runs.comparison import Compared
-from equipoise.app.text.blocks import Block, Claim
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_document import View
 
 if TYPE_CHECKING:
@@ -15,26 +14,23 @@ if TYPE_CHECKING:
 
 def lines(done: Compared) -> Iterator[str]:
     """Yield what is recommended."""
-    from equipoise.app.views.comparison_report import advice
+    from equipoise.app.views.study.comparison_report import advice
 
     yield f"Comparison on {done.testbed.name}, platforms: {done.requested['platforms']}"
     for each in advice(done):
         yield f"  {each.sentence}"
 
 
-def blocks(done: Compared) -> Iterator[Block]:
-    """Yield every table, and what is recommended."""
-    from equipoise.app.views.comparison_report import advice, all_sheets
+def blocks(done: Compared) -> Blocks:
+    """Return what the command prints."""
+    from equipoise.app.views.study import comparison_report
 
-    for sheet in all_sheets(done):
-        yield from sheet_blocks(sheet)
-    for each in advice(done):
-        yield Claim(each.sentence, each.name is not None)
+    return comparison_report.blocks(done)
 
 
 def document(done: Compared) -> View:
     """Return what `equipoise compare --json` prints."""
-    from equipoise.app.views import comparison_report
+    from equipoise.app.views.study import comparison_report
 
     return comparison_report.document(done)
 
@@ -67,7 +63,7 @@ def arrays(done: Compared) -> Arrays:
 
 def figure(done: Compared) -> "Figure | None":
     """Return the first figure of the report."""
-    from equipoise.app.views.comparison_report import pictures
+    from equipoise.app.views.study.comparison_report import pictures
 
     first = next(pictures(done), None)
     return None if first is None else first.figure

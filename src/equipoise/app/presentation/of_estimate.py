@@ -5,16 +5,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from equipoise.app.console.rich_results import cells, groups, residual_line
 from equipoise.app.presentation.tables import Arrays, Table, Variable
-from equipoise.app.text.blocks import Block, Claim, Grid, Heading, Items, Paragraph
+from equipoise.app.text.blocks import Blocks, paragraphs
+from equipoise.app.text.estimate_text import (
+    cells,
+    estimate_tables,
+    outcome_claim,
+    residual_line,
+    unobservable_items,
+)
 from equipoise.app.text.json_document import View, estimate_json
 from equipoise.model.estimate import COM, INERTIA, Estimate
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HEADS = ("", "value", "sd", "95 % interval", "unit")
 NAMED = (("com", COM), ("inertia_P", INERTIA))
 
 
@@ -43,17 +48,15 @@ def _values(estimate: Estimate, names: Sequence[str]) -> str:
     return f"{', '.join(said)} {rows[0][-1]}"
 
 
-def blocks(estimate: Estimate) -> Iterator[Block]:
-    """Yield the outcome, a table a group, what cannot be observed, and the residual."""
-    yield Claim(estimate.outcome.sentence, estimate.outcome.usable)
-    for title, group in groups(estimate):
-        if group:
-            yield Heading(title)
-            yield Grid(HEADS, tuple(cells(parameter) for parameter in group))
-    if estimate.unobservable:
-        yield Items(estimate.unobservable)
-    if estimate.residual is not None:
-        yield Paragraph(residual_line(estimate.residual))
+def blocks(estimate: Estimate) -> Blocks:
+    """Return the outcome, a table a group, what is unobservable, and the residual."""
+    residual = "" if estimate.residual is None else residual_line(estimate.residual)
+    return (
+        outcome_claim(estimate),
+        *estimate_tables(estimate),
+        *unobservable_items(estimate),
+        *paragraphs(residual),
+    )
 
 
 def document(estimate: Estimate) -> View:

@@ -4,11 +4,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from equipoise.app.presentation import of_estimate
-from equipoise.app.presentation.block_parts import moments
 from equipoise.app.presentation.tables import Arrays, Table
 from equipoise.app.runs.identification import Identification
-from equipoise.app.text.blocks import Block, Items
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_document import View
+from equipoise.app.text.run_blocks import finding_items
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,11 +21,11 @@ def lines(done: Identification) -> Iterator[str]:
     yield from of_estimate.parameter_lines(estimate)
 
 
-def blocks(done: Identification) -> Iterator[Block]:
-    """Yield findings, steps and the estimate."""
-    yield Items(tuple(finding.sentence for finding in done.findings))
-    yield from moments(done.steps)
-    yield from of_estimate.blocks(done.estimate)
+def blocks(done: Identification) -> Blocks:
+    """Return findings, and what the command prints."""
+    from equipoise.app.views import identify_views
+
+    return (*finding_items(done.findings), *identify_views.blocks(done))
 
 
 def document(done: Identification) -> View:
@@ -48,8 +48,6 @@ def arrays(done: Identification) -> Arrays:
 def figure(done: Identification) -> "Figure | None":
     """Return the first figure of the report, else the intervals."""
     from equipoise.app.figures.catalogue import of_estimate as pictures
-    from equipoise.procedure.identification.record_courses import identification_courses
 
-    courses = identification_courses(done.recording, done.testbed, done.steps)
-    first = next(pictures(done.recording, done.testbed, done.estimate, courses), None)
+    first = next(pictures(done.recording, done.testbed, done.estimate, done.courses()), None)
     return of_estimate.figure(done.estimate) if first is None else first.figure

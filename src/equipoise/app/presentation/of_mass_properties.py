@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from equipoise.app.presentation.tables import Arrays, Table, Variable
-from equipoise.app.text.blocks import Block, Grid
+from equipoise.app.text.blocks import Blocks, Column, number
+from equipoise.app.text.blocks import table as text_table
 from equipoise.app.text.json_document import View, numbers
 from equipoise.app.text.units import unit_for
 from equipoise.model.estimate import COM, INERTIA
@@ -35,15 +36,16 @@ def _elements(body: MassProperties) -> list[tuple[str, float]]:
     return [(name, float(body.inertia_P[at])) for name, at in zip(INERTIA, ELEMENTS, strict=True)]
 
 
-def blocks(body: MassProperties) -> Iterator[Block]:
-    """Yield one table."""
+def blocks(body: MassProperties) -> Blocks:
+    """Return one table."""
     of = table(body).columns
     rows = list[tuple[str, str, str]]()
     for name, si, value in zip(of["name"], of["unit"], of["value"], strict=True):
         unit = unit_for(name, si) if si == "m" else None
         shown = value * (1.0 if unit is None else unit.factor)
         rows.append((name, f"{shown:.5g}", si if unit is None else unit.name))
-    yield Grid(("", "value", "unit"), tuple(rows))
+    columns = Column(), number("value"), Column("unit")
+    return (text_table("Mass properties, masses at home", columns, rows),)
 
 
 def document(body: MassProperties) -> View:

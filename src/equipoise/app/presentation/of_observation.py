@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.presentation.tables import Arrays, Table, of_table
 from equipoise.app.runs.observation import Observation
-from equipoise.app.text.blocks import Block, Grid, Heading, Items
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_document import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import unit_for
@@ -13,8 +13,6 @@ from equipoise.model.estimate import COM, INERTIA
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-HEADS = ("", "least sd", "of J", "testbed's sd", "unit")
 
 
 def lines(done: Observation) -> Iterator[str]:
@@ -30,19 +28,11 @@ def lines(done: Observation) -> Iterator[str]:
             yield f"  {head:10s} least sd {', '.join(sds)} {unit.name}"
 
 
-def blocks(done: Observation) -> Iterator[Block]:
-    """Yield the bounds, what filters observe, and what is not observable."""
-    from equipoise.app.views.observe_views import rows_of
+def blocks(done: Observation) -> Blocks:
+    """Return what the command prints."""
+    from equipoise.app.views import observe_views
 
-    yield Heading("Least sd that any method can reach")
-    yield Grid(HEADS, tuple(rows_of(done.bounds, done.bounds.names)))
-    yield Heading("What filters can observe of their state")
-    yield Grid(("filter", "possible", "rank", "size"), tuple(
-        (view.name, str(view.possible), "" if view.rank is None else str(view.rank),
-         str(view.size)) for view in done.filters
-    ))  # fmt: skip
-    if done.bounds.sentences or done.bounds.cautions:
-        yield Items((*done.bounds.cautions, *done.bounds.sentences))
+    return observe_views.blocks(done)
 
 
 def document(done: Observation) -> View:

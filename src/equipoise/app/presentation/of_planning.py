@@ -5,9 +5,8 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.presentation.tables import Arrays, Table, of_table
 from equipoise.app.runs.planning import Planning
-from equipoise.app.text.blocks import Block, Claim, Grid, Heading, Items, Pairs
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_document import View
-from equipoise.app.text.units import unit_for
 from equipoise.model.estimate import COM, INERTIA
 
 if TYPE_CHECKING:
@@ -25,21 +24,11 @@ def lines(done: Planning) -> Iterator[str]:
         yield f"  {when:8s} {what}"
 
 
-def blocks(done: Planning) -> Iterator[Block]:
-    """Yield predicted sd, what to do, what is not observed, and what the plan gains."""
-    from equipoise.app.views.plan_views import sd_text, steps_of, verdict
+def blocks(done: Planning) -> Blocks:
+    """Return what the command prints."""
+    from equipoise.app.views import plan_views
 
-    units = [unit_for(name, "m" if name in COM else "kg m2") for name in NAMES]
-    yield Heading("Predicted sd")
-    yield Grid(("", "usual", "planned", "unit"), tuple(
-        (name, sd_text(done.usual, name, unit), sd_text(done.planned, name, unit), unit.name)
-        for name, unit in zip(NAMES, units, strict=True)
-    ))  # fmt: skip
-    yield Heading("What to do")
-    yield Pairs(tuple(steps_of(done.planned.manoeuvre, done.request.testbed)))
-    if done.planned.sentences:
-        yield Items(done.planned.sentences)
-    yield Claim(verdict(done), done.planned.keeps)
+    return plan_views.blocks(done)
 
 
 def document(done: Planning) -> View:

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from equipoise.app.presentation.tables import Arrays, Table, Variable
-from equipoise.app.text.blocks import Block, Grid, Items
+from equipoise.app.text.blocks import Blocks, Column, items, number, prose
+from equipoise.app.text.blocks import table as text_table
 from equipoise.app.text.json_document import View, numbers
 from equipoise.model.arrays import Floats
 from equipoise.model.recording import CHANNELS, Recording, Samples
@@ -66,15 +67,14 @@ def _span(recording: Recording) -> str:
     return f"{first:.4g} to {last:.6g} s"
 
 
-def blocks(recording: Recording) -> Iterator[Block]:
-    """Yield a row a channel, and what reading the file set right."""
-    rows = tuple(
+def blocks(recording: Recording) -> Blocks:
+    """Return a row a channel, and what reading the file corrected."""
+    rows = (
         (name, ", ".join(parts(recording, name)), str(len(c)), f"{c.t[0]:.4g}", f"{c.t[-1]:.6g}")
         for name, c in channels(recording).items()
     )
-    yield Grid(("channel", "of", "rows", "from, s", "to, s"), rows, (1,))
-    if recording.notes:
-        yield Items(recording.notes)
+    columns = Column("channel"), prose("of"), number("rows"), number("from", "s"), number("to", "s")
+    return (text_table("Channels", columns, rows), *items(recording.notes))
 
 
 def document(recording: Recording) -> View:

@@ -4,10 +4,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from equipoise.app.presentation.tables import Arrays, Table, of_table
-from equipoise.app.text.blocks import Block, Claim, Grid, Heading, Paragraph
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_document import View
-from equipoise.app.text.numbers import significant
-from equipoise.app.text.units import MICRO
 from equipoise.planning.sizing.sizing import Sizing
 
 if TYPE_CHECKING:
@@ -20,15 +18,11 @@ def lines(found: Sizing) -> Iterator[str]:
     yield f"  {found.limit}"
 
 
-def blocks(found: Sizing) -> Iterator[Block]:
-    """Yield the budget, reach, limit and verdict."""
-    yield Heading("Torque left, by cause")
-    yield Grid(("", "uN m rms", "from"), tuple(
-        (line.name, significant(line.torque * MICRO), line.basis) for line in found.budget.lines
-    ))  # fmt: skip
-    yield Paragraph(found.reached)
-    yield Paragraph(found.limit)
-    yield Claim(found.outcome.sentence, found.outcome.usable)
+def blocks(found: Sizing) -> Blocks:
+    """Return what the command prints."""
+    from equipoise.app.views import design_views
+
+    return design_views.blocks(found)
 
 
 def document(found: Sizing) -> View:

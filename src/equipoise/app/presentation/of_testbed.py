@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.presentation import of_mass_properties
 from equipoise.app.presentation.tables import Arrays, Table, of_table
-from equipoise.app.text.blocks import Block, Grid, Heading
+from equipoise.app.text.blocks import Blocks, Column, number
+from equipoise.app.text.blocks import table as text_table
 from equipoise.app.text.json_document import View
 from equipoise.app.text.units import GRAM, MM
 from equipoise.io.testbed.testbed_file import text_of_testbed
@@ -30,16 +31,16 @@ def lines(bed: Testbed) -> Iterator[str]:
         yield f"  devices    {', '.join(bed.device_names)}"
 
 
-def blocks(bed: Testbed) -> Iterator[Block]:
-    """Yield the body and the masses."""
-    yield Heading("Body, first guess, masses at home")
-    yield from of_mass_properties.blocks(bed.body)
-    yield Heading("Sliding masses")
-    yield Grid(("mass", "g", "travel, mm", "step, mm", "accuracy, mm"), tuple(
+def blocks(bed: Testbed) -> Blocks:
+    """Return the body and the masses."""
+    rows = (
         (mass.name, f"{mass.mass * GRAM:.4g}",
          f"{mass.travel[0] * MM:g} to {mass.travel[1] * MM:g}", f"{mass.resolution * MM:g}",
          f"{mass.accuracy * MM:.3g}") for mass in bed.masses
-    ))  # fmt: skip
+    )  # fmt: skip
+    units = number("mass", "g"), Column("travel", "mm"), number("step", "mm")
+    columns = Column("name"), *units, number("accuracy", "mm")
+    return (*of_mass_properties.blocks(bed.body), text_table("Sliding masses", columns, rows))
 
 
 def document(bed: Testbed) -> View:

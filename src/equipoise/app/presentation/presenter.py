@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
 
 from equipoise.app.presentation.tables import Arrays, Table, to_dataset, to_frame
-from equipoise.app.text.blocks import Block
+from equipoise.app.text.blocks import Blocks
 from equipoise.model.errors import InputError
 from equipoise.model.presentation import Shown
 
@@ -39,7 +39,7 @@ class Kind(Protocol):
         """Return a few lines: what it is, and the numbers that count, in the bench's units."""
         ...
 
-    def blocks(self, record: Any, /) -> Iterable[Block]:
+    def blocks(self, record: Any, /) -> Blocks:
         """Return tables and sentences, in the bench's units."""
         ...
 

@@ -1,80 +1,104 @@
-"""The report of a run, as a page of blocks. It adds no number of its own."""
+"""The report of a run, as a document of blocks. It adds no number of its own."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from equipoise.app.console.rich_results import cells, groups, noise_floor_line, residual_line
 from equipoise.app.figures.catalogue import Picture
-from equipoise.app.report.run_record import Account
-from equipoise.app.text.before_after import HEADS, rows
+from equipoise.app.report.run_record import RunRecord
 from equipoise.app.text.blocks import (
     Block,
-    Claim,
-    Drawn,
-    Grid,
+    Blocks,
+    Column,
+    Document,
+    Figure,
     Heading,
-    Items,
-    Moment,
-    Page,
     Pairs,
     Paragraph,
     Section,
+    number,
+    paragraphs,
+    table,
 )
-from equipoise.app.text.numbers import fixed
+from equipoise.app.text.estimate_text import estimate_tables, residual_line, unobservable_items
+from equipoise.app.text.run_blocks import finding_items, moment_of
 from equipoise.app.text.units import GRAM, MM, PER_DEG
 from equipoise.model.estimate import Estimate
+from equipoise.model.finding import Finding
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 
 ALL_OBSERVED = "Every quantity above was seen in the data or given beforehand."
+MASSES = (Column("sliding mass"), number("mass", "g"), number("travel", "mm"),
+          number("step", "mm"), number("accuracy (1 sd)", "mm"))  # fmt: skip
 
 
-def report(account: Account) -> Page:
-    """Return the page."""
-    sections = (section for part in SECTIONS for section in part(account))
-    return Page(account.title, account.testbed.name, tuple(sections))
+def report(record: RunRecord) -> Document:
+    """Return the document."""
+    return Document(record.title, record.testbed.name, tuple(_sections(record)))
 
 
-def _verdict(account: Account) -> Iterator[Section]:
-    if account.verdict is not None:
-        claim = Claim(account.verdict.sentence, account.verdict.passed)
-        floor = noise_floor_line(account.verdict)
-        yield Section("", (claim, Paragraph(floor)) if floor else (claim,))
-    elif account.estimate is not None:
-        outcome = account.estimate.outcome
-        yield Section("", (Claim(outcome.sentence, outcome.usable),))
+def _sections(record: RunRecord) -> Iterator[Section]:
+    if record.conclusion:
+        yield Section("", record.conclusion)
+    yield Section("What was asked", (_pairs(record.requested),))
+    yield Section("Platform", tuple(_platform(record.testbed)))
+    yield from record.sections
+    if record.figures:
+        yield Section("Figures", tuple(map(figure_of, record.figures)))
+    yield Section("Where this comes from", (_pairs(record.origin),))
 
 
-def _change(account: Account) -> Iterator[Section]:
-    if account.change is None:
-        return
-    lines = [list(row) for row in rows(account.change)]
-    last = len(HEADS) if any(line[-1] for line in lines) else len(HEADS) - 2
-    yield Section("Before and after", (_grid(HEADS[:last], (line[:last] for line in lines)),))
+def findings_section(findings: Sequence[Finding]) -> tuple[Section, ...]:
+    """Return what a recording holds; nothing where that is nothing."""
+    return (Section("What the recording holds", finding_items(findings)),) if findings else ()
 
 
-def _requested(account: Account) -> Iterator[Section]:
-    yield Section("What was asked", (_pairs(account.requested),))
+def steps_section(title: str, steps: Sequence[Step], figures: Mapping[Step, Picture]) -> Section:
+    """Return each step, and its figure if it has one."""
+    blocks: list[Block] = []
+    for step in steps:
+        blocks.append(moment_of(step))
+        if step in figures:
+            blocks.append(figure_of(figures[step]))
+    return Section(title, tuple(blocks))
 
 
-def _platform(account: Account) -> Iterator[Section]:
-    bed = account.testbed
-    masses = [
-        [
-            mass.name,
-            f"{mass.mass * GRAM:.4g}",
-            f"{mass.travel[0] * MM:g} to {mass.travel[1] * MM:g}",
-            f"{mass.resolution * MM:g}",
-            f"{mass.accuracy * MM:g}",
-        ]
-        for mass in bed.masses
-    ]
-    heads = ("sliding mass", "g", "travel, mm", "step, mm", "accuracy (1 sd), mm")
-    blocks: list[Block] = [_pairs(_platform_pairs(bed))]
-    if masses:
-        blocks.append(_grid(heads, masses))
+def estimate_sections(estimate: Estimate | None, *more: Block) -> tuple[Section, ...]:
+    """Return the mass properties, what else is to be said of them, and what was not seen."""
+    if estimate is None:
+        return ()
+    residual = "" if estimate.residual is None else residual_line(estimate.residual)
+    found: Blocks = (
+        Paragraph(estimate.outcome.sentence),
+        *estimate_tables(estimate),
+        *paragraphs(residual),
+        *more,
+    )
+    unobserved = unobservable_items(estimate) or (Paragraph(ALL_OBSERVED),)
+    return Section("Mass properties", found), Section("What the data cannot see", unobserved)
+
+
+def figure_of(picture: Picture) -> Figure:
+    """Return where a picture stands, and its caption."""
+    return Figure(picture.name, picture.caption)
+
+
+def _platform(bed: Testbed) -> Iterator[Block]:
+    yield _pairs(_platform_pairs(bed))
+    if bed.masses:
+        rows = (
+            (
+                mass.name,
+                f"{mass.mass * GRAM:.4g}",
+                f"{mass.travel[0] * MM:g} to {mass.travel[1] * MM:g}",
+                f"{mass.resolution * MM:g}",
+                f"{mass.accuracy * MM:g}",
+            )
+            for mass in bed.masses
+        )
+        yield table("", MASSES, rows)
     if bed.assumed:
-        blocks += [Heading("Assumed, not measured"), _pairs(bed.assumed)]
-    yield Section("Platform", tuple(blocks))
+        yield Heading("Assumed, not measured")
+        yield _pairs(bed.assumed)
 
 
 def _platform_pairs(bed: Testbed) -> dict[str, str]:
@@ -87,85 +111,5 @@ def _platform_pairs(bed: Testbed) -> dict[str, str]:
     return pairs
 
 
-def _findings(account: Account) -> Iterator[Section]:
-    if account.findings:
-        lines = ((f.kind, f.sentence) for f in account.findings)
-        yield Section("What the recording holds", (_grid(("", ""), lines, (1,)),))
-
-
-def _steps(account: Account) -> Iterator[Section]:
-    for title, steps in account.chapters.items():
-        yield Section(title, tuple(_reported(steps, account.step_pictures)))
-
-
-def _reported(steps: Sequence[Step], pictures: Mapping[Step, Picture]) -> Iterator[Block]:
-    """Yield each step, and its figure if it has one."""
-    for step in steps:
-        yield Moment(f"{fixed(step.time, 1)} s", step.kind, step.sentence)
-        if step in pictures:
-            yield _drawn(pictures[step])
-
-
-def _sheets(account: Account) -> Iterator[Section]:
-    for sheet in account.sheets:
-        table = _grid(sheet.heads, sheet.lines, sheet.words[1:])
-        yield Section(sheet.title, (table, *map(Paragraph, sheet.remarks)))
-
-
-def _mass_properties(account: Account) -> Iterator[Section]:
-    estimate = account.estimate
-    if estimate is None:
-        return
-    heads = ("", "value", "sd", "95 % interval", "unit")
-    blocks: list[Block] = [Paragraph(estimate.outcome.sentence)]
-    for title, group in groups(estimate):
-        if group:
-            blocks += [Heading(title), _grid(heads, map(cells, group))]
-    if estimate.residual is not None:
-        blocks.append(Paragraph(residual_line(estimate.residual)))
-    yield Section("Mass properties", tuple(blocks))
-
-
-def _unseen(account: Account) -> Iterator[Section]:
-    if account.estimate is not None:
-        yield Section("What the data cannot see", (_unseen_block(account.estimate),))
-
-
-def _unseen_block(estimate: Estimate) -> Block:
-    return Items(tuple(estimate.unobservable)) if estimate.unobservable else Paragraph(ALL_OBSERVED)
-
-
-def _figures(account: Account) -> Iterator[Section]:
-    if account.pictures:
-        yield Section("Figures", tuple(map(_drawn, account.pictures)))
-
-
-def _origin(account: Account) -> Iterator[Section]:
-    yield Section("Where this comes from", (_pairs(account.origin),))
-
-
-SECTIONS = (
-    _verdict,
-    _change,
-    _requested,
-    _platform,
-    _findings,
-    _steps,
-    _sheets,
-    _mass_properties,
-    _unseen,
-    _figures,
-    _origin,
-)
-
-
-def _drawn(picture: Picture) -> Drawn:
-    return Drawn(picture.name, picture.caption)
-
-
 def _pairs(pairs: Mapping[str, str]) -> Pairs:
     return Pairs(tuple(pairs.items()))
-
-
-def _grid(heads: Sequence[str], lines: Iterable[Sequence[str]], words: Sequence[int] = ()) -> Grid:
-    return Grid(tuple(heads), tuple(map(tuple, lines)), tuple(words))

@@ -1,8 +1,8 @@
-"""A page as one HTML file that needs no other."""
+"""A document as one HTML file that needs no other."""
 
 import base64
 from collections.abc import Iterable, Mapping, Sequence
-from functools import partial, singledispatch
+from functools import singledispatch
 from html import escape
 from importlib.resources import files
 from string import Template
@@ -10,25 +10,27 @@ from string import Template
 from equipoise.app.text.blocks import (
     Block,
     Claim,
-    Drawn,
-    Grid,
+    Column,
+    Document,
+    Figure,
     Heading,
     Items,
     Moment,
-    Page,
     Pairs,
     Paragraph,
+    Row,
     Section,
+    Table,
 )
 
 Images = Mapping[str, bytes]  # PNG, by name
 TEMPLATE = Template((files("equipoise.app.report") / "page.html").read_text(encoding="utf-8"))
 
 
-def html(page: Page, images: Images) -> str:
+def html(document: Document, images: Images) -> str:
     """Return the file's text."""
-    body = "\n".join(_section(section, images) for section in page.sections)
-    title, platform = escape(page.title), escape(page.platform)
+    body = "\n".join(_section(section, images) for section in document.sections)
+    title, platform = escape(document.title), escape(document.platform)
     return TEMPLATE.substitute(title=title, platform=platform, body=body)
 
 
@@ -40,15 +42,15 @@ def fragment(blocks: Iterable[Block]) -> str:
 def _section(section: Section, images: Images) -> str:
     head = f"<h2>{escape(section.title)}</h2>" if section.title else ""
     body = "".join(
-        _figure(b, images[b.name]) if isinstance(b, Drawn) else _set(b) for b in section.blocks
+        _figure(b, images[b.name]) if isinstance(b, Figure) else _set(b) for b in section.blocks
     )
     return f"<section>{head}{body}</section>"
 
 
-def _figure(drawn: Drawn, image: bytes) -> str:
+def _figure(figure: Figure, image: bytes) -> str:
     data = base64.b64encode(image).decode()
-    source = f'<img alt="{escape(drawn.name)}" src="data:image/png;base64,{data}">'
-    return f"<figure>{source}<figcaption>{escape(drawn.caption)}</figcaption></figure>"
+    source = f'<img alt="{escape(figure.name)}" src="data:image/png;base64,{data}">'
+    return f"<figure>{source}<figcaption>{escape(figure.caption)}</figcaption></figure>"
 
 
 @singledispatch
@@ -63,18 +65,19 @@ def _(block: Heading) -> str:
 
 @_set.register
 def _(block: Paragraph) -> str:
-    return f"<p>{escape(block.text)}</p>"
+    tone = "" if block.tone == "plain" else f' class="{block.tone}"'
+    return f"<p{tone}>{escape(block.text)}</p>"
 
 
 @_set.register
 def _(block: Claim) -> str:
-    kind = "good" if block.good else "bad"
-    return f'<p class="verdict {kind}">{escape(block.text)}</p>'
+    return f'<p class="verdict {block.tone}">{escape(block.text)}</p>'
 
 
 @_set.register
 def _(block: Items) -> str:
-    return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in block.texts) + "</ul>"
+    lines = (f'<li class="{item.tone}">{escape(item.text)}</li>' for item in block.items)
+    return f"<ul>{''.join(lines)}</ul>"
 
 
 @_set.register
@@ -90,17 +93,35 @@ def _(block: Moment) -> str:
 
 
 @_set.register
-def _(block: Grid) -> str:
-    head = "".join(f"<th>{escape(h)}</th>" for h in block.heads) if any(block.heads) else ""
-    body = "".join(map(partial(_line, words=block.words), block.lines))
-    top = f"<thead><tr>{head}</tr></thead>" if head else ""
-    return f'<div class="wide"><table>{top}<tbody>{body}</tbody></table></div>'
+def _(block: Table) -> str:
+    title = f"<h3>{escape(block.title)}</h3>" if block.title else ""
+    notes = "".join(f'<p class="note">{escape(note)}</p>' for note in block.notes)
+    return title + (_grid(block) if block.rows else "") + notes
 
 
-def _line(cells: Sequence[str], words: Sequence[int]) -> str:
-    return "<tr>" + "".join(_cell(cell, k in words) for k, cell in enumerate(cells)) + "</tr>"
+def _grid(block: Table) -> str:
+    body = "".join(_row(row, block.columns) for row in block.rows)
+    return f'<div class="wide"><table>{_head(block.columns)}<tbody>{body}</tbody></table></div>'
 
 
-def _cell(text: str, words: bool) -> str:
-    kind = ' class="words"' if words else ""
-    return f"<td{kind}>{escape(text)}</td>"
+def _head(columns: Sequence[Column]) -> str:
+    if not any(column.title for column in columns):
+        return ""
+    cells = (f"<th{_kind(column)}>{escape(column.title)}</th>" for column in columns)
+    return f"<thead><tr>{''.join(cells)}</tr></thead>"
+
+
+def _row(row: Row, columns: Sequence[Column]) -> str:
+    pairs = zip(row.cells, columns, strict=True)
+    cells = (f"<td{_kind(column)}>{_lines(cell)}</td>" for cell, column in pairs)
+    tone = "" if row.tone == "plain" else f' class="{row.tone}"'
+    return f"<tr{tone}>{''.join(cells)}</tr>"
+
+
+def _kind(column: Column) -> str:
+    kind = "fold" if column.fold else "right" if column.align == "right" else ""
+    return f' class="{kind}"' if kind else ""
+
+
+def _lines(text: str) -> str:
+    return "<br>".join(map(escape, text.split("\n")))

@@ -2,42 +2,30 @@
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.app.report.run_record import Account
+from equipoise.app.report.run_record import Logged, RunRecord
 from equipoise.io.columns.native_columns import native_columns
 from equipoise.io.documents.run_file import text_of_run
 from equipoise.io.documents.run_folder import TESTBED
 from equipoise.io.formats.csv_table import csv_text
 from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.estimate import COM, Parameter
-from equipoise.model.logged_run import RUN, Kind, LoggedRun, Outcome
+from equipoise.model.logged_run import RUN, LoggedRun, Outcome
 from equipoise.model.recording import Recording
 from equipoise.model.verdict import Verdict, outcome_of
 
 RECORDING = "recording.csv"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Kept:
-    """What a logbook is told beside the report."""
-
-    kind: Kind
-    method: str
-    bench: str
-    recording: Recording | None  # what was read
-    is_file: bool = False  # it came from a file, which stays where it is
-
-
-def files_of(kept: Kept, account: Account, name: str) -> dict[str, str | bytes]:
+def files_of(logged: Logged, record: RunRecord, name: str) -> dict[str, str | bytes]:
     """Return testbed, recording and entry of a run; the entry comes last."""
-    testbed = text_of_testbed(account.testbed)
+    testbed = text_of_testbed(record.testbed)
     files: dict[str, str | bytes] = {TESTBED: testbed}
-    if kept.recording is not None and not kept.is_file:
-        files[RECORDING] = csv_text(native_columns(kept.recording))
-    return files | {RUN: text_of_run(entry(kept, account, name, testbed))}
+    if logged.recording is not None and not logged.is_file:
+        files[RECORDING] = csv_text(native_columns(logged.recording))
+    return files | {RUN: text_of_run(entry(logged, record, name, testbed))}
 
 
 def hashes(files: Mapping[str, str | bytes]) -> dict[str, str]:
@@ -51,39 +39,39 @@ def sha256(text: str | bytes) -> str:
     return hashlib.sha256(text.encode() if isinstance(text, str) else text).hexdigest()
 
 
-def entry(kept: Kept, account: Account, name: str, testbed: str) -> LoggedRun:
+def entry(logged: Logged, record: RunRecord, name: str, testbed: str) -> LoggedRun:
     """Return the entry."""
-    estimate = account.estimate
+    estimate, verdict = logged.estimate, logged.verdict
     return LoggedRun(
         name=name,
-        kind=kept.kind,
-        made_at=account.origin["made at"],
-        platform=account.testbed.name,
+        kind=logged.kind,
+        made_at=record.origin["made at"],
+        platform=record.testbed.name,
         configuration=sha256(testbed),
-        method=kept.method,
-        bench=kept.bench,
-        outcome=outcome(account),
-        sentence=sentence(account),
+        method=logged.method,
+        bench=logged.bench,
+        outcome=outcome(logged),
+        sentence=sentence(logged),
         parameters=() if estimate is None else estimate.parameters,
-        standing=() if account.verdict is None else standing(account.verdict),
-        temperature=temperature(kept.recording),
-        provenance=dict(account.origin),
+        standing=() if verdict is None else standing(verdict),
+        temperature=temperature(logged.recording),
+        provenance=dict(record.origin),
     )
 
 
-def outcome(account: Account) -> Outcome:
+def outcome(logged: Logged) -> Outcome:
     """Return in a word how a run ended."""
-    verdict, estimate = account.verdict, account.estimate
+    verdict, estimate = logged.verdict, logged.estimate
     if verdict is None:
         return "usable" if estimate is not None and estimate.outcome.usable else "not usable"
     return outcome_of(verdict)
 
 
-def sentence(account: Account) -> str:
+def sentence(logged: Logged) -> str:
     """Return in a sentence how a run ended."""
-    if account.verdict is not None:
-        return account.verdict.sentence
-    return "" if account.estimate is None else account.estimate.outcome.sentence
+    if logged.verdict is not None:
+        return logged.verdict.sentence
+    return "" if logged.estimate is None else logged.estimate.outcome.sentence
 
 
 def standing(verdict: Verdict) -> tuple[Parameter, ...]:

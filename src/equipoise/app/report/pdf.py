@@ -1,4 +1,4 @@
-"""A page as PDF, set by typst."""
+"""A document as PDF, set by typst."""
 
 import json
 from collections.abc import Mapping
@@ -7,7 +7,7 @@ from importlib.resources import files
 from importlib.util import find_spec
 from typing import Any
 
-from equipoise.app.text.blocks import Page
+from equipoise.app.text.blocks import Document
 from equipoise.model.errors import InputError
 
 TEMPLATE = "page.typ"
@@ -19,8 +19,8 @@ def can_set() -> bool:
     return find_spec("typst") is not None
 
 
-def pdf(page: Page, images: Mapping[str, bytes]) -> bytes:
-    """Return the file; ``images`` are the page's figures as SVG, by name.
+def pdf(document: Document, images: Mapping[str, bytes]) -> bytes:
+    """Return the file; ``images`` are the document's figures as SVG, by name.
 
     Raises InputError if typst is not there.
     """
@@ -30,6 +30,6 @@ def pdf(page: Page, images: Mapping[str, bytes]) -> bytes:
 
     source = (files("equipoise.app.report") / TEMPLATE).read_bytes()
     parts = {f"{name}.svg": image for name, image in images.items()}
-    inputs = {"page": json.dumps(asdict(page))}
+    inputs = {"page": json.dumps(asdict(document))}
     inside: Any = {"main.typ": source, **parts}  # its annotations know of one file only
     return typst.compile(inside, sys_inputs=inputs)

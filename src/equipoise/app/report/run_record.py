@@ -1,19 +1,19 @@
-"""All that a report tells of one run."""
+"""A run as it is handed over: to the terminal, as JSON, as a report, to a logbook."""
 
 import importlib.metadata
 import platform
 import shlex
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 
 from equipoise.app.figures.catalogue import Picture
-from equipoise.app.text.before_after import Change
-from equipoise.app.text.sheet import Sheet
+from equipoise.app.text.blocks import Blocks, Section
+from equipoise.app.text.json_document import View
 from equipoise.model.estimate import Estimate
-from equipoise.model.finding import Finding
-from equipoise.model.step import Step
+from equipoise.model.logged_run import Kind
+from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
 from equipoise.model.version import __version__
@@ -22,21 +22,42 @@ LIBRARIES = ("numpy", "scipy", "numba", "matplotlib")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Account:
-    """What was asked, of what platform, what was done, and what came of it."""
+class RunRecord:
+    """What was requested, of what platform, and what came of it; the blocks name the pictures."""
 
     title: str
     requested: Mapping[str, str]
     testbed: Testbed
-    chapters: Mapping[str, Sequence[Step]]  # each with its own clock
+    conclusion: Blocks  # comes first in a report
+    sections: Sequence[Section]
     origin: Mapping[str, str]
-    findings: Sequence[Finding] = ()
-    estimate: Estimate | None = None  # the mass properties to report
+    figures: Sequence[Picture] = ()  # in a section of their own
+    step_figures: Sequence[Picture] = ()  # beside steps, which name them
+    files: Mapping[str, str | bytes] = field(default_factory=dict[str, str | bytes])  # beside it
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Logged:
+    """What a logbook keeps of a run beside its report."""
+
+    kind: Kind
+    method: str
+    bench: str
+    recording: Recording | None  # what was read
+    estimate: Estimate | None = None
     verdict: Verdict | None = None
-    change: Change | None = None
-    pictures: Sequence[Picture] = field(default=())
-    sheets: Sequence[Sheet] = ()
-    step_pictures: Mapping[Step, Picture] = field(default_factory=dict[Step, Picture])
+    is_file: bool = False  # the recording came from a file, which stays where it is
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Output:
+    """What a command hands over: the same blocks are printed and, with figures, reported."""
+
+    name: str  # of its JSON document
+    document: View
+    blocks: Blocks
+    record: Callable[[], RunRecord]  # drawing its figures takes a while
+    logged: Logged | None = None  # None: no logbook keeps it
 
 
 def origin(**more: str) -> dict[str, str]:

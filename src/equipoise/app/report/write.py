@@ -9,9 +9,9 @@ from equipoise.app.report import logbook_entry
 from equipoise.app.report.build import report
 from equipoise.app.report.html import html
 from equipoise.app.report.pdf import can_set, pdf
-from equipoise.app.report.run_record import Account
-from equipoise.app.text.blocks import Page, page_of_text, text_of_page, typeset_page
-from equipoise.app.text.json_document import View, dump
+from equipoise.app.report.run_record import Output, RunRecord
+from equipoise.app.text.blocks import Document, document_of_text, printed, text_of_document
+from equipoise.app.text.json_document import dump
 from equipoise.io.documents.run_folder import A_RUN
 from equipoise.io.files.atomic_folder import write_folder
 from equipoise.io.files.source_file import read_bytes
@@ -19,38 +19,37 @@ from equipoise.io.files.source_file import read_bytes
 Files = dict[str, str | bytes]
 Images = Mapping[str, Mapping[str, bytes]]  # by kind of file and by name
 KINDS = ("png", "svg")
-PAGE = "report.json"
+DOCUMENT = "report.json"
 
 
-def write_account(account: Account, document: View, name: str, folder: Path) -> list[Path]:
-    """Write figures, the report (HTML, PDF, its blocks) and ``name``.json; return their paths."""
-    return write_folder(folder, files_of(account) | {f"{name}.json": dump(document) + "\n"})
+def write_output(output: Output, folder: Path) -> list[Path]:
+    """Write figures, the report (HTML, PDF, its blocks) and the JSON document; return the paths.
+
+    What a logbook keeps comes too: testbed, recording, and the entry at last.
+    """
+    record, kept = output.record(), Files()
+    if output.logged is not None:
+        kept = logbook_entry.files_of(output.logged, record, folder.name)
+        record = replace(record, origin={**record.origin, **logbook_entry.hashes(kept)})
+    document: Files = {f"{output.name}.json": dump(output.document) + "\n"}
+    return write_folder(folder, files_of(record) | document | kept)
 
 
-def write_run(
-    account: Account, document: View, name: str, kept: logbook_entry.Kept, folder: Path
-) -> list[Path]:
-    """Write the same, with what a logbook needs: testbed, recording, and the entry at last."""
-    beside = logbook_entry.files_of(kept, account, folder.name)
-    traced = replace(account, origin={**account.origin, **logbook_entry.hashes(beside)})
-    files = files_of(traced) | {f"{name}.json": dump(document) + "\n"}
-    return write_folder(folder, files | beside)
-
-
-def files_of(account: Account) -> Files:
+def files_of(record: RunRecord) -> Files:
     """Return figures and report as files of a folder; without typst there is no PDF."""
-    pictures = [*account.step_pictures.values(), *account.pictures]
+    pictures = [*record.step_figures, *record.figures]
     images = {kind: {p.name: rendered(p.figure, kind) for p in pictures} for kind in KINDS}
-    page = report(account)
     figures = {place(name, kind): images[kind][name] for kind in KINDS for name in images[kind]}
-    return {**figures, PAGE: text_of_page(page), **set_page(page, images)}
+    document = report(record)
+    made = {DOCUMENT: text_of_document(document), **set_document(document, images)}
+    return {**figures, **record.files, **made}
 
 
-def set_page(page: Page, images: Images) -> Files:
+def set_document(document: Document, images: Images) -> Files:
     """Return report.html and, with typst, report.pdf."""
-    printed = typeset_page(page)
-    files: Files = {"report.html": html(printed, images["png"])}
-    return files | {"report.pdf": pdf(printed, images["svg"])} if can_set() else files
+    document = printed(document)
+    files: Files = {"report.html": html(document, images["png"])}
+    return files | {"report.pdf": pdf(document, images["svg"])} if can_set() else files
 
 
 def set_again(folder: Path) -> list[Path]:
@@ -58,9 +57,10 @@ def set_again(folder: Path) -> list[Path]:
 
     Raises InputError if they are not there.
     """
-    page = page_of_text(read_bytes(folder / PAGE, A_RUN), str(folder / PAGE))
-    images = {k: {n: read_bytes(folder / place(n, k), A_RUN) for n in page.figures} for k in KINDS}
-    return write_folder(folder, set_page(page, images))
+    document = document_of_text(read_bytes(folder / DOCUMENT, A_RUN), str(folder / DOCUMENT))
+    names = document.figures
+    images = {k: {n: read_bytes(folder / place(n, k), A_RUN) for n in names} for k in KINDS}
+    return write_folder(folder, set_document(document, images))
 
 
 def place(name: str, kind: str) -> str:

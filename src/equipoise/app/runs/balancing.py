@@ -30,6 +30,7 @@ from equipoise.procedure.balancing.catalogue import (
     planned_and_balanced,
 )
 from equipoise.procedure.balancing.hold import HoldOptions, balance_and_hold
+from equipoise.procedure.identification.record_courses import RecordCourses, balancing_courses
 from equipoise.simulation.bench import SimulatedBench
 
 HALTED = "every mass was halted where it is"
@@ -72,6 +73,10 @@ class Balancing(Plotted):
         """Return the last estimate."""
         return next((s.estimate for s in reversed(self.steps) if s.estimate is not None), None)
 
+    def courses(self) -> RecordCourses:
+        """Return what the figures of its report draw along the recording."""
+        return balancing_courses(self.recording, self.testbed, self.estimate, self.steps)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Limits:
@@ -104,7 +109,7 @@ def run(
     bench: Bench,
     goal: Goal,
     limits: Limits,
-    show: Callable[[Step], None] | None,
+    on_step: Callable[[Step], None] | None,
     through: Through = QUIETLY,
 ) -> Balancing:
     """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
@@ -120,8 +125,8 @@ def run(
     try:
         awaited = until_stopped(recorded, procedure(recorded, goal, limits))
         for step in through.awaited(awaited, "balancing"):
-            if show is not None:
-                show(step)
+            if on_step is not None:
+                on_step(step)
             steps.append(step)
             if simulated is not None:
                 truths.append(simulated.truth())
@@ -130,8 +135,8 @@ def run(
         if simulated is not None:
             raise KeyboardInterrupt(reported) from by_hand
         steps.append(stop_step(bench, f"stopped by hand: {reported}"))
-        if show is not None:
-            show(steps[-1])
+        if on_step is not None:
+            on_step(steps[-1])
     # A look of a law's may hold what is not known; its estimate is no belief to begin with.
     body, sd = bench.testbed.body, bench.testbed.com_sd
     known = None if limits.law == OWN.name else ComEstimate(body.com, sd)

@@ -1,10 +1,19 @@
-"""What laws and methods are compared by, as it is asked for, and the comparison carried out."""
+"""What laws and methods are compared by, as it is asked for, and the comparison carried out.
 
-from collections.abc import Mapping, Sequence
+Time of a record is the processor's, so that other work on the machine does not count. Memory is
+the peak of what Python and NumPy allocate meanwhile (``tracemalloc``), which slows the work down:
+it is watched in a run of its own, before the timed one. What a process holds (``ru_maxrss``) would
+mostly be libraries and compiled kernels, the same for every method, and never falls again.
+
+Cannot see what compiled kernels allocate by themselves.
+"""
+
+import time
+import tracemalloc
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from equipoise.app.arguments.checks import one_of
-from equipoise.app.runs.resource_use import metered
 from equipoise.app.runs.waiting import QUIET, Waiting
 from equipoise.app.text.units import MM
 from equipoise.estimation.methods.registry import METHODS
@@ -21,7 +30,7 @@ from equipoise.study.compare_laws import Comparison, compared
 from equipoise.study.compare_methods import MethodComparison, compared_methods
 from equipoise.study.law_run import Task
 from equipoise.study.method_record import Scene
-from equipoise.study.method_run import MethodTask
+from equipoise.study.method_run import Cost, Found, MethodTask
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -169,3 +178,21 @@ def run_methods(
         for k, seed in enumerate(seeds)
     ]
     return compared_methods(tasks, waiting.spread(workers, "estimating"))
+
+
+def metered(work: Callable[[], Found], weighed: bool) -> tuple[Found, Cost]:
+    """Return what work gives, and what it takes; its memory if it is to be ``weighed``."""
+    memory = peak(work) if weighed else None
+    start = time.process_time()
+    found = work()
+    return found, Cost(time.process_time() - start, memory)
+
+
+def peak(work: Callable[[], object]) -> int:
+    """Return by how many bytes the memory of Python and NumPy grows at most during work."""
+    tracemalloc.start()
+    try:
+        work()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()

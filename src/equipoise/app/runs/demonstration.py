@@ -5,12 +5,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.app.console.rich_results import estimate_tables
-from equipoise.app.console.terminal import busy, stdout, watched
+from equipoise.app.console.rich_blocks import show
+from equipoise.app.console.terminal import busy, watched
 from equipoise.app.figures.catalogue import TrueCourse
-from equipoise.app.live.terminal_observer import at_terminal
+from equipoise.app.runs.at_terminal import at_terminal
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
+from equipoise.app.text.blocks import Heading
 from equipoise.app.text.com_estimate import at_home
+from equipoise.app.text.estimate_text import estimate_tables
 from equipoise.app.text.units import MM, UM
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, join, window
@@ -61,9 +63,8 @@ class DemoCourses:
 
 def run_demo(testbed: Testbed, seed: int, show_step: Callable[[Step], None]) -> Demonstration:
     """Identify, show the tables, and balance, on one simulated platform."""
-    console = stdout()
-    console.print(f"{testbed.name}, simulated, seed {seed}", style="bold", markup=False)
-    console.print("\n1  Identify: free motion, masses moved half way", style="bold")
+    show((Heading(f"{testbed.name}, simulated, seed {seed}"),))
+    show((Heading("1  Identify: free motion, masses moved half way"),), below=True)
     with busy("simulating"):
         recording, truth = measured(SimulatedBench(testbed, seed))
     steps: list[Step] = []
@@ -72,9 +73,8 @@ def run_demo(testbed: Testbed, seed: int, show_step: Callable[[Step], None]) -> 
         steps.append(step)
     estimate = steps[-1].estimate
     assert estimate is not None
-    console.print()
-    console.print(estimate_tables(estimate)[0])
-    console.print("\n2  Balance: the same platform, set level and let go again", style="bold")
+    show(estimate_tables(estimate)[:1], below=True)
+    show((Heading("2  Balance: the same platform, set level and let go again"),), below=True)
     done = run(SimulatedBench(testbed, seed), GOAL, Limits(), show_step, at_terminal(testbed))
     return Demonstration(recording, truth, steps, replace(done, before=at_home(estimate)))
 

@@ -14,6 +14,10 @@ from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.record_courses import (
+    RecordCourses,
+    identification_courses,
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -32,6 +36,10 @@ class Identification(Plotted):
         found = self.steps[-1].estimate
         assert found is not None
         return found
+
+    def courses(self) -> RecordCourses:
+        """Return what the figures of its report draw along the recording."""
+        return identification_courses(self.recording, self.testbed, self.steps)
 
 
 def run(

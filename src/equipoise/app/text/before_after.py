@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.app.text.blocks import Column, Table, number, table
 from equipoise.app.text.com_estimate import ComEstimate
 from equipoise.app.text.numbers import decimals_for, fixed, is_known, with_sd
 from equipoise.app.text.units import MICRO, UM, Unit
@@ -48,7 +49,15 @@ class Row(NamedTuple):
     truth_after: str
 
 
-HEADS = ("", "unit", "before", "after", "target", "truth before", "truth after")
+NUMBERS = ("before", "after", "target", "truth before", "truth after")
+
+
+def change_table(change: Change) -> Table:
+    """Return before and after side by side; the truth beside them when it is known."""
+    lines = list(rows(change))
+    shown = len(NUMBERS) if lines[0].truth_before else len(NUMBERS) - 2
+    columns = (Column(), Column("unit"), *map(number, NUMBERS[:shown]))
+    return table("Before and after", columns, (line[: len(columns)] for line in lines))
 
 
 def rows(change: Change) -> Iterator[Row]:

@@ -1,5 +1,9 @@
-"""A report as blocks that any medium can set: texts and names of figures, no layout."""
+"""A result as blocks that terminal, HTML and PDF set alike: texts and names of figures, no layout.
 
+Numbers come as texts, formatted once; a renderer adds none and rounds none.
+"""
+
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
@@ -9,6 +13,8 @@ from equipoise.app.text.units import typeset
 from equipoise.model.errors import InputError
 
 SCHEMA = "equipoise/report/1"
+
+Tone = Literal["plain", "good", "bad", "caution", "quiet"]  # how a medium is to set it off
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,23 +30,32 @@ class Paragraph:
     """A few sentences."""
 
     text: str
+    tone: Tone = "plain"
     kind: Literal["paragraph"] = "paragraph"
 
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """The sentence that counts: good news or bad."""
+    """The sentence that counts, good news or bad."""
 
     text: str
-    good: bool
+    tone: Tone = "plain"
     kind: Literal["claim"] = "claim"
 
 
 @dataclass(frozen=True, slots=True)
-class Items:
-    """Sentences, one below the other."""
+class Item:
+    """One sentence of several."""
 
-    texts: tuple[str, ...]
+    text: str
+    tone: Tone = "plain"
+
+
+@dataclass(frozen=True, slots=True)
+class Items:
+    """Sentences, one below the other, each with the mark of its tone."""
+
+    items: tuple[Item, ...]
     kind: Literal["items"] = "items"
 
 
@@ -53,18 +68,42 @@ class Pairs:
 
 
 @dataclass(frozen=True, slots=True)
-class Grid:
-    """A table; columns of ``words`` may be folded."""
+class Column:
+    """What stands in a column; without a unit its values have none, or each row has its own."""
 
-    heads: tuple[str, ...]
-    lines: tuple[tuple[str, ...], ...]
-    words: tuple[int, ...] = ()
-    kind: Literal["grid"] = "grid"
+    heading: str = ""
+    unit: str = ""
+    align: Literal["left", "right"] = "left"
+    fold: bool = False  # long texts, which may be broken into lines
+
+    @property
+    def title(self) -> str:
+        """Heading and unit as one text."""
+        return ", ".join(filter(None, (self.heading, self.unit)))
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """The texts of a row, one for each column."""
+
+    cells: tuple[str, ...]
+    tone: Tone = "plain"
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table under its title; notes stand below it. The first column names the rows."""
+
+    title: str
+    columns: tuple[Column, ...]
+    rows: tuple[Row, ...]
+    notes: tuple[str, ...] = ()
+    kind: Literal["table"] = "table"
 
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """A step of a procedure: when (s), what, and what came of it."""
+    """A step of a procedure: when, what, and what came of it."""
 
     time: str
     what: str
@@ -73,15 +112,16 @@ class Moment:
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class Figure:
     """A figure, by the name of its file, and its caption."""
 
     name: str
     caption: str
-    kind: Literal["drawn"] = "drawn"
+    kind: Literal["figure"] = "figure"
 
 
-Block = Heading | Paragraph | Claim | Items | Pairs | Grid | Moment | Drawn
+Block = Heading | Paragraph | Claim | Items | Pairs | Table | Moment | Figure
+Blocks = tuple[Block, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +133,7 @@ class Section:
 
 
 @dataclass(frozen=True, slots=True)
-class Page:
+class Document:
     """A whole report."""
 
     title: str
@@ -105,36 +145,69 @@ class Page:
     def figures(self) -> tuple[str, ...]:
         """Names of all figures, in their order."""
         blocks = (block for section in self.sections for block in section.blocks)
-        return tuple(block.name for block in blocks if isinstance(block, Drawn))
+        return tuple(block.name for block in blocks if isinstance(block, Figure))
 
 
-def typeset_page(page: Page) -> Page:
-    """Return a page whose tables have units as a printed page has them."""
-    return replace(page, sections=tuple(map(_typeset, page.sections)))
+def number(heading: str, unit: str = "") -> Column:
+    """Return a column of numbers."""
+    return Column(heading, unit, "right")
 
 
-def _typeset(section: Section) -> Section:
-    blocks = (
-        replace(b, lines=tuple(tuple(map(typeset, line)) for line in b.lines))
-        if isinstance(b, Grid)
-        else b
-        for b in section.blocks
-    )
+def prose(heading: str = "") -> Column:
+    """Return a column of long texts."""
+    return Column(heading, fold=True)
+
+
+def table(
+    title: str,
+    columns: Iterable[Column],
+    rows: Iterable[Row | Sequence[str]],
+    notes: Iterable[str] = (),
+) -> Table:
+    """Return a table; rows without a tone may come as texts alone."""
+    made = (row if isinstance(row, Row) else Row(tuple(row)) for row in rows)
+    return Table(title, tuple(columns), tuple(made), tuple(notes))
+
+
+def items(texts: Iterable[str], tone: Tone = "plain") -> Blocks:
+    """Return sentences of one tone as a list; nothing where there are none."""
+    found = tuple(Item(text, tone) for text in texts)
+    return (Items(found),) if found else ()
+
+
+def paragraphs(*texts: str) -> Blocks:
+    """Return a paragraph for each text that is not empty."""
+    return tuple(Paragraph(text) for text in texts if text)
+
+
+def printed(document: Document) -> Document:
+    """Return a document whose tables have units as a printed page has them."""
+    return replace(document, sections=tuple(map(_printed_section, document.sections)))
+
+
+def _printed_section(section: Section) -> Section:
+    blocks = (_printed_table(b) if isinstance(b, Table) else b for b in section.blocks)
     return replace(section, blocks=tuple(blocks))
 
 
-_PAGE = TypeAdapter(Page)
+def _printed_table(block: Table) -> Table:
+    columns = (replace(column, unit=typeset(column.unit)) for column in block.columns)
+    rows = (replace(row, cells=tuple(map(typeset, row.cells))) for row in block.rows)
+    return replace(block, columns=tuple(columns), rows=tuple(rows))
 
 
-def text_of_page(page: Page) -> str:
-    """Return a page as a JSON document."""
-    return _PAGE.dump_json(page, indent=1).decode()
+_DOCUMENT = TypeAdapter(Document)
 
 
-def page_of_text(text: str | bytes, source: str) -> Page:
-    """Return the page that a JSON document holds. Raises InputError with what is wrong."""
+def text_of_document(document: Document) -> str:
+    """Return a document as JSON."""
+    return _DOCUMENT.dump_json(document, indent=1).decode()
+
+
+def document_of_text(text: str | bytes, source: str) -> Document:
+    """Return the document that a JSON text holds. Raises InputError with what is wrong."""
     try:
-        return _PAGE.validate_json(text)
+        return _DOCUMENT.validate_json(text)
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"])) or "the document"

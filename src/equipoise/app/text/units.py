@@ -32,6 +32,8 @@ TYPESET = {
     "uN m s": "µN m s",
     "uN m s2": "µN m s²",
     "um/min": "µm/min",
+    "um/sqrt(min)": "µm/√min",
+    "uJ": "µJ",
     "kg m2": "kg m²",
     "um/(kg m2)": "µm/(kg m²)",
 }

@@ -1,7 +1,9 @@
 """An assessment as one JSON document, SI units."""
 
+from equipoise.app.report.run_record import Output
 from equipoise.app.runs.assessment import AssessedPlatform
 from equipoise.app.text.json_document import View, estimate_json, numbers
+from equipoise.app.views.assess_views import blocks, record_of
 from equipoise.assessment.metrics.swing_height import Hanging
 from equipoise.model.estimate import COM, Estimate
 from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
@@ -10,6 +12,16 @@ from equipoise.procedure.identification.drift_metrics import OverHours
 from equipoise.procedure.identification.requirement import Judged
 
 SCHEMA = "equipoise/assess/1"
+
+
+def output_of(reported: AssessedPlatform) -> Output:
+    """Return all that is handed over."""
+    return Output(
+        "assess",
+        document_of(reported),
+        blocks(reported),
+        lambda: record_of(reported, reported.courses()),
+    )
 
 
 def document_of(reported: AssessedPlatform) -> View:

@@ -4,19 +4,26 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from equipoise.app.console.rich_results import residual_line, step_line
-from equipoise.app.console.rich_tables import show_sheet
-from equipoise.app.console.terminal import stdout
 from equipoise.app.figures.balancing import com_over_hours, residual_torque, torque_in_range
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.recording import swing_spectrum
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
-from equipoise.app.report.run_record import Account, origin
+from equipoise.app.report.build import estimate_sections, findings_section, steps_section
+from equipoise.app.report.run_record import RunRecord, origin
 from equipoise.app.runs.assessment import AssessedPlatform
+from equipoise.app.text.blocks import (
+    Blocks,
+    Claim,
+    Column,
+    Section,
+    Table,
+    number,
+    table,
+)
+from equipoise.app.text.estimate_text import outcome_claim, residual_line, unobservable_items
 from equipoise.app.text.numbers import significant, with_sd
-from equipoise.app.text.sheet import Sheet
+from equipoise.app.text.run_blocks import finding_items, moments, verdict_blocks, verdict_claim
 from equipoise.app.text.units import MICRO, UM
-from equipoise.app.views.identify_views import show_findings
 from equipoise.assessment.metrics.allan import FEWEST
 from equipoise.assessment.metrics.swing_height import Hanging
 from equipoise.maths.gaussian_length import Bounded
@@ -31,13 +38,33 @@ PERCENT = 100.0
 Row = tuple[str, str, str, str, str, str]
 
 
-def sheets_of(done: Assessment) -> list[Sheet]:
-    """Return the tables of an assessment; where its fit cannot be used, of what was felt alone."""
-    usable = [range_sheet(done), metrics_sheet(done)] if done.estimate.outcome.usable else []
-    return [*usable, residual_torque_sheet(done)]
+def blocks(reported: AssessedPlatform) -> Blocks:
+    """Return what the recording holds, steps, tables and the verdict."""
+    return (
+        *finding_items(reported.findings),
+        *moments(reported.steps[:-1]),
+        *tables_of(reported),
+        *unobservable_items(reported.done.estimate),
+        _last_word(reported),
+    )
 
 
-def range_sheet(done: Assessment) -> Sheet:
+def tables_of(reported: AssessedPlatform) -> Blocks:
+    """Return the tables; where the fit cannot be used, of the residual torque alone."""
+    done = reported.done
+    usable = (range_table(done), measurements_table(done)) if done.estimate.outcome.usable else ()
+    before = () if reported.before is None else (change_table(reported.before, done),)
+    hours = () if reported.hours is None else (hours_table(reported.hours),)
+    return (*usable, torque_table(done), *before, *hours)
+
+
+def _last_word(reported: AssessedPlatform) -> Claim:
+    """Return the verdict, or without one the last step's sentence."""
+    verdict = reported.steps[-1].verdict
+    return Claim(reported.steps[-1].sentence) if verdict is None else verdict_claim(verdict)
+
+
+def range_table(done: Assessment) -> Table:
     """Return what counts: torque within the range, distance from the target."""
     torque, tilt = done.torque, np.degrees(done.torque.tilt)
     lines = [
@@ -55,8 +82,8 @@ def range_sheet(done: Assessment) -> Sheet:
         f"The inertia is known to {PERCENT * done.inertia_sd:.2g} %, and all of this goes with it. "
         "Floor: what a perfect platform could be proven to in this recording."
     )
-    heads = ("", "found", "95 % bounds", "floor", "unit")
-    return Sheet("What gravity does to the platform as it stands", heads, lines, (remark,))
+    columns = (Column(), *map(number, ("found", "95 % bounds", "floor")), Column("unit"))
+    return table("What gravity does to the platform as it stands", columns, lines, (remark,))
 
 
 def bounds(found: Bounded, factor: float) -> tuple[str, str, str]:
@@ -65,7 +92,7 @@ def bounds(found: Bounded, factor: float) -> tuple[str, str, str]:
     return value, f"{low} to {high}", floor
 
 
-def metrics_sheet(done: Assessment) -> Sheet:
+def measurements_table(done: Assessment) -> Table:
     """Return the centre of mass as the fit and the simple looks have it."""
     lines = [list(row) for row in metric_rows(done)]
     metrics = done.metrics
@@ -77,8 +104,10 @@ def metrics_sheet(done: Assessment) -> Sheet:
     for fit in (metrics.torque_fit, metrics.energy_fit):
         if fit is not None and not fit.outcome.usable:
             remarks.append(f"{fit.method}: {fit.outcome.sentence}")
-    heads = ("", "com x, um", "y", "z", "distance from P, um", "off")
-    return Sheet("Centre of mass, as the masses stand, by several looks", heads, lines, remarks)
+    columns = (Column(), number("com x", "um"), number("y"), number("z"),
+               number("distance from P", "um"), number("off"))  # fmt: skip
+    title = "Centre of mass, as the masses stand, by several looks"
+    return table(title, columns, lines, remarks)
 
 
 def metric_rows(done: Assessment) -> Iterator[Row]:
@@ -127,87 +156,73 @@ def length_text(value: float, sd: float) -> str:
     return " ± ".join(with_sd(value * UM, sd * UM))
 
 
-def residual_torque_sheet(done: Assessment) -> Sheet:
-    """Return what was felt along the record, with the noise of feeling it."""
+def torque_table(done: Assessment) -> Table:
+    """Return torque and energy along the record, with their noise."""
     lines = list[list[str]]()
     metrics = done.metrics
-    response = (("torque felt", metrics.torque, "uN m"), ("energy of motion", metrics.energy, "uJ"))
-    for name, observed, unit in response:
+    series = (("torque felt", metrics.torque, "uN m"), ("energy of motion", metrics.energy, "uJ"))
+    for name, observed, unit in series:
         if observed is not None:
             value, sd = with_sd(observed.rms * MICRO, observed.rms_sd * MICRO)
             lines.append([name, f"{value} ± {sd}", significant(observed.greatest * MICRO),
                           significant(observed.noise * MICRO, 2), unit])  # fmt: skip
-    heads = ("", "rms, noise taken off", "greatest", "noise", "unit")
+    columns = (Column(), *map(number, ("rms, noise taken off", "greatest", "noise")),
+               Column("unit"))  # fmt: skip
+    title = "Along the record: all torques together, and energy"
+    return table(title, columns, lines, torque_notes(done))
+
+
+def torque_notes(done: Assessment) -> list[str]:
+    """Return how well the fits explain their rows."""
+    metrics, residual = done.metrics, done.estimate.residual
     indices = [
         f"{fit.method} {fit.residual.error_index:.2g}"
         for fit in (metrics.torque_fit, metrics.energy_fit)
         if fit is not None and fit.residual is not None and fit.residual.error_index is not None
     ]
-    remarks = [f"Error indices (EI): {', '.join(indices)}."] if indices else []
-    if done.estimate.residual is not None:
-        remarks.append(residual_line(done.estimate.residual))
-    return Sheet("Along the record: all torques together, and energy", heads, lines, remarks)
+    notes = [f"Error indices (EI): {', '.join(indices)}."] if indices else []
+    return notes if residual is None else [*notes, residual_line(residual)]
 
 
-def show_result(reported: AssessedPlatform) -> None:
-    """Print what the recording holds, steps, tables and the verdict."""
-    console, done, steps = stdout(), reported.done, reported.steps
-    verdict = steps[-1].verdict
-    show_findings(reported.findings)
-    console.print()
-    for step in steps[:-1]:
-        console.print(step_line(step))
-    for sheet in sheets_of(done):
-        show_sheet(sheet)
-    if reported.before is not None:
-        show_sheet(change_sheet(reported.before, done))
-    if reported.hours is not None:
-        show_sheet(hours_sheet(reported.hours))
-    console.print()
-    for sentence in done.estimate.unobservable:
-        console.print(f"! {sentence}", style="yellow", markup=False)
-    style = "" if verdict is None else "bold green" if verdict.passed else "bold red"
-    if verdict is not None and not verdict.sure:
-        style = "bold yellow"
-    console.print(steps[-1].sentence, style=style, markup=False)
-
-
-def change_sheet(before: Assessment, after: Assessment) -> Sheet:
+def change_table(before: Assessment, after: Assessment) -> Table:
     """Return two recordings side by side."""
     tilt = np.degrees(after.torque.tilt)
     rows = (
-        (f"torque within {tilt:g} deg, rms, uN m", before.torque.rms, after.torque.rms, MICRO),
-        ("centre of mass from its target, um", before.offset, after.offset, UM),
+        (f"torque within {tilt:g} deg, rms", before.torque.rms, after.torque.rms, MICRO, "uN m"),
+        ("centre of mass from its target", before.offset, after.offset, UM, "um"),
     )
     lines = [
-        [name, *(" (".join(bounds(each, factor)[:2]) + ")" for each in (old, new)), fall(old, new)]
-        for name, old, new, factor in rows
-    ]
-    heads = ("", "before (95 %)", "after (95 %)", "")
-    return Sheet("Before and after", heads, lines)
+        [name, *(" (".join(bounds(each, factor)[:2]) + ")" for each in (old, new)), unit,
+         fall(old, new)]
+        for name, old, new, factor, unit in rows
+    ]  # fmt: skip
+    columns = (Column(), number("before (95 %)"), number("after (95 %)"), Column("unit"), Column())
+    return table("Before and after", columns, lines)
 
 
-def hours_sheet(hours: OverHours) -> Sheet:
+def hours_table(hours: OverHours) -> Table:
     """Return drift, walk and Allan deviation of looks along a recording."""
     title, wander = f"The centre of mass over time, by {len(hours.t)} looks", hours.wander
     left_out = f"{hours.left_out} looks could not be used."
     if wander is None:
         few = f"{len(hours.t)} looks are too few: drift and Allan deviation need {FEWEST}."
-        return Sheet(title, ("",), (), (few, left_out) if hours.left_out else (few,))
+        return table(title, (), (), (few, left_out) if hours.left_out else (few,))
     per_minute, root = 60 * UM, 60**0.5 * UM
     lines = [
-        ["drift, um/min", *(" ± ".join(with_sd(float(d) * per_minute, float(s) * per_minute))
-                            for d, s in zip(wander.drift, wander.drift_sd, strict=True)), ""],
-        ["walk, um/sqrt(min)", *(significant(float(c) * root, 2) for c in wander.walk), ""],
+        ["drift", *(" ± ".join(with_sd(float(d) * per_minute, float(s) * per_minute))
+                    for d, s in zip(wander.drift, wander.drift_sd, strict=True)), "um/min", ""],
+        ["walk", *(significant(float(c) * root, 2) for c in wander.walk), "um/sqrt(min)", ""],
     ]  # fmt: skip
     for span, deviation, alone, error in zip(
         wander.span, wander.deviation, wander.measurements_alone, wander.error, strict=True
     ):
-        reported = (f"{d * UM:.2g} ({a * UM:.2g})" for d, a in zip(deviation, alone, strict=True))
-        lines.append([f"Allan deviation, {span:.4g} s, um", *reported, f"{PERCENT * error:.0f} %"])
-    remarks = ["In brackets: what looks that only err would leave. Last: relative sd."]
+        texts = (f"{d * UM:.2g} ({a * UM:.2g})" for d, a in zip(deviation, alone, strict=True))
+        name, spread = f"Allan deviation, {span:.4g} s", f"{PERCENT * error:.0f} %"
+        lines.append([name, *texts, "um", spread])
+    remarks = ["In brackets: what looks that only err would leave."]
     remarks += [left_out] if hours.left_out else []
-    return Sheet(title, ("", "x", "y", "z", ""), lines, remarks)
+    columns = (Column(), *map(number, "xyz"), Column("unit"), number("relative sd"))
+    return table(title, columns, lines, remarks)
 
 
 def fall(before: Bounded, after: Bounded) -> str:
@@ -220,32 +235,44 @@ def fall(before: Bounded, after: Bounded) -> str:
     return "no change that the recordings show"
 
 
-def account_of(reported: AssessedPlatform, courses: RecordCourses) -> Account:
+def record_of(reported: AssessedPlatform, courses: RecordCourses) -> RunRecord:
     """Return the assessment as a report."""
+    done = reported.done
+    shown = pictures_of_steps(reported.steps, Frame(done.testbed, motions=courses.steps))
+    return RunRecord(
+        title="Assessment",
+        requested=requested(reported),
+        testbed=done.testbed,
+        conclusion=conclusion(reported),
+        sections=(
+            *findings_section(reported.findings),
+            steps_section("Steps", reported.steps, shown),
+            Section("What the recording proves", tables_of(reported)),
+            *estimate_sections(done.estimate),
+        ),
+        origin=origin(sha256=done.recording.sha256),
+        figures=list(pictures_of(reported)),
+        step_figures=tuple(shown.values()),
+    )
+
+
+def conclusion(reported: AssessedPlatform) -> Blocks:
+    """Return the verdict and the noise floor, or without one what the estimate comes to."""
+    verdict = reported.steps[-1].verdict
+    return (outcome_claim(reported.done.estimate),) if verdict is None else verdict_blocks(verdict)
+
+
+def requested(reported: AssessedPlatform) -> dict[str, str]:
+    """Return what was requested, as texts."""
     done, before, options = reported.done, reported.before, reported.done.options
-    requested = {
+    texts = {
         "recording": done.recording.source,
         "target": f"({', '.join(f'{UM * x:g}' for x in options.target)}) um",
         "range of tilts": f"{np.degrees(options.tilt):g} deg",
     }
     if before is not None:
-        requested["before"] = before.recording.source
-    requested |= {f"required {n}": each.sentence for n, each in enumerate(done.judged, 1)}
-    more = [] if before is None else [change_sheet(before, done)]
-    more += [] if reported.hours is None else [hours_sheet(reported.hours)]
-    return Account(
-        title="Assessment",
-        requested=requested,
-        testbed=done.testbed,
-        chapters={"Steps": reported.steps},
-        step_pictures=pictures_of_steps(reported.steps, Frame(done.testbed, motions=courses.steps)),
-        origin=origin(sha256=done.recording.sha256),
-        findings=reported.findings,
-        estimate=done.estimate,
-        verdict=reported.steps[-1].verdict,
-        pictures=list(pictures_of(reported)),
-        sheets=(*sheets_of(done), *more),
-    )
+        texts["before"] = before.recording.source
+    return texts | {f"required {n}": each.sentence for n, each in enumerate(done.judged, 1)}
 
 
 def pictures_of(reported: AssessedPlatform) -> Iterator[Picture]:

@@ -2,39 +2,44 @@
 
 import numpy as np
 
-from equipoise.app.console.rich_results import change_table, noise_floor_line, step_line
-from equipoise.app.console.terminal import stdout
 from equipoise.app.figures.balancing.balanced_com import Story
 from equipoise.app.figures.catalogue import Picture, TrueCourse, of_balancing, of_tracking
 from equipoise.app.figures.estimate.step_com import Wanted
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
-from equipoise.app.report.logbook_entry import Kept
-from equipoise.app.report.run_record import Account, origin
+from equipoise.app.report.build import estimate_sections, steps_section
+from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
 from equipoise.app.runs.balancing import Balancing, Goal, change_of, measurements
+from equipoise.app.text.before_after import change_table
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_document import View, balance_json
 from equipoise.app.text.numbers import fixed
+from equipoise.app.text.run_blocks import verdict_blocks
 from equipoise.app.text.units import UM
 from equipoise.model.arrays import Vector3
-from equipoise.model.step import Step
 from equipoise.procedure.identification.record_courses import RecordCourses
 
 
-def show_step(step: Step) -> None:
-    """Print a step as it comes."""
-    stdout().print(step_line(step))
+def output_of(done: Balancing, seed: int | None) -> Output:
+    """Return all that is handed over."""
+    document = document_of(done, seed)
+    return Output(
+        "balance",
+        document,
+        blocks(done),
+        lambda: record_of(done, seed, done.courses()),
+        logged_of(done),
+    )
 
 
-def show_result(done: Balancing) -> None:
-    """Print before and after, and the verdict."""
-    console, change, verdict = stdout(), change_of(done), done.verdict
-    console.print()
-    if change is not None:
-        console.print(change_table(change))
-        console.print()
-    style = "bold green" if verdict.passed else "bold red"
-    console.print(verdict.sentence, style=style, markup=False)
-    if floor := noise_floor_line(verdict):
-        console.print(floor, style="dim", markup=False)
+def blocks(done: Balancing) -> Blocks:
+    """Return before and after, and the verdict; steps were shown as they came."""
+    return (*change_blocks(done), *verdict_blocks(done.verdict))
+
+
+def change_blocks(done: Balancing) -> Blocks:
+    """Return before and after; nothing where no estimate was made."""
+    change = change_of(done)
+    return () if change is None else (change_table(change),)
 
 
 def document_of(done: Balancing, seed: int | None) -> View:
@@ -43,26 +48,29 @@ def document_of(done: Balancing, seed: int | None) -> View:
     return balance_json(done.steps, done.verdict, truth, _origin(done, seed))
 
 
-def kept_of(done: Balancing, law: str) -> Kept:
-    """Return what a logbook is told beside the report."""
-    return Kept("balance", law, "simulated" if done.simulated else "real", done.recording)
+def logged_of(done: Balancing) -> Logged:
+    """Return what a logbook keeps beside the report."""
+    bench = "simulated" if done.simulated else "real"
+    return Logged("balance", done.law, bench, done.recording, done.estimate, done.verdict)
 
 
-def account_of(done: Balancing, seed: int, courses: RecordCourses) -> Account:
+def record_of(done: Balancing, seed: int | None, courses: RecordCourses) -> RunRecord:
     """Return the run as a report."""
-    return Account(
+    shown = pictures_of_steps(
+        done.steps, Frame(done.testbed, wanted(done.goal), motions=courses.steps)
+    )
+    return RunRecord(
         title="Balancing",
         requested=requested(done),
         testbed=done.testbed,
-        chapters={"Steps": done.steps},
-        origin=_origin(done, seed),
-        estimate=done.estimate,
-        verdict=done.verdict,
-        change=change_of(done),
-        pictures=[*pictures_of_tracking(done, courses), *pictures_of(done, courses)],
-        step_pictures=pictures_of_steps(
-            done.steps, Frame(done.testbed, wanted(done.goal), motions=courses.steps)
+        conclusion=(*verdict_blocks(done.verdict), *change_blocks(done)),
+        sections=(
+            steps_section("Steps", done.steps, shown),
+            *estimate_sections(done.estimate),
         ),
+        origin=_origin(done, seed),
+        figures=[*pictures_of_tracking(done, courses), *pictures_of(done, courses)],
+        step_figures=tuple(shown.values()),
     )
 
 

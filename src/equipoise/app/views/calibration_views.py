@@ -1,28 +1,28 @@
-"""A calibration for terminal and testbed file, in mm, g and deg."""
+"""A calibration for terminal, report and testbed file, in mm, g and deg."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
-from rich.console import Group
-from rich.table import Table
-
-from equipoise.app.console.rich_results import parameter_table, residual_line
-from equipoise.app.console.rich_tables import quiet_table, titled
-from equipoise.app.console.terminal import stdout
+from equipoise.app.report.run_record import Output, RunRecord, origin
+from equipoise.app.text.blocks import Blocks, Column, Section, Table, number, paragraphs, table
+from equipoise.app.text.estimate_text import outcome_claim, parameter_table, residual_line
+from equipoise.app.text.json_document import estimate_json
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import PER_DEG
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
+from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-# Head of a column, what its parameter is called, unit a SI unit.
+# A column, what its parameter is called, unit a SI unit.
 DRIVES = (
-    ("gain", "gain_{}", 1.0),
-    ("g mm / mm", "product_{}", 1e3),
-    ("rail off, deg", "across_{}_1", PER_DEG),
-    ("across, deg", "across_{}_2", PER_DEG),
-    ("backlash, mm", "backlash_{}", 1e3),
-    ("stops scatter, mm", "scatter_{}", 1e3),
+    (number("gain"), "gain_{}", 1.0),
+    (number("g mm / mm"), "product_{}", 1e3),
+    (number("rail off", "deg"), "across_{}_1", PER_DEG),
+    (number("across", "deg"), "across_{}_2", PER_DEG),
+    (number("backlash", "mm"), "backlash_{}", 1e3),
+    (number("stops scatter", "mm"), "scatter_{}", 1e3),
 )
-RAILS = tuple((letter, "axis_{}_" + letter, 1.0) for letter in "xyz")
+RAILS = tuple((number(letter), "axis_{}_" + letter, 1.0) for letter in "xyz")
 SENSORS = ("gyro_", "plumb_")
 STAYS = (
     "How sensors stand is not written to a testbed file, which has no keys for it: identify finds "
@@ -42,24 +42,21 @@ def said(parameter: Parameter, factor: float) -> str:
 
 
 def drive_table(
-    found: Estimate, names: list[str], columns: tuple[tuple[str, str, float], ...]
+    title: str, found: Estimate, names: Sequence[str], drives: Sequence[tuple[Column, str, float]]
 ) -> Table:
     """Return one line for each mass."""
-    table = quiet_table()
-    table.add_column("mass", style="bold")
-    for head, _, _ in columns:
-        table.add_column(head, justify="right")
-    for name in names:
-        cells = [said(found.parameters[found.index(key.format(name))], f) for _, key, f in columns]
-        table.add_row(name, *cells)
-    return table
+    rows = [
+        (name, *(said(found.parameters[found.index(key.format(name))], f) for _, key, f in drives))
+        for name in names
+    ]
+    return table(title, (Column("mass"), *(column for column, _, _ in drives)), rows)
 
 
-def tables_of(found: Estimate, names: list[str]) -> Iterator[Group]:
+def tables_of(found: Estimate, names: Sequence[str]) -> Iterator[Table]:
     """Return the tables, of masses that moved, of sensors and of the body."""
     if names:
-        yield titled("Drives, with sd", drive_table(found, names, DRIVES))
-        yield titled("Rails, body axes", drive_table(found, names, RAILS))
+        yield drive_table("Drives, with sd", found, names, DRIVES)
+        yield drive_table("Rails, body axes", found, names, RAILS)
     sensors = [p for p in found.parameters if p.name.startswith(SENSORS)]
     body = [p for p in found.parameters if p.name in (*COM, *INERTIA)]
     for title, group in (
@@ -71,38 +68,66 @@ def tables_of(found: Estimate, names: list[str]) -> Iterator[Group]:
             yield parameter_table(title, group)
 
 
-def show_calibration(found: Estimate, testbed: Testbed) -> None:
-    """Print drives, rails, sensors, the body, and what it all rests on."""
-    console = stdout()
-    names = [m.name for m in testbed.masses if found.has(f"gain_{m.name}")]
-    for table in tables_of(found, names):
-        console.print()
-        console.print(table)
-    console.print()
-    still = [m.name for m in testbed.masses if m.name not in names]
-    if still and names:
-        console.print(f"Never moved, so not shown: {', '.join(still)}.", markup=False)
+@dataclass(frozen=True, slots=True, eq=False)
+class Calibrated:
+    """A calibration, and what it was made from."""
+
+    testbed: Testbed
+    recording: Recording
+    estimate: Estimate
+
+    @property
+    def moved(self) -> tuple[str, ...]:
+        """Names of the masses that moved."""
+        masses = self.testbed.masses
+        return tuple(m.name for m in masses if self.estimate.has(f"gain_{m.name}"))
+
+
+def output_of(done: Calibrated) -> Output:
+    """Return all that is handed over."""
+    return Output("calibrate", estimate_json(done.estimate), blocks(done), lambda: record_of(done))
+
+
+def blocks(done: Calibrated) -> Blocks:
+    """Return drives, rails, sensors, the body, and what it all rests on."""
+    tables = tables_of(done.estimate, done.moved)
+    return (*tables, *sentences_of(done), outcome_claim(done.estimate))
+
+
+def sentences_of(done: Calibrated) -> Blocks:
+    """Return what was not shown, and how well the model explains the rows."""
+    found, moved = done.estimate, done.moved
+    still = [m.name for m in done.testbed.masses if m.name not in moved]
+    unmoved = f"Never moved, so not shown: {', '.join(still)}." if still and moved else ""
     stays = (STAYS,) if any(p.name.startswith(SENSORS) for p in found.parameters) else ()
-    for sentence in (*found.unobservable, *found.unexplained, *stays):
-        console.print(sentence, markup=False)
-    if found.residual is not None:
-        console.print(residual_line(found.residual), markup=False)
-    style = "bold green" if found.outcome.usable else "bold red"
-    console.print(found.outcome.sentence, style=style, markup=False)
+    residual = "" if found.residual is None else residual_line(found.residual)
+    return paragraphs(unmoved, *found.unobservable, *found.unexplained, *stays, residual)
 
 
-def remarks_of(found: Estimate, testbed: Testbed) -> dict[str, str]:
+def record_of(done: Calibrated) -> RunRecord:
+    """Return the calibration as a report."""
+    return RunRecord(
+        title="Calibration of masses and sensors",
+        requested={"recording": done.recording.source, "method": done.estimate.method},
+        testbed=done.testbed,
+        conclusion=(outcome_claim(done.estimate),),
+        sections=(
+            Section("What was found", tuple(tables_of(done.estimate, done.moved))),
+            Section("What it rests on", sentences_of(done)),
+        ),
+        origin=origin(sha256=done.recording.sha256),
+    )
+
+
+def remarks_of(done: Calibrated) -> dict[str, str]:
     """Return what is written behind each calibrated key of a mass."""
-    remarks: dict[str, str] = {}
-    for mass in testbed.masses:
-        if not found.has(f"gain_{mass.name}"):
-            continue
-        one, two = (found.parameters[found.index(f"across_{mass.name}_{k}")] for k in (1, 2))
-        off = f"{said(one, PER_DEG)} and {said(two, PER_DEG)} deg off as stated"
-        reported = {
-            "gain": said(found.parameters[found.index(f"gain_{mass.name}")], 1.0),
-            "axis": off,
-            "backlash_mm": said(found.parameters[found.index(f"backlash_{mass.name}")], 1e3),
+    found, remarks = done.estimate, dict[str, str]()
+    for name in done.moved:
+        one, two = (found.parameters[found.index(f"across_{name}_{k}")] for k in (1, 2))
+        texts = {
+            "gain": said(found.parameters[found.index(f"gain_{name}")], 1.0),
+            "axis": f"{said(one, PER_DEG)} and {said(two, PER_DEG)} deg off as stated",
+            "backlash_mm": said(found.parameters[found.index(f"backlash_{name}")], 1e3),
         }
-        remarks |= {f"{key} {mass.name}": f"calibrated: {text}" for key, text in reported.items()}
+        remarks |= {f"{key} {name}": f"calibrated: {text}" for key, text in texts.items()}
     return remarks

@@ -1,34 +1,44 @@
-"""The demonstration as a report: the balancing with the identification before it."""
+"""The demo for terminal, JSON and report: the balancing with the identification before it."""
 
 from collections.abc import Mapping
 from dataclasses import replace
 
 from equipoise.app.figures.catalogue import Picture, of_fit, of_move, of_tracking
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
-from equipoise.app.report.run_record import Account
-from equipoise.app.runs.demonstration import GOAL, DemoCourses, Demonstration
-from equipoise.app.views.balance_views import account_of as account_of_balancing
-from equipoise.app.views.balance_views import pictures_of, wanted
+from equipoise.app.report.build import estimate_sections, steps_section
+from equipoise.app.report.run_record import Output, RunRecord
+from equipoise.app.runs.demonstration import GOAL, DemoCourses, Demonstration, courses_of
+from equipoise.app.views import balance_views
 from equipoise.model.step import Step
 
 
-def account_of(shown: Demonstration, seed: int, courses: DemoCourses) -> Account:
+def output_of(shown: Demonstration, seed: int) -> Output:
+    """Return all that is handed over."""
+    output = balance_views.output_of(shown.balancing, seed)
+    logged = replace(balance_views.logged_of(shown.balancing), estimate=shown.estimate)
+    return replace(output, record=lambda: record_of(shown, seed, courses_of(shown)), logged=logged)
+
+
+def record_of(shown: Demonstration, seed: int, courses: DemoCourses) -> RunRecord:
     """Return the report."""
-    account = account_of_balancing(shown.balancing, seed, courses.balanced)
+    figures = _figures_of_steps(shown, courses)
     return replace(
-        account,
+        balance_views.record_of(shown.balancing, seed, courses.balanced),
         title="From unknown and unbalanced to identified, balanced and verified",
-        chapters={"Identify": shown.identified, "Balance": shown.balancing.steps},
-        estimate=shown.estimate,
-        pictures=pictures(shown, courses),
-        step_pictures=_pictures_of_steps(shown, courses),
+        sections=(
+            steps_section("Identify", shown.identified, figures),
+            steps_section("Balance", shown.balancing.steps, figures),
+            *estimate_sections(shown.estimate),
+        ),
+        figures=pictures(shown, courses),
+        step_figures=tuple(figures.values()),
     )
 
 
-def _pictures_of_steps(shown: Demonstration, courses: DemoCourses) -> Mapping[Step, Picture]:
+def _figures_of_steps(shown: Demonstration, courses: DemoCourses) -> Mapping[Step, Picture]:
     bed, first = shown.balancing.testbed, len(shown.identified) + 1
     identified = Frame(bed, at_home=True, motions=courses.identified.steps)
-    balanced = Frame(bed, wanted(GOAL), motions=courses.balanced.steps)
+    balanced = Frame(bed, balance_views.wanted(GOAL), motions=courses.balanced.steps)
     return {
         **pictures_of_steps(shown.identified, identified),
         **pictures_of_steps(shown.balancing.steps, balanced, first),
@@ -44,5 +54,5 @@ def pictures(shown: Demonstration, courses: DemoCourses) -> list[Picture]:
         *fit,
         *of_tracking(courses.still, courses.tracked, shown.truth[1][0]),
         *moved,
-        *pictures_of(shown.balancing, courses.balanced),
+        *balance_views.pictures_of(shown.balancing, courses.balanced),
     ]

@@ -1,13 +1,25 @@
-"""A design for terminal and JSON."""
+"""A design for terminal, JSON and report."""
 
 import math
 from collections.abc import Sequence
 
 import numpy as np
-from rich.console import Group
 
-from equipoise.app.console.rich_tables import quiet_table, titled
-from equipoise.app.console.terminal import stdout
+from equipoise.app.figures.design_catalogue import pictures_of
+from equipoise.app.report.run_record import Output, RunRecord, origin
+from equipoise.app.text.blocks import (
+    Block,
+    Blocks,
+    Claim,
+    Column,
+    Paragraph,
+    Section,
+    Table,
+    items,
+    number,
+    paragraphs,
+    table,
+)
 from equipoise.app.text.json_document import View, numbers
 from equipoise.app.text.units import GRAM, MICRO, MM, PER_DEG, UM
 from equipoise.model.arrays import Floats, Matrix3
@@ -27,18 +39,65 @@ AXES = ("x", "y", "z")
 PERCENT = 100.0
 
 
-def grid(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]], left: int = 1) -> Group:
-    """Return a table; the first ``left`` columns are names, the others numbers."""
-    table = quiet_table()
-    for k, head in enumerate(heads):
-        style = "bold" if k == 0 else ""
-        table.add_column(head, justify="left" if k < left else "right", style=style)
-    for row in rows:
-        table.add_row(*row)
-    return titled(title, table)
+def output_of(found: Sizing) -> Output:
+    """Return all that is handed over."""
+    return Output("design", design_json(found), blocks(found), lambda: record_of(found))
 
 
-def reach_table(found: Sizing) -> Group:
+def blocks(found: Sizing) -> Blocks:
+    """Return the tables, what was not counted, what is odd, and what it all comes to."""
+    return (*tables_of(found), *remarks_of(found), outcome_claim(found))
+
+
+def tables_of(found: Sizing) -> Blocks:
+    """Return reach, steps, least sd, budget, and what to buy next."""
+    return (
+        reach_table(found),
+        steps_table(found.steps, found.case.tilt),
+        measurement_table(found.budgets, found.case.testbed.body.inertia_P),
+        budget_table(found),
+        better_table(found),
+    )
+
+
+def remarks_of(found: Sizing) -> Blocks:
+    """Return what was not counted, what is odd, how far masses reach, and what limits them."""
+    missing = ", ".join(uncounted(found.case))
+    uncounted_text = f"Not stated, and not counted: {missing}."
+    quiet: tuple[Block, ...] = (Paragraph(uncounted_text, "quiet"),) if missing else ()
+    return (*quiet, *items(cautions(found), "caution"), *paragraphs(found.reached, found.limit))
+
+
+def outcome_claim(found: Sizing) -> Claim:
+    """Return whether what is required can be met."""
+    if found.required is None:
+        return Claim(found.outcome.sentence)
+    return Claim(found.outcome.sentence, "good" if found.outcome.usable else "bad")
+
+
+def record_of(found: Sizing) -> RunRecord:
+    """Return the design as a report."""
+    case = found.case
+    required = "" if found.required is None else f"{plain(found.required * MICRO)} uN m"
+    requested = {
+        "target": f"({', '.join(f'{UM * x:g}' for x in case.target)}) um",
+        "range of tilts": f"{case.tilt * PER_DEG:.3g} deg",
+        "records": ", ".join(f"{budget.first.duration:g} s" for budget in found.budgets),
+        "looks and moves": str(case.moves),
+    }
+    return RunRecord(
+        title="What masses and sensors are good for",
+        requested=requested | ({"torque required": required} if required else {}),
+        testbed=case.testbed,
+        conclusion=(outcome_claim(found),),
+        sections=(Section("Reach, steps, bounds and budget", tables_of(found)),
+                  Section("What this rests on", remarks_of(found))),
+        origin=origin(),
+        figures=pictures_of(found),
+    )  # fmt: skip
+
+
+def reach_table(found: Sizing) -> Table:
     """Return how far the centre of mass can be shifted, and how far it has to be."""
     bed, reach = found.case.testbed, found.reach
     rows: list[tuple[str, ...]] = []
@@ -47,11 +106,11 @@ def reach_table(found: Sizing) -> Group:
         ends = [-furthest(reach, -axis) + 0.0, furthest(reach, axis)]
         wanted = f"{plain(needed * UM)} +/- {plain(sd * UM)}"
         rows.append((AXES[k], *(plain(end * UM) for end in ends), wanted))
-    heads = ("along", "from, um", "to, um", "needed, um")
-    return grid("Shifts of the centre of mass that the masses can make from home", heads, rows)
+    columns = (Column("along"), *(number(heading, "um") for heading in ("from", "to", "needed")))
+    return table("Shifts of the centre of mass that the masses can make from home", columns, rows)
 
 
-def steps_table(steps: Sequence[MassStep], tilt: float) -> Group:
+def steps_table(steps: Sequence[MassStep], tilt: float) -> Table:
     """Return what each mass does with one step, and how truly it stops."""
     rows = [
         (
@@ -66,11 +125,13 @@ def steps_table(steps: Sequence[MassStep], tilt: float) -> Group:
         for step in steps
     ]
     within = f"rms within {tilt * PER_DEG:.3g} deg"
-    heads = ("mass", "g", "step, mm", "step, um", "step, uN m", within, "stop's sd, um")
-    return grid("The least that each mass can do", heads, rows)
+    columns = (Column("mass"), number("", "g"), number("step", "mm"), number("step", "um"),
+               number("step", "uN m"), number(within, "uN m"),
+               number("stop's sd", "um"))  # fmt: skip
+    return table("The least that each mass can do", columns, rows)
 
 
-def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Group:
+def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Table:
     """Return what records of several lengths tell, and what is left after them."""
     moments = np.diag(inertia_P)
     rows = [
@@ -83,8 +144,9 @@ def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Group:
         )
         for budget in budgets
     ]
-    heads = ("record", "com first, um", "J first, %", "com last, um", "left, uN m")
-    return grid("Least sd of a free swing with one move, and of the last look", heads, rows)
+    columns = (Column("record"), number("com first", "um"), number("J first", "%"),
+               number("com last", "um"), number("left", "uN m"))  # fmt: skip
+    return table("Least sd of a free swing with one move, and of the last look", columns, rows)
 
 
 def triple(values: Floats) -> str:
@@ -99,18 +161,19 @@ def two_digits(value: float) -> str:
     return "<0.001" if value < 0.001 else f"{value:.2g}"
 
 
-def budget_table(found: Sizing) -> Group:
+def budget_table(found: Sizing) -> Table:
     """Return the lines of the budget, the largest first."""
     budget = found.budget
     rows = [(*line_cells(line), share(line, budget), line.basis) for line in budget.lines]
     rows.append(("together", "", plain(budget.torque * MICRO), "", ""))
-    heads = ("", "x  y  z, um rms", "uN m rms", "of squares", "from")
+    columns = (Column(), number("x  y  z rms", "um"), number("rms", "uN m"),
+               number("of squares"), Column("from"))  # fmt: skip
     title = (
         f"What is left after {found.case.moves} measurements of "
         f"{found.case.measurement_time:g} s and as many "
         f"moves, within {found.case.tilt * PER_DEG:.3g} deg of level"
     )
-    return grid(title, heads, rows)
+    return table(title, columns, rows)
 
 
 def line_cells(line: Line) -> tuple[str, str, str]:
@@ -130,38 +193,15 @@ def share(line: Line, budget: Budget) -> str:
     return f"{part:.0f} %" if part >= 1 else "< 1 %"
 
 
-def better_table(found: Sizing) -> Group:
+def better_table(found: Sizing) -> Table:
     """Return what would be left if one thing were better."""
     shown = worth_listing(found.budget, found.better)
     rows = [(b.name, plain(b.torque * MICRO), f"{PERCENT * b.within:.3g} %") for b in shown] or [
         ("nothing that is one step better changes it by 1 %", "", "")
     ]
     now = f"{plain(found.budget.torque * MICRO)} now"
-    heads = ("one thing better", f"left, uN m ({now})", "within reach")
-    return grid("What to buy next, the best first", heads, rows)
-
-
-def show_design(found: Sizing) -> None:
-    """Print all of a design."""
-    console = stdout()
-    for table in (
-        reach_table(found),
-        steps_table(found.steps, found.case.tilt),
-        measurement_table(found.budgets, found.case.testbed.body.inertia_P),
-        budget_table(found),
-        better_table(found),
-    ):
-        console.print(table)
-        console.print()
-    missing = uncounted(found.case)
-    if missing:
-        text = f"Not stated, and not counted: {', '.join(missing)}."
-        console.print(text, markup=False, style="dim")
-    for caution in cautions(found):
-        console.print(f"! {caution}", style="yellow", markup=False)
-    console.print(found.reached, markup=False)
-    console.print(found.limit, markup=False)
-    console.print(found.outcome.sentence, markup=False, style="bold")
+    columns = (Column("one thing better"), number(f"left ({now})", "uN m"), number("within reach"))
+    return table("What to buy next, the best first", columns, rows)
 
 
 def uncounted(case: Case) -> tuple[str, ...]:

@@ -1,53 +1,46 @@
 """An identification for terminal, JSON and report."""
 
-from collections.abc import Sequence
-
-from equipoise.app.console.rich_results import (
-    estimate_tables,
-    finding_line,
-    residual_line,
-    step_line,
-)
-from equipoise.app.console.terminal import stdout
 from equipoise.app.figures.catalogue import of_estimate
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
-from equipoise.app.report.logbook_entry import Kept
-from equipoise.app.report.run_record import Account, origin
+from equipoise.app.report.build import estimate_sections, findings_section, steps_section
+from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
 from equipoise.app.runs.identification import Identification
+from equipoise.app.text.blocks import Blocks, paragraphs
+from equipoise.app.text.estimate_text import (
+    estimate_tables,
+    outcome_claim,
+    residual_line,
+    unobservable_items,
+)
 from equipoise.app.text.json_document import View, estimate_json
-from equipoise.app.views.plan_check import kept_json, kept_table, promise_sentences
-from equipoise.model.finding import Finding
+from equipoise.app.text.run_blocks import moments
+from equipoise.app.views.plan_check import kept_json, plan_blocks
 from equipoise.procedure.identification.record_courses import RecordCourses
 
 
-def show_findings(findings: Sequence[Finding]) -> None:
-    """Print what a recording holds and what is wrong with it."""
-    console = stdout()
-    for finding in findings:
-        console.print(finding_line(finding))
+def output_of(done: Identification) -> Output:
+    """Return all that is handed over."""
+    return Output(
+        "estimate",
+        document_of(done),
+        blocks(done),
+        lambda: record_of(done, done.courses()),
+        logged_of(done),
+    )
 
 
-def show_result(done: Identification) -> None:
-    """Print what was done, the tables, what was not seen, and the sentence that sums it up."""
-    console, estimate = stdout(), done.estimate
-    console.print()
-    for step in done.steps:
-        console.print(step_line(step))
-    for table in estimate_tables(estimate):
-        console.print()
-        console.print(table)
-    if done.plan is not None and done.plan.com_sd is not None:
-        console.print()
-        console.print(kept_table(done.plan, estimate))
-    console.print()
-    for sentence in estimate.unobservable:
-        console.print(f"! {sentence}", style="yellow", markup=False)
-    if estimate.residual is not None:
-        console.print(residual_line(estimate.residual), markup=False)
-    for sentence in promise_sentences(done.plan, estimate):
-        console.print(sentence, markup=False)
-    style = "bold green" if estimate.outcome.usable else "bold red"
-    console.print(estimate.outcome.sentence, style=style, markup=False)
+def blocks(done: Identification) -> Blocks:
+    """Return what was done, the tables, what was not seen, and the sentence that sums it up."""
+    estimate = done.estimate
+    residual = "" if estimate.residual is None else residual_line(estimate.residual)
+    return (
+        *moments(done.steps),
+        *estimate_tables(estimate),
+        *plan_blocks(done.plan, estimate),
+        *unobservable_items(estimate),
+        *paragraphs(residual),
+        outcome_claim(estimate),
+    )
 
 
 def document_of(done: Identification) -> View:
@@ -58,23 +51,26 @@ def document_of(done: Identification) -> View:
     )
 
 
-def kept_of(done: Identification) -> Kept:
-    """Return what a logbook is told beside the report."""
-    return Kept("identify", done.estimate.method, "recording", done.recording, is_file=True)
+def logged_of(done: Identification, is_file: bool = True) -> Logged:
+    """Return what a logbook keeps beside the report."""
+    method, recording = done.estimate.method, done.recording
+    return Logged("identify", method, "recording", recording, done.estimate, is_file=is_file)
 
 
-def account_of(done: Identification, courses: RecordCourses) -> Account:
+def record_of(done: Identification, courses: RecordCourses) -> RunRecord:
     """Return the identification as a report."""
-    return Account(
+    shown = pictures_of_steps(done.steps, Frame(done.testbed, at_home=True, motions=courses.steps))
+    return RunRecord(
         title="Mass properties from a recording",
         requested={"recording": done.recording.source, "method": done.estimate.method},
         testbed=done.testbed,
-        chapters={"Steps": done.steps},
-        origin=origin(sha256=done.recording.sha256),
-        findings=done.findings,
-        estimate=done.estimate,
-        pictures=list(of_estimate(done.recording, done.testbed, done.estimate, courses)),
-        step_pictures=pictures_of_steps(
-            done.steps, Frame(done.testbed, at_home=True, motions=courses.steps)
+        conclusion=(outcome_claim(done.estimate),),
+        sections=(
+            *findings_section(done.findings),
+            steps_section("Steps", done.steps, shown),
+            *estimate_sections(done.estimate, *plan_blocks(done.plan, done.estimate)),
         ),
+        origin=origin(sha256=done.recording.sha256),
+        figures=list(of_estimate(done.recording, done.testbed, done.estimate, courses)),
+        step_figures=tuple(shown.values()),
     )

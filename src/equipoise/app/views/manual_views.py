@@ -2,18 +2,19 @@
 
 import numpy as np
 
-from equipoise.app.console.rich_results import change_table
-from equipoise.app.console.terminal import stdout
 from equipoise.app.figures.balancing import rounds_com
 from equipoise.app.figures.balancing.balanced_com import Marked, Story
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.step_catalogue import Frame, pictures_of_steps
-from equipoise.app.report.run_record import Account, origin
-from equipoise.app.runs.balancing import change_of
+from equipoise.app.report.build import estimate_sections, steps_section
+from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
 from equipoise.app.runs.manual_balancing import ByHand
+from equipoise.app.text.blocks import Blocks, paragraphs
 from equipoise.app.text.com_estimate import as_it_stands
+from equipoise.app.text.estimate_text import outcome_claim
 from equipoise.app.text.json_document import View, balance_json
-from equipoise.app.views.balance_views import requested, wanted
+from equipoise.app.text.run_blocks import verdict_blocks
+from equipoise.app.views.balance_views import change_blocks, requested, wanted
 from equipoise.model.arrays import Vector3
 from equipoise.procedure.identification.record_courses import RecordCourses
 
@@ -32,18 +33,32 @@ def effort(done: ByHand) -> str:
     )
 
 
-def show_result(done: ByHand) -> None:
-    """Print before and after, the verdict, and what it took."""
-    console, change, verdict = stdout(), change_of(done.balancing), done.verdict
-    if verdict is None:
-        return
-    console.print()
-    if change is not None:
-        console.print(change_table(change))
-        console.print()
-    console.print(verdict.sentence, style="bold green" if verdict.passed else "bold red",
-                  markup=False)  # fmt: skip
-    console.print(f"{effort(done)} {TRIAL}", markup=False)
+def output_of(done: ByHand, of: dict[str, str]) -> Output:
+    """Return all that is handed over; ``of`` says what it was made of."""
+    return Output(
+        "balance",
+        document_of(done, of),
+        blocks(done),
+        lambda: record_of(done, of, done.courses()),
+        logged_of(done),
+    )
+
+
+def logged_of(done: ByHand) -> Logged:
+    """Return what a logbook keeps beside the report."""
+    balancing = done.balancing
+    bench = "simulated" if balancing.simulated else "real"
+    return Logged(
+        "balance", "by hand", bench, balancing.recording, balancing.estimate, done.verdict
+    )
+
+
+def blocks(done: ByHand) -> Blocks:
+    """Return before and after, the verdict, and what it took; nothing before the verdict."""
+    if done.verdict is None:
+        return ()
+    taken = paragraphs(f"{effort(done)} {TRIAL}")
+    return (*change_blocks(done.balancing), *verdict_blocks(done.verdict), *taken)
 
 
 def document_of(done: ByHand, of: dict[str, str]) -> View:
@@ -54,25 +69,34 @@ def document_of(done: ByHand, of: dict[str, str]) -> View:
     )
 
 
-def account_of(done: ByHand, of: dict[str, str], courses: RecordCourses) -> Account:
+def record_of(done: ByHand, of: dict[str, str], courses: RecordCourses) -> RunRecord:
     """Return the run as a report."""
     balancing = done.balancing
-    bench = "simulated hands" if balancing.truths else "a person's hands"
-    return Account(
+    bed, bench = balancing.testbed, "simulated hands" if balancing.truths else "a person's hands"
+    shown = pictures_of_steps(
+        balancing.steps, Frame(bed, wanted(balancing.goal), motions=courses.steps)
+    )
+    return RunRecord(
         title="Balancing by hand",
         requested=requested(balancing) | {"bench": bench, "effort": effort(done)},
-        testbed=balancing.testbed,
-        chapters={"Steps": balancing.steps},
-        origin=origin(**of),
-        estimate=balancing.estimate,
-        verdict=done.verdict,
-        change=change_of(balancing),
-        pictures=pictures_of(done),
-        step_pictures=pictures_of_steps(
-            balancing.steps,
-            Frame(balancing.testbed, wanted(balancing.goal), motions=courses.steps),
+        testbed=bed,
+        conclusion=(*conclusion(done), *change_blocks(balancing)),
+        sections=(
+            steps_section("Steps", balancing.steps, shown),
+            *estimate_sections(balancing.estimate),
         ),
+        origin=origin(**of),
+        figures=pictures_of(done),
+        step_figures=tuple(shown.values()),
     )
+
+
+def conclusion(done: ByHand) -> Blocks:
+    """Return the verdict, else what the last estimate comes to, if there is one."""
+    if done.verdict is not None:
+        return verdict_blocks(done.verdict)
+    estimate = done.balancing.estimate
+    return () if estimate is None else (outcome_claim(estimate),)
 
 
 def pictures_of(done: ByHand) -> list[Picture]:

@@ -3,29 +3,20 @@
 from collections.abc import Sequence
 from dataclasses import asdict
 
-from rich.table import Table
-
-from equipoise.app.console.rich_tables import named_rows, quiet_table
+from equipoise.app.text.blocks import Blocks, Column, Pairs, prose, table
 from equipoise.app.text.json_document import View
 from equipoise.model.method_card import REGIMES, Card
 
 SCHEMA = "equipoise/methods/1"
 
 
-def list_table(cards: Sequence[Card]) -> Table:
-    """Return one line a method."""
-    table = quiet_table()
-    table.add_column("method", style="bold", no_wrap=True)
-    for head in ("formulation", "solver", "source"):
-        table.add_column(head)
-    for card in cards:
-        table.add_row(card.name, card.formulation, card.solver, card.source)
-    return table
-
-
-def card_table(card: Card) -> Table:
-    """Return all that a card says."""
-    return named_rows(card_rows(card))
+def blocks(cards: Sequence[Card]) -> Blocks:
+    """Return one line a method; of one alone all that its card says."""
+    if len(cards) == 1:
+        return (Pairs(tuple(card_rows(cards[0]))),)
+    columns = (Column("method"), *map(prose, ("formulation", "solver", "source")))
+    rows = ((card.name, card.formulation, card.solver, card.source) for card in cards)
+    return (table("", columns, rows),)
 
 
 def card_rows(card: Card) -> list[tuple[str, str]]:

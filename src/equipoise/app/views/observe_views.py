@@ -1,14 +1,24 @@
-"""What a recording can show, for terminal and JSON."""
+"""What a recording can show, for terminal, JSON and report."""
 
 import math
 from collections.abc import Iterator, Sequence
 
-from rich.console import Group
-from rich.text import Text
-
-from equipoise.app.console.rich_tables import quiet_table, titled
-from equipoise.app.console.terminal import stdout
+from equipoise.app.report.run_record import Output, RunRecord, origin
 from equipoise.app.runs.observation import Observation
+from equipoise.app.text.blocks import (
+    Blocks,
+    Claim,
+    Column,
+    Row,
+    Section,
+    Table,
+    Tone,
+    items,
+    number,
+    paragraphs,
+    prose,
+    table,
+)
 from equipoise.app.text.json_document import View, numbers, parameter_json
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import PER_DEG, unit_for
@@ -19,10 +29,60 @@ from equipoise.model.observability import FilterView, Observability
 SCHEMA = "equipoise/observe/1"
 BODY = (*COM, *INERTIA)
 PERCENT = 100.0
-Row = tuple[str, str, str, str, str]
+Texts = tuple[str, str, str, str, str]
 
 
-def rows_of(information: Observability, names: Sequence[str]) -> Iterator[Row]:
+def output_of(done: Observation) -> Output:
+    """Return all that is handed over."""
+    document = observe_json(done)
+    return Output("observe", document, blocks(done), lambda: record_of(done))
+
+
+def blocks(done: Observation) -> Blocks:
+    """Return bounds, filters, and what is not seen."""
+    found = done.bounds
+    return (
+        *bound_tables(found),
+        filter_table(done.filters),
+        *unobserved_blocks(found),
+        rank_claim(found),
+    )
+
+
+def bound_tables(information: Observability) -> Blocks:
+    """Return the least sd of all that is sought."""
+    others = [name for name in information.names if name not in BODY]
+    ratios = (ratio_table(information.ratios),) if information.ratios else ()
+    body = bound_table("Centre of mass and inertia about P, masses at home", information, BODY)
+    return (body, bound_table("Also sought", information, others), *ratios)
+
+
+def unobserved_blocks(information: Observability) -> Blocks:
+    """Return what the motion does not show, and how far it goes."""
+    unobserved = items((*information.cautions, *information.sentences), "caution")
+    return (*unobserved, *paragraphs(sweep_line(information)))
+
+
+def record_of(done: Observation) -> RunRecord:
+    """Return what a recording can show as a report."""
+    return RunRecord(
+        title="What a recording can show",
+        requested={
+            "recording": done.recording.source,
+            "unknowns": ", ".join(done.bounds.names),
+        },
+        testbed=done.testbed,
+        conclusion=(rank_claim(done.bounds),),
+        sections=(
+            Section("The least sd that any method can reach", bound_tables(done.bounds)),
+            Section("Filters", (filter_table(done.filters),)),
+            Section("What the motion does not show", unobserved_blocks(done.bounds)),
+        ),
+        origin=origin(sha256=done.recording.sha256),
+    )
+
+
+def rows_of(information: Observability, names: Sequence[str]) -> Iterator[Texts]:
     """Return name, bound, its share of J, what is stated beforehand, and unit."""
     sizes = dict(zip(INERTIA, element_sizes(information.inertia_P), strict=True))
     for name in names:
@@ -39,44 +99,45 @@ def shared(sd: float, size: float) -> str:
     return f"{PERCENT * sd / size:.2g} %" if 0 < sd < math.inf else ""
 
 
-def bound_table(title: str, information: Observability, names: Sequence[str]) -> Group:
+def bound_table(title: str, information: Observability, names: Sequence[str]) -> Table:
     """Return bounds of some parameters."""
-    table = quiet_table()
-    heads = ("", "least sd", "of J", "testbed's sd", "unit")
+    columns = (Column(), *map(number, ("least sd", "of J", "testbed's sd")), Column("unit"))
     rows = list(rows_of(information, names))
-    shown = [k for k in range(len(heads)) if k == 0 or any(row[k] for row in rows)]
-    for k in shown:
-        table.add_column(heads[k], justify="right" if 0 < k < 4 else "left")
-    for row in rows:
-        style = "dim" if information.hidden[information.names.index(row[0])] else ""
-        table.add_row(*(Text(row[k]) for k in shown), style=style)
-    return titled(title, table)
+    shown = [k for k in range(len(columns)) if k == 0 or any(row[k] for row in rows)]
+    return table(
+        title,
+        (columns[k] for k in shown),
+        (Row(tuple(row[k] for k in shown), _tone(information, row[0])) for row in rows),
+    )
 
 
-def ratio_table(ratios: Sequence[Parameter]) -> Group:
+def _tone(information: Observability, name: str) -> Tone:
+    return "quiet" if information.hidden[information.names.index(name)] else "plain"
+
+
+def ratio_table(ratios: Sequence[Parameter]) -> Table:
     """Return bounds of what does not need the scale."""
-    table = quiet_table()
-    table.add_column("", style="bold")
-    table.add_column("least sd", justify="right")
-    table.add_column("unit")
-    for ratio in ratios:
-        unit = unit_for(ratio.name, ratio.unit)
-        table.add_row(ratio.name, with_sd(0.0, ratio.sd * unit.factor)[1], unit.name)
-    return titled("Ratios, which do not need the scale", table)
+    units = [unit_for(ratio.name, ratio.unit) for ratio in ratios]
+    rows = (
+        (ratio.name, with_sd(0.0, ratio.sd * unit.factor)[1], unit.name)
+        for ratio, unit in zip(ratios, units, strict=True)
+    )
+    columns = (Column(), number("least sd"), Column("unit"))
+    return table("Ratios, which do not need the scale", columns, rows)
 
 
-def filter_table(filters: Sequence[FilterView]) -> Group:
+def filter_table(filters: Sequence[FilterView]) -> Table:
     """Return what filters see of their state."""
-    table = quiet_table()
-    table.add_column("", no_wrap=True)
-    for head in ("exact sensors", "these sensors"):
-        table.add_column(head, justify="right", no_wrap=True)
-    table.add_column("")
-    for view in filters:
-        with_noise = f"no {view.measures}" if view.rank is None else f"{view.rank} of {view.size}"
-        sees = f"{view.possible} of {view.size}"
-        table.add_row(Text(view.name, style="bold"), sees, with_noise, "\n".join(view.sentences))
-    return titled("What filters see of their state along this motion", table)
+    columns = (Column(), number("exact sensors"), number("these sensors"), prose())
+    return table("What filters see of their state along this motion", columns,
+                 map(filter_row, filters))  # fmt: skip
+
+
+def filter_row(view: FilterView) -> tuple[str, ...]:
+    """Return how much of its state a filter sees, and what it does not."""
+    with_noise = f"no {view.measures}" if view.rank is None else f"{view.rank} of {view.size}"
+    sees = f"{view.possible} of {view.size}"
+    return view.name, sees, with_noise, "\n".join(view.sentences)
 
 
 def sweep_line(information: Observability) -> str:
@@ -89,35 +150,16 @@ def sweep_line(information: Observability) -> str:
     )
 
 
-def rank_line(information: Observability) -> str:
+def rank_claim(information: Observability) -> Claim:
     """Say how much of what is sought is seen."""
-    number = f"{information.condition:.2g}" if math.isfinite(information.condition) else "infinite"
-    return (
+    condition = (
+        f"{information.condition:.2g}" if math.isfinite(information.condition) else "infinite"
+    )
+    return Claim(
         f"{information.rank} of {information.size} unknowns, or mixtures of them, are observable; "
         "condition number of "
-        f"the information: {number}."
+        f"the information: {condition}."
     )
-
-
-def show_observability(done: Observation) -> None:
-    """Print bounds, filters, and what is not seen."""
-    console, information, filters = stdout(), done.bounds, done.filters
-    others = [name for name in information.names if name not in BODY]
-    tables = [
-        bound_table("Centre of mass and inertia about P, masses at home", information, BODY),
-        bound_table("Also sought", information, others),
-        *([ratio_table(information.ratios)] if information.ratios else []),
-        filter_table(filters),
-    ]
-    for table in tables:
-        console.print(table)
-        console.print()
-    for caution in information.cautions:
-        console.print(f"! {caution}", style="yellow", markup=False)
-    for sentence in information.sentences:
-        console.print(f"! {sentence}", style="yellow", markup=False)
-    console.print(sweep_line(information), markup=False)
-    console.print(rank_line(information), markup=False, style="bold")
 
 
 def observe_json(done: Observation) -> View:

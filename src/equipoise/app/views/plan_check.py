@@ -2,9 +2,7 @@
 
 from collections.abc import Iterator
 
-from rich.console import Group
-
-from equipoise.app.console.rich_tables import quiet_table, titled
+from equipoise.app.text.blocks import Blocks, Column, Table, number, paragraphs, table
 from equipoise.app.text.json_document import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import unit_for
@@ -29,24 +27,28 @@ def pairs(plan: Plan, estimate: Estimate) -> Iterator[tuple[str, float, float]]:
             yield name, sd, estimate.parameters[estimate.index(name)].sd
 
 
-def kept_table(plan: Plan, estimate: Estimate) -> Group:
+def plan_blocks(plan: Plan | None, estimate: Estimate) -> Blocks:
+    """Return what was planned beside what came of it; nothing where there was no plan."""
+    if plan is None:
+        return ()
+    shown = () if plan.com_sd is None else (kept_table(plan, estimate),)
+    return (*shown, *paragraphs(*promise_sentences(plan, estimate)))
+
+
+def kept_table(plan: Plan, estimate: Estimate) -> Table:
     """Return predicted and found sd side by side."""
-    table = quiet_table()
-    table.add_column("", style="bold")
-    for head in ("predicted sd", "found sd", "found / predicted"):
-        table.add_column(head, justify="right")
-    table.add_column("unit")
+    columns = (Column(), number("predicted sd"), number("found sd"), number("found / predicted"),
+               Column("unit"))  # fmt: skip
+    rows: list[tuple[str, ...]] = []
     for name, sd, found in pairs(plan, estimate):
         unit = unit_for(name, "m" if name in COM else "kg m2")
         texts = [with_sd(0.0, value * unit.factor)[1] for value in (sd, found)]
-        table.add_row(name, *texts, f"{found / sd:.2f}", unit.name)
-    return titled("What was planned, and what came of it", table)
+        rows.append((name, *texts, f"{found / sd:.2f}", unit.name))
+    return table("What was planned, and what came of it", columns, rows)
 
 
-def promise_sentences(plan: Plan | None, estimate: Estimate) -> list[str]:
+def promise_sentences(plan: Plan, estimate: Estimate) -> list[str]:
     """Say whether the plan was kept."""
-    if plan is None:
-        return []
     ratios = {name: found / sd for name, sd, found in pairs(plan, estimate)}
     if not ratios:
         return [NO_PROMISE]

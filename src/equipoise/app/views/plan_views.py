@@ -1,14 +1,29 @@
-"""A plan for terminal and JSON: what it promises beside the usual manoeuvre, and what to do."""
+"""A plan for terminal, JSON and report.
+
+It shows what the plan promises beside the usual manoeuvre, and what to do.
+"""
 
 import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-from rich.console import Group
 
-from equipoise.app.console.rich_tables import named_rows, quiet_table, titled
-from equipoise.app.console.terminal import stdout
+from equipoise.app.report.run_record import Output, RunRecord, origin
 from equipoise.app.runs.planning import Planning, Request
+from equipoise.app.text.blocks import (
+    Blocks,
+    Claim,
+    Column,
+    Heading,
+    Pairs,
+    Paragraph,
+    Row,
+    Section,
+    Table,
+    items,
+    number,
+    table,
+)
 from equipoise.app.text.json_document import View, schedule_json
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import MM, PER_DEG, Unit, unit_for
@@ -24,41 +39,73 @@ SCHEMA = "equipoise/plan/1"
 UPRIGHT = 0.999  # cosine, chosen: a body's z that counts as upright
 
 
-def show_plan(done: Planning) -> None:
-    """Print what is promised, what to do, and how far it goes."""
-    console = stdout()
-    console.print(promise_table(done))
-    console.print()
-    what = named_rows(list(steps_of(done.planned.manoeuvre, done.request.testbed)))
-    console.print(titled("What to do", what))
-    console.print()
-    for sentence in done.planned.sentences:
-        console.print(f"! {sentence}", style="yellow", markup=False)
-    console.print(limits_line(done.usual, done.request, "The usual manoeuvre"),
-                  style="dim", markup=False)  # fmt: skip
-    console.print(limits_line(done.planned, done.request, "The plan"), markup=False)
-    passed = done.planned.keeps
-    style = "bold green" if passed else "bold yellow"
-    console.print(verdict(done), style=style, markup=False)
+def output_of(done: Planning) -> Output:
+    """Return all that is handed over."""
+    return Output("plan", plan_json(done), blocks(done), lambda: record_of(done))
 
 
-def promise_table(done: Planning) -> Group:
+def blocks(done: Planning) -> Blocks:
+    """Return what is promised, what to do, how far it goes, and what it gains."""
+    return (promise_table(done), *what_to_do(done), *limits_of(done), verdict_claim(done))
+
+
+def what_to_do(done: Planning) -> Blocks:
+    """Return the manoeuvre, step by step."""
+    steps = Pairs(tuple(steps_of(done.planned.manoeuvre, done.request.testbed)))
+    return Heading("What to do"), steps
+
+
+def limits_of(done: Planning) -> Blocks:
+    """Return what stays unseen, and how far both manoeuvres go."""
+    return (
+        *items(done.planned.sentences, "caution"),
+        Paragraph(limits_line(done.usual, done.request, "The usual manoeuvre"), "quiet"),
+        Paragraph(limits_line(done.planned, done.request, "The plan")),
+    )
+
+
+def verdict_claim(done: Planning) -> Claim:
+    """Return what the plan gains."""
+    return Claim(verdict(done), "good" if done.planned.keeps else "caution")
+
+
+def record_of(done: Planning) -> RunRecord:
+    """Return the plan as a report."""
+    request = done.request
+    return RunRecord(
+        title="The manoeuvre that shows most",
+        requested={
+            "wanted": ", ".join(request.names),
+            "criterion": request.criterion,
+            "length of the record": f"{request.duration:g} s",
+            "greatest rate": f"{PER_DEG * request.rate:g} deg/s",
+            "earlier recording": "none" if request.earlier is None else request.earlier.source,
+        },
+        testbed=request.testbed,
+        conclusion=(verdict_claim(done),),
+        sections=(
+            Section("What it promises", (promise_table(done),)),
+            Section("The manoeuvre", (*what_to_do(done), *limits_of(done))),
+        ),
+        origin=origin(seed=str(request.seed)),
+    )
+
+
+def promise_table(done: Planning) -> Table:
     """Return predicted sd of the usual manoeuvre and of the plan, and their ratio."""
-    table = quiet_table()
-    table.add_column("", style="bold")
-    for head in ("usual", "planned", "times better"):
-        table.add_column(head, justify="right")
-    table.add_column("unit")
-    for name in (*COM, *INERTIA):
-        unit = unit_for(name, "m" if name in COM else "kg m2")
-        texts = [sd_text(p, name, unit) for p in (done.usual, done.planned)]
-        ratio = float(times_better(done.usual, done.planned, (name,))[0])
-        requested = name in done.request.names
-        shown = f"{ratio:.2g}" if math.isfinite(ratio) and "held" not in texts else ""
-        table.add_row(name, *texts, shown, unit.name, style="" if requested else "dim")
+    columns = (Column(), *map(number, ("usual", "planned", "times better")), Column("unit"))
     after = ", known what was seen" if done.request.earlier else ""
-    return titled(f"Predicted sd over {done.planned.platforms} platforms that may be there{after}",
-                  table)  # fmt: skip
+    title = f"Predicted sd over {done.planned.platforms} platforms that may be there{after}"
+    return table(title, columns, (promise_row(done, name) for name in (*COM, *INERTIA)))
+
+
+def promise_row(done: Planning, name: str) -> Row:
+    """Return one parameter; quiet where it is not wanted."""
+    unit = unit_for(name, "m" if name in COM else "kg m2")
+    texts = [sd_text(p, name, unit) for p in (done.usual, done.planned)]
+    ratio = float(times_better(done.usual, done.planned, (name,))[0])
+    shown = f"{ratio:.2g}" if math.isfinite(ratio) and "held" not in texts else ""
+    return Row((name, *texts, shown, unit.name), "plain" if name in done.request.names else "quiet")
 
 
 def sd_text(promise: Promise, name: str, unit: Unit) -> str:

@@ -1,19 +1,24 @@
-"""Open the port at an address: a wire of ``transport``, or a camera of this computer."""
+"""The port at an address, by the scheme that the address begins with."""
 
 from collections.abc import Callable
 
-from equipoise.hardware.camera.capture import CapturePort, camera_at
-from equipoise.hardware.transport import port as wires
-from equipoise.hardware.transport.port import Port, PortLost, why
+from equipoise.hardware.transport.port import (
+    Port,
+    PortLost,
+    http_port,
+    serial_port,
+    tcp_port,
+    udp_out_port,
+    udp_port,
+    websocket_port,
+    why,
+)
 from equipoise.model.errors import InputError
 from equipoise.model.hardware import Port as Address
 
 
 def open_port(port: Address) -> Port:
-    """Return the port at an address, open.
-
-    Raises PortLost, or InputError for an address of another form.
-    """
+    """Return the port at an address, open. Raises PortLost, or InputError for a strange address."""
     scheme, _, rest = port.address.partition(":")
     opener = OPENERS.get(scheme)
     if opener is None:
@@ -25,7 +30,18 @@ def open_port(port: Address) -> Port:
 
 
 def _camera(port: Address, rest: str) -> Port:
+    from equipoise.hardware.camera.capture import CapturePort, camera_at
+
     return CapturePort(port.address, *camera_at(rest))
 
 
-OPENERS: dict[str, Callable[[Address, str], Port]] = {**wires.OPENERS, "camera": _camera}
+OPENERS: dict[str, Callable[[Address, str], Port]] = {
+    "serial": serial_port,
+    "tcp": tcp_port,
+    "udp": udp_port,
+    "udpout": udp_out_port,
+    "ws": websocket_port,
+    "wss": websocket_port,
+    "http": http_port,
+    "camera": _camera,
+}

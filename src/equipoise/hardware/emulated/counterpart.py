@@ -183,7 +183,7 @@ def free_udp_port() -> int:
 
 
 def counterpart(port: Port) -> Counterpart:
-    """Return a emulated counterpart of the kind that a port's address asks for."""
+    """Return an emulated counterpart of the kind that a port's address asks for."""
     scheme, _, rest = port.address.partition(":")
     if scheme == "serial":
         return PtyCounterpart() if hasattr(os, "openpty") else TcpCounterpart()

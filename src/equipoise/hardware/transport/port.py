@@ -6,7 +6,6 @@ pulled out, closed by the emulated counterpart or never there.
 
 import select
 import socket
-from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from typing import Protocol
 
@@ -98,20 +97,21 @@ class SocketPort:
         self._socket.close()
 
 
-def _tcp(port: Address, rest: str) -> Port:
+def tcp_port(port: Address, rest: str) -> Port:
+    """Return a stream to a computer."""
     host, _, number = rest.rpartition(":")
     connection = socket.create_connection((host, int(number)), PATIENCE)
     connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     return SocketPort(port.address, connection)
 
 
-def _http(port: Address, rest: str) -> Port:
+def http_port(port: Address, rest: str) -> Port:
     """Return the connection to a camera's server; its driver asks for the path."""
     host = rest.removeprefix("//").partition("/")[0]
-    return _tcp(port, host if ":" in host else f"{host}:80")
+    return tcp_port(port, host if ":" in host else f"{host}:80")
 
 
-def _udp(port: Address, rest: str) -> Port:
+def udp_port(port: Address, rest: str) -> Port:
     """Return a socket that hears datagrams sent to a port of ours, or to a multicast group."""
     group, _, number = rest.rpartition(":")
     connection = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -127,7 +127,7 @@ def _udp(port: Address, rest: str) -> Port:
     return SocketPort(port.address, connection)
 
 
-def _udp_out(port: Address, rest: str) -> Port:
+def udp_out_port(port: Address, rest: str) -> Port:
     """Return a socket that sends to another computer and hears what it answers."""
     host, _, number = rest.rpartition(":")
     to = (socket.gethostbyname(host), int(number))
@@ -183,7 +183,8 @@ class SerialPort:
             self._line.close()
 
 
-def _serial(port: Address, rest: str) -> Port:
+def serial_port(port: Address, rest: str) -> Port:
+    """Return a serial line."""
     return SerialPort(port.address, rest, port.baud)
 
 
@@ -230,16 +231,6 @@ class WebSocketPort:
             self._held.close()
 
 
-def _websocket(port: Address, _rest: str) -> Port:
+def websocket_port(port: Address, _rest: str) -> Port:
+    """Return the connection to a WebSocket's server."""
     return WebSocketPort(port.address)
-
-
-OPENERS: dict[str, Callable[[Address, str], Port]] = {
-    "serial": _serial,
-    "tcp": _tcp,
-    "udp": _udp,
-    "udpout": _udp_out,
-    "ws": _websocket,
-    "wss": _websocket,
-    "http": _http,
-}

@@ -1,19 +1,17 @@
 """Fits and reports take seconds: each is made in a process of its own, and the view goes on."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
 from typing import Any
 
 from equipoise.app.logbook.run_folder import own_folder
-from equipoise.app.report.logbook_entry import Kept
-from equipoise.app.report.run_record import Account
-from equipoise.app.report.write import write_run
+from equipoise.app.report.run_record import Output
+from equipoise.app.report.write import write_output
 from equipoise.app.runs.balancing import Balancing
 from equipoise.app.runs.identification import Identification
-from equipoise.app.text.json_document import View
 from equipoise.app.views import balance_views, identify_views
 from equipoise.assessment.findings.record_findings import findings
 from equipoise.model.errors import EquipoiseError
@@ -21,10 +19,6 @@ from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
-from equipoise.procedure.identification.record_courses import (
-    balancing_courses,
-    identification_courses,
-)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,11 +82,7 @@ def carry_out(pipe: Pipe, task: Task) -> None:
 
 
 def _keep(task: Keep) -> str | None:
-    done = task.done
-    courses = balancing_courses(done.recording, done.testbed, done.estimate, done.steps)
-    account = balance_views.account_of(done, task.seed, courses)
-    document = balance_views.document_of(done, task.seed)
-    return _written(account, document, "balance", balance_views.kept_of(done, task.law))
+    return _written(balance_views.output_of(task.done, task.seed), task.done.testbed)
 
 
 def _fit(task: Fit, pipe: Pipe) -> str | None:
@@ -104,16 +94,15 @@ def _fit(task: Fit, pipe: Pipe) -> str | None:
     found = findings(task.recording, task.testbed)
     done = Identification(task.testbed, task.recording, found, steps)
     # What was seen live is in no file yet: it is kept with the run.
-    kept = Kept("identify", done.estimate.method, "recording", task.recording)
-    courses = identification_courses(done.recording, done.testbed, done.steps)
-    account, document = identify_views.account_of(done, courses), identify_views.document_of(done)
-    return _written(account, document, "estimate", kept)
+    logged = identify_views.logged_of(done, is_file=False)
+    return _written(replace(identify_views.output_of(done), logged=logged), task.testbed)
 
 
-def _written(account: Account, document: View, name: str, kept: Kept) -> str | None:
+def _written(output: Output, testbed: Testbed) -> str | None:
     """Write a run into a folder of its own, and return its name; None where none is kept."""
-    folder: Path | None = own_folder(kept.kind, account.testbed.name)
+    assert output.logged is not None
+    folder: Path | None = own_folder(output.logged.kind, testbed.name)
     if folder is None:
         return None
-    write_run(account, document, name, kept, folder)
+    write_output(output, folder)
     return folder.name

@@ -1,54 +1,16 @@
-"""Estimates, findings and steps as tables and lines for the terminal."""
+"""An estimate as tables and sentences."""
 
 import math
 from collections.abc import Iterator, Sequence
 
-from rich.console import Group
-from rich.table import Table
-from rich.text import Text
-
-from equipoise.app.console.rich_tables import quiet_table, titled
-from equipoise.app.text.before_after import HEADS, Change, rows
+from equipoise.app.text.blocks import Blocks, Claim, Column, Row, Table, items, number, table
 from equipoise.app.text.numbers import fixed, interval, significant, with_sd
 from equipoise.app.text.units import PER_DEG, UM, unit_for
 from equipoise.maths.whiteness import WHITE
 from equipoise.model.estimate import COM, Estimate, Parameter, Residual
-from equipoise.model.finding import Finding
-from equipoise.model.step import Step
 from equipoise.model.verdict import Verdict
 
-MARKS = {"content": "  ", "motion": "  ", "problem": "! ", "mended": "~ "}
-FINDING_STYLE = {"content": "", "motion": "", "problem": "bold yellow", "mended": "dim"}
-STEP_STYLE = {
-    "measurement": "dim",
-    "estimate": "",
-    "move": "cyan",
-    "place": "bold cyan",
-    "control": "cyan",
-    "verify": "bold",
-    "stop": "bold",
-}
-
-
-def finding_line(finding: Finding) -> Table:
-    """Return a finding; '!' marks what an estimate will suffer from, '~' what was set right."""
-    line = Table.grid()
-    line.add_column(width=2, no_wrap=True)
-    line.add_column()
-    cells_ = (MARKS[finding.kind], finding.sentence)
-    line.add_row(*map(Text, cells_), style=FINDING_STYLE[finding.kind])
-    return line
-
-
-def step_line(step: Step) -> Table:
-    """Return a step: when, what, and what came of it."""
-    line = Table.grid(padding=(0, 2))
-    line.add_column(width=9, justify="right", no_wrap=True)
-    line.add_column(width=8, no_wrap=True)
-    line.add_column()
-    cells_ = (f"{step.time:.1f} s", step.kind, step.sentence)
-    line.add_row(*map(Text, cells_), style=STEP_STYLE[step.kind])
-    return line
+COLUMNS = (Column(), *map(number, ("value", "sd", "95 % interval")), Column("unit"))
 
 
 def cells(parameter: Parameter) -> tuple[str, str, str, str, str]:
@@ -60,34 +22,38 @@ def cells(parameter: Parameter) -> tuple[str, str, str, str, str]:
     return parameter.name, value_text, sd_text, interval(value, low, high, sd), unit.name
 
 
-def parameter_table(title: str, parameters: Sequence[Parameter]) -> Group:
+def parameter_table(title: str, parameters: Sequence[Parameter]) -> Table:
     """Return named values with sd and 95 % interval."""
-    table = quiet_table()
-    table.add_column("", style="bold")
-    for head in ("value", "sd", "95 % interval"):
-        table.add_column(head, justify="right")
-    table.add_column("unit")
-    for parameter in parameters:
-        table.add_row(*cells(parameter), style="" if parameter.observable else "dim")
-    return titled(title, table)
+    rows = (Row(cells(p), "plain" if p.observable else "quiet") for p in parameters)
+    return table(title, COLUMNS, rows)
 
 
 def groups(estimate: Estimate) -> Iterator[tuple[str, list[Parameter]]]:
-    """Return the parameters in the groups in which they are told."""
+    """Return the parameters in the groups in which they are shown."""
 
     def of(*stems: str) -> list[Parameter]:
         return [p for p in estimate.parameters if p.name.startswith(stems)]
 
     yield "Centre of mass and inertia about P, masses at home", of(*COM, "inertia_P_")
     yield "Centre of mass, masses as they stand at the end", of("com_end_")
-    reported = of("com_", "inertia_P_")
-    yield "Also estimated", [p for p in estimate.parameters if p not in reported]
+    shown = of("com_", "inertia_P_")
+    yield "Also estimated", [p for p in estimate.parameters if p not in shown]
     yield "Ratios, which do not need the scale", list(estimate.ratios)
 
 
-def estimate_tables(estimate: Estimate) -> list[Group]:
+def estimate_tables(estimate: Estimate) -> tuple[Table, ...]:
     """Return one table for each group that is not empty."""
-    return [parameter_table(title, group) for title, group in groups(estimate) if group]
+    return tuple(parameter_table(title, group) for title, group in groups(estimate) if group)
+
+
+def unobservable_items(estimate: Estimate) -> Blocks:
+    """Return what the data cannot show; nothing where they show all."""
+    return items(estimate.unobservable, "caution")
+
+
+def outcome_claim(estimate: Estimate) -> Claim:
+    """Return the sentence that sums an estimate up."""
+    return Claim(estimate.outcome.sentence, "good" if estimate.outcome.usable else "bad")
 
 
 def residual_line(residual: Residual) -> str:
@@ -139,15 +105,3 @@ def _white(residual: Residual) -> str:
 
 def _rms(value: float | None) -> str:
     return "?" if value is None else f"{value * PER_DEG:.3g}"
-
-
-def change_table(change: Change) -> Group:
-    """Return before and after side by side; the truth beside it when it is known."""
-    lines = list(rows(change))
-    shown = len(HEADS) if lines[0].truth_before else len(HEADS) - 2
-    table = quiet_table()
-    for k, head in enumerate(HEADS[:shown]):
-        table.add_column(head, justify="left" if k < 2 else "right", style="bold" if not k else "")
-    for line in lines:
-        table.add_row(*line[:shown])
-    return titled("Before and after", table)

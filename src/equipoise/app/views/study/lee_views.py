@@ -2,12 +2,19 @@
 
 from collections.abc import Sequence
 
-from equipoise.app.console.rich_tables import show_sheet
 from equipoise.app.figures.papers.lee_catalogue import pictures_of
-from equipoise.app.report.run_record import Account, origin
+from equipoise.app.report.run_record import Output, RunRecord, origin
+from equipoise.app.text.blocks import (
+    Blocks,
+    Column,
+    Paragraph,
+    Section,
+    Table,
+    number,
+    table,
+)
 from equipoise.app.text.json_document import View, estimate_json
 from equipoise.app.text.numbers import with_sd
-from equipoise.app.text.sheet import Sheet
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.observability import Observability
@@ -23,7 +30,7 @@ from equipoise.study.papers.lee import (
     true_values,
     warns,
 )
-from equipoise.study.papers.lee_course import Courses
+from equipoise.study.papers.lee_course import Courses, courses_of
 
 SCHEMA = "equipoise/reproduce-lee/1"
 SHOWN = (*INERTIA, *COM)
@@ -65,7 +72,33 @@ def cell_of(estimate: Estimate, name: str, done: Manoeuvre) -> str:
     return f"{value} ({sd}) {error:+.2g}%"
 
 
-def sheet_of(done: Manoeuvre) -> Sheet:
+def output_of(runs: Sequence[Manoeuvre], seed: int) -> Output:
+    """Return all that is handed over."""
+    document = document_of(runs, seed)
+
+    def record() -> RunRecord:
+        courses = [courses_of(run.slew.recording, run.testbed) for run in runs]
+        return record_of(runs, seed, courses)
+
+    return Output("reproduce", document, blocks(runs), record)
+
+
+def blocks(runs: Sequence[Manoeuvre]) -> Blocks:
+    """Return a table a slew, what each method says of itself, and the bounds."""
+    slews = (block for run in runs for block in slew_blocks(run))
+    return (*slews, bound_table(runs))
+
+
+def slew_blocks(done: Manoeuvre) -> Blocks:
+    """Return what the methods found in one slew, and what each says of itself."""
+    remarks = (
+        Paragraph(f"{name}: {found.outcome.sentence}", "caution" if warns(found) else "plain")
+        for name, found in done.estimates.items()
+    )
+    return (slew_table(done), *remarks)
+
+
+def slew_table(done: Manoeuvre) -> Table:
     """Return what the methods found in one slew."""
     truth, factor = true_values(done.testbed), factors(done.testbed)
     lines = [
@@ -78,12 +111,11 @@ def sheet_of(done: Manoeuvre) -> Sheet:
         "no singularity" if near is None else f"singular from {near[0]:.1f} to {near[1]:.1f} s"
     )
     angles = ", ".join(f"{angle:g}" for angle in done.start)
-    remarks = [f"{name}: {estimate.outcome.sentence}" for name, estimate in done.estimates.items()]
     title = f"From ({angles}) deg, {reported}: value (sd) error; J in kg m2, m r in g cm"
-    return Sheet(title, ("", "truth", *done.estimates), lines, remarks)
+    return table(title, (Column(), number("truth"), *map(number, done.estimates)), lines)
 
 
-def bound_sheet(runs: Sequence[Manoeuvre]) -> Sheet:
+def bound_table(runs: Sequence[Manoeuvre]) -> Table:
     """Return the least sd that any method can reach, in percent."""
     heads = [f"{run.start[0]:g} deg, {sensors}" for run in runs for sensors in SENSORS]
     lines = list[list[str]]()
@@ -91,19 +123,13 @@ def bound_sheet(runs: Sequence[Manoeuvre]) -> Sheet:
         bounds = [bound for run in runs for bound in (run.bound, run.coarse_bound)]
         share = percents(runs[0].testbed)[name]
         lines.append([name_of(name), *(f"{least(b)[name] * share:.2g} %" for b in bounds)])
-    return Sheet("Least sd that the data allow", ("", *heads), lines, (LEAST,))
+    columns = (Column(), *map(number, heads))
+    return table("Least sd that the data allow", columns, lines, (LEAST,))
 
 
 def least(bound: Observability) -> dict[str, float]:
     """Return the bounds of what is shown, SI."""
     return {name: float(bound.sd[bound.names.index(name)]) for name in SHOWN}
-
-
-def show_result(runs: Sequence[Manoeuvre]) -> None:
-    """Print a table a slew, what each method says of itself, and the bounds."""
-    for run in runs:
-        show_sheet(sheet_of(run), {k: warns(e) for k, e in run.estimates.items()})
-    show_sheet(bound_sheet(runs), {})
 
 
 def document_of(runs: Sequence[Manoeuvre], seed: int) -> View:
@@ -130,7 +156,7 @@ def run_json(run: Manoeuvre) -> View:
     }
 
 
-def account_of(runs: Sequence[Manoeuvre], courses: Sequence[Courses], seed: int) -> Account:
+def record_of(runs: Sequence[Manoeuvre], seed: int, courses: Sequence[Courses]) -> RunRecord:
     """Return the reproduction as a report; drawing its figures takes a while."""
     large, small = zip(runs, courses, strict=True)
     simulated = {
@@ -140,12 +166,12 @@ def account_of(runs: Sequence[Manoeuvre], courses: Sequence[Courses], seed: int)
         "each slew": f"{DURATION:g} s, PID of {FREQUENCY:g} rad/s, damping {DAMPING:g}, integral "
         f"{INTEGRAL:g} rad/s; singularity-robust steering",
     }
-    return Account(
+    return RunRecord(
         title="Lee et al.'s simulation reproduced",
         requested=simulated | formulations(),
         testbed=runs[0].testbed,
-        chapters={},
+        conclusion=(),
+        sections=(Section("What the methods found", blocks(runs)),),
         origin=origin(),
-        pictures=list(pictures_of(large, small)),
-        sheets=(*map(sheet_of, runs), bound_sheet(runs)),
+        figures=list(pictures_of(large, small)),
     )

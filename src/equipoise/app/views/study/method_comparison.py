@@ -5,11 +5,11 @@ from dataclasses import asdict
 
 import numpy as np
 
+from equipoise.app.text.blocks import Column, Table, number, table
 from equipoise.app.text.csv_lines import csv_lines
 from equipoise.app.text.json_document import View, numbers, schedule_json
-from equipoise.app.text.sheet import Sheet
 from equipoise.app.text.units import UM
-from equipoise.app.views.law_views import short
+from equipoise.app.views.study.law_views import short
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM
@@ -66,22 +66,23 @@ def shown_order(found: MethodComparison) -> list[MethodSummary]:
     return sorted(found.methods, key=place)
 
 
-def sheets(found: MethodComparison) -> Iterator[Sheet]:
+def tables(found: MethodComparison) -> Iterator[Table]:
     """Yield the tables of a comparison."""
     yield overview(found)
-    yield com_sheet(found)
+    yield com_table(found)
     if any(method.inertia.stated.part for method in found.methods):
-        yield inertia_sheet(found)
+        yield inertia_table(found)
     if any(np.isfinite(method.time) for method in found.methods):
-        yield cost_sheet(found)
+        yield cost_table(found)
 
 
-def overview(found: MethodComparison) -> Sheet:
+def overview(found: MethodComparison) -> Table:
     """Return accuracy and honesty, one line a method."""
-    heads = ("", "com", "J", "bias", "holds", "NEES", "wrong", "warned", "failed")
+    headings = ("com", "J", "bias", "holds", "NEES", "wrong", "warned", "failed")
     lines = [overview_cells(method) for method in shown_order(found)]
     title = f"RMSE / bound of {len(found.seeds)} records of {found.scene.testbed.name}"
-    return Sheet(title, heads, lines, (*scale_remark(found), READ, *failures(found)))
+    notes = (*scale_remark(found), READ, *failures(found))
+    return table(title, (Column(), *map(number, headings)), lines, notes)
 
 
 def overview_cells(method: MethodSummary) -> list[str]:
@@ -99,7 +100,7 @@ def overview_cells(method: MethodSummary) -> list[str]:
     ]
 
 
-def cost_sheet(found: MethodComparison) -> Sheet:
+def cost_table(found: MethodComparison) -> Table:
     """Return what a record takes of those that were not refused, the quickest first."""
     ran = sorted((m for m in found.methods if np.isfinite(m.time)), key=lambda m: m.time)
     lines = [
@@ -111,7 +112,8 @@ def cost_sheet(found: MethodComparison) -> Sheet:
         ]
         for method in ran
     ]
-    return Sheet("What one record takes", ("", "ms", "MB", "settles, s"), lines, (TAKES,))
+    columns = (Column(), number("", "ms"), number("", "MB"), number("settles", "s"))
+    return table("What one record takes", columns, lines, (TAKES,))
 
 
 def seconds(value: float) -> str:
@@ -148,9 +150,9 @@ def beginning(text: str) -> str:
     return ". ".join(text.split(". ")[:2]).removesuffix(".") + "."
 
 
-def com_sheet(found: MethodComparison) -> Sheet:
+def com_table(found: MethodComparison) -> Table:
     """Return bias and sd of the centre of mass along each axis and RMSE of the whole, um."""
-    heads = ("", *(f"{what} {axis}" for axis in "xyz" for what in ("bias", "sd")), "RMSE")
+    headings = (*(f"{what} {axis}" for axis in "xyz" for what in ("bias", "sd")), "RMSE")
     bound = [observed_text(b * UM) for b in found.bound[:3]]
     lines = [
         ["bound", "", bound[0], "", bound[1], "", bound[2], observed_text(norm(found.bound) * UM)]
@@ -165,7 +167,8 @@ def com_sheet(found: MethodComparison) -> Sheet:
         "root mean squares over the records. Masses at home; a method that tells com only as the "
         "masses stand at the end, such as the tracker, is judged by that, and by its bound."
     )
-    return Sheet("Errors of the centre of mass, um", heads, lines, (remark,))
+    columns = (Column(), *map(number, headings))
+    return table("Errors of the centre of mass, um", columns, lines, (remark,))
 
 
 def norm(sizes: Floats) -> float:
@@ -173,17 +176,18 @@ def norm(sizes: Floats) -> float:
     return float(np.sqrt(np.nansum(sizes[:3] ** 2)))
 
 
-def inertia_sheet(found: MethodComparison) -> Sheet:
+def inertia_table(found: MethodComparison) -> Table:
     """Return RMSE of the inertia, percent of sqrt(J_ii J_jj)."""
     part = slice(3, 9)
     factor = PERCENT / element_sizes(found.scene.testbed.body.inertia_P)
-    heads = ("", *(name[-2:] for name in JUDGED[part]), "bias / bound")
+    headings = (*(name[-2:] for name in JUDGED[part]), "bias / bound")
     lines = [["bound", *map(observed_text, found.bound[part] * factor), ""]]
     for method in shown_order(found):
         if method.inertia.stated.part:
             cells = map(figure, method.rmse[part] * factor)
             lines.append([method.method, *cells, figure(method.inertia.bias)])
-    return Sheet("RMSE of the inertia about P, percent of sqrt(J_ii J_jj)", heads, lines)
+    title = "RMSE of the inertia about P, percent of sqrt(J_ii J_jj)"
+    return table(title, (Column(), *map(number, headings)), lines)
 
 
 def observed_text(bound: float) -> str:

@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from equipoise.app.text.sheet import Sheet
+from equipoise.app.text.blocks import Column, Table, number, prose, table
 from equipoise.app.text.units import MICRO, UM
-from equipoise.app.views.method_comparison import MB, MS, percent, seconds
+from equipoise.app.views.study.method_comparison import MB, MS, percent, seconds
 from equipoise.study.compare_laws import LawSummary
 from equipoise.study.compare_methods import MethodSummary
 from equipoise.study.review_tables import LawRow, MethodRow, Span, law_rows, method_rows
@@ -32,12 +32,13 @@ def spread_text(span: Span, factor: float = 1.0) -> str:
     return best if best == worst else f"{best} to {worst}"
 
 
-def methods_sheet(methods: Sequence[MethodSummary], testbed: str) -> Sheet:
+def methods_table(methods: Sequence[MethodSummary], testbed: str) -> Table:
     """Return Table 2, measured."""
-    heads = ("", "the table says", "accuracy", "bias", "ms", "MB", "settles", "failed", "wrong")
+    headings = ("accuracy", "bias", "ms", "MB", "settles", "failed", "wrong")
+    columns = (Column(), prose("the table says"), *map(number, headings))
     lines = [method_cells(row) for row in method_rows(methods)]
     title = f"As the review's Table 2, measured on {testbed}"
-    return Sheet(title, heads, lines, (TABLE_2, *members(lines, method_rows(methods))), (0, 1))
+    return table(title, columns, lines, (TABLE_2, *members(lines, method_rows(methods))))
 
 
 def method_cells(row: MethodRow) -> list[str]:
@@ -63,13 +64,14 @@ def members(lines: Sequence[Sequence[str]], rows: Sequence[MethodRow]) -> list[s
     return ["; ".join(reported) + "."]
 
 
-def laws_sheet(laws: Sequence[LawSummary], testbed: str) -> Sheet:
+def laws_table(laws: Sequence[LawSummary], testbed: str) -> Table:
     """Return Table 3, measured."""
-    heads = ("", "the review says", "reported", "laws", "uN m", "aside, um", "height, um", "s",
-             "halted", "false")  # fmt: skip
+    texts = map(prose, ("the review says", "reported", "laws"))
+    columns = (prose(), *texts, number("", "uN m"), number("aside", "um"), number("height", "um"),
+               number("", "s"), number("halted"), number("false"))  # fmt: skip
     lines = [law_cells(row) for row in law_rows(laws)]
     title = f"As the review's Table 3, measured on {testbed}"
-    return Sheet(title, heads, lines, (TABLE_3,), (0, 1, 2, 3))
+    return table(title, columns, lines, (TABLE_3,))
 
 
 def law_cells(row: LawRow) -> list[str]:

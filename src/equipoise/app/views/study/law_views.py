@@ -3,12 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import asdict
 
-from rich.table import Table
-
-from equipoise.app.console.rich_tables import named_rows, quiet_table
+from equipoise.app.text.blocks import Blocks, Column, Pairs, Table, number, prose, table
 from equipoise.app.text.csv_lines import csv_lines
 from equipoise.app.text.json_document import View
-from equipoise.app.text.sheet import Sheet
 from equipoise.app.text.units import MICRO, MM, PER_DEG, UM
 from equipoise.model.law_card import NEEDS, LawCard
 from equipoise.study.compare_laws import Comparison, LawSummary, Middle
@@ -18,22 +15,20 @@ from equipoise.study.recommend import advised_law
 SCHEMA = "equipoise/laws/1"
 
 
-def list_table(cards: Sequence[LawCard]) -> Table:
-    """Return one line a law."""
-    table = quiet_table()
-    table.add_column("law", style="bold", no_wrap=True)
-    for head in ("idea", "needs", "source"):
-        table.add_column(head)
-    for card in cards:
-        table.add_row(card.name, card.idea, ", ".join(card.needs), card.source)
-    return table
+def blocks(cards: Sequence[LawCard]) -> Blocks:
+    """Return one line a law; of one alone all that its card says."""
+    if len(cards) == 1:
+        return (card_pairs(cards[0]),)
+    columns = (Column("law"), *map(prose, ("idea", "needs", "source")))
+    rows = ((card.name, card.idea, ", ".join(card.needs), card.source) for card in cards)
+    return (table("", columns, rows),)
 
 
-def card_table(card: LawCard) -> Table:
+def card_pairs(card: LawCard) -> Pairs:
     """Return all that a card says."""
     needs = ", ".join(NEEDS[need] for need in card.needs)
     period = f"{card.period:g} s between steps" if card.period > 0 else "as the record allows"
-    return named_rows([
+    return Pairs((
         ("law", card.name),
         ("idea", card.idea),
         ("source", card.source),
@@ -41,7 +36,7 @@ def card_table(card: LawCard) -> Table:
         ("leaves", card.leaves),
         ("stable", card.stable),
         ("pace", period),
-    ])  # fmt: skip
+    ))  # fmt: skip
 
 
 def laws_json(cards: Sequence[LawCard]) -> View:
@@ -77,11 +72,13 @@ def summary_cells(law: LawSummary) -> tuple[str, ...]:
     )
 
 
-def laws_sheet(found: Comparison) -> Sheet:
+def laws_table(found: Comparison) -> Table:
     """Return all laws, the one that leaves the least torque first, and who was refused why."""
     required = f"<= {found.required * MICRO:g} uN m"
-    heads = ("law", "aside, um", "height, um", "torque, uN m", "following", required,
-             "time, s", "travel, mm", "halted", "late", "false")  # fmt: skip
+    columns = (Column("law"), number("aside", "um"), number("height", "um"),
+               number("torque", "uN m"), number("following"), number(required),
+               number("time", "s"), number("travel", "mm"), number("halted"), number("late"),
+               number("false"))  # fmt: skip
     lines = [summary_cells(law) for law in sorted(found.laws, key=lambda each: each.left.most)]
     said = (
         f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
@@ -92,7 +89,7 @@ def laws_sheet(found: Comparison) -> Sheet:
         "the tolerance off."
     )
     refused = [f"{each.law} was refused: {each.why}" for each in found.refusals]
-    return Sheet(f"Laws on {found.testbed.name}", heads, lines, (said, *refused))
+    return table(f"Laws on {found.testbed.name}", columns, lines, (said, *refused))
 
 
 def comparison_json(found: Comparison) -> View:

@@ -1,25 +1,23 @@
-"""Methods and laws compared: terminal, one JSON document, and the files of a folder."""
+"""Methods and laws compared: terminal, one JSON document, and a report."""
 
 from collections.abc import Iterator
 
-from rich.text import Text
-
-from equipoise.app.console.rich_tables import show_sheet
-from equipoise.app.console.terminal import stdout
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.study import compared_accuracy, compared_coverage, compared_torque
-from equipoise.app.report.run_record import Account, origin
-from equipoise.app.report.write import Files
-from equipoise.app.report.write import files_of as report_files
+from equipoise.app.report.run_record import Output, RunRecord, origin
 from equipoise.app.runs.comparison import Compared
-from equipoise.app.text.json_document import View, dump
-from equipoise.app.text.sheet import Sheet
+from equipoise.app.text.blocks import Blocks, Claim, Section, Table
+from equipoise.app.text.json_document import View
 from equipoise.app.text.units import MICRO
-from equipoise.app.views.law_views import comparison_json, laws_csv, laws_sheet
-from equipoise.app.views.method_comparison import methods_csv, methods_json, sheets, shown_order
-from equipoise.app.views.review_views import laws_sheet as table_3
-from equipoise.app.views.review_views import methods_sheet as table_2
-from equipoise.model.verdict import Verdict
+from equipoise.app.views.study.law_views import comparison_json, laws_csv, laws_table
+from equipoise.app.views.study.method_comparison import (
+    methods_csv,
+    methods_json,
+    shown_order,
+    tables,
+)
+from equipoise.app.views.study.review_views import laws_table as table_3
+from equipoise.app.views.study.review_views import methods_table as table_2
 from equipoise.study.compare_methods import MethodComparison
 from equipoise.study.recommend import Advice, advised_law, advised_method, least_share
 
@@ -36,25 +34,30 @@ def advice(done: Compared) -> list[Advice]:
     return reported
 
 
-def all_sheets(done: Compared) -> Iterator[Sheet]:
+def all_tables(done: Compared) -> Iterator[Table]:
     """Yield every table."""
     name = done.testbed.name
     if done.methods is not None:
-        yield from sheets(done.methods)
+        yield from tables(done.methods)
         yield table_2(done.methods.methods, name)
     if done.laws is not None:
-        yield laws_sheet(done.laws)
+        yield laws_table(done.laws)
         yield table_3(done.laws.laws, name)
 
 
-def show(done: Compared) -> None:
-    """Print the tables, and below them what is recommended."""
-    console = stdout()
-    for sheet in all_sheets(done):
-        show_sheet(sheet)
-    console.print()
-    for each in advice(done):
-        console.print(Text(each.sentence, style="bold" if each.name else "bold yellow"))
+def output_of(done: Compared) -> Output:
+    """Return all that is handed over."""
+    return Output("compare", document(done), blocks(done), lambda: record_of(done))
+
+
+def blocks(done: Compared) -> Blocks:
+    """Return the tables, and below them what is recommended."""
+    return (*all_tables(done), *recommendations(done))
+
+
+def recommendations(done: Compared) -> Blocks:
+    """Return what is recommended, and of what nothing can be."""
+    return tuple(Claim(a.sentence, "good" if a.name else "caution") for a in advice(done))
 
 
 def document(done: Compared) -> View:
@@ -93,25 +96,22 @@ def method_pictures(found: MethodComparison) -> Iterator[Picture]:
         yield Picture("methods_coverage", compared_coverage.CAPTION, drawn)
 
 
-def files_of(done: Compared) -> Files:
-    """Return compare.json, methods.csv, laws.csv, the figures and the report."""
-    drawn = list(pictures(done))
-    reported = advice(done)
+def record_of(done: Compared) -> RunRecord:
+    """Return the comparison as a report, with a file a kind, a line a run."""
     parts = {"records": done.methods, "laws": done.laws}
     left_out = {key for key, found in parts.items() if found is None}
-    account = Account(
-        title="Methods and laws compared",
-        requested={key: text for key, text in done.requested.items() if key not in left_out},
-        testbed=done.testbed,
-        chapters={},
-        origin=origin(),
-        verdict=Verdict(all(a.name for a in reported), " ".join(a.sentence for a in reported)),
-        pictures=drawn,
-        sheets=tuple(all_sheets(done)),
-    )
-    files = report_files(account) | {"compare.json": dump(document(done)) + "\n"}
+    files: dict[str, str | bytes] = {}
     if done.methods is not None:
         files["methods.csv"] = methods_csv(done.methods.runs)
     if done.laws is not None:
         files["laws.csv"] = laws_csv(done.laws)
-    return files
+    return RunRecord(
+        title="Methods and laws compared",
+        requested={key: text for key, text in done.requested.items() if key not in left_out},
+        testbed=done.testbed,
+        conclusion=recommendations(done),
+        sections=(Section("What was measured", tuple(all_tables(done))),),
+        origin=origin(),
+        figures=list(pictures(done)),
+        files=files,
+    )

@@ -1,0 +1,1 @@
+"""Comparisons and reproductions as blocks, documents and figures."""
