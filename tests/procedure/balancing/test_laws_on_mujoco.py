@@ -8,6 +8,7 @@ pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 from equipoise.app.runs.balancing import Goal, Limits, procedure
 from equipoise.model.bench import Bench
 from equipoise.procedure.balancing.balance import BalanceOptions
+from tests.support import thorough
 from verification import laws_on_mujoco
 from verification.laws_on_mujoco import bench_of
 
@@ -21,6 +22,7 @@ def test_it_balances_and_its_verdict_is_true(law):
     assert laws_on_mujoco.measure([sum(map(ord, law))], laws=(law,)).missed == ()
 
 
+@thorough.whole
 def test_momentum_build_up_finds_it_to_a_twentieth_of_a_micrometre_and_masses_follow():
     """No sag, no drift: what it found of them is next to nothing, and following does no harm.
 
