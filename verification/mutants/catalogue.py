@@ -210,7 +210,7 @@ PROCEDURE = _of(
     ("steps/verify.py", "if not knowledge.estimate.outcome.usable:", "if False:",
      "procedure/steps/test_verify.py"),
     ("steps/tilt_guard.py", "> testbed.tilt_limit", "> 9 * testbed.tilt_limit",
-     "procedure/balancing/test_balance.py::test_it_stops_on_tilt"),
+     "procedure/steps/test_tilt_guard.py"),
 )  # fmt: skip
 
 STUDY = _of(
