@@ -43,7 +43,7 @@ MATHS = _of(
     ("attitude.py", "q = np.where(q[..., :1] < 0, -q, q)",
      "q = np.where(q[..., :1] < -2, -q, q)", "maths/test_attitude.py"),
     ("attitude.py", "angle * np.cross(up, low_side)", "angle * np.cross(low_side, up)",
-     "maths/test_attitude.py"),
+     "design/manoeuvre/test_manoeuvre_space.py::test_a_lean_lowers_the_side_that_is_named"),
     ("attitude.py", "np.sum(q[1:] * q[:-1], axis=1) < 0", "np.sum(q[1:] * q[:-1], axis=1) > 0",
      "maths/test_attitude.py"),
     ("turns.py", "w * b - i * d + j * c + k * a", "w * b + i * d + j * c + k * a",
