@@ -191,3 +191,12 @@ def test_uncertainty_of_a_move_on_skew_rails():
     cloud = drawn @ mass_maps(SKEW).first_moment / MASS
     found = com_shift_covariance(mass_maps(SKEW), MASS, sd, np.ones(3))
     np.testing.assert_allclose(found, np.cov(cloud.T), rtol=0, atol=0.013 * found.max())
+
+
+def test_a_mass_that_goes_further_than_reported_shifts_as_one_reported_there():
+    """Gain 1.25 on 8 mm is 10 mm."""
+    plain = sliding_masses()
+    wide = tuple(replace(mass, gain=1.25) for mass in plain)
+    d = np.array([8e-3, -4e-3, 12e-3])
+    found = inertia_shift(mass_maps(wide), d)
+    np.testing.assert_allclose(found, inertia_shift(mass_maps(plain), 1.25 * d), rtol=1e-12)

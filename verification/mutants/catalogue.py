@@ -152,7 +152,7 @@ ESTIMATION = _of(
      "estimation/output_error/kernels/test_normal_equations.py"),
     ("regression/formulations/torque.py", "(values[2:] - values[:-2]) / (2 * period)",
      "(values[2:] - values[:-2]) / period",
-     "estimation/regression/test_inverse_dynamics_torque.py"),
+     "estimation/regression/formulations/test_torque.py"),
     ("regression/formulations/simplified.py", "return -(gyroscopic + products)",
      "return gyroscopic + products", "estimation/regression/formulations/test_rows.py"),
     ("regression/solvers/corrected.py", "(normal - aid.gram)", "(normal + aid.gram)",
