@@ -43,7 +43,7 @@ MATHS = _of(
     ("attitude.py", "q = np.where(q[..., :1] < 0, -q, q)",
      "q = np.where(q[..., :1] < -2, -q, q)", "maths/test_attitude.py"),
     ("attitude.py", "angle * np.cross(up, low_side)", "angle * np.cross(low_side, up)",
-     "design/manoeuvre/test_manoeuvre_space.py::test_a_lean_lowers_the_side_that_is_named"),
+     "planning/manoeuvre/test_manoeuvre_space.py::test_a_lean_lowers_the_side_that_is_named"),
     ("attitude.py", "np.sum(q[1:] * q[:-1], axis=1) < 0", "np.sum(q[1:] * q[:-1], axis=1) > 0",
      "maths/test_attitude.py"),
     ("turns.py", "w * b - i * d + j * c + k * a", "w * b + i * d + j * c + k * a",
@@ -186,15 +186,15 @@ SIMULATION = _of(
 )  # fmt: skip
 
 DESIGN = _of(
-    "design",
+    "planning",
     ("manoeuvre/criterion.py", "slogdet(scaled)[1]) / len(size)", "slogdet(scaled)[1])",
-     "design/manoeuvre/test_manoeuvre_space.py"),
+     "planning/manoeuvre/test_manoeuvre_space.py"),
     ("manoeuvre/limit_check.py", "np.sqrt(rate / sensor.rate)", "np.sqrt(sensor.rate / rate)",
-     "design/manoeuvre/test_limit_check.py design/manoeuvre/test_manoeuvre_space.py"),
+     "planning/manoeuvre/test_limit_check.py planning/manoeuvre/test_manoeuvre_space.py"),
     ("sizing/mass_steps.py", "shift = share * mass.resolution", "shift = mass.resolution",
-     "design/sizing/test_environment.py"),
+     "planning/sizing/test_environment.py"),
     ("sizing/move_error.py", "half = 0.5 * np.array", "half = 1.0 * np.array",
-     "design/sizing/test_move_error.py"),
+     "planning/sizing/test_move_error.py"),
 )  # fmt: skip
 
 PROCEDURE = _of(

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from equipoise.app.arguments.inputs import part_of
 from equipoise.app.arguments import resolve
+from equipoise.app.arguments.inputs import part_of
 from equipoise.app.arguments.resolve import move_of
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError

@@ -62,7 +62,7 @@ class Bench:
     drive = move
 
 
-def test_a_look_ends_with_its_duration_or_with_the_limit():
+def test_a_measurement_ends_with_its_duration_or_with_the_limit():
     """From half of the limit it takes five seconds, and is noticed within one more."""
     calm, wild = Bench(0.1), Bench(0.5)
     assert guarded(calm, 8.0).attitude.t[-1] == pytest.approx(7.9)

@@ -73,7 +73,7 @@ def assess(
     with busy("assessing", announce=False):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.assessment import Recordings, run
-        from equipoise.app.runs.at_terminal import AT_TERMINAL
+        from equipoise.app.runs.terminal_waiting import AT_TERMINAL
         from equipoise.app.views.assess_json import output_of
         from equipoise.procedure.identification.assess import AssessOptions
 

@@ -78,9 +78,8 @@ def balance(
         Bench time before giving up: 120, or 600 before a hold or with another law.
     hold_min
         Then follow the drift and hold the balance for so many minutes. After measure_and_move,
-        which
-        balances to a third of the tolerance before, since its errors stay; after momentum_buildup,
-        whose masses follow the tilt too, by the sag that it found.
+        which balances to a third of the tolerance before, since its errors stay; after
+        momentum_buildup, whose masses follow the tilt too, by the sag that it found.
     json
         Print one JSON document instead.
     out
@@ -105,9 +104,9 @@ def balance(
     if out is not None:
         check_folder(out)
     with busy("preparing the bench", announce=False):
-        from equipoise.app.logbook.output import hand_over, keep
-        from equipoise.app.runs.at_terminal import at_terminal, show_step
+        from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.balancing import Goal, Limits, run
+        from equipoise.app.runs.terminal_waiting import at_terminal, show_step
         from equipoise.app.views.balance_views import output_of
         from equipoise.procedure.balancing.catalogue import CARDS
 
@@ -117,10 +116,7 @@ def balance(
         prepare(bed, goal, limits, on_bench)
     with let_go(bed, on_bench) if on_bench.bench else _simulated(bed, planned, seed) as bench:
         done = run(bench, goal, limits, None if json else show_step, at_terminal(bed))
-    output = output_of(done, seed)
-    hand_over(output, json, out, below=True)
-    if out is None:
-        keep(output, bed.name)
+    hand_over_run(output_of(done, seed), json, out, bed.name)
     return 0 if done.verdict.passed else 1
 
 

@@ -90,8 +90,8 @@ def balance_by_hand(requested: Request) -> int:
     if requested.by.session is not None:
         return _a_persons(requested, requested.by.session, bed, rounds)
     with busy("preparing the bench", announce=False):
-        from equipoise.app.runs.at_terminal import show_step
         from equipoise.app.runs.manual_balancing import run
+        from equipoise.app.runs.terminal_waiting import show_step
         from equipoise.simulation.hands import SimulatedHands
 
         hands = SimulatedHands(bed, requested.seed)
@@ -102,7 +102,6 @@ def balance_by_hand(requested: Request) -> int:
 def _a_persons(requested: Request, path: Path, bed: "Testbed", rounds: int) -> int:
     """Take the next recording of a session, and say what to do next."""
     from equipoise.app.console.rich_blocks import show
-    from equipoise.app.runs.at_terminal import show_step
     from equipoise.app.runs.manual_balancing import (
         begun,
         next_deed,
@@ -111,6 +110,7 @@ def _a_persons(requested: Request, path: Path, bed: "Testbed", rounds: int) -> i
         resume,
         with_recording,
     )
+    from equipoise.app.runs.terminal_waiting import show_step
     from equipoise.app.text.blocks import Paragraph
     from equipoise.io.documents.manual_session import read_session, write_session
     from equipoise.io.files.atomic_file import check_writable

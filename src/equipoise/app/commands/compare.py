@@ -106,8 +106,8 @@ def compare(
         check_folder(out)
     with busy("preparing", announce=False):
         from equipoise.app.logbook.output import hand_over
-        from equipoise.app.runs.at_terminal import AT_TERMINAL
         from equipoise.app.runs.comparison import Contest, names_of, run_all
+        from equipoise.app.runs.terminal_waiting import AT_TERMINAL
         from equipoise.app.views.study.comparison_report import output_of
 
         goal, names = _goal(judging), names_of(bed, only, methods, laws)

@@ -24,8 +24,8 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
     check_folder(out)
     with busy("preparing the bench", announce=False):
         from equipoise.app.logbook.output import hand_over
-        from equipoise.app.runs.at_terminal import show_step
         from equipoise.app.runs.demonstration import run_demo
+        from equipoise.app.runs.terminal_waiting import show_step
         from equipoise.app.views.demo_views import output_of
 
     shown = run_demo(bed, seed, show_step)

@@ -61,9 +61,9 @@ def identify(
     planned = None if plan is None else read_plan(plan, bed)
     with busy("identifying", announce=False):
         from equipoise.app.console.rich_blocks import show
-        from equipoise.app.logbook.output import hand_over, keep
-        from equipoise.app.runs.at_terminal import AT_TERMINAL
+        from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.identification import run
+        from equipoise.app.runs.terminal_waiting import AT_TERMINAL
         from equipoise.app.text.run_blocks import finding_items
         from equipoise.app.views.identify_views import output_of
         from equipoise.estimation.methods.registry import METHODS
@@ -77,8 +77,5 @@ def identify(
             show(finding_items(found))
 
     done = replace(run(recording, bed, options, AT_TERMINAL, on_findings), plan=planned)
-    output = output_of(done)
-    hand_over(output, json, out, below=True)
-    if out is None:
-        keep(output, bed.name)
+    hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.estimate.outcome.usable else 1

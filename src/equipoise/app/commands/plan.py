@@ -76,8 +76,8 @@ def plan(
         check_folder(out)
     earlier = None if prior_record is None else fitting_recording_of(str(prior_record), WHOLE, bed)
     from equipoise.app.logbook.output import hand_over
-    from equipoise.app.runs.at_terminal import AT_TERMINAL
     from equipoise.app.runs.planning import Request, plan_file_of, run
+    from equipoise.app.runs.terminal_waiting import AT_TERMINAL
     from equipoise.app.views.plan_views import output_of
     from equipoise.estimation.method_contract import Options
 

@@ -25,6 +25,13 @@ def hand_over(output: Output, json: bool, out: Path | None, below: bool = False)
         show_paths(paths, json)
 
 
+def hand_over_run(output: Output, json: bool, out: Path | None, platform: str) -> None:
+    """Hand over a run whose steps were shown as they came; without ``out`` keep it."""
+    hand_over(output, json, out, below=True)
+    if out is None:
+        keep(output, platform)
+
+
 def keep(output: Output, platform: str) -> None:
     """Write a result into a folder of its own among the runs, if runs are kept."""
     own = None if output.logged is None else own_folder(output.logged.kind, platform)

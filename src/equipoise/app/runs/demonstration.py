@@ -8,8 +8,8 @@ import numpy as np
 from equipoise.app.console.rich_blocks import show
 from equipoise.app.console.terminal import busy, watched
 from equipoise.app.figures.catalogue import TrueCourse
-from equipoise.app.runs.at_terminal import at_terminal
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
+from equipoise.app.runs.terminal_waiting import at_terminal
 from equipoise.app.text.blocks import Heading
 from equipoise.app.text.com_estimate import at_home
 from equipoise.app.text.estimate_text import estimate_tables
