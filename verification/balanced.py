@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.stats import binom
 
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.simulation.bench import SimulatedBench
 from verification.chance import FULL, RARE, fewest
@@ -16,6 +17,7 @@ from verification.result import Result, Row, Spread, at_least, at_most, in_turn,
 SHARE = 0.95  # of runs that end within tolerance
 WRONG = 0.025  # of all runs
 SILENT = 0.10  # chosen: of all runs, in which the verdict may be that it cannot tell
+UNPASSED = (VerdictOutcome.FAILED, VerdictOutcome.HALTED)  # what a verdict is sure of
 OPTIONS = BalanceOptions()
 
 
@@ -26,8 +28,7 @@ class Run(NamedTuple):
     off: NDArray[np.float64]  # m, true, from the target
     moves: int
     seconds: float
-    passed: bool
-    sure: bool
+    outcome: VerdictOutcome
     sentence: str
 
     @property
@@ -43,7 +44,7 @@ def balanced(seed: int) -> Run:
     moves = sum(step.kind == "move" for step in steps)
     off = bench.truth().com - OPTIONS.target
     last = steps[-1].verdict
-    return Run(seed, off, moves, bench.time, last.passed, last.sure, steps[-1].sentence)
+    return Run(seed, off, moves, bench.time, last.outcome, steps[-1].sentence)
 
 
 def most(share: float, runs: int) -> float:
@@ -55,8 +56,8 @@ def rows_of(runs: Sequence[Run]) -> tuple[Row, ...]:
     """Return the rows of all runs."""
     n = len(runs)
     good = np.array([run.good for run in runs])
-    passed = np.array([run.passed for run in runs])
-    failed = np.array([run.sure and not run.passed for run in runs])
+    passed = np.array([run.outcome is VerdictOutcome.PASSED for run in runs])
+    failed = np.array([run.outcome in UNPASSED for run in runs])
     tolerance = triple(1e6 * OPTIONS.tolerance, ".0f")
     return (
         at_least(f"truly within {tolerance} um", float(good.mean()), fewest(SHARE, n), ".1%"),
@@ -74,7 +75,7 @@ def notes_of(runs: Sequence[Run]) -> tuple[str, ...]:
     rms = triple(1e6 * np.sqrt(np.mean(np.array([run.off for run in runs]) ** 2, axis=0)))
     moves, seconds = (np.median([getattr(r, k) for r in runs]) for k in ("moves", "seconds"))
     first = f"Median: {moves:.0f} moves, {seconds:.0f} s. RMS offset from the target {rms} um."
-    odd = [run for run in runs if not (run.good and run.passed)]
+    odd = [run for run in runs if not (run.good and run.outcome is VerdictOutcome.PASSED)]
     return (first, *(
         f"Seed {run.seed}: off by {triple(1e6 * run.off)} um after {run.moves} moves, "
         f"{run.seconds:.0f} s; {run.sentence}"

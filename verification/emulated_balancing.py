@@ -24,7 +24,7 @@ def balanced_through(preset: str, seed: int) -> Run:
         seconds = found.bench.time - let_go
     moves, last = sum(step.kind == "move" for step in steps), steps[-1].verdict
     assert last is not None
-    return Run(seed, off, moves, seconds, last.passed, last.sure, steps[-1].sentence)
+    return Run(seed, off, moves, seconds, last.outcome, steps[-1].sentence)
 
 
 def of(preset: str, devices: str) -> Callable[[Sequence[int], Spread], Result]:

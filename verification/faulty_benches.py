@@ -15,7 +15,10 @@ import numpy as np
 
 from equipoise.app.runs.balancing import until_stopped
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.reasons.interlocks import Interlock
+from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.testbed import Testbed
+from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from tests.support.emulated_lab import Lab, lab, over_tcp
 from tests.support.faulty_wire import covered, garbage, half, noisy, repeated, silent
@@ -25,21 +28,25 @@ OPTIONS = BalanceOptions()
 LATEST = 25.0  # s after the platform is let go, chosen: as long as a balancing takes
 SETTLED = 1.0  # s, within which masses stand when all is over
 AFTER = 2.0  # s in which no mass may move after that
-LOST_SENSOR = ("sensor imu", "sensor camera", "no sensor", "not every sensor")
-LOST_BOARD = ("board masses", "not every board")
-MISHEARD = (*LOST_BOARD, "or its board is misheard", "mass ")  # Grbl's lines bear no checksum
-TILT = ("the platform tilts", "the platform turns")  # it may swing too far while rows are awaited
+LOST_SENSOR = ("sensor imu", "sensor camera", Interlock.SILENCE, Interlock.NO_ROWS,
+               Interlock.NOT_STREAMING, Interlock.NOT_MOVABLE)  # fmt: skip
+LOST_BOARD = ("board masses", Interlock.FAULT, Interlock.POSITION_UNKNOWN,
+              Interlock.NOT_ANSWERING)  # fmt: skip
+# Grbl's lines bear no checksum.
+MISHEARD = (*LOST_BOARD, Interlock.SPEED, Interlock.TRAVEL, Interlock.MISMATCH)
+# It may swing too far while rows are awaited.
+TILT = (VerdictReason.TILTED, Interlock.TILT, Interlock.RATE)
 
 Strike = Callable[[Any, np.random.Generator], None]
 
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """Something that goes wrong, and what may be said if the bench is stopped for it."""
+    """Something that goes wrong, and why the bench may be stopped for it."""
 
     name: str
     strike: Strike
-    said: tuple[str, ...] = ()
+    causes: tuple[str, ...] = ()  # codes, or the device that is to blame
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,9 +152,10 @@ def struck(seed: int) -> Run:
         stands = bool(np.all(platform.displacements == at))
     verdict, sentence = last.verdict, last.sentence
     assert verdict is not None
-    ending = "stopped" if verdict.halted else "balanced" if verdict.passed else "failed"
+    halted = verdict.outcome is VerdictOutcome.HALTED
+    ending = "stopped" if halted else "balanced" if verdict.passed else "failed"
     right = {
-        "stopped": any(part in sentence for part in fault.said),
+        "stopped": bool({verdict.code, *verdict.reasons[0].parameters} & set(fault.causes)),
         "balanced": bool(np.all(np.abs(off) <= OPTIONS.tolerance)),
         "failed": len(sentence) > 0,
     }[ending]

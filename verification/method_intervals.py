@@ -15,7 +15,6 @@ from equipoise.estimation.regression.linear_method import linear_of, posed_of
 from equipoise.estimation.regression.monte_carlo_replicates import Drawn, pairs
 from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import REGIMES, Regime
-from equipoise.study.candour import warns
 from verification.chance import share_band
 from verification.method_records import Record, regime
 from verification.result import Result, Row, Spread, in_turn
@@ -68,7 +67,7 @@ def held(name: Regime, seed: int) -> dict[str, Held]:
     for method, estimate in zip(methods, estimates(record, methods), strict=True):
         stated = [p for p in estimate.parameters if p.name in true and np.isfinite(p.sd) and p.sd]
         inside = tuple(bool(p.low95 <= true[p.name] <= p.high95) for p in stated)
-        found[method.card.name] = Held(inside, warns(estimate))
+        found[method.card.name] = Held(inside, estimate.outcome.warns)
     return found
 
 

@@ -25,7 +25,6 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.procedure.steps.clean_record import sound
-from equipoise.study.candour import warns
 from verification.real_record import CALM_FROM, HELD, RECORD, TESTBED, WHOLE
 from verification.result import Result, Row, Spread, at_most, in_turn
 
@@ -57,13 +56,13 @@ def judged(name: str) -> tuple[str, float | None]:
     if name == CAD:
         return "as published", left_by(testbed, testbed.body)
     estimate = estimated(name)
-    first = estimate.outcome.sentence.split(". ")[0].rstrip(".")
+    first = estimate.outcome.reasons[0].sentence
     if not estimate.parameters:
         return f"refuses: {first}", None
     body = body_with(testbed, {p.name: p.value for p in estimate.parameters})
     if not is_possible(body):
         return "no body can have the inertia found, and it says so", None
-    said = "warns of its intervals" if warns(estimate) else "usable"
+    said = "warns of its intervals" if estimate.outcome.warns else "usable"
     if not estimate.outcome.usable:
         said = f"not usable: {first}"
     return said, left_by(testbed, body)

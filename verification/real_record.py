@@ -18,6 +18,8 @@ from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.estimate import Estimate
+from equipoise.model.outcome import OutcomeCode
+from equipoise.model.reasons.finding_reasons import FindingReason
 from equipoise.model.recording import window
 from equipoise.model.torque_terms import GROUPS
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
@@ -85,12 +87,13 @@ def touch_rows(whole: Estimate) -> tuple[Row, ...]:
 def finding_rows() -> tuple[Row, ...]:
     """Return the rows about what reading alone tells."""
     recording, testbed = read_recording(RECORD), read_testbed(TESTBED)
-    text = " ".join(f.sentence for f in findings(recording, testbed))
+    found = {f.code: f for f in findings(recording, testbed)}
+    means = FindingReason.ROWS_AVERAGED in found
+    odd = found.get(FindingReason.ROW_NOT_A_MEAN)
+    last = odd is not None and odd.reasons[0].numbers["row"] == len(recording.attitude or ())
     return (
-        said("rows are means of frames", "told" if "row is the mean over" in text else "not told",
-             "told", "row is the mean over" in text),
-        said("the last row is not", "told" if "row 601 at 60 s is not a mean" in text else
-             "not told", "told", "row 601 at 60 s is not a mean" in text),
+        said("rows are means of frames", "told" if means else "not told", "told", means),
+        said("the last row is not", "told" if last else "not told", "told", last),
     )  # fmt: skip
 
 
@@ -165,7 +168,7 @@ def measurement_rows(quiet: Estimate) -> tuple[Row, ...]:
 def open_row(free: Estimate) -> Row:
     """Return the row of the same part with nothing held."""
     infinite = all(np.isinf(free.parameters[free.index(name)].sd) for name in MOMENTS)
-    ok = "scale is open" in free.outcome.sentence and infinite and len(free.ratios) > 0
+    ok = free.outcome.code is OutcomeCode.SCALE_OPEN and infinite and len(free.ratios) > 0
     wanted = "scale is open, moments without interval, ratios given"
     return said("20-40 s, nothing held: outcome", free.outcome.sentence, wanted, ok)
 

@@ -24,13 +24,13 @@ from equipoise.model.estimate import COM
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
+from equipoise.model.verdict import VerdictOutcome
 from equipoise.procedure.identification.assess import (
     AssessOptions,
     answers_of,
     fit_of,
     pull_of,
 )
-from equipoise.procedure.identification.requirement import FAILED, OPEN, PASSED
 from equipoise.procedure.identification.swing_metrics import swing_metrics
 from equipoise.procedure.steps.tilt_guard import guarded
 from equipoise.simulation.bench import SimulatedBench
@@ -38,6 +38,8 @@ from tests.oracle import mujoco_bench as oracle
 from verification.chance import FULL, RARE
 from verification.result import Result, Row, Spread, at_most, in_turn
 
+PASSED, UNDECIDED = VerdictOutcome.PASSED, VerdictOutcome.UNDECIDED
+FAILED = VerdictOutcome.FAILED
 Array = NDArray[np.float64]
 SECONDS = 60.0
 LIMITS = (3e-6, 3e-3)  # N m: a record of a minute has a floor of some 1e-5
@@ -52,7 +54,7 @@ class Answer(NamedTuple):
     """One platform judged twice."""
 
     beyond: tuple[bool, bool]  # torque, distance: truth beyond what is required
-    answers: tuple[str, str]
+    answers: tuple[VerdictOutcome, VerdictOutcome]
 
 
 def platform(seed: int, multiple: float | None) -> tuple[Testbed, float, float]:
@@ -88,9 +90,9 @@ def judged(job: tuple[int, float | None]) -> Answer:
     true = bench.truth().com
     beyond = weight * residual_torque(true, np.zeros((3, 3)), bed.up, requested.tilt) > torque
     if not estimated[0].outcome.usable:
-        return Answer((beyond, beyond), (OPEN, OPEN))
+        return Answer((beyond, beyond), (UNDECIDED, UNDECIDED))
     outlying = bool(np.linalg.norm(true) > distance)
-    return Answer((beyond, outlying), (found[0].answer, found[1].answer))
+    return Answer((beyond, outlying), (found[0].outcome, found[1].outcome))
 
 
 def rates(name: str, found: Sequence[Answer], k: int) -> list[Row]:

@@ -5,8 +5,9 @@ import pytest
 
 from equipoise.app.runs import balancing
 from equipoise.model.step import Step
-from equipoise.model.verdict import Verdict
 from equipoise.simulation.bench import SimulatedBench
+from tests.support.outcomes import OBSERVED
+from tests.support.outcomes import verdict as verdict_of
 
 WRONG_USE = {
     "unknown command": ["frobnicate"],
@@ -125,8 +126,8 @@ def test_an_estimate_that_cannot_be_used_ends_with_1(equipoise, record_file):
 
 
 def verdict_step(passed: bool) -> Step:
-    verdict = Verdict(passed, "Said so.", np.zeros(3), np.full(3, 1e-6))
-    return Step("verify", 1.0, "Said so.", verdict=verdict)
+    verdict = verdict_of(passed, np.zeros(3), np.full(3, 1e-6))
+    return Step("verify", 1.0, verdict.reasons, verdict=verdict)
 
 
 @pytest.mark.parametrize(("passed", "code"), [(True, 0), (False, 1)])
@@ -139,7 +140,7 @@ def test_ctrl_c_halts_the_bench_and_says_so(equipoise, monkeypatch):
     halted = []
 
     def interrupted(law, bench, options, longest):
-        yield Step("measurement", bench.time, "Looked.", recording=bench.read(1.0))
+        yield Step("measurement", bench.time, OBSERVED, recording=bench.read(1.0))
         raise KeyboardInterrupt
 
     monkeypatch.setattr(balancing, "balanced_by", interrupted)

@@ -15,6 +15,10 @@ def test_an_estimate(equipoise, record_file, strict_json):
     assert document["schema"] == "equipoise/estimate/1"
     assert document["method"] == "trajectory"
     assert document["outcome"]["usable"]
+    assert document["outcome"]["code"] == "estimated"
+    assert document["outcome"]["trust"] in ("trustworthy", "widened")
+    codes = [reason["code"] for reason in document["outcome"]["reasons"]]
+    assert codes[0] in ("explained_attitude", "explained_rate")
     assert all(set(p) == PARAMETER for p in document["parameters"])
     n = len(document["parameters"])
     assert np.shape(document["covariance"]) == (n, n)
@@ -35,7 +39,7 @@ def test_an_unobservable_parameter_is_null_and_ratios_are_given_beside_it(
     com = next(p for p in document["parameters"] if p["name"] == "com_z")
     assert (com["sd"], com["low95"], com["observable"]) == (None, None, False)
     assert document["ratios"]
-    assert any("scale" in sentence for sentence in document["unobservable"])
+    assert any(reason["code"] == "scale" for reason in document["unobservable"])
 
 
 def test_a_balancing_run(equipoise, strict_json):
@@ -43,7 +47,8 @@ def test_a_balancing_run(equipoise, strict_json):
     document = strict_json(done.out)
     assert document["schema"] == "equipoise/balance/1"
     assert done.code == (0 if document["verdict"]["passed"] else 1)
-    assert document["verdict"]["halted"] is False
+    assert document["verdict"]["outcome"] in ("passed", "failed", "undecided")
+    assert all(step["code"] == step["reasons"][0]["code"] for step in document["steps"])
     assert len(document["verdict"]["com_um"]) == len(document["verdict"]["sd_um"]) == 3
     assert len(document["truth"]["com_um"]) == 3
     assert np.shape(document["truth"]["inertia_P_kg_m2"]) == (3, 3)
@@ -67,7 +72,8 @@ def test_a_part_of_a_recording(equipoise, record_file, strict_json):
     measured = strict_json(equipoise("inspect", record_file, *part).out)
     assert (measured["rows"]["attitude"], measured["span_s"]) == (151, [10, 40])
     observed = strict_json(equipoise("observe", record_file, "--testbed", "sputnix", *part).out)
-    assert any("scale" in sentence for sentence in observed["unobservable"])  # the move is at 60 s
+    # The move is at 60 s.
+    assert any(reason["code"] == "scale" for reason in observed["unobservable"])
 
 
 def test_what_a_recording_can_show(equipoise, record_file, strict_json):
@@ -112,7 +118,7 @@ def test_what_an_open_scale_leaves(equipoise, free_file, strict_json):
     assert document["condition"] is None
     assert document["rank"] == document["size"] - 1
     assert len(document["ratios"]) == 8
-    assert any("scale" in sentence for sentence in document["unobservable"])
+    assert any(reason["code"] == "scale" for reason in document["unobservable"])
     held = strict_json(equipoise(*words, "--hold", "inertia_P_zz").out)
     assert held["rank"] == held["size"] == document["size"] - 1
     assert [p["name"] for p in held["parameters"] if p["held"]] == ["inertia_P_zz"]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter, Residual
-from equipoise.model.outcome import Outcome
+from tests.support.outcomes import of_use
 
 UM = 1e-6
 
@@ -15,7 +15,7 @@ def nine() -> Estimate:
     rows = np.arange(9.0)
     return Estimate(
         method="hand",
-        outcome=Outcome(True, "Made for a test."),
+        outcome=of_use(),
         parameters=tuple(
             Parameter(name, "m" if name in COM else "kg m2", value, 0.5)
             for name, value in zip(COM + INERTIA, values, strict=True)

@@ -5,12 +5,13 @@ import pytest
 
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
-from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import CARDS
 from equipoise.study import compare_laws
 from equipoise.study.compare_laws import Refusal, compared, middle, run_or_refusal, summary
 from equipoise.study.law_run import LawRun, Task
+from tests.support.outcomes import halted as halted_verdict
+from tests.support.outcomes import verdict as verdict_of
 
 UP, NEAR = np.array([0.0, 0.0, 1.0]), np.full(3, 2e-6)
 
@@ -19,7 +20,7 @@ def made_up(law="pid", seed=1, offset=(0.0, 0.0, 0.0), torque=1e-6, verdict=None
     given = {"torque_before": 1e-3, "time": 100.0, "travel": 0.01, "late": False} | more
     given = {"followed": None} | given
     return LawRun(law=law, seed=seed, offset=np.array(offset), torque=torque, **given,
-                  verdict=verdict or Verdict(False, "said"))  # fmt: skip
+                  verdict=verdict or verdict_of(False))  # fmt: skip
 
 
 def task(law="pid", seed=1):
@@ -60,7 +61,7 @@ def test_masses_that_follow_count_as_they_follow():
 
 
 def test_a_pass_is_false_when_the_truth_is_beyond_twice_the_tolerance_on_any_axis():
-    passed, failed = Verdict(True, "good"), Verdict(False, "bad")
+    passed, failed = verdict_of(True), verdict_of(False)
     runs = [
         made_up(offset=(3.9e-6, 0, 0), verdict=passed),  # beyond the tolerance, not beyond twice it
         made_up(offset=(0, 0, -4.1e-6), verdict=passed),
@@ -70,7 +71,7 @@ def test_a_pass_is_false_when_the_truth_is_beyond_twice_the_tolerance_on_any_axi
 
 
 def test_halted_and_late_runs_are_counted_once():
-    halted = Verdict(False, "Stopped.", halted=True)
+    halted = halted_verdict()
     runs = [made_up(verdict=halted), made_up(late=True), made_up(verdict=halted, late=True)]
     reported = summary(runs, UP, 1.0, NEAR)
     assert (reported.halted, reported.late) == (2, 1)

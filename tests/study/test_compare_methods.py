@@ -82,7 +82,7 @@ def test_confidently_wrong_is_a_miss_by_more_than_five_sd(error, count):
 def test_failures_are_counted_and_are_in_no_statistic():
     runs = [
         made_up([1.0]),
-        made_up([500.0], ending="unusable", sentence="It means nothing.", warned=True),
+        made_up([500.0], ending="unusable", why="It means nothing.", warned=True),
         made_up(ending="refused", sentence="No gyro."),
         made_up(ending="refused", sentence="No gyro."),
         made_up([7.0], ending="broke", sentence="ValueError: no"),

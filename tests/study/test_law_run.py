@@ -10,15 +10,16 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.model.defects import ComStep
 from equipoise.model.following import Following
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.reasons.reason import one_reason
+from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Samples
 from equipoise.model.step import Step
 from equipoise.model.testbed import SlidingMass, Testbed, Truth
-from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions
-from equipoise.procedure.balancing.run_law import SPENT
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.study import law_run as law_run_module
 from equipoise.study.law_run import CountedBench, Task, followed_torque, gone, law_run, rms_torque
+from tests.support.outcomes import verdict as verdict_of
 
 WEIGHT = 10.0 * 9.81  # N
 TARGET, TILT = np.array([0.0, 0.0, -1e-4]), np.radians(20.0)
@@ -131,7 +132,7 @@ def test_a_platform_that_is_halted_has_its_verdict_and_its_torque(run):
     thrown = replace(bed, truth=replace(bed.truth, attitude=np.zeros(3),
                                         rate=np.array([0.6, 0.0, 0.0])))  # fmt: skip
     halted = law_run(Task("pid", thrown, 3, BalanceOptions(TARGET), 60.0, TILT))
-    assert halted.verdict.halted
+    assert halted.verdict.outcome == "halted"
     assert halted.time < 5.0
     assert halted.torque == pytest.approx(run.torque_before, rel=0.5)
 
@@ -177,8 +178,8 @@ def test_a_wrong_sag_is_left_for_what_it_is_wrong_by():
 
 def test_the_law_that_follows_is_counted_with_its_masses_following(monkeypatch):
     bench, following = sagging([0, 0, 0], masses=rails())
-    last = Step("verify", 1.0, "", verdict=Verdict(True, ""))
-    steps = [Step("control", 1.0, "", following=following), last]
+    last = Step("verify", 1.0, (), verdict=verdict_of(True))
+    steps = [Step("control", 1.0, (), following=following), last]
     monkeypatch.setattr(law_run_module, "balanced_by", lambda *_: iter(steps))
     task = Task("pid", bench.testbed, 1, BalanceOptions(TARGET), 60.0, TILT)
     assert law_run(task).left < 1e-12
@@ -187,6 +188,7 @@ def test_the_law_that_follows_is_counted_with_its_masses_following(monkeypatch):
     assert run.followed is None
     assert run.left == run.torque > 1e-5
     assert not run.late
-    spent = Step("control", 1.0, f"pid for 20 s of bench time: {SPENT}.")
+    ran = one_reason(StepReason.LAW_RAN, "pid", duration=20.0)
+    spent = Step("control", 1.0, (*ran, *one_reason(StepReason.TIME_USED_UP)))
     monkeypatch.setattr(law_run_module, "balanced_by", lambda *_: iter([spent, last]))
     assert law_run(task).late

@@ -10,7 +10,9 @@ from equipoise.estimation.method_contract import Options
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.estimate import COM, END, INERTIA, Course, Estimate, Parameter
-from equipoise.model.outcome import Outcome
+from equipoise.model.outcome import Outcome, outcome
+from equipoise.model.reasons.estimate_reasons import EstimateReason
+from equipoise.model.reasons.reason import Reason
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.study.compare_methods import compared_methods
 from equipoise.study.method_record import JudgedRecord, Scene, judged_record
@@ -37,14 +39,14 @@ def record(truth=None, testbed=BED, recording=None, options=None, bound=None):
     )
 
 
-def estimate(values, covariance, usable=True, sentence="Done.", course=None):
+def estimate(values, covariance, why=EstimateReason.LINEAR, course=None):
     """Return an estimate of named values in um, covariance in um^2."""
     P = np.array(covariance, dtype=float) * UM**2
     parameters = tuple(
         Parameter(name, "m", value * UM, float(np.sqrt(P[k, k])), bool(np.isfinite(P[k, k])))
         for k, (name, value) in enumerate(values.items())
     )
-    return Estimate("tracker", Outcome(usable, sentence), parameters, P, course=course)
+    return Estimate("tracker", outcome(why), parameters, P, course=course)
 
 
 def test_error_sd_and_bound_stand_in_their_places():
@@ -83,19 +85,26 @@ def test_com_as_masses_stand_is_judged_by_the_end():
 
 
 @pytest.mark.parametrize(
-    ("usable", "sentence", "ending", "warned"),
-    [(True, "Done.", "done", False), (False, "No.", "unusable", True),
-     (True, "Its interval is not trustworthy.", "done", True)],
-)  # fmt: skip
-def test_endings(usable, sentence, ending, warned):
-    found = estimate({"com_x": 1.0}, [[1.0]], usable=usable, sentence=sentence)
+    ("why", "ending", "warned"),
+    [
+        (EstimateReason.LINEAR, "done", False),
+        (EstimateReason.RESIDUAL_LARGE, "done", False),
+        (EstimateReason.IMPOSSIBLE_INERTIA, "unusable", True),
+        (EstimateReason.BIAS_BY_NOISE, "done", True),
+    ],
+)
+def test_endings(why, ending, warned):
+    numbers = {"power": 4.0, "widening": 2.0, "sds": 1.0}
+    ended = Outcome((Reason(why, ("com_x",), numbers),))
+    found = replace(estimate({"com_x": 1.0}, [[1.0]]), outcome=ended)
     run = judged("tracker", 1, found, record(), NOTHING)
     assert (run.ending, run.warned, run.stated) == (ending, warned, ending == "done" and not warned)
 
 
 def test_a_failure_states_its_reason_and_has_no_numbers():
     run = judged("tracker", 1, Failure("broke", "ValueError: no"), record(), NOTHING)
-    assert (run.ending, run.sentence, run.stated) == ("broke", "ValueError: no", False)
+    assert (run.ending, run.sentence, run.why) == ("broke", "ValueError: no", "ValueError: no")
+    assert not run.stated
     assert np.isnan(run.error).all()
 
 
@@ -131,8 +140,8 @@ def test_misuse_is_a_refusal_and_an_exception_is_reported_as_broken():
     assert refused.ending == "refused"
     assert "--hold with tracker" in refused.why
     empty = tried(replace(METHODS["tracker"], run=lambda *_: estimate({}, np.zeros((0, 0)),
-                  usable=False, sentence="No camera.")), record())  # fmt: skip
-    assert empty == Failure("refused", "No camera.")
+                  EstimateReason.NO_CAMERA)), record())  # fmt: skip
+    assert empty == Failure("refused", EstimateReason.NO_CAMERA.template)
 
 
 # --- on records --------------------------------------------------------------------------------

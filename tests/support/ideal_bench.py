@@ -18,9 +18,9 @@ from equipoise.model.command import Command
 from equipoise.model.devices import ReactionWheel
 from equipoise.model.estimate import COM, Estimate, Parameter
 from equipoise.model.mass_properties import MassProperties
-from equipoise.model.outcome import Outcome
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
 from equipoise.simulation.motion import run
+from tests.support.outcomes import of_use
 
 MASS, GRAVITY, INERTIA = 14.0, 9.81, np.diag([0.30, 0.28, 0.45])
 UP = np.array([0.0, 0.0, 1.0])
@@ -151,7 +151,7 @@ def measured(now, bench, rng):
         + bench.reported[1] * rng.normal(size=3)
     )
     parameters = tuple(Parameter(n, "m", float(x), 1e-6) for n, x in zip(COM, com, strict=True))
-    return Estimate("told", Outcome(True, "Told."), parameters, 1e-12 * np.eye(3))
+    return Estimate("told", of_use(), parameters, 1e-12 * np.eye(3))
 
 
 def started(bench, q, rate):

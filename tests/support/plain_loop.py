@@ -17,6 +17,7 @@ from equipoise.model.command import Command
 from equipoise.model.devices import ReactionWheel
 from equipoise.model.following import Following
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
 from equipoise.procedure.balancing.run_law import measured_estimate
@@ -100,7 +101,7 @@ class Course:
     h: list[np.ndarray] = field(default_factory=list)
     tau: list[np.ndarray] = field(default_factory=list)
     d: list[np.ndarray] = field(default_factory=list)
-    finished: str = ""
+    finished: tuple[Reason, ...] = ()
     following: Following | None = None
     states: list[object] = field(default_factory=list)
 

@@ -19,9 +19,10 @@ from equipoise.model.command import Command
 from equipoise.model.devices import JetPair
 from equipoise.model.estimate import COM, Estimate, Parameter
 from equipoise.model.mass_properties import MassProperties
-from equipoise.model.outcome import Outcome
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed
 from equipoise.simulation.motion import run
+from tests.support.outcomes import of_use
 
 MASS, GRAVITY = 14.0, 9.81
 INERTIA = np.diag([0.30, 0.28, 0.45])
@@ -74,7 +75,7 @@ class Run:
     measurements: int = 0
 
     @property
-    def finished(self) -> str:
+    def finished(self) -> tuple[Reason, ...]:
         return self.commands[-1].finished
 
     @property
@@ -132,7 +133,7 @@ def estimate(plant: Plant, scale_error: float) -> Estimate:
     com = (1 + scale_error) * plant.com - plant.shift
     sd = np.abs(plant.com) * abs(scale_error) + 1e-8
     rows = tuple(Parameter(*each) for each in zip(COM, "mmm", com, sd, strict=True))
-    return Estimate("trajectory", Outcome(True, "as told"), rows, np.diag(sd**2))
+    return Estimate("trajectory", of_use(), rows, np.diag(sd**2))
 
 
 class Loop:

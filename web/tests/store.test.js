@@ -4,7 +4,7 @@ import { Store } from "../../src/equipoise/app/dashboard/static/store.js";
 
 const tell = (store, message) => store.receive(JSON.stringify(message));
 const about = { kind: "about", clock: 7, series: [] };
-const step = (index, sentence) => ({ kind: "step", index, of: "look", t: 1, sentence, word: null });
+const step = (index, sentence) => ({ kind: "step", index, of: "look", t: 1, sentence, outcome: null });
 
 test("a step with an index that was there replaces it", () => {
   const store = new Store();

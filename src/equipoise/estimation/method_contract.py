@@ -12,7 +12,9 @@ import numpy as np
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card, Choice
-from equipoise.model.outcome import Outcome
+from equipoise.model.outcome import outcome
+from equipoise.model.reasons.estimate_reasons import EstimateReason
+from equipoise.model.reasons.reason import Number
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.version import __version__
@@ -71,6 +73,6 @@ def origin_of(recording: Recording) -> dict[str, str]:
     return {"version": __version__, "source": recording.source, "sha256": recording.sha256}
 
 
-def refused(card: Card, sentence: str) -> Estimate:
-    """Return the estimate of a method that could not begin, and why."""
-    return Estimate(card.name, Outcome(False, sentence), (), np.zeros((0, 0)))
+def refused(card: Card, why: EstimateReason, **numbers: Number) -> Estimate:
+    """Return the estimate of a method that could not begin, and why; numbers are in SI."""
+    return Estimate(card.name, outcome(why, **numbers), (), np.zeros((0, 0)))

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from equipoise.model.arrays import Vector3
 from equipoise.model.following import Following
+from equipoise.model.reasons.reason import Reason
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +37,6 @@ class Command:
     measurement: Measurement | None = (
         None  # the next step is given the Estimate of this look, not a Sample
     )
-    finished: str = ""  # why the law has done its work; empty: it has not
+    finished: tuple[Reason, ...] = ()  # why the law has done its work; empty: it has not
     following: Following | None = None  # with ``finished``: what masses can follow from now on
-    note: str = ""  # what people should know of this step
+    note: tuple[Reason, ...] = ()  # what people should know of this step

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Any
 
+from equipoise.model.reasons.reason import Reason
+
 
 class EquipoiseError(Exception):
     """Anything the user can mend; its text says what was found, where, and what was wanted."""
@@ -60,7 +62,14 @@ class DriveRefused(EquipoiseError):
 
 
 class BenchStopped(EquipoiseError):
-    """Every motor of a real bench was stopped, or may not be moved; the text says why."""
+    """Every motor of a real bench was stopped, or may not be moved; the text says why.
+
+    ``cause`` says it for programs, where an interlock is the cause.
+    """
+
+    def __init__(self, text: str, cause: Reason | None = None) -> None:
+        super().__init__(text)
+        self.cause = cause
 
 
 def nearest(name: str, known: Sequence[str]) -> str:

@@ -10,6 +10,7 @@ from equipoise.model.arrays import Floats, Matrix3, Series, Series1, Square, Vec
 from equipoise.model.event import Event
 from equipoise.model.outcome import Outcome
 from equipoise.model.presentation import Plotted
+from equipoise.model.reasons.reason import Reason
 
 COM = ("com_x", "com_y", "com_z")
 END = ("com_end_x", "com_end_y", "com_end_z")  # with the masses as they stand at the end
@@ -97,12 +98,12 @@ class Estimate(Plotted):
     parameters: tuple[Parameter, ...]
     covariance: Square
     residual: Residual | None = None
-    unobservable: tuple[str, ...] = ()  # sentences: directions the data cannot see
+    unobservable: tuple[Reason, ...] = ()  # directions that the data do not show
     ratios: tuple[Parameter, ...] = ()  # what is known when the scale is open
     possible: bool = True  # some body can have these mass properties
     provenance: Mapping[str, str] = field(default_factory=dict[str, str])
     events: tuple[Event, ...] = ()
-    unexplained: tuple[str, ...] = ()  # sentences: what the model leaves open, and what it might do
+    unexplained: tuple[Reason, ...] = ()  # what the model leaves open, and what it might do
     course: Course | None = None  # of a method that goes along the record
     rate_course: Course | None = None  # the angular velocity, of a method that tracks it
 

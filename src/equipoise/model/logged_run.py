@@ -2,14 +2,29 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import Literal
 
 from equipoise.model.estimate import Parameter
-from equipoise.model.verdict import Word
+from equipoise.model.verdict import VerdictOutcome
 
 RUN = "run.json"  # the file that a run's folder has when the run is whole
 Kind = Literal["balance", "identify"]
-Outcome = Literal[Word, "usable", "not usable"]
+
+
+class Usability(StrEnum):
+    """Whether an estimate may be used, of a run without a verdict."""
+
+    USABLE = "usable"
+    NOT_USABLE = "not_usable"
+
+
+Ending = VerdictOutcome | Usability
+
+
+def ending_of(code: str) -> Ending:
+    """Return the ending of a code; ValueError if there is none."""
+    return Usability(code) if code in list(Usability) else VerdictOutcome(code)
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +38,7 @@ class LoggedRun:
     configuration: str  # SHA-256 of the testbed's text
     method: str  # of estimation, or law of balancing
     bench: str  # simulated, real, recording
-    outcome: Outcome
+    outcome: Ending
     sentence: str
     parameters: tuple[Parameter, ...] = ()  # of the last estimate, SI, masses at home
     standing: tuple[Parameter, ...] = ()  # centre of mass as judged, masses as they stand, SI

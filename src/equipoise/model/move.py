@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from equipoise.model.arrays import Matrix3, Vector3
+from equipoise.model.reasons.step_reasons import MoveReason
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -15,4 +16,4 @@ class Move:
     duration: float  # s, until the last one has stopped
     predicted_com: Vector3  # m, afterwards
     predicted_covariance: Matrix3  # m^2, of the estimate and of where the masses stop
-    reason: str
+    reason: MoveReason

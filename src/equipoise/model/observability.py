@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from equipoise.model.arrays import Bools, Floats, Matrix3
 from equipoise.model.estimate import Parameter
+from equipoise.model.reasons.reason import Reason
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -16,8 +17,8 @@ class Observability:
     before: Floats  # sd that the testbed states beforehand, SI; infinite: none
     hidden: Bools
     held: Bools  # not sought
-    sentences: tuple[str, ...]  # directions that are not seen
-    cautions: tuple[str, ...]  # why the motion may be another than the recording's
+    unobservable: tuple[Reason, ...]  # directions
+    cautions: tuple[Reason, ...]  # why the motion may be another than the recording's
     ratios: tuple[Parameter, ...]  # when the scale is open
     condition: float
     gravity_sweep: float
@@ -36,4 +37,4 @@ class FilterView:
     measures: str  # "gyro" or "camera"
     possible: int  # rank with sensors of no noise
     rank: int | None  # with the testbed's; None: the recording has no such rows
-    sentences: tuple[str, ...]  # directions that are not seen, at ``rank`` if there is one
+    unobservable: tuple[Reason, ...]  # directions that are not seen, at ``rank`` if there is one

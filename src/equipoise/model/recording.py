@@ -65,6 +65,7 @@ class Recording(Plotted):
     source: str = ""  # the file, or the bench
     sha256: str = ""  # of the file's bytes; empty when it never was a file
     notes: tuple[str, ...] = ()  # what reading it had to set right
+    gaps: tuple[str, ...] = ()  # where reading it found a sensor silent
     free_from: float | None = None  # s, when the platform was let go, where the file tells
 
     @property

@@ -7,6 +7,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
 from equipoise.model.move import Move
 from equipoise.model.placing import Placing
+from equipoise.model.reasons.reason import Code, Reason, sentence_of
 from equipoise.model.recording import Recording
 from equipoise.model.verdict import Verdict
 
@@ -19,7 +20,7 @@ class Step:
 
     kind: Kind
     time: float  # s, bench time when the step ended
-    sentence: str
+    reasons: tuple[Reason, ...]  # what came of it, the main one first
     recording: Recording | None = field(default=None, repr=False)
     estimate: Estimate | None = field(default=None, repr=False)
     move: Move | None = field(default=None, repr=False)
@@ -27,3 +28,13 @@ class Step:
     # what masses can follow from now on
     following: Following | None = field(default=None, repr=False)
     placing: Placing | None = field(default=None, repr=False)  # of weights, by hand
+
+    @property
+    def code(self) -> Code:
+        """The main thing to know."""
+        return self.reasons[0].code
+
+    @property
+    def sentence(self) -> str:
+        """What came of it, for a person."""
+        return sentence_of(self.reasons)

@@ -1,35 +1,92 @@
 """A verdict: a claim about the platform, tested on fresh data."""
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from enum import StrEnum
 
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import NORMAL_95
+from equipoise.model.reasons.reason import Code, Reason, sentence_of
+from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 
-Word = Literal["passed", "failed", "cannot tell", "halted"]
+
+class VerdictOutcome(StrEnum):
+    """What a claim came to; of several, the last of this list counts."""
+
+    PASSED = "passed"
+    UNDECIDED = "undecided"
+    FAILED = "failed"
+    HALTED = "halted"  # the run was broken off, for safety
+
+
+OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
+    VerdictOutcome.PASSED: (
+        Why.WITHIN_TOLERANCE,
+        Why.HELD,
+        Why.TORQUE_MET,
+        Why.OFFSET_MET,
+        Why.NOTHING_REQUIRED,
+        Why.REQUIREMENT_MET,
+        Why.RECOMMENDED,
+    ),
+    VerdictOutcome.UNDECIDED: (
+        Why.TOO_UNCERTAIN,
+        Why.ESTIMATE_UNUSABLE,
+        Why.TORQUE_UNDECIDED,
+        Why.OFFSET_UNDECIDED,
+    ),
+    VerdictOutcome.FAILED: (
+        Why.OUTSIDE_TOLERANCE,
+        Why.RECORD_MISFITS,
+        Why.MOVE_MISSED,
+        Why.NOT_HELD,
+        Why.TORQUE_EXCEEDED,
+        Why.OFFSET_EXCEEDED,
+        Why.OUT_OF_REACH,
+        Why.MET_BY_ONE_CHANGE,
+        Why.MET_BY_NO_CHANGE,
+        Why.NONE_RECOMMENDED,
+    ),
+    VerdictOutcome.HALTED: (Why.TILTED, Why.BENCH_STOPPED, Why.STOPPED_BY_HAND),
+}
+
+
+def outcome_of(reasons: Iterable[Reason]) -> VerdictOutcome:
+    """Return what a claim came to; reasons that are not a verdict's decide nothing."""
+    codes = {reason.code for reason in reasons}
+    found = [outcome for outcome, causes in OUTCOMES.items() if codes & set(causes)]
+    return found[-1] if found else VerdictOutcome.UNDECIDED
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Verdict:
-    """Pass, fail or cannot tell (neither passed nor sure), with the numbers behind it."""
+    """What a claim came to, why, the main reason first, and the numbers behind it."""
 
-    passed: bool
-    sentence: str
+    reasons: tuple[Reason, ...]
     com: Vector3 | None = None  # m, as the masses stand
     sd: Vector3 | None = None  # m
-    sure: bool = True  # False: the data do not tell
-    halted: bool = False  # True: the run was broken off, for safety
+
+    @property
+    def outcome(self) -> VerdictOutcome:
+        """What the claim came to."""
+        return outcome_of(self.reasons)
+
+    @property
+    def passed(self) -> bool:
+        """Whether the claim holds for sure."""
+        return self.outcome is VerdictOutcome.PASSED
+
+    @property
+    def code(self) -> Code:
+        """The main reason."""
+        return self.reasons[0].code
+
+    @property
+    def sentence(self) -> str:
+        """All reasons for a person."""
+        return sentence_of(self.reasons)
 
     @property
     def noise_floor(self) -> Vector3 | None:
         """Return 1.96 sd (m): along an axis, a smaller offset cannot be told from none (95 %)."""
         return None if self.sd is None else NORMAL_95 * self.sd
-
-
-def outcome_of(verdict: Verdict) -> Word:
-    """Return a verdict in a word."""
-    if verdict.halted:
-        return "halted"
-    if verdict.passed:
-        return "passed"
-    return "failed" if verdict.sure else "cannot tell"

@@ -15,6 +15,7 @@ from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
+from equipoise.model.verdict import VerdictOutcome
 from equipoise.study.law_run import LawRun, Task, law_run
 
 Work = Callable[[Task], "LawRun | Refusal"]
@@ -86,6 +87,11 @@ def middle(values: Floats) -> Middle:
     return Middle(float(np.median(values)), float(np.quantile(values, 0.95)))
 
 
+def halted(run: LawRun) -> bool:
+    """Say whether a run was broken off, for safety."""
+    return run.verdict.outcome is VerdictOutcome.HALTED
+
+
 def summary(runs: Sequence[LawRun], up: Vector3, required: float, near: Vector3) -> LawSummary:
     """Return one law's runs in numbers; ``near`` is the tolerance that verdicts are about (m)."""
     offset = np.array([run.offset for run in runs])
@@ -98,8 +104,8 @@ def summary(runs: Sequence[LawRun], up: Vector3, required: float, near: Vector3)
     return LawSummary(
         law=runs[0].law,
         runs=len(runs),
-        halted=sum(run.verdict.halted for run in runs),
-        late=sum(run.late and not run.verdict.halted for run in runs),
+        halted=sum(halted(run) for run in runs),
+        late=sum(run.late and not halted(run) for run in runs),
         within=int(np.count_nonzero(left <= required)),
         false_passes=int(np.count_nonzero(passed & outlying)),
         aside=middle(aside),

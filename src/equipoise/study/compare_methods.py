@@ -156,7 +156,7 @@ def summary(runs: Sequence[MethodRun]) -> MethodSummary:
         refused=count("refused"),
         unusable=count("unusable"),
         broke=count("broke"),
-        why=failures[0].sentence if failures else "",
+        why=failures[0].why if failures else "",
         warned=sum(run.warned for run in done),
         bias=by_column(error, mean),
         sd=by_column(error, deviation, fewest=2),

@@ -19,6 +19,7 @@ from equipoise.dynamics.sag_trim import downs, residual_torque
 from equipoise.maths.linalg import skew
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.following import Following
+from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -26,7 +27,6 @@ from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.allocation import opened_hands, send, travel_time
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import balanced_by
-from equipoise.procedure.balancing.run_law import SPENT
 from equipoise.procedure.steps.sampler import last_row
 from equipoise.simulation.bench import SimulatedBench
 
@@ -107,14 +107,20 @@ def followed_torque(bench: SimulatedBench, following: Following, tilt: float) ->
     return testbed.body.mass * testbed.gravity * square**0.5
 
 
+def ran_out(step: Step) -> bool:
+    """Say whether a law was at work until its time was used up."""
+    codes = [reason.code for reason in step.reasons]
+    return StepReason.LAW_RAN in codes and StepReason.TIME_USED_UP in codes
+
+
 def law_run(task: Task) -> LawRun:
     """Return what one run comes to."""
     bench = CountedBench(task.testbed, task.seed)
     before = rms_torque(bench, task.tilt)
     steps: Iterator[Step] = balanced_by(task.law, bench, task.options, task.max_time)
-    verdict, following, late = Verdict(False, "no verdict", sure=False), None, False
+    verdict, following, late = Verdict(()), None, False
     for step in steps:
-        late = late or SPENT in step.sentence
+        late = late or ran_out(step)
         verdict, following = step.verdict or verdict, step.following or following
     return LawRun(
         law=task.law,

@@ -25,11 +25,12 @@ from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.estimate import COM, END, INERTIA, Estimate
-from equipoise.study.candour import warns
+from equipoise.model.reasons.reason import sentence_of
 from equipoise.study.method_families import FAMILY, RECURSIVE
 from equipoise.study.method_record import JudgedRecord, Scene, judged_record
 
 Ending = Literal["done", "refused", "unusable", "broke"]
+MAIN = 2  # reasons of a failure that a table has room for; chosen
 SETTLED = 0.1  # of the error of the first guess, chosen
 JUDGED = (*COM, *INERTIA)
 HELD = 1e-9  # of the value, chosen: an sd below this share is none, the value was held
@@ -70,6 +71,7 @@ class MethodRun:
     nees: float  # per parameter
     settled: float | None  # s from the record's beginning
     cost: Cost
+    why: str = ""  # of what failed: the main reasons, for a person
 
     @property
     def stated(self) -> bool:
@@ -122,7 +124,7 @@ def judged(method: str, seed: int, found: Found, record: JudgedRecord, cost: Cos
     nothing = np.full(len(JUDGED), np.nan)
     if isinstance(found, Failure):
         return MethodRun(method, seed, found.ending, found.why, False, nothing, nothing, bound,
-                         np.nan, None, cost)  # fmt: skip
+                         np.nan, None, cost, found.why)  # fmt: skip
     ending: Ending = "done" if found.outcome.usable else "unusable"
     error, sd = nothing.copy(), nothing.copy()
     for k, name in enumerate(names):
@@ -131,8 +133,9 @@ def judged(method: str, seed: int, found: Found, record: JudgedRecord, cost: Cos
             error[k], sd[k] = p.value - record.truth[name], p.sd
     reported = tuple(name for name, e in zip(names, error, strict=True) if np.isfinite(e))
     return MethodRun(
-        method, seed, ending, found.outcome.sentence, warns(found), error, sd, bound,
+        method, seed, ending, found.outcome.sentence, found.outcome.warns, error, sd, bound,
         nees(found, reported, error[np.isfinite(error)]), settled(found, record), cost,
+        sentence_of(found.outcome.reasons[:MAIN]),
     )  # fmt: skip
 
 

@@ -129,7 +129,7 @@ def test_the_first_ctrl_c_stops_and_saves(bench):
             break
     assert code == 1
     reported = json.loads((bench / record.stem / "balance.json").read_text())
-    assert reported["verdict"]["halted"]
+    assert reported["verdict"]["code"] == "stopped_by_hand"
     assert "Stopped by hand: every mass was halted" in reported["verdict"]["sentence"]
     assert "seed" not in reported["provenance"]
     assert "command" in [event.kind for event in events_of(record)]

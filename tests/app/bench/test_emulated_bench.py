@@ -17,6 +17,8 @@ from equipoise.maths.attitude import difference
 from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, InputError, MoveRefused
 from equipoise.model.hardware import Port
+from equipoise.model.reasons.interlocks import Interlock
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Samples
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from tests.support import emulated_lab
@@ -241,13 +243,14 @@ def test_ctrl_c_at_the_moment_of_an_interlock_ends_with_the_account(monkeypatch)
     with lab(BED) as found:
 
         def interrupted(_duration):
-            found.bench._keeper.halt("the platform is touched")
+            found.bench._keeper.halt(Reason(Interlock.RECORD_LOST, ("the platform is touched",)))
             raise KeyboardInterrupt
 
         monkeypatch.setattr(found.bench, "read", interrupted)
         goal = Goal(np.array([0.0, 0.0, -1e-4]), np.array([2e-6, 2e-6, 3e-6]))
         done = run(found.bench, goal, Limits(), None)
-    assert done.verdict.halted
+    assert done.verdict.code == "stopped_by_hand"
+    assert done.verdict.outcome == "halted"
     assert done.verdict.sentence.startswith("Stopped by hand: every mass was stopped")
     assert "the platform is touched" in done.verdict.sentence
 

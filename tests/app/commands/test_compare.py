@@ -82,8 +82,8 @@ def honest(method, error, seeds=range(20), **more):
 def without_work(monkeypatch):
     """Three methods in place of work: one good, one better that fails once, one refused."""
     failing = honest("smoother", 1.0)
-    failing[3] = replace(failing[3], ending="unusable", sentence="Not so. It did not settle. No.")
-    refused = [made_up(ending="refused", sentence="No gyro.", method="ekf_12", seed=k)
+    failing[3] = replace(failing[3], ending="unusable", why="Not so. It did not settle.")
+    refused = [made_up(ending="refused", why="No gyro.", method="ekf_12", seed=k)
                for k in range(20)]  # fmt: skip
     runs = [*refused, *failing, *honest("tracker", 2.0, settled=12.0)]
     monkeypatch.setattr(comparison_runs, "run_methods", lambda *_: comparison(runs))

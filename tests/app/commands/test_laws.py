@@ -9,11 +9,11 @@ import pytest
 from equipoise.app.runs import comparison
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.law_card import NEEDS
-from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import CARDS, OWN
 from equipoise.study.compare_laws import Refusal, compared
 from equipoise.study.law_run import LawRun, Task
+from tests.support.outcomes import verdict as verdict_of
 
 PID = CARDS["pid"]
 NEEDLESS = "underactuated"  # masses alone, and soon begun
@@ -117,7 +117,7 @@ def test_a_comparison_is_one_document_and_a_line_a_run(equipoise, strict_json, t
     assert float(row["time_s"]) == pytest.approx(law["time"]["median"], rel=1e-4)
 
 
-SAID = Verdict(False, "Said so.")
+SAID = verdict_of(False)
 
 
 def made_up(law, seed, torque):
@@ -173,7 +173,7 @@ def test_it_ends_with_1_when_no_law_reaches_the_torque(equipoise, required, code
 @pytest.mark.usefixtures("without_work")
 def test_it_ends_with_1_when_every_law_that_reaches_it_passed_what_is_wrong(equipoise, monkeypatch):
     """As the last line says: no law is to be recommended, however little torque it leaves."""
-    monkeypatch.setattr(sys.modules[__name__], "SAID", Verdict(True, "Said so."))
+    monkeypatch.setattr(sys.modules[__name__], "SAID", verdict_of(True))
     done = equipoise(*THREE)
     assert "no law to recommend" in reported_of(done)
     assert done.code == 1

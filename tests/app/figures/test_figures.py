@@ -21,6 +21,8 @@ from equipoise.estimation.output_error import trajectory
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import exponential
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples, window
 from equipoise.procedure.identification.record_courses import fit_motions, tracked_courses
 from equipoise.simulation.bench import SimulatedBench
@@ -122,13 +124,18 @@ def test_a_recording_has_a_panel_for_each_thing_that_it_holds():
     assert rendered(record.draw(short)).startswith(PNG)
 
 
+def said(text):
+    """Return a finding's reasons with this sentence."""
+    return one_reason(FindingReason.SET_RIGHT, text)
+
+
 def test_findings_are_marked_where_they_are_and_listed():
     """The gap is shaded from 20 to 48 s in every panel; each has its number, its word, its line."""
     t = np.r_[0:20:0.1, 48:60:0.1]
     q = exponential(np.outer(t, [0, 0, 0.3]))
-    gap = Finding("problem", "a gap of 28 s.", (20.0, 48.0), "gap")
-    touch = Finding("problem", "a touch.", (10.0, 10.0), "touch")
-    rest = Finding("content", "a record.", (0.0, 60.0))
+    gap = Finding("problem", said("a gap of 28 s."), (20.0, 48.0), "gap")
+    touch = Finding("problem", said("a touch."), (10.0, 10.0), "touch")
+    rest = Finding("content", said("a record."), (0.0, 60.0))
     page = record.draw(Recording(attitude=Samples(t, q)), (rest, gap, touch))
     for axes in page.axes:
         shades = [p.get_extents().transformed(axes.transData.inverted()) for p in axes.patches]
@@ -138,7 +145,7 @@ def test_findings_are_marked_where_they_are_and_listed():
 
 def test_a_long_list_leaves_room_for_the_panels_and_says_what_it_leaves_out():
     t = np.arange(100) * 0.1
-    many = [Finding("problem", f"problem {k}.", (0.05 * k, 0.05 * k)) for k in range(150)]
+    many = [Finding("problem", said(f"problem {k}."), (0.05 * k, 0.05 * k)) for k in range(150)]
     page = record.draw(Recording(attitude=Samples(t, exponential(np.outer(t, [0, 0, 1])))), many)
     assert any("more lines" in text for text in words(page))
     assert min(axes.get_position().height for axes in page.axes) * page.get_figheight() > 0.6

@@ -19,10 +19,11 @@ from equipoise.app.text.sparkline import BLOCKS
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.step import Step
-from equipoise.model.verdict import Verdict
 from equipoise.simulation.bench import SimulatedBench
 
 pytest.importorskip("pty", reason="no pseudo terminals")
+from tests.support.outcomes import OBSERVED
+from tests.support.outcomes import verdict as verdict_of
 from tests.support.pseudo_terminal import ESCAPE, HIDE, SHOW, AtTerminal, screen, stripped
 
 BED = read_preset("nanosat")
@@ -35,13 +36,13 @@ ROWS = Recording(
     masses=Samples(np.array([3.0]), np.array([[0.001, -0.014, 0.0]])),
 )
 COM = np.array([1.2e-6, -30.06e-6, -1e-4])
-VERDICT = Verdict(True, "Passed.", COM, np.array([1e-7, 2e-7, 1e-6]))
+VERDICT = verdict_of(True, COM, np.array([1e-7, 2e-7, 1e-6]))
 
 
 def view():
     found = TerminalView(BED)
     found.rows(ROWS)
-    found.step(Step("verify", 2.5, "Passed.", verdict=VERDICT))
+    found.step(Step("verify", 2.5, VERDICT.reasons, verdict=VERDICT))
     return found
 
 
@@ -85,7 +86,7 @@ def test_texts_are_put_side_by_side_where_the_width_allows():
 
 def test_a_step_that_says_nothing_of_the_centre_of_mass_leaves_the_last_that_did():
     found = view()
-    found.step(Step("measurement", 9.0, "Looked for 1 s."))
+    found.step(Step("measurement", 9.0, OBSERVED))
     assert any("at 2.5 s" in line for line in drawn(found))
 
 
@@ -93,7 +94,7 @@ def test_unknown_quantities_are_not_shown():
     assert drawn(TerminalView(BED)) == ["", "  bench time       0.0 s"]
     found = view()
     sd = np.array([1e-7, np.inf, 1e-6])
-    found.step(Step("verify", 4.0, "", verdict=replace(VERDICT, sd=sd)))
+    found.step(Step("verify", 4.0, VERDICT.reasons, verdict=replace(VERDICT, sd=sd)))
     assert any("y not seen" in line for line in drawn(found))
 
 

@@ -102,7 +102,7 @@ def test_runs_are_chosen(of, words, count, strict_json):
 
 @pytest.mark.parametrize(
     ("words", "said"),
-    [(["--kind", "balnace"], "balance"), (["--outcome", "good"], "cannot tell"),
+    [(["--kind", "balnace"], "balance"), (["--outcome", "good"], "undecided"),
      (["--since", "spring"], "2026-03-01"), (["--compare", "9"], "a number from 1 to 3"),
      (["--trend", "a.txt"], ".png .svg .pdf"), (["--export", "a.xls"], ".csv .parquet"),
      (["--trend", "none/a.png"], "none"), (["--builds", "--compare", "1"], "one of the two")],

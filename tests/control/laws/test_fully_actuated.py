@@ -132,11 +132,11 @@ def test_the_null_vector_is_not_balanced_and_the_law_says_so():
     rows = closed_loop(bench, LAW.step, begun, 100.0, (q, np.zeros(3)))
     assert np.linalg.norm(total(rows, bench)[-1]) == pytest.approx(4e-4, rel=1e-6)
     assert np.abs([r.rate for r in rows]).max() < 1e-9
-    said = rows[-1].command.finished
-    assert "not balanced" in said
+    (said,) = rows[-1].command.finished
+    assert said.code == "direction_not_swept"
     worst = np.linalg.eigh(rows[-1].state.observed)[1][:, 0]
     assert abs(worst @ down) == pytest.approx(1.0)
-    assert f"{worst[0]:.2f}, {worst[1]:.2f}, {worst[2]:.2f}" in said
+    assert [said.numbers[f"axis_{axis}"] for axis in "xyz"] == pytest.approx(worst)
 
 
 def test_a_moving_trajectory_balances_from_the_null_vector_too():
@@ -275,4 +275,4 @@ def test_it_stops_beyond_the_tilt_limit():
     bench = Bench(bed(), COM)
     first = (exponential(np.array([0.6, 0, 0])), np.zeros(3))
     rows = closed_loop(bench, LAW.step, LAW.begin(bench.testbed, TARGET), 5.0, first)
-    assert "tilts beyond" in rows[0].command.finished
+    assert rows[0].command.finished[0].code == "law_tilted"

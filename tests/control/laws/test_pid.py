@@ -11,7 +11,7 @@ from equipoise.control.laws import pid
 from equipoise.control.plant import pendulum
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
-from equipoise.model.outcome import Outcome
+from tests.support.outcomes import of_use
 from tests.support.simple_loop import (
     CALM,
     INERTIA,
@@ -38,7 +38,7 @@ def flown(seed=0, target=(0.0, 0.0, 0.0), noise=NOISE, truth=None, tilt=TURN, **
 def test_a_known_offset_is_removed(seed):
     """From (60, -40, -150) um to 0.1 um sideways; upward to the error of the look, 5 % of 10 um."""
     run = flown(seed)
-    assert "at the target" in run.finished
+    assert run.finished[0].code == "level_at_target"
     np.testing.assert_allclose(run.left[:2], 0.0, atol=0.1 * UM)
     assert abs(run.left[2]) < 0.6 * UM
     assert np.degrees(run.tilt.max()) < 30
@@ -130,12 +130,12 @@ def test_an_uninformative_measurement_ends_the_run_level():
     level, observed = np.array([1e-6, 2e-6, 3e-6]), loop.sample(zero, zero)
     way = height_adjustment.once_level(params.plant, state.search.height, observed, level, zero)
     state = replace(state, phase="level", search=replace(state.search, level=level, way=way))
-    blind = Estimate("trajectory", Outcome(False, "too little motion"), (), np.zeros((0, 0)))
+    blind = Estimate("trajectory", of_use(False), (), np.zeros((0, 0)))
     state, command = pid.step(state, blind, params)
     np.testing.assert_array_equal(command.shift, level)
     assert not command.finished
     _, command = pid.step(state, replace(observed, shift=level), params)
-    assert "too little motion" in command.finished
+    assert [reason.code for reason in command.finished] == ["height_not_shown", "hardly_moved"]
 
 
 def test_measurements_repeat_at_smaller_depth_until_the_height_is_known():

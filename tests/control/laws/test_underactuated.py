@@ -18,7 +18,6 @@ from equipoise.control.laws import two_steps, underactuated, underactuated_integ
 from equipoise.maths.attitude import exponential
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter
-from equipoise.model.outcome import Outcome
 from tests.support.ideal_bench import (
     GRAVITY,
     MASS,
@@ -31,6 +30,7 @@ from tests.support.ideal_bench import (
     total,
     with_params,
 )
+from tests.support.outcomes import of_use
 
 COM = np.array([2e-4, -1.5e-4, -4e-4])
 TARGET = np.array([0.0, 0.0, -1e-4])
@@ -48,13 +48,17 @@ def run(law, end=400.0, first=TILTED, com_sd=2e-4, **bench):
 
 def ends(rows):
     """Rows with which a levelling ends."""
-    return [r for r in rows if r.command is not None and r.command.note.startswith("Levelled")]
+    return [r for r in rows if r.command is not None and "push_begins" in codes(r)]
+
+
+def codes(row):
+    """Return what a law reports at a row."""
+    return [reason.code for reason in (*row.command.note, *row.command.finished)]
 
 
 def measurements(rows):
     """Rows at which a look was judged."""
-    texts = ((r, r.command.note + r.command.finished) for r in rows if r.command is not None)
-    return [r for r, text in texts if text.startswith("Look ")]
+    return [r for r in rows if r.command is not None and "height_missing" in codes(r)]
 
 
 @BOTH
@@ -73,7 +77,7 @@ def test_it_balances_to_a_motor_step(law):
     rows, bench, params = run(
         law, masses=masses, instant=False, reported=(0.1, 1e-6), noise=(1e-4, 1e-5), seed=4
     )
-    assert "motor step or less" in rows[-1].command.finished
+    assert "motor_step_or_less" in codes(rows[-1])
     off = total(rows, bench)[-1] - TARGET
     assert np.hypot(*off[:2]) < params.tolerance
     # A scale 10 % off is 10 % of what hangs, 100 um here, and of the trim before.
@@ -211,7 +215,7 @@ def test_a_target_aside_of_up_is_refused():
 def reported(usable=True, **values):
     """An estimate with these parameters."""
     parameters = tuple(Parameter(name, "m", x, 1e-6) for name, x in values.items())
-    return Estimate("told", Outcome(usable, "A sentence."), parameters, np.eye(len(values)))
+    return Estimate("told", of_use(usable), parameters, np.eye(len(values)))
 
 
 def test_heights_are_read_from_the_estimate_of_a_method():
@@ -248,15 +252,15 @@ def test_rounds_end_when_nothing_is_gained_or_they_are_used_up():
     gained = two_steps.step(replace(state, left=6e-4), outlying, params)[0]
     assert not gained.ending
     stuck = two_steps.step(replace(state, left=4.1e-4), outlying, params)[0]
-    assert "gained nothing" in stuck.ending
+    assert "nothing_gained" in [reason.code for reason in stuck.ending]
     spent = two_steps.step(replace(state, rounds=params.rounds - 1), outlying, params)[0]
-    assert "used up" in spent.ending
+    assert "rounds_used_up" in [reason.code for reason in spent.ending]
 
 
 def test_after_the_last_measurement_it_levels_once_more_and_rests():
     """The push of the look is gone when the law ends: no tilt, no rate."""
     rows, *_ = run(underactuated.LAW)
-    assert "Level again." in rows[-1].command.finished
+    assert "level_again" in codes(rows[-1])
     pushed = max(i for i, row in enumerate(rows) if row.state.phase == "push" and row.state.step)
     assert np.degrees(tilts(rows)[pushed:].max()) > 0.5
     assert np.degrees(tilts(rows)[-1]) < 0.01
@@ -266,16 +270,17 @@ def test_after_the_last_measurement_it_levels_once_more_and_rests():
 def test_an_unusable_measurement_is_repeated_and_reported():
     state, params = measured()
     after, command = two_steps.step(state, reported(usable=False), params)
-    assert (after.phase, command.finished) == ("push", "")
-    assert "A sentence." in command.note
+    assert (after.phase, command.finished) == ("push", ())
+    why = ["swing_unusable", "hardly_moved"]
+    assert [reason.code for reason in command.note] == why
     spent = two_steps.step(replace(state, rounds=params.rounds - 1), reported(usable=False), params)
-    assert "A sentence." in spent[1].finished
+    assert [reason.code for reason in spent[1].finished] == why
 
 
 def test_it_stops_beyond_the_tilt_limit():
     rows, *_ = run(underactuated.LAW, first=(exponential(np.array([0.6, 0, 0])), np.zeros(3)))
     assert len(rows) == 1
-    assert "tilts beyond" in rows[0].command.finished
+    assert codes(rows[0]) == ["law_tilted"]
 
 
 def test_the_push_swings_the_platform_by_the_intended_amplitude():

@@ -10,8 +10,8 @@ from equipoise.estimation.calibration.drive_calibration import Drive, of_drive, 
 from equipoise.estimation.calibration.drive_observability import groups, together
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.estimate import Estimate, Parameter
-from equipoise.model.outcome import Outcome
 from equipoise.model.testbed import DriveDoubt
+from tests.support.outcomes import of_use
 
 X1 = replace(
     read_preset("sputnix").mass_named("x1"),
@@ -59,7 +59,7 @@ def stops(*pairs):
     found = [Parameter(f"error_x1_{k + 1}", "m", 1e-3 * v, 1e-3 * s)
              for k, (v, s) in enumerate(pairs)]  # fmt: skip
     other = Parameter("error_x10_1", "m", 1.0, 1e-9)
-    return Estimate("fit", Outcome(True, "."), (*found, other), np.eye(len(found) + 1))
+    return Estimate("fit", of_use(), (*found, other), np.eye(len(found) + 1))
 
 
 def test_a_scatter_is_of_what_the_record_freed():

@@ -35,6 +35,7 @@ from tests.support.builders import (
     recording,
     travel,
 )
+from tests.support.outcomes import codes_of
 from tests.support.random_walk_records import guessed, square_waves, walked
 
 FREE = (kf_simplified, ekf_6, ekf_9, ukf_6, ukf_9)
@@ -203,17 +204,15 @@ def test_the_simplified_model_says_when_it_does_not_hold():
     """
     testbed, record = replace(platform(gyro=True), inertia_sd=0.0), spun(10.0)
     found, whole = (estimate(m, record, testbed) for m in (kf_simplified, ekf_6))
-    assert "leaves out" in found.outcome.sentence
-    assert "a bound, not trustworthy" in found.outcome.sentence
+    assert "gyroscopic_torque_left_out" in codes_of(found)
+    assert found.outcome.trust == "not_trustworthy"
     bias, sd = np.array([p.value for p in found.parameters]) - COM, [p.sd for p in found.parameters]
     assert np.abs(bias).max() > 10e-6
     assert np.abs(bias / sd).max() < 2
     assert whole.parameters[2].sd < 0.1 * max(sd)
     ball = MassProperties(MASS, COM, 0.5 * np.eye(3))
-    assert (
-        "leaves out"
-        not in estimate(kf_simplified, record, replace(testbed, body=ball)).outcome.sentence
-    )
+    held = estimate(kf_simplified, record, replace(testbed, body=ball))
+    assert "gyroscopic_torque_left_out" not in codes_of(held)
 
 
 def spun(times: float) -> Recording:
@@ -237,7 +236,7 @@ def test_a_wrong_noise_or_body_is_not_usable(module):
     )
     found = estimate(module, record, quiet)
     assert not found.outcome.usable
-    assert "do not trust" in found.outcome.sentence
+    assert codes_of(found) == ["filter_innovations_too_large"]
 
 
 @every_filter
@@ -249,18 +248,19 @@ def test_what_is_missing_is_said(module):
         record, attitude=Samples(record.attitude.t[:6], record.attitude.values[:6]),
         rate=Samples(record.rate.t[:6], record.rate.values[:6]),
     )  # fmt: skip
-    cases = [(replace(record, attitude=None), "camera"), (short, "Fewer than 20 rows")]
+    cases = [(replace(record, attitude=None), "no_camera"), (short, "too_few_rows_for_filter")]
     if not module.KIND.attitude:
-        cases.append((replace(record, rate=None), "gyro"))
+        cases.append((replace(record, rate=None), "no_gyro"))
     if module in DRIVEN:
-        cases.append((replace(record, torque=None), "free motion shows"))
-    for lacking, word in cases:
+        cases.append((replace(record, torque=None), "no_known_input"))
+    for lacking, code in cases:
         found = estimate(module, lacking, testbed)
         assert not found.outcome.usable
         assert found.parameters == ()
-        assert word in found.outcome.sentence
+        assert codes_of(found) == [code]
     if module.KIND.unscented:
-        assert "negative" in estimate(module, record, guessed(1, 0.3)).outcome.sentence
+        found = estimate(module, record, guessed(1, 0.3))
+        assert codes_of(found) == ["inertia_too_uncertain"]
 
 
 @every_filter

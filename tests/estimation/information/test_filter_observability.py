@@ -14,9 +14,9 @@ from equipoise.estimation.information.filter_observability import (
     MODELS,
     SCALE,
     Outputs,
+    directions,
     exactly_unseen,
     filters_along,
-    in_words,
     joined,
     output_sensitivities,
     rank_by_rows,
@@ -384,12 +384,12 @@ def test_unobservable_directions_are_expressed_in_the_fewest_states():
     first, second = spelled(mixed, scale)
     np.testing.assert_allclose(first, scale, atol=1e-12)
     assert second @ scale == pytest.approx(0.0, abs=1e-12)
-    assert in_words(mixed, scale, ("a", "b", "c"))[0] == SCALE
+    assert directions(mixed, scale, ("a", "b", "c"))[0] == SCALE
 
 
 def test_a_single_state_is_named_alone():
-    words = in_words(np.eye(6)[:, 5:], np.zeros(6), EKF.states)
-    assert words == ("the data do not see com_z",)
+    words = directions(np.eye(6)[:, 5:], np.zeros(6), EKF.states)
+    assert [each.sentence for each in words] == ["the data do not show com_z"]
 
 
 # --- Along a recording ------------------------------------------------------------------------
@@ -408,16 +408,16 @@ def test_a_free_recording_shows_all_but_the_scale():
     found = views(moved=False)
     whole = found[WHOLE.name]
     assert (whole.possible, whole.rank, whole.size) == (11, 11, 12)
-    assert whole.sentences == (SCALE,)
+    assert whole.unobservable == (SCALE,)
     for name in (KF.name, EKF.name, CAMERA.name, REDUCED.name):
         view = found[name]
         assert view.possible == view.rank == view.size
-        assert view.sentences == ()
+        assert view.unobservable == ()
 
 
 def test_a_recording_with_a_move_shows_all_twelve():
     whole = views(moved=True)[WHOLE.name]
-    assert (whole.possible, whole.rank, whole.sentences) == (12, 12, ())
+    assert (whole.possible, whole.rank, whole.unobservable) == (12, 12, ())
 
 
 def test_noise_hides_what_exact_sensors_would_show():
@@ -425,7 +425,7 @@ def test_noise_hides_what_exact_sensors_would_show():
     whole = views(moved=True, noise=1000.0)[WHOLE.name]
     assert whole.possible == 12
     assert whole.rank < 12
-    assert len(whole.sentences) == 12 - whole.rank
+    assert len(whole.unobservable) == 12 - whole.rank
 
 
 def test_without_a_gyro_filters_that_need_one_have_no_rank():

@@ -14,7 +14,6 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.method_card import REGIMES
 from equipoise.procedure.steps.clean_record import sound as made_sound
-from equipoise.study.candour import warns
 from tests.estimation.methods.faulty_records import AWKWARD, bed, sound
 from tests.support import thorough
 from tests.support.builders import COM as TRUE_COM
@@ -130,7 +129,7 @@ def test_a_faulty_record_is_handled_or_reported(name, trouble):
     trusted, or a refusal with its reason. (What stands level has its com above or below P.)"""
     estimate = identified(name, trouble)
     assert estimate.outcome.sentence
-    if warns(estimate):
+    if estimate.outcome.warns:
         return
     off = {p.name: (p.value - TRUTH[p.name]) / p.sd for p in estimate.parameters
            if p.observable and p.name in TRUTH and p.sd > 0

@@ -26,6 +26,7 @@ from equipoise.maths.attitude import difference, exponential
 from equipoise.model.recording import Recording, Samples
 from equipoise.sensors.timing import measured_at, spread_of
 from tests.support.builders import move_at, noisy, platform, recording
+from tests.support.outcomes import codes_of
 
 LATE = replace(platform().attitude, rate=100.0, delay=0.3, averaging=0.2)
 FAST = replace(platform(3e-4), attitude=replace(platform().attitude, rate=100.0))
@@ -199,4 +200,4 @@ def test_a_search_gone_astray_is_an_outcome(monkeypatch):
     monkeypatch.setattr(initial_model, "fit", lambda *_: lost)
     estimate = reference_fit.estimate(record, testbed, Params())
     assert not estimate.outcome.usable
-    assert "did not settle" in estimate.outcome.sentence
+    assert codes_of(estimate) == ["not_converged"]

@@ -34,7 +34,7 @@ def test_the_odd_rows_go_and_no_others():
 def test_a_robust_estimate_says_how_many_it_left_out():
     found = METHODS["trajectory"].run(spoiled()[1], BED, Options(robust=True))
     assert found.outcome.usable
-    assert "6 rows far off the motion are left out." in found.outcome.sentence
+    assert "6 outlying rows are left out." in found.outcome.sentence
 
 
 def test_where_many_rows_deviate_none_is_an_outlier():

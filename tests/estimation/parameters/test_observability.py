@@ -52,7 +52,7 @@ def test_full_information_leaves_nothing_unobservable():
     """Nothing to say, and the covariance is the inverse in SI units."""
     view = examine(SHARP * np.eye(N))
     assert hidden(view) == set()
-    assert view.sentences == ()
+    assert view.unobservable == ()
     assert not view.scale_open
     np.testing.assert_allclose(view.covariance, np.diag(SIZE**2 / SHARP), rtol=1e-9, atol=1e-25)
 
@@ -62,8 +62,8 @@ def test_one_unobservable_parameter_is_named_and_no_other(name):
     """No information about one coordinate: it alone is hidden, the others keep their sd."""
     view = examine(without(unit(name)))
     assert hidden(view) == {name}
-    assert len(view.sentences) == 1
-    assert name in view.sentences[0]
+    assert len(view.unobservable) == 1
+    assert name in view.unobservable[0].parameters
     kept = unit(name) == 0
     sd = np.sqrt(np.diag(view.covariance))
     np.testing.assert_allclose(sd[kept], SIZE[kept] / 1e3, rtol=1e-6)
@@ -73,9 +73,9 @@ def test_two_indistinguishable_parameters_are_named_together():
     """Only their sum is seen: both are hidden, in one sentence."""
     view = examine(without(unit("com_x") - unit("swirl")))
     assert hidden(view) == {"com_x", "swirl"}
-    assert len(view.sentences) == 1
-    assert "com_x" in view.sentences[0]
-    assert "swirl" in view.sentences[0]
+    assert len(view.unobservable) == 1
+    assert "com_x" in view.unobservable[0].parameters
+    assert "swirl" in view.unobservable[0].parameters
 
 
 def test_two_unobservable_parameters_are_two_sentences():
@@ -84,14 +84,14 @@ def test_two_unobservable_parameters_are_two_sentences():
     information += 1e-3 * np.diag(unit("com_z"))
     view = examine(information)
     assert hidden(view) == {"com_z", "gyro_bias_z"}
-    assert len(view.sentences) == 2
+    assert len(view.unobservable) == 2
 
 
 def test_open_scale_is_called_by_its_name():
     """J and r stretch together: that is the scale, and it hides all of both that are not zero."""
     view = examine(without(stretched()))
     assert view.scale_open
-    assert "scale" in view.sentences[0]
+    assert view.unobservable[0].code == "scale"
     assert {"com_z", "inertia_P_xx", "inertia_P_yy", "inertia_P_zz"} <= hidden(view)
     assert not hidden(view) & {"rate_x", "attitude_z", "swirl", "error_x_1", "gyro_bias_x"}
 
@@ -150,7 +150,7 @@ def test_what_is_held_does_not_drown_the_rest():
     scale = scale_of(VALUES, SIZE)
     view = observability.examine_unheld(information, scale, SIZE, LAYOUT.names, held)
     assert hidden(view) == {"com_z"}
-    assert view.sentences == ("the data do not see com_z",)
+    assert [each.sentence for each in view.unobservable] == ["the data do not show com_z"]
     observed = ~held & (unit("com_z") == 0)
     sd = np.sqrt(np.diag(view.covariance))
     np.testing.assert_allclose(sd[observed], SIZE[observed] / 1e3, rtol=1e-9)

@@ -35,7 +35,7 @@ CALM = Observed(10.0, attitudes(1, 2, 3), rates(1, 1, 1), {"imu": 0.1}, {"masses
 
 def kind(**changes):
     trip = tripped(replace(CALM, **changes), BED, LIMITS)
-    return None if trip is None else trip.kind
+    return None if trip is None else trip.code
 
 
 def test_a_calm_bench_is_let_alone():
@@ -54,7 +54,7 @@ def test_one_bad_row_of_attitude_or_rate_does_not_stop():
 
 def test_rate_beyond_its_limit_stops_and_says_both():
     trip = tripped(replace(CALM, rates=rates(70, 71, 72)), BED, LIMITS)
-    assert trip.kind == "rate"
+    assert trip.code == "rate"
     assert "71.0 deg/s" in trip.sentence
     assert "60.0 deg/s" in trip.sentence
 
@@ -81,7 +81,7 @@ def test_a_mass_beyond_its_travel_stops():
 
 def test_a_mass_that_stands_elsewhere_than_it_was_sent_stops():
     trip = tripped(replace(CALM, boards={"masses": board(at=3e-3, goal=5e-3)}), BED, LIMITS)
-    assert trip.kind == "mismatch"
+    assert trip.code == "mismatch"
     assert "3.00 mm and was sent to 5.00 mm" in trip.sentence
     assert kind(boards={"masses": board("moving", at=3e-3, goal=5e-3)}) is None
 

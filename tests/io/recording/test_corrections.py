@@ -76,7 +76,7 @@ def test_gaps_are_reported(tmp_path) -> None:
     """Eight rows lost out of a 0.1 s beat make a gap of 0.9 s."""
     keep = np.r_[0:6, 14:20]
     recording = read(tmp_path, table(t=T[keep], q=Q[keep]))
-    assert any("attitude: 1 gap: 0.9 s from 0.5 s" in note for note in recording.notes)
+    assert any("attitude: 1 gap: 0.9 s from 0.5 s" in note for note in recording.gaps)
 
 
 def test_a_gyro_of_zeros_is_ignored_and_reported(tmp_path) -> None:

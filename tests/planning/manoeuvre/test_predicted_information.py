@@ -129,7 +129,7 @@ def test_it_is_what_observe_says_along_the_same_motion():
 def test_unobservable_parameters_have_infinite_sd_and_are_named():
     said = predicted(sputnix(), sputnix().body, replace(PAPER, moves=()), Params())
     assert np.all(np.isinf(said.sd_of(BODY)))
-    assert any("scale" in sentence for sentence in said.sentences)
+    assert any(reason.code == "scale" for reason in said.unobservable)
     held = predicted(sputnix(), sputnix().body, PAPER, Params(hold=INERTIA))
     assert np.all(held.sd_of(INERTIA) == 0.0)
 

@@ -87,8 +87,9 @@ def test_a_balanced_platform_is_let_go_so_gently_that_it_stays_within_its_limit(
 
 def test_a_measurement_reports_that_its_move_was_shortened():
     """The UnB platform would tilt too far with 50 mm; it is halved four times."""
-    (text,) = first_bound(read_preset("unb"), 300.0).cautions
-    assert text.startswith("The first look's move is shortened to 3.12 mm")
+    (caution,) = first_bound(read_preset("unb"), 300.0).cautions
+    assert caution.code == "move_shortened"
+    assert caution.numbers["length"] == pytest.approx(50e-3 / 2**4)
     assert first_bound(sputnix(), 60.0).cautions == ()
 
 
@@ -221,16 +222,16 @@ def test_what_limits_is_named_with_its_masses():
 
 
 def test_a_verdict_needs_torque_and_reach():
-    assert verdict(usual(), None, better()).usable
+    assert verdict(usual(), None, better()).passed
     generous = verdict(usual(), 1.0, better())
-    assert not generous.usable
+    assert generous.code == "out_of_reach"
     assert "68 %" in generous.sentence or "67.9 %" in generous.sentence
     near = replace(usual(), within=1.0)
-    assert verdict(near, 1.01 * near.torque, better()).usable
+    assert verdict(near, 1.01 * near.torque, better()).passed
     missed = verdict(near, 0.99 * near.torque, better())
-    assert not missed.usable
+    assert missed.outcome == "failed"
     assert f"enough would be: {better()[0].name}" in missed.sentence
-    assert "no single change" in verdict(near, 1e-9, better()).sentence
+    assert verdict(near, 1e-9, better()).code == "met_by_no_change"
 
 
 def test_the_shortest_record_is_judged():

@@ -72,14 +72,14 @@ def test_stuck_masses_end_in_a_failed_verdict():
     judged = steps[-1].verdict
     assert not judged.passed
     assert judged.sentence.endswith(".")
-    assert judged.sentence.startswith(("Failed", "Cannot tell", "Stopped"))
+    assert judged.outcome in ("failed", "undecided", "halted")
 
 
 def test_it_stops_on_tilt():
     """A limit of 1 deg, which this platform passes before it is caught: masses are halted."""
     bench, steps = run(replace(SPUTNIX, tilt_limit=float(np.radians(1.0))), BalanceOptions())
     assert steps[-1].kind == "stop"
-    assert "tilts beyond its limit" in steps[-1].sentence
+    assert steps[-1].verdict.code == "tilted"
     assert not steps[-1].verdict.passed
     before = bench.displacements
     bench.read(10.0)

@@ -21,7 +21,7 @@ from equipoise.procedure.balancing.balance_manually import (
     balance_by_hand,
     caught,
     errands,
-    sentence_of,
+    requested_of,
 )
 from equipoise.procedure.balancing.manual_estimate import first_posterior, reloaded, taught
 from equipoise.simulation.hands import SimulatedHands
@@ -154,8 +154,7 @@ def test_a_pile_that_was_forgotten_is_noticed_and_balanced_all_the_same():
     """The recording after it does not fit; from there on it alone counts."""
     hands = Clumsy(half_a_millimetre_off(BED, 3), 3)
     steps = list(balance_by_hand(hands, HandOptions(TARGET)))
-    reported = [step.sentence for step in steps if step.kind == "estimate"]
-    astray = ["not where the weights should have left it" in text for text in reported]
+    astray = [step.code == "com_astray" for step in steps if step.kind == "estimate"]
     assert astray[:2] == [False, True]
     assert not any(astray[2:])
     assert steps[-1].verdict.passed
@@ -210,19 +209,21 @@ def test_placement_instructions_list_moves_first():
     """Three off A1 and one off A2, two to B1: two are moved and two come off."""
     before, after = at(BED, deck_A1=3, deck_A2=1), at(BED, deck_B1=2)
     reported = errands(placing_of(before, after), BED)
-    assert reported == ["Move 2 x washer from deck:A1 to deck:B1",
-                    "Take off 1 x washer at deck:A1, 1 x washer at deck:A2"]  # fmt: skip
+    assert [reason.sentence for reason in reported] == [
+        "Move 2 x washer from deck:A1 to deck:B1.",
+        "Take off 1 x washer at deck:A1, 1 x washer at deck:A2.",
+    ]
     assert placing_of(before, after).handled == 4
-    assert errands(placing_of(after, before), BED)[1].startswith("Put on")
+    assert errands(placing_of(after, before), BED)[1].code == "weights_to_put_on"
 
 
 def test_what_cannot_be_reached_is_said_with_its_axes():
     before, after = at(BED), at(BED, deck_A1=3)
     options = HandOptions(TARGET)
-    short = sentence_of(placing_of(before, after, (40.0, 0.0, -60.0)), BED, options)
-    assert "Stock and places do not reach the target along x, z." in short
-    assert "do not reach" not in sentence_of(placing_of(before, after), BED, options)
-    assert "Nothing to place" in sentence_of(placing_of(before, before), BED, options)
+    short = requested_of(placing_of(before, after, (40.0, 0.0, -60.0)), BED, options)
+    assert short[-1].sentence == "Stock and places do not reach the target along x, z."
+    assert requested_of(placing_of(before, after), BED, options)[-1].code == "placing_leaves"
+    assert requested_of(placing_of(before, before), BED, options)[0].code == "nothing_to_place"
 
 
 def test_an_insufficient_stock_is_reported_and_the_verdict_fails():
@@ -230,7 +231,7 @@ def test_an_insufficient_stock_is_reported_and_the_verdict_fails():
     few = replace(BED, weights=(replace(BED.weights[0], count=10),))
     hands = SimulatedHands(half_a_millimetre_off(few, 2), 2)
     steps = list(balance_by_hand(hands, HandOptions(TARGET, max_rounds=1)))
-    assert any("do not reach the target" in step.sentence for step in steps)
+    assert any(step.reasons[-1].code == "target_out_of_reach" for step in steps)
     assert not steps[-1].verdict.passed
     assert steps[-1].kind == "stop"
 

@@ -21,7 +21,7 @@ def test_a_short_hold_passes(held):
     bench, steps = held
     assert steps[-1].kind == "verify"
     assert steps[-1].verdict.passed, steps[-1].sentence
-    assert "Held for 2 min" in steps[-1].sentence
+    assert "held for 2 min" in steps[-1].sentence
     assert np.all(np.abs(bench.truth().com - HOLDING.target) < HOLDING.tolerance)
 
 

@@ -16,6 +16,8 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, Estimate
 from equipoise.model.law_card import LawCard
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed, Truth
 from equipoise.procedure.balancing.allocation import opened_hands
 from equipoise.procedure.balancing.run_law import (
@@ -43,7 +45,7 @@ RAILS = tuple(
 )
 PERIOD = 0.5
 TORQUE = np.array([1e-3, -2e-3, 5e-4])
-DONE = "Done as told"
+DONE = LawReason.FOLLOWED  # as good as any other
 
 
 def platform(com=(0.0, 0.0, 0.0), attitude=(0.0, 0.0, 0.0), rate=(0.0, 0.0, 0.0), **changes):
@@ -61,13 +63,18 @@ def platform(com=(0.0, 0.0, 0.0), attitude=(0.0, 0.0, 0.0), rate=(0.0, 0.0, 0.0)
     return replace(plain, truth=replace(truth, **more), **changes)
 
 
+def codes(step):
+    """Return the codes of a step's reasons."""
+    return [reason.code for reason in step.reasons]
+
+
 def reported(*commands, observed=None):
     """A law that asks for one thing after the other, and then has done its work."""
 
     def step(state, each, _):
         if observed is not None:
             observed.append(each)
-        command = commands[state] if state < len(commands) else Command(finished=DONE)
+        command = commands[state] if state < len(commands) else Command(finished=one_reason(DONE))
         return state + 1, command
 
     card = LawCard("told", "", "", ("attitude",), "", "", PERIOD)
@@ -78,7 +85,7 @@ def samples_of(testbed, *commands):
     """Return what a law sees while its commands are carried out, and the bench; no proof."""
     observed, bench = [], SimulatedBench(testbed, 1)
     for step in run_law(bench, reported(*commands, observed=observed), LawOptions(max_time=1e3)):
-        if DONE in step.sentence:
+        if DONE in codes(step):
             break
     return observed, bench
 
@@ -234,7 +241,7 @@ def measurement_of(*commands, measurement, testbed=None, options=None):
     steps = []
     for step in run_law(bench, law, LawOptions(max_time=1e3) if options is None else options):
         steps.append(step)
-        if DONE in step.sentence:
+        if DONE in codes(step):
             break
     return steps, observed, bench
 
@@ -297,7 +304,7 @@ def test_a_sample_after_a_measurement_covers_the_time_since_it():
         observed=observed,
     )
     for step in run_law(bench, law, LawOptions(max_time=1e3)):
-        if DONE in step.sentence:
+        if DONE in codes(step):
             break
     np.testing.assert_allclose(observed[-1].torque, -TORQUE, rtol=0.1)
     np.testing.assert_array_equal(observed[-1].impulse, 0.0)
@@ -314,11 +321,11 @@ def ended(law, testbed=None, seed=1, **options):
 
 def test_what_a_law_claims_is_proved_by_what_comes_after():
     """com is where it is wanted: passed, on a swing that begins after the last step."""
-    law = reported(Command(note="It hangs."))
+    law = reported(Command(note=one_reason(LawReason.LEVEL_AGAIN)))
     steps, bench = ended(law, target=HANGING, tolerance=np.full(3, 5e-6), proof=30.0)
     assert [step.kind for step in steps] == ["control", "control", "verify"]
-    assert steps[0].sentence == "It hangs."
-    assert steps[1].sentence == f"told for 0 s of bench time: {DONE}."
+    assert steps[0].sentence == "Level again."
+    assert steps[1].sentence == f"told for 0 s of bench time: {DONE.template}"
     assert steps[2].verdict.passed
     assert steps[2].recording.span[0] >= steps[1].time
     assert bench.time == pytest.approx(1.5 + 30.0)
@@ -328,12 +335,12 @@ def test_a_law_that_is_wrong_fails_by_the_proof():
     steps, _ = ended(reported(), target=HANGING + 2e-5, tolerance=np.full(3, 5e-6), proof=30.0)
     assert steps[-1].kind == "stop"
     assert not steps[-1].verdict.passed
-    assert "outside the tolerance" in steps[-1].verdict.sentence
+    assert steps[-1].verdict.code == "outside_tolerance"
 
 
 def test_time_is_used_up_with_the_proof_included():
     steps, bench = ended(reported(*[Command()] * 1000), max_time=25.0, proof=15.0)
-    assert "the time is used up" in steps[-2].sentence
+    assert "time_used_up" in codes(steps[-2])
     assert bench.time == pytest.approx(25.0, abs=PERIOD)
     assert steps[-1].verdict is not None
 
@@ -350,7 +357,7 @@ def test_a_platform_beyond_its_tilt_limit_is_stopped():
     outlying = Command(shift=np.array([0.0, 0.0, 2e-3]), torque=TORQUE)
     steps, bench = ended(reported(*[outlying] * 50), thrown)
     verdict = steps[-1].verdict
-    assert (steps[-1].kind, verdict.halted, verdict.passed) == ("stop", True, False)
+    assert (steps[-1].kind, verdict.outcome) == ("stop", "halted")
     assert "tilts beyond its limit" in verdict.sentence
     stood = bench.displacements
     assert 0.0 < stood[2] < 0.04
@@ -363,7 +370,7 @@ def test_a_platform_that_hangs_by_its_limit_is_not():
     """0.48 rad of 0.5."""
     steps, _ = ended(reported(*[Command()] * 3), platform(attitude=(0.48, 0.0, 0.0)),
                      max_time=20.0, proof=15.0)  # fmt: skip
-    assert not steps[-1].verdict.halted
+    assert steps[-1].verdict.outcome != "halted"
 
 
 def test_a_bench_that_shows_no_attitude_is_refused():
@@ -387,7 +394,7 @@ def test_masses_that_stand_away_from_home_at_first_are_brought_where_a_law_wants
     bench.move({"x": 5e-3})
     bench.read(2.0)
     steps = run_law(bench, reported(*[Command(shift=np.zeros(3))] * 4), LawOptions(max_time=1e3))
-    assert DONE in next(steps).sentence
+    assert DONE in codes(next(steps))
     assert bench.displacements == pytest.approx(np.zeros(3), abs=1e-12)
 
 

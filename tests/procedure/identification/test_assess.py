@@ -55,9 +55,8 @@ def test_the_verdict_is_of_both_requirements(still):
     """79 um where 60 are allowed: failed, though the torque may be well enough."""
     found, steps = still
     verdict = steps[-1].verdict
-    assert [each.answer for each in found.judged] == ["Failed", "Failed"]
-    assert not verdict.passed
-    assert verdict.sure
+    assert [each.outcome for each in found.judged] == ["failed", "failed"]
+    assert verdict.outcome == "failed"
     assert steps[-1].kind == "verify"
     np.testing.assert_array_equal(verdict.com, found.com)
 
@@ -68,8 +67,8 @@ def test_an_inertia_known_badly_leaves_it_open():
     weight = found.weight
     true = weight * residual_torque(COM, STIFF, found.testbed.up, np.radians(20.0))
     assert true == pytest.approx(2.8e-3, rel=0.05)
-    assert steps[-1].verdict.sure is False
-    assert "known to" in steps[-1].sentence
+    assert steps[-1].verdict.outcome == "undecided"
+    assert steps[-1].reasons[-1].code == "inertia_uncertain"
     assert found.torque.rms.floor < 0.1 * true  # the sensors are not what leaves it open
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from equipoise.model.estimate import Parameter
 from equipoise.model.move import Move
-from equipoise.model.outcome import Outcome
+from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.procedure.steps.joint_fit import learn
 from equipoise.procedure.steps.verify import (
     FRESH,
@@ -17,6 +17,7 @@ from equipoise.procedure.steps.verify import (
     verdict,
 )
 from tests.support.builders import noisy, platform, recording
+from tests.support.outcomes import of_use
 
 UM = 1e-6
 
@@ -48,16 +49,15 @@ def test_on_target_passes(known):
 def test_outside_fails_and_names_the_axis(known):
     target = known.com + np.array([0.0, 20.0, 0.0]) * known.sd
     judged = verdict(known, None, 0.0, target, wide(known))
-    assert not judged.passed
-    assert judged.sure
+    assert judged.outcome == "failed"
+    assert judged.reasons[0].parameters == ("y",)
     assert judged.sentence.endswith("y outside the tolerance.")
 
 
 def test_too_uncertain_an_estimate_gives_an_inconclusive_verdict(known):
     """A tolerance of one sd holds with probability 0.68 at best."""
     judged = verdict(known, None, 0.0, known.com, known.sd)
-    assert not judged.passed
-    assert not judged.sure
+    assert judged.outcome == "undecided"
     assert judged.sentence.startswith("Cannot tell")
     assert "not known well enough" in judged.sentence
 
@@ -69,7 +69,7 @@ def test_outside_by_less_than_is_known_is_not_outside_for_sure(known, off, answe
     target = known.com + np.array([0.0, 0.0, 1.0]) * (tolerance + off * known.sd)
     judged = verdict(known, None, 0.0, target, tolerance)
     assert judged.sentence.startswith(answer)
-    assert judged.sure == (answer == "Failed")
+    assert judged.outcome == answer.lower().replace(" ", "_")
 
 
 def test_what_is_hardly_known_has_not_failed(known):
@@ -82,17 +82,17 @@ def test_what_is_hardly_known_has_not_failed(known):
 def test_a_move_that_led_elsewhere_fails(known, off, passes):
     """The look after a move tests its prediction: 2 sd may be chance, 20 are not."""
     there = known.com + off * np.sqrt(2) * known.sd
-    move = Move({}, 0.0, 1.0, there, known.covariance, "test")
+    move = Move({}, 0.0, 1.0, there, known.covariance, MoveReason.TO_TARGET)
     judged = verdict(known, move, 0.0, known.com, wide(known))
     assert judged.passed == passes
-    assert ("not where the last move should have left it" in judged.sentence) != passes
+    assert (judged.code == "move_missed") != passes
 
 
 def test_an_estimate_that_cannot_be_used_is_no_verdict(known):
-    bad = replace(known, estimate=replace(known.estimate, outcome=Outcome(False, "No use.")))
+    bad = replace(known, estimate=replace(known.estimate, outcome=of_use(False)))
     judged = verdict(bad, None, 0.0, known.com, wide(known))
-    assert not judged.passed
-    assert judged.sentence == "Cannot tell: No use."
+    assert judged.outcome == "undecided"
+    assert judged.sentence == f"Cannot tell: {of_use(False).sentence}"
 
 
 def test_a_verdict_needs_fresh_data(known):
@@ -112,5 +112,5 @@ def test_drift_since_the_move_is_no_contradiction(known):
     np.testing.assert_allclose(drift_since(drifting, 30.0), [0.5 * UM, -1.0 * UM, 0.0], rtol=1e-12)
     np.testing.assert_array_equal(drift_since(known, 30.0), np.zeros(3))
     before = known.com - drift_since(drifting, 30.0)
-    move = Move({}, 0.0, 1.0, before, 1e-18 * np.eye(3), "test")
+    move = Move({}, 0.0, 1.0, before, 1e-18 * np.eye(3), MoveReason.TO_TARGET)
     assert verdict(drifting, move, 30.0, known.com, wide(known)).passed

@@ -18,7 +18,8 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import level, tilt
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Parameter
-from equipoise.model.outcome import Outcome
+from equipoise.model.outcome import outcome
+from equipoise.model.reasons.estimate_reasons import EstimateReason
 from equipoise.model.recording import window
 from equipoise.study.papers.gyro_slew import slewed
 from equipoise.study.papers.lee import (
@@ -159,15 +160,15 @@ def test_a_coarser_record_has_the_rows_of_the_platforms_own_sensor(slew):
     assert len(fine) == pytest.approx(10 * len(coarse), abs=10)
 
 
-def estimate(sentence="", usable=True, sd=1.0, names=SOUGHT):
+def estimate(why=EstimateReason.LINEAR, sd=1.0, names=SOUGHT):
     parameters = tuple(Parameter(n, "", 1.0, sd, bool(np.isfinite(sd))) for n in names)
-    return Estimate("m", Outcome(usable, sentence), parameters, np.eye(len(names)))
+    return Estimate("m", outcome(why), parameters, np.eye(len(names)))
 
 
-def test_a_warning_is_an_outcome_a_sentence_or_an_interval():
-    assert not warns(estimate("A linear estimate."))
-    assert warns(estimate(usable=False))
-    assert warns(estimate("widened, but are not trustworthy"))
-    assert warns(estimate("do not trust the intervals"))
+def test_a_warning_is_an_outcome_or_an_interval():
+    assert not warns(estimate())
+    assert not warns(estimate(EstimateReason.RESIDUAL_LARGE))  # widened, and that is enough
+    assert warns(estimate(EstimateReason.BIAS_BY_NOISE))
+    assert warns(estimate(EstimateReason.RESIDUAL_TOO_LARGE))
     assert warns(estimate(sd=np.inf))
     assert warns(replace(estimate(), parameters=estimate().parameters[:-1]))

@@ -21,7 +21,7 @@ class WantedRuns:
     kind
         balance or identify.
     outcome
-        passed, failed, "cannot tell", halted, usable or "not usable".
+        passed, failed, undecided, halted, usable or not_usable.
     method
         Of this method or law.
     since
@@ -52,14 +52,15 @@ def condition(wanted: WantedRuns) -> tuple[str, list[Any]]:
 
 def _parts(wanted: WantedRuns) -> Iterator[tuple[str, Any]]:
     from equipoise.app.arguments.checks import one_of
-    from equipoise.model.logged_run import Kind, Outcome
+    from equipoise.model.logged_run import Kind, Usability
+    from equipoise.model.verdict import VerdictOutcome
 
     if wanted.platform is not None:
         yield "instr(lower(platform), lower(?)) > 0", wanted.platform
     if wanted.kind is not None:
         yield "kind = ?", one_of("--kind", wanted.kind, list(get_args(Kind)))
     if wanted.outcome is not None:
-        yield "outcome = ?", one_of("--outcome", wanted.outcome, list(get_args(Outcome)))
+        yield "outcome = ?", one_of("--outcome", wanted.outcome, [*VerdictOutcome, *Usability])
     if wanted.method is not None:
         yield "method = ?", wanted.method
     for option, text, sign in (("--since", wanted.since, ">="), ("--until", wanted.until, "<")):

@@ -29,6 +29,6 @@ def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
     check_writable(out)
     recording = recording_of(file, reading)
     write_recording(recording, out)
-    show(items(recording.notes, "quiet"))
+    show(items((*recording.notes, *recording.gaps), "quiet"))
     show_paths([out])
     return 0

@@ -71,4 +71,4 @@ def design(
         case = Case(bed, target, tilt, lengths[0], count, lean, around)
         found = sized(case, lengths, require_torque)
     hand_over(output_of(found), json, out)
-    return 0 if found.outcome.usable else 1
+    return 0 if found.verdict.passed else 1

@@ -76,4 +76,4 @@ def _happened(file: str, reading: Reading, testbed: "Testbed") -> "list[Finding]
         return []
     outcome = last.estimate.outcome
     kind = "content" if outcome.usable else "problem"
-    return [*event_findings(last.estimate), Finding(kind, outcome.sentence)]
+    return [*event_findings(last.estimate), Finding(kind, outcome.reasons)]

@@ -1,7 +1,7 @@
 """Runs of a logbook as tables for the terminal and as JSON."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from equipoise.app.logbook.testbed_history import letters
 from equipoise.app.text.blocks import (
@@ -21,15 +21,16 @@ from equipoise.app.text.units import unit_for
 from equipoise.io.documents.logbook import Logbook
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA, Parameter, normalised_difference
-from equipoise.model.logged_run import LoggedRun
+from equipoise.model.logged_run import Ending, LoggedRun, Usability
+from equipoise.model.verdict import VerdictOutcome
 
-TONES: dict[str, Tone] = {
-    "passed": "good",
-    "usable": "good",
-    "failed": "bad",
-    "halted": "bad",
-    "not usable": "bad",
-    "cannot tell": "caution",
+TONES: Mapping[Ending, Tone] = {
+    VerdictOutcome.PASSED: "good",
+    VerdictOutcome.FAILED: "bad",
+    VerdictOutcome.HALTED: "bad",
+    VerdictOutcome.UNDECIDED: "caution",
+    Usability.USABLE: "good",
+    Usability.NOT_USABLE: "bad",
 }
 MEANING = "com: as judged, masses as they stand; of identify: masses at home"
 MINUTE = 16  # characters of a time, to the minute

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def lines(found: Sizing) -> Iterator[str]:
     """Yield the verdict and what limits the result."""
-    yield f"Design of {found.case.testbed.name}: {found.outcome.sentence}"
+    yield f"Design of {found.case.testbed.name}: {found.verdict.sentence}"
     yield f"  {found.limit}"
 
 

@@ -12,9 +12,9 @@ from equipoise.io.documents.run_folder import TESTBED
 from equipoise.io.formats.csv_table import csv_text
 from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.estimate import COM, Parameter
-from equipoise.model.logged_run import RUN, LoggedRun, Outcome
+from equipoise.model.logged_run import RUN, Ending, LoggedRun, Usability
 from equipoise.model.recording import Recording
-from equipoise.model.verdict import Verdict, outcome_of
+from equipoise.model.verdict import Verdict
 
 RECORDING = "recording.csv"
 
@@ -59,12 +59,13 @@ def entry(logged: Logged, record: RunRecord, name: str, testbed: str) -> LoggedR
     )
 
 
-def outcome(logged: Logged) -> Outcome:
-    """Return in a word how a run ended."""
+def outcome(logged: Logged) -> Ending:
+    """Return how a run ended."""
     verdict, estimate = logged.verdict, logged.estimate
     if verdict is None:
-        return "usable" if estimate is not None and estimate.outcome.usable else "not usable"
-    return outcome_of(verdict)
+        usable = estimate is not None and estimate.outcome.usable
+        return Usability.USABLE if usable else Usability.NOT_USABLE
+    return verdict.outcome
 
 
 def sentence(logged: Logged) -> str:

@@ -17,6 +17,8 @@ from equipoise.model.estimate import INERTIA, Estimate
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.presentation import Plotted
+from equipoise.model.reasons.reason import Number, one_reason
+from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -134,7 +136,7 @@ def run(
         reported = halted(bench)
         if simulated is not None:
             raise KeyboardInterrupt(reported) from by_hand
-        steps.append(stop_step(bench, f"stopped by hand: {reported}"))
+        steps.append(stop_step(bench, VerdictReason.STOPPED_BY_HAND, reported))
         if on_step is not None:
             on_step(steps[-1])
     # A look of a law's may hold what is not known; its estimate is no belief to begin with.
@@ -162,13 +164,16 @@ def until_stopped(bench: Bench, steps: Iterator[Step]) -> Iterator[Step]:
     try:
         yield from steps
     except BenchStopped as stopped:
-        yield stop_step(bench, f"Stopped: {stopped}")
+        cause = stopped.cause
+        codes = () if cause is None else (str(cause.code), *cause.parameters)
+        numbers = dict[str, Number]() if cause is None else cause.numbers
+        yield stop_step(bench, VerdictReason.BENCH_STOPPED, str(stopped), *codes, **numbers)
 
 
-def stop_step(bench: Bench, sentence: str) -> Step:
-    """Return the last step of a run that was stopped, for the reason given."""
-    judged = Verdict(False, f"{sentence[0].upper()}{sentence[1:]}.", halted=True)
-    return Step("stop", bench.time, judged.sentence, verdict=judged)
+def stop_step(bench: Bench, code: VerdictReason, *about: str, **numbers: Number) -> Step:
+    """Return the last step of a run that was stopped; what it is about begins with a text."""
+    judged = Verdict(one_reason(code, *about, **numbers))
+    return Step("stop", bench.time, judged.reasons, verdict=judged)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:

@@ -48,7 +48,7 @@ def estimate_tables(estimate: Estimate) -> tuple[Table, ...]:
 
 def unobservable_items(estimate: Estimate) -> Blocks:
     """Return what the data cannot show; nothing where they show all."""
-    return items(estimate.unobservable, "caution")
+    return items((reason.sentence for reason in estimate.unobservable), "caution")
 
 
 def outcome_claim(estimate: Estimate) -> Claim:

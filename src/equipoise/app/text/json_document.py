@@ -12,10 +12,12 @@ from equipoise.model.event import UNITS, Event
 from equipoise.model.finding import Finding
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.move import Move
+from equipoise.model.outcome import Outcome
 from equipoise.model.placing import Placing
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import CHANNELS, Recording
 from equipoise.model.step import Step
-from equipoise.model.verdict import Verdict, outcome_of
+from equipoise.model.verdict import Verdict
 
 ESTIMATE, BALANCE, RECORDING = (
     f"equipoise/{kind}/1" for kind in ("estimate", "balance", "recording")
@@ -54,19 +56,43 @@ def estimate_json(estimate: Estimate, findings: Sequence[Finding] = ()) -> View:
     return {
         "schema": ESTIMATE,
         "method": estimate.method,
-        "outcome": {"usable": estimate.outcome.usable, "sentence": estimate.outcome.sentence},
+        "outcome": outcome_json(estimate.outcome),
         "parameters": [parameter_json(p) for p in estimate.parameters],
         "covariance": numbers(estimate.covariance),
         "residual": None if estimate.residual is None else residual_json(estimate.residual),
-        "unobservable": list(estimate.unobservable),
+        "unobservable": reasons_json(estimate.unobservable),
         "events": [event_json(event) for event in estimate.events],
-        "unexplained": list(estimate.unexplained),
+        "unexplained": reasons_json(estimate.unexplained),
         "ratios": [parameter_json(p) for p in estimate.ratios],
         "possible": estimate.possible,
         "course": None if estimate.course is None else course_json(estimate.course),
         "findings": [finding_json(f) for f in findings],
         "provenance": dict(estimate.provenance),
     }
+
+
+def outcome_json(outcome: Outcome) -> View:
+    """Return what happened, how far to rely on it, and why."""
+    return {
+        "code": outcome.code,
+        "trust": outcome.trust,
+        "usable": outcome.usable,
+        "reasons": reasons_json(outcome.reasons),
+        "sentence": outcome.sentence,
+    }
+
+
+def reasons_json(reasons: Sequence[Reason]) -> list[View]:
+    """Return reasons: a code, what it is about, its numbers in SI, and a sentence for people."""
+    return [
+        {
+            "code": reason.code,
+            "parameters": list(reason.parameters),
+            "numbers": dict(reason.numbers),
+            "sentence": reason.sentence,
+        }
+        for reason in reasons
+    ]
 
 
 def course_json(course: Course) -> View:
@@ -128,7 +154,13 @@ def residual_json(residual: Residual) -> View:
 
 def finding_json(finding: Finding) -> View:
     """Return a finding."""
-    return {"kind": finding.kind, "sentence": finding.sentence, "span_s": finding.span}
+    return {
+        "kind": finding.kind,
+        "code": finding.code,
+        "reasons": reasons_json(finding.reasons),
+        "sentence": finding.sentence,
+        "span_s": finding.span,
+    }
 
 
 def findings_json(recording: Recording, findings: Sequence[Finding]) -> View:
@@ -169,10 +201,10 @@ def balance_json(
 def verdict_json(verdict: Verdict) -> View:
     """Return a verdict."""
     return {
+        "outcome": verdict.outcome,
         "passed": verdict.passed,
-        "sure": verdict.sure,
-        "halted": verdict.halted,
-        "outcome": outcome_of(verdict),
+        "code": verdict.code,
+        "reasons": reasons_json(verdict.reasons),
         "sentence": verdict.sentence,
         "com_um": numbers(verdict.com, UM),
         "sd_um": numbers(verdict.sd, UM),
@@ -182,7 +214,13 @@ def verdict_json(verdict: Verdict) -> View:
 
 def step_json(step: Step) -> View:
     """Return a step, without the recording that it looked at."""
-    view: View = {"kind": step.kind, "time_s": step.time, "sentence": step.sentence}
+    view: View = {
+        "kind": step.kind,
+        "code": step.code,
+        "time_s": step.time,
+        "reasons": reasons_json(step.reasons),
+        "sentence": step.sentence,
+    }
     if step.estimate is not None:
         view["estimate"] = estimate_json(step.estimate)
     if step.move is not None:

@@ -1,13 +1,14 @@
 """What a recording holds and what a procedure did, as blocks."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
-from equipoise.app.text.blocks import Blocks, Claim, Item, Items, Moment, Paragraph, Tone
+from equipoise.app.text.blocks import Blocks, Claim, Item, Items, Moment, Paragraph, Tone, items
 from equipoise.app.text.estimate_text import noise_floor_line
 from equipoise.app.text.numbers import fixed
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.step import Step
-from equipoise.model.verdict import Verdict
+from equipoise.model.verdict import Verdict, VerdictOutcome
 
 TONES: dict[str, Tone] = {
     "content": "plain",
@@ -16,12 +17,24 @@ TONES: dict[str, Tone] = {
     "mended": "quiet",  # it was set right
 }
 
+VERDICT_TONES: dict[VerdictOutcome, Tone] = {
+    VerdictOutcome.PASSED: "good",
+    VerdictOutcome.UNDECIDED: "caution",
+    VerdictOutcome.FAILED: "bad",
+    VerdictOutcome.HALTED: "bad",
+}
+
 
 def finding_items(findings: Sequence[Finding]) -> Blocks:
     """Return what a recording holds and what is wrong with it."""
     if not findings:
         return ()
     return (Items(tuple(Item(f.sentence, TONES[f.kind]) for f in findings)),)
+
+
+def reason_items(reasons: Iterable[Reason], tone: Tone = "caution") -> Blocks:
+    """Return the sentences of reasons as a list; nothing where there are none."""
+    return items((reason.sentence for reason in reasons), tone)
 
 
 def moment_of(step: Step) -> Moment:
@@ -42,5 +55,4 @@ def verdict_blocks(verdict: Verdict) -> Blocks:
 
 def verdict_claim(verdict: Verdict) -> Claim:
     """Return the sentence of a verdict; one that is not sure is neither good news nor bad."""
-    tone: Tone = "good" if verdict.passed else "bad"
-    return Claim(verdict.sentence, tone if verdict.sure else "caution")
+    return Claim(verdict.sentence, VERDICT_TONES[verdict.outcome])

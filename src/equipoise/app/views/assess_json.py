@@ -2,7 +2,13 @@
 
 from equipoise.app.report.run_record import Output
 from equipoise.app.runs.assessment import AssessedPlatform
-from equipoise.app.text.json_document import View, estimate_json, numbers
+from equipoise.app.text.json_document import (
+    View,
+    estimate_json,
+    numbers,
+    reasons_json,
+    verdict_json,
+)
 from equipoise.app.views.assess_views import blocks, record_of
 from equipoise.assessment.metrics.swing_height import Hanging
 from equipoise.model.estimate import COM, Estimate
@@ -29,9 +35,7 @@ def document_of(reported: AssessedPlatform) -> View:
     done, before, verdict = reported.done, reported.before, reported.steps[-1].verdict
     return {
         "schema": SCHEMA,
-        "verdict": None
-        if verdict is None
-        else {"passed": verdict.passed, "sure": verdict.sure, "sentence": verdict.sentence},
+        "verdict": None if verdict is None else verdict_json(verdict),
         "required": [judged_json(each) for each in done.judged],
         **platform_json(done),
         "before": None if before is None else platform_json(before),
@@ -91,9 +95,10 @@ def hours_json(hours: OverHours) -> View:
 def judged_json(judged: Judged) -> View:
     """Return a requirement and its answer."""
     return {
-        "what": judged.requirement.what.rstrip(","),
+        "quantity": judged.requirement.quantity,
         "limit": judged.requirement.limit,
-        "answer": judged.answer,
+        "outcome": judged.outcome,
+        "reasons": reasons_json(judged.reasons),
         "sentence": judged.sentence,
     }
 

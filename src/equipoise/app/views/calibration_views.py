@@ -101,7 +101,8 @@ def sentences_of(done: Calibrated) -> Blocks:
     unmoved = f"Never moved, so not shown: {', '.join(still)}." if still and moved else ""
     stays = (STAYS,) if any(p.name.startswith(SENSORS) for p in found.parameters) else ()
     residual = "" if found.residual is None else residual_line(found.residual)
-    return paragraphs(unmoved, *found.unobservable, *found.unexplained, *stays, residual)
+    reasons = (reason.sentence for reason in (*found.unobservable, *found.unexplained))
+    return paragraphs(unmoved, *reasons, *stays, residual)
 
 
 def record_of(done: Calibrated) -> RunRecord:

@@ -20,9 +20,10 @@ from equipoise.app.text.blocks import (
     paragraphs,
     table,
 )
-from equipoise.app.text.json_document import View, numbers
+from equipoise.app.text.json_document import View, numbers, reasons_json, verdict_json
 from equipoise.app.text.units import GRAM, MICRO, MM, PER_DEG, UM
 from equipoise.model.arrays import Floats, Matrix3
+from equipoise.model.reasons.reason import Reason, distinct
 from equipoise.planning.sizing.budget import Budget
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.contribution import Line
@@ -65,14 +66,18 @@ def remarks_of(found: Sizing) -> Blocks:
     missing = ", ".join(uncounted(found.case))
     uncounted_text = f"Not stated, and not counted: {missing}."
     quiet: tuple[Block, ...] = (Paragraph(uncounted_text, "quiet"),) if missing else ()
-    return (*quiet, *items(cautions(found), "caution"), *paragraphs(found.reached, found.limit))
+    return (
+        *quiet,
+        *items(map(caution_text, cautions(found)), "caution"),
+        *paragraphs(found.reached, found.limit),
+    )
 
 
 def outcome_claim(found: Sizing) -> Claim:
     """Return whether what is required can be met."""
     if found.required is None:
-        return Claim(found.outcome.sentence)
-    return Claim(found.outcome.sentence, "good" if found.outcome.usable else "bad")
+        return Claim(found.verdict.sentence)
+    return Claim(found.verdict.sentence, "good" if found.verdict.passed else "bad")
 
 
 def record_of(found: Sizing) -> RunRecord:
@@ -204,22 +209,43 @@ def better_table(found: Sizing) -> Table:
     return table("What to buy next, the best first", columns, rows)
 
 
+def caution_text(caution: tuple[Reason, list[float]]) -> str:
+    """Return what is odd, with the lengths of its records."""
+    reason, lengths = caution
+    return f"Records of {', '.join(f'{length:g}' for length in lengths)} s: {reason.sentence}"
+
+
 def uncounted(case: Case) -> tuple[str, ...]:
     """Return what nothing was stated of, and what therefore does not count."""
     rails = () if case.rail_lean > 0 else ("lean of the rails",)
     return (*rails, *not_stated(case.around))
 
 
-def cautions(found: Sizing) -> list[str]:
-    """Return what is odd about the looks, each once, with their lengths."""
-    reported: dict[str, list[str]] = {}
-    for budget in found.budgets:
-        for measurement in (budget.first, budget.last):
-            for caution in measurement.cautions:
-                lengths = reported.setdefault(caution, [])
-                if f"{measurement.duration:g}" not in lengths:
-                    lengths.append(f"{measurement.duration:g}")
-    return [f"Records of {', '.join(lengths)} s: {text}" for text, lengths in reported.items()]
+def cautions(found: Sizing) -> list[tuple[Reason, list[float]]]:
+    """Return what is odd about the records, each once, with their lengths (s)."""
+    measurements = [
+        measurement for budget in found.budgets for measurement in (budget.first, budget.last)
+    ]
+    reasons = distinct(reason for measurement in measurements for reason in measurement.cautions)
+    return [(reason, lengths_with(reason, measurements)) for reason in reasons]
+
+
+def lengths_with(reason: Reason, measurements: Sequence[MeasurementBound]) -> list[float]:
+    """Return how long the records are of which a reason holds, s."""
+    return list(
+        dict.fromkeys(
+            measurement.duration for measurement in measurements if reason in measurement.cautions
+        )
+    )
+
+
+def cautions_json(found: Sizing) -> list[View]:
+    """Return what is odd about the records, with their lengths."""
+    reported = cautions(found)
+    views = reasons_json([reason for reason, _ in reported])
+    return [
+        view | {"records_s": lengths} for view, (_, lengths) in zip(views, reported, strict=True)
+    ]
 
 
 def design_json(found: Sizing) -> View:
@@ -239,8 +265,8 @@ def design_json(found: Sizing) -> View:
         "better": [bettered_json(b) for b in found.better],
         "limit": found.limit,
         "not_stated": list(uncounted(case)),
-        "cautions": cautions(found),
-        "outcome": {"met": found.outcome.usable, "sentence": found.outcome.sentence},
+        "cautions": cautions_json(found),
+        "verdict": verdict_json(found.verdict),
     }
 
 

@@ -13,14 +13,14 @@ from equipoise.app.text.blocks import (
     Section,
     Table,
     Tone,
-    items,
     number,
     paragraphs,
     prose,
     table,
 )
-from equipoise.app.text.json_document import View, numbers, parameter_json
+from equipoise.app.text.json_document import View, numbers, parameter_json, reasons_json
 from equipoise.app.text.numbers import with_sd
+from equipoise.app.text.run_blocks import reason_items
 from equipoise.app.text.units import PER_DEG, unit_for
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Parameter
@@ -59,7 +59,7 @@ def bound_tables(information: Observability) -> Blocks:
 
 def unobserved_blocks(information: Observability) -> Blocks:
     """Return what the motion does not show, and how far it goes."""
-    unobserved = items((*information.cautions, *information.sentences), "caution")
+    unobserved = reason_items((*information.cautions, *information.unobservable))
     return (*unobserved, *paragraphs(sweep_line(information)))
 
 
@@ -137,7 +137,7 @@ def filter_row(view: FilterView) -> tuple[str, ...]:
     """Return how much of its state a filter sees, and what it does not."""
     with_noise = f"no {view.measures}" if view.rank is None else f"{view.rank} of {view.size}"
     sees = f"{view.possible} of {view.size}"
-    return view.name, sees, with_noise, "\n".join(view.sentences)
+    return view.name, sees, with_noise, "\n".join(reason.sentence for reason in view.unobservable)
 
 
 def sweep_line(information: Observability) -> str:
@@ -177,8 +177,8 @@ def observe_json(done: Observation) -> View:
         "gravity_sweep": information.gravity_sweep,
         "tilt_rad": list(information.tilt),
         "inertia_P_kg_m2": numbers(information.inertia_P),
-        "unobservable": list(information.sentences),
-        "cautions": list(information.cautions),
+        "unobservable": reasons_json(information.unobservable),
+        "cautions": reasons_json(information.cautions),
         "filters": [filter_json(view) for view in filters],
     }
 
@@ -203,5 +203,5 @@ def filter_json(view: FilterView) -> View:
         "size": view.size,
         "possible_rank": view.possible,
         "rank": view.rank,
-        "unobservable": list(view.sentences),
+        "unobservable": reasons_json(view.unobservable),
     }

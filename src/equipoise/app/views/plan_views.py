@@ -20,12 +20,12 @@ from equipoise.app.text.blocks import (
     Row,
     Section,
     Table,
-    items,
     number,
     table,
 )
-from equipoise.app.text.json_document import View, schedule_json
+from equipoise.app.text.json_document import View, reasons_json, schedule_json
 from equipoise.app.text.numbers import with_sd
+from equipoise.app.text.run_blocks import reason_items
 from equipoise.app.text.units import MM, PER_DEG, Unit, unit_for
 from equipoise.model.arrays import Vector3
 from equipoise.model.devices import ReactionWheel
@@ -58,7 +58,7 @@ def what_to_do(done: Planning) -> Blocks:
 def limits_of(done: Planning) -> Blocks:
     """Return what stays unseen, and how far both manoeuvres go."""
     return (
-        *items(done.planned.sentences, "caution"),
+        *reason_items(done.planned.unobservable),
         Paragraph(limits_line(done.usual, done.request, "The usual manoeuvre"), "quiet"),
         Paragraph(limits_line(done.planned, done.request, "The plan")),
     )
@@ -250,5 +250,5 @@ def promise_json(promise: Promise) -> View:
         "greatest_tilt_rad": promise.greatest_tilt,
         "greatest_rate_rad_s": promise.greatest_rate,
         "peak_momentum_N_m_s": promise.expected.peak_momentum,
-        "unobservable": list(promise.sentences),
+        "unobservable": reasons_json(promise.unobservable),
     }

@@ -3,6 +3,8 @@
 import numpy as np
 
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples
 
 GAP = 3.0  # median intervals; chosen: one missed row makes 2, two make 3
@@ -26,18 +28,18 @@ def content_findings(recording: Recording) -> list[Finding]:
     present = [(name, c) for name, c in named if c is not None and len(c)]
     absent = [name for name in ("attitude", "rate") if name not in dict(present)]
     content = [_content(name, channel, parts.get(name, ())) for name, channel in present]
-    content += [Finding("content", f"No {name} was recorded.") for name in absent]
+    content += [Finding("content", one_reason(Why.NOT_RECORDED, name)) for name in absent]
     sensors = [(name, c) for name, c in present if name in ("attitude", "rate")]
     return content + [gap for name, c in sensors for gap in _timing(name, c)]
 
 
 def _content(name: str, channel: Samples, parts: tuple[str, ...]) -> Finding:
     first, last = float(channel.t[0]), float(channel.t[-1])
-    of = f" of {', '.join(parts)}" if parts else ""
-    text = f"{name}{of}: {len(channel)} rows from {first:.6g} to {last:.6g} s"
-    if len(channel) > 1:
-        text += f", {1 / channel.period:.4g} Hz"
-    return Finding("content", f"{text}.", (first, last))
+    if len(channel) < 2:
+        return Finding("content", one_reason(Why.SINGLE_ROW, name, first=first), (first, last))
+    code = Why.CHANNEL_OF_PARTS if parts else Why.CHANNEL
+    numbers = {"rows": len(channel), "first": first, "last": last, "rate": 1 / channel.period}
+    return Finding("content", one_reason(code, name, *parts, **numbers), (first, last))
 
 
 def _timing(name: str, channel: Samples) -> list[Finding]:
@@ -54,14 +56,14 @@ def _gaps(name: str, channel: Samples) -> list[Finding]:
     found = [
         Finding(
             "problem",
-            f"{name}: a gap of {steps[i]:.3g} s at {t[i]:.6g} s.",
+            one_reason(Why.GAP, name, gap=float(steps[i]), t=float(t[i])),
             (float(t[i]), float(t[i + 1])),
             "gap",
         )
         for i in longest
     ]
     if len(where) > NAMED:
-        found.append(Finding("problem", f"{name}: {len(where) - NAMED} shorter gaps besides."))
+        found.append(Finding("problem", one_reason(Why.MORE_GAPS, name, count=len(where) - NAMED)))
     return found
 
 
@@ -70,5 +72,5 @@ def _unevenness(name: str, channel: Samples) -> list[Finding]:
     scatter = ROBUST_SD * float(np.median(np.abs(np.diff(channel.t) - middle)))
     if scatter < UNEVEN * middle:
         return []
-    text = f"{name}: intervals scatter by {scatter:.2g} s about {middle:.3g} s."
-    return [Finding("problem", text)]
+    numbers = {"scatter": scatter, "interval": middle}
+    return [Finding("problem", one_reason(Why.UNEVEN_INTERVALS, name, **numbers))]

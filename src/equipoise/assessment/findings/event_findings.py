@@ -7,19 +7,16 @@ import numpy as np
 from equipoise.model.estimate import Estimate
 from equipoise.model.event import Event
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import axes_of, one_reason
 
-NOT_SOUGHT = Finding(
-    "content", "touches and parts that shift were not looked for: that takes a testbed."
-)
-MILLI, MICRO = 1e3, 1e6
-UNCLEAR_TOUCH = "A part that shifted would explain it about as well: intervals allow for either."
-UNCLEAR_STEP = "A touch would explain it about as well: intervals allow for either."
+NOT_SOUGHT = Finding("content", one_reason(Why.EVENTS_NOT_SOUGHT))
 
 
 def event_findings(estimate: Estimate) -> list[Finding]:
     """Return the events that an estimate steps over, and what its model leaves open."""
     reported = [_impulse(e) if e.kind == "impulse" else _step(e) for e in estimate.events]
-    return reported + [Finding("content", sentence) for sentence in estimate.unexplained]
+    return reported + [Finding("content", (reason,)) for reason in estimate.unexplained]
 
 
 def span_of(event: Event) -> tuple[float, float]:
@@ -27,33 +24,24 @@ def span_of(event: Event) -> tuple[float, float]:
     return (event.t - event.t_sd, event.t + event.t_sd)
 
 
-def _sizes(values: np.ndarray, factor: float) -> str:
-    return ", ".join(f"{factor * x:.2g}" for x in values)
-
-
 def _impulse(event: Event) -> Finding:
-    """Return a touch: its impulse in laboratory axes, with its sd, and the place if it is told."""
-    sd = math.sqrt(float(np.trace(event.covariance)) / 3)
-    text = (
-        f"at {event.t:.4g} s something gave the platform an impulse of "
-        f"{MILLI * float(np.linalg.norm(event.size)):.2g} mN m s (laboratory x, y, z: "
-        f"{_sizes(event.size, MILLI)}; sd {MILLI * sd:.1g})"
-    )
-    if event.azimuth is not None:
-        text += (
-            ", as a push from below does at the body azimuth "
-            f"{math.degrees(event.azimuth):.0f} deg, or one from above opposite"
-        )
-    text += f". {UNCLEAR_TOUCH}" if event.unclear else "."
-    return Finding("problem", text, span_of(event), "touch")
+    """Return a touch: its impulse in laboratory axes, with its sd, and the place if it is known."""
+    numbers = axes_of("size", event.size) | {
+        "t": event.t,
+        "size": float(np.linalg.norm(event.size)),
+        "sd": math.sqrt(float(np.trace(event.covariance)) / 3),
+    }
+    if event.azimuth is None:
+        found = one_reason(Why.TOUCH, **numbers)
+    else:
+        found = one_reason(Why.PUSH, **numbers, azimuth=event.azimuth)
+    found += one_reason(Why.TOUCH_UNCLEAR) if event.unclear else ()
+    return Finding("problem", found, span_of(event), "touch")
 
 
 def _step(event: Event) -> Finding:
     """Return a step of the centre of mass, in body axes."""
     sd = np.sqrt(np.diag(event.covariance))
-    text = (
-        f"at {event.t:.4g} s the centre of mass moved by {_sizes(event.size, MICRO)} um "
-        f"(body x, y, z; sd {_sizes(sd, MICRO)}): a part shifted."
-    )
-    text += f" {UNCLEAR_STEP}" if event.unclear else ""
-    return Finding("problem", text, span_of(event), "shift")
+    found = one_reason(Why.COM_STEP, **axes_of("size", event.size), **axes_of("sd", sd), t=event.t)
+    found += one_reason(Why.COM_STEP_UNCLEAR) if event.unclear else ()
+    return Finding("problem", found, span_of(event), "shift")

@@ -5,6 +5,8 @@ import numpy as np
 from equipoise.assessment.findings.unknown_names import unknown_name_findings
 from equipoise.model.arrays import Series1
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording
 
 STILL = 1e-6  # m between rows; chosen: below any actuator's step, above an encoder's flicker
@@ -15,7 +17,7 @@ def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[F
     """Return each move in order of time; ``known`` are the testbed's masses, if it is given."""
     masses = recording.masses
     if masses is None or not len(masses):
-        return [Finding("content", "No mass positions were recorded: the scale stays open.")]
+        return [Finding("content", one_reason(Why.NO_POSITIONS))]
     found = unknown_name_findings("mass", recording.mass_names, known)
     moves = [
         move
@@ -24,9 +26,9 @@ def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[F
     ]
     moves.sort(key=lambda move: move.span or (0.0, 0.0))
     if not moves:
-        return [*found, Finding("content", "No mass moved: the scale stays open.")]
+        return [*found, Finding("content", one_reason(Why.NO_MASS_MOVED))]
     more = len(moves) - NAMED
-    rest = [Finding("motion", f"{more} further moves of masses.")] if more > 0 else []
+    rest = [Finding("motion", one_reason(Why.MORE_MOVES, count=more))] if more > 0 else []
     return [*found, *moves[:NAMED], *rest]
 
 
@@ -36,12 +38,12 @@ def _moves(name: str, t: Series1, x: Series1) -> list[Finding]:
     starts = np.flatnonzero(~moving[:-1] & moving[1:])
     ends = np.flatnonzero(moving[:-1] & ~moving[1:])
     return [
-        Finding(
-            "motion",
-            f"mass {name} moves from {x[a] * 1e3:.4g} to {x[b] * 1e3:.4g} mm "
-            f"between {t[a]:.6g} and {t[b]:.6g} s.",
-            (float(t[a]), float(t[b])),
-            name,
-        )
+        _move(name, (float(t[a]), float(t[b])), float(x[a]), float(x[b]))
         for a, b in zip(starts.tolist(), ends.tolist(), strict=True)
     ]
+
+
+def _move(name: str, span: tuple[float, float], start: float, end: float) -> Finding:
+    """Return one move, from ``start`` to ``end`` (m)."""
+    numbers = {"start": start, "end": end, "t_start": span[0], "t_end": span[1]}
+    return Finding("motion", one_reason(Why.MASS_MOVES, name, **numbers), span, name)

@@ -8,6 +8,8 @@ from equipoise.assessment.record_checks.attitude_steps import even_steps
 from equipoise.maths.attitude import tilt, to_matrix
 from equipoise.model.arrays import Series1, Vector3
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 
 UPRIGHT = math.radians(60)  # chosen: no table on a hemisphere swings about a tilt beyond this
@@ -35,20 +37,17 @@ def most_upright(attitude: Samples) -> str:
 
 
 def _tilt(angles: np.ndarray, guess: str, reported: bool) -> Finding:
-    low, high = math.degrees(angles.min()), math.degrees(angles.max())
-    of = "" if reported else f" of body axis {guess}, the most upright one"
-    return Finding("motion", f"tilt{of}: {low:.3g} to {high:.3g} deg.")
+    numbers = {"low": float(angles.min()), "high": float(angles.max())}
+    if reported:
+        return Finding("motion", one_reason(Why.TILT_RANGE, **numbers))
+    return Finding("motion", one_reason(Why.TILT_RANGE_OF_AXIS, guess, **numbers))
 
 
 def _frame(angles: np.ndarray, guess: str) -> list[Finding]:
     middle = float(np.median(angles))
     if middle < UPRIGHT:
         return []
-    text = (
-        f"gravity does not point down: the median tilt is {math.degrees(middle):.0f} deg; "
-        f"body axis {guess} is the most upright one. Is the laboratory's Z up?"
-    )
-    return [Finding("problem", text)]
+    return [Finding("problem", one_reason(Why.GRAVITY_NOT_DOWN, guess, tilt=middle))]
 
 
 def heading_rate(attitude: Samples) -> tuple[Series1, Series1]:
@@ -62,7 +61,6 @@ def _spin(attitude: Samples) -> Finding:
     """Return the rate about the vertical at both ends of the record."""
     _, vertical = heading_rate(attitude)
     n = max(1, int(SHARE * len(vertical)))
-    first, last = (math.degrees(float(np.median(part))) for part in (vertical[:n], vertical[-n:]))
-    limit = 180 / attitude.period
-    text = f"spin about the vertical: {first:.4g} deg/s at first, {last:.4g} deg/s at last"
-    return Finding("motion", f"{text} (up to {limit:.4g} deg/s can be told at this rate).")
+    first, last = (float(np.median(part)) for part in (vertical[:n], vertical[-n:]))
+    limit = math.pi / attitude.period
+    return Finding("motion", one_reason(Why.SPIN, first=first, last=last, limit=limit))

@@ -14,6 +14,8 @@ from equipoise.assessment.record_checks.gyro_consistency import agreement_findin
 from equipoise.assessment.record_checks.rate_quality import rate_findings
 from equipoise.assessment.record_checks.sensor_noise import unstated_findings
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -36,8 +38,7 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *agreement_findings(recording.attitude, recording.rate),
         *offset_findings(recording.attitude, recording.rate, *sensors),
         *unstated_findings(recording, testbed),
-        # Gaps are named in the notes too; here they are findings of their own, with their span.
-        *(Finding("mended", note) for note in recording.notes if " gap" not in note),
+        *(Finding("mended", one_reason(Why.SET_RIGHT, note)) for note in recording.notes),
     )
 
 

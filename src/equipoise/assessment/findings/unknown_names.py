@@ -2,6 +2,8 @@
 
 from equipoise.model.errors import nearest
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 
 
 def unknown_name_findings(
@@ -11,7 +13,7 @@ def unknown_name_findings(
     if known is None:
         return []
     return [
-        Finding("problem", f"{kind} {name} is not in the testbed; {_meant(name, known)}")
+        Finding("problem", one_reason(Why.NOT_IN_TESTBED, kind, name, _meant(name, known)))
         for name in names
         if name not in known
     ]

@@ -12,6 +12,8 @@ import numpy as np
 from equipoise.assessment.record_checks.attitude_steps import EVEN, steps
 from equipoise.model.arrays import Series3
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 
 ORDERS = range(3, 8)  # chosen: beyond, neighbouring differences are all but the same number
@@ -24,8 +26,7 @@ def noise_findings(attitude: Samples | None) -> list[Finding]:
     noise = None if attitude is None else attitude_noise(attitude)
     if noise is None:
         return []
-    text = f"attitude noise: {math.degrees(noise):.2g} deg per axis at most, white part."
-    return [Finding("content", text)]
+    return [Finding("content", one_reason(Why.ATTITUDE_NOISE, noise=noise))]
 
 
 def attitude_noise(attitude: Samples) -> float | None:

@@ -23,6 +23,8 @@ from equipoise.assessment.record_checks.gyro_consistency import (
 )
 from equipoise.model.arrays import Floats, Series1, Series3
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro
 
@@ -54,11 +56,9 @@ def offset_findings(
         return []
     wanted = _middle(camera) - _middle(gyro)
     wrong = abs(reported.lag - wanted) > max(SURE_SD * reported.sd, MATTERS)
-    ms = f"{reported.lag * 1e3:.3g} ms (sd {reported.sd * 1e3:.2g} ms)"
-    text = f"the attitude is stamped {ms} later than the gyro"
-    if wrong:
-        text += f"; by the testbed it would be {wanted * 1e3:.3g} ms" if camera or gyro else ""
-    return [Finding("problem" if wrong else "content", f"{text}.")]
+    numbers = {"lag": reported.lag, "sd": reported.sd, "stated": wanted}
+    code = Why.ATTITUDE_LATE_UNSTATED if wrong and (camera or gyro) else Why.ATTITUDE_LATE
+    return [Finding("problem" if wrong else "content", one_reason(code, **numbers))]
 
 
 def clock_offset(attitude: Samples, rate: Samples) -> ClockOffset | None:

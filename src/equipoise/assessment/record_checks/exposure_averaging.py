@@ -22,6 +22,8 @@ from numpy.typing import NDArray
 from equipoise.maths.local_motion import half_window, local_motion
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor
 
@@ -137,13 +139,8 @@ def _odd(short: Series1, expected: Floats, scatter: float) -> NDArray[np.bool_]:
 
 
 def _window(averaging: RowAveraging) -> Finding:
-    text = (
-        f"each attitude row is the mean over {averaging.window:.3g} s (sd {averaging.sd:.1g} s): "
-        f"its quaternion is {averaging.shortness:.2g} short. Taken as moments, the rows put "
-        "inertia off by "
-        f"the order of {averaging.damping:.1%}."
-    )
-    return Finding("content", text)
+    numbers = {"window": averaging.window, "sd": averaging.sd, "shortness": averaging.shortness}
+    return Finding("content", one_reason(Why.ROWS_AVERAGED, **numbers, damping=averaging.damping))
 
 
 def _stated(averaging: RowAveraging, sensor: AttitudeSensor | None) -> list[Finding]:
@@ -152,39 +149,29 @@ def _stated(averaging: RowAveraging, sensor: AttitudeSensor | None) -> list[Find
         return []
     if averaging.damping * abs(1.0 - (sensor.averaging / averaging.window) ** 2) < MATTERS:
         return []
-    text = (
-        f"the testbed states averaging_s = {sensor.averaging:.3g} for the attitude; the record "
-        f"shows {averaging.window:.3g} s."
-    )
-    return [Finding("problem", text)]
+    numbers = {"stated": sensor.averaging, "window": averaging.window}
+    return [Finding("problem", one_reason(Why.OTHER_WINDOW, **numbers))]
 
 
 def _unsteady(averaging: RowAveraging) -> list[Finding]:
     if averaging.steady:
         return []
-    text = (
-        "the lengths of the quaternions do not follow the rate: rows may be means over windows of "
-        "different width."
-    )
-    return [Finding("problem", text)]
+    return [Finding("problem", one_reason(Why.UNSTEADY_WINDOW))]
 
 
 def _odd_rows(averaging: RowAveraging, recording: Recording, t: Series1) -> list[Finding]:
     lengths = recording.attitude_norm
     assert lengths is not None  # a window was told from them
     norm = dict(zip(lengths.t.tolist(), lengths.values[:, 0].tolist(), strict=True))
-    found = [
-        Finding(
-            "problem",
-            f"row {k + 1} at {t[k]:.6g} s is not a mean as the others are: its quaternion has the "
-            f"length {norm[float(t[k])]:.6f}, theirs {1 - averaging.shortness:.6f}.",
-            (float(t[k]), float(t[k])),
-            "no mean",
-        )
-        for k in averaging.odd[:NAMED]
-    ]
+    theirs = 1 - averaging.shortness
+    found = [_odd_row(k + 1, float(t[k]), norm[float(t[k])], theirs) for k in averaging.odd[:NAMED]]
     if len(averaging.odd) > NAMED:
-        found.append(
-            Finding("problem", f"{len(averaging.odd) - NAMED} further rows are no such means.")
-        )
+        more = one_reason(Why.MORE_ROWS_NOT_MEANS, count=len(averaging.odd) - NAMED)
+        found.append(Finding("problem", more))
     return found
+
+
+def _odd_row(row: int, t: float, length: float, theirs: float) -> Finding:
+    """Return a row whose quaternion has another length than the others'."""
+    numbers = {"row": row, "t": t, "length": length, "theirs": theirs}
+    return Finding("problem", one_reason(Why.ROW_NOT_A_MEAN, **numbers), (t, t), "no mean")

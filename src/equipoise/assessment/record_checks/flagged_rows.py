@@ -1,6 +1,5 @@
 """Rows of the sensors that stand out: outlying or frozen, as masks and as findings."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +12,8 @@ from equipoise.assessment.record_checks.outliers import (
     outlying_rates,
 )
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples
 
 NAMED = 5  # rows and runs that are told one by one; chosen: a screen
@@ -62,44 +63,31 @@ def _reported(name: str, unit: str, channel: Samples, odd: OddRows) -> list[Find
 def _outlying(
     name: str, unit: str, channel: Samples, odd: OutlyingRows, mask: NDArray[np.bool_]
 ) -> list[Finding]:
-    outlying = np.degrees(np.linalg.norm(odd.away, axis=1))
+    off = np.linalg.norm(odd.away, axis=1)
     rows = np.flatnonzero(mask)
-    named = np.sort(rows[np.argsort(-outlying[rows], kind="stable")][:NAMED])
-    found = [
-        Finding(
-            "problem",
-            f"{name}: row {k + 1} at {channel.t[k]:.6g} s is {outlying[k]:.2g} {unit} off the "
-            "motion of "
-            f"its neighbours (they scatter by {math.degrees(odd.scale):.2g} {unit} per axis).",
-            (float(channel.t[k]), float(channel.t[k])),
-            "off",
-        )
-        for k in named.tolist()
-    ]
+    named = np.sort(rows[np.argsort(-off[rows], kind="stable")][:NAMED])
+    found: list[Finding] = []
+    for k in named.tolist():
+        t = float(channel.t[k])
+        numbers = {"row": k + 1, "t": t, "off": float(off[k]), "scatter": odd.scale}
+        about = one_reason(Why.OUTLYING_ROW, name, unit, **numbers)
+        found.append(Finding("problem", about, (t, t), "off"))
     if len(rows) > NAMED:
-        found.append(Finding("problem", f"{name}: {len(rows) - NAMED} further rows are outlying."))
+        more = one_reason(Why.MORE_OUTLYING_ROWS, name, count=len(rows) - NAMED)
+        found.append(Finding("problem", more))
     return found
 
 
 def _frozen(name: str, channel: Samples, mask: NDArray[np.bool_]) -> list[Finding]:
     pieces = runs(mask)
     longest = sorted(sorted(pieces, key=lambda piece: piece[0] - piece[1])[:NAMED])
-    found = [
-        Finding(
-            "problem",
-            f"{name}: {_rows(first, last)} the one before, from {channel.t[first - 1]:.6g} to "
-            f"{channel.t[last]:.6g} s.",
-            (float(channel.t[first - 1]), float(channel.t[last])),
-            "frozen",
-        )
-        for first, last in longest
-    ]
+    found: list[Finding] = []
+    for first, last in longest:
+        code = Why.REPEATED_ROW if first == last else Why.REPEATED_ROWS
+        span = (float(channel.t[first - 1]), float(channel.t[last]))
+        numbers = {"first": first + 1, "last": last + 1, "start": span[0], "end": span[1]}
+        found.append(Finding("problem", one_reason(code, name, **numbers), span, "frozen"))
     if len(pieces) > NAMED:
-        found.append(Finding("problem", f"{name}: {len(pieces) - NAMED} further repeats of rows."))
+        more = one_reason(Why.MORE_REPEATED_ROWS, name, count=len(pieces) - NAMED)
+        found.append(Finding("problem", more))
     return found
-
-
-def _rows(first: int, last: int) -> str:
-    if first == last:
-        return f"row {first + 1} repeats"
-    return f"rows {first + 1} to {last + 1} repeat"

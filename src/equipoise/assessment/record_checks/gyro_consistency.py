@@ -13,6 +13,8 @@ from equipoise.assessment.record_checks.attitude_noise import attitude_noise
 from equipoise.assessment.record_checks.attitude_steps import steps
 from equipoise.model.arrays import Floats, Matrix3, Series3
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import axes_of, one_reason
 from equipoise.model.recording import Samples
 
 LONGEST = 1.0  # s apart; chosen: a gyro's drift is nothing yet
@@ -32,10 +34,9 @@ def agreement_findings(attitude: Samples | None, rate: Samples | None) -> list[F
         return []
     camera, gyro = rate_pairs(attitude, rate)
     if len(camera) < FEWEST:
-        return [Finding("problem", "gyro and attitude hardly overlap in time.")]
+        return [Finding("problem", one_reason(Why.NO_OVERLAP))]
     if _repeats(camera, gyro):
-        text = "the rates are differences of the attitude to the last digit: not a second sensor."
-        return [Finding("problem", text)]
+        return [Finding("problem", one_reason(Why.RATES_DERIVED))]
     likeness = correlation(gyro, camera)
     turned = np.std(gyro, axis=0) > ABOVE * _noise(attitude)
     wrong = [f for axis in np.flatnonzero(turned) for f in _axis(int(axis), likeness, camera, gyro)]
@@ -108,15 +109,15 @@ def _axis(axis: int, likeness: Matrix3, camera: Series3, gyro: Series3) -> list[
     name, row = "xyz"[axis], likeness[axis]
     other = int(np.argmax(np.abs(row)))
     if row[axis] < -SURE:
-        text = f"gyro {name} has the opposite sign (correlation {row[axis]:.2f})."
+        wrong = one_reason(Why.OPPOSITE_SIGN, name, correlation=float(row[axis]))
     elif other != axis and abs(row[other]) > SURE and abs(row[axis]) < UNSURE:
-        sign = "" if row[other] > 0 else "minus "
-        text = f"gyro {name} follows {sign}attitude {'xyz'[other]} (correlation {row[other]:.2f})."
+        code = Why.OTHER_AXIS if row[other] > 0 else Why.OTHER_AXIS_REVERSED
+        wrong = one_reason(code, name, "xyz"[other], correlation=float(row[other]))
     elif row[axis] > SURE and abs(_slope(axis, camera, gyro) - 1) > OFF:
-        text = f"gyro {name} is {_slope(axis, camera, gyro):.3g} times what the attitude tells."
+        wrong = one_reason(Why.OTHER_SCALE, name, scale=_slope(axis, camera, gyro))
     else:
         return []
-    return [Finding("problem", text)]
+    return [Finding("problem", wrong)]
 
 
 def _slope(axis: int, camera: Series3, gyro: Series3) -> float:
@@ -128,11 +129,10 @@ def _zero(likeness: Matrix3, camera: Series3, gyro: Series3) -> list[Finding]:
     """Return the gyro's zero and that its axes agree, if the motion is enough to tell."""
     offset = np.median(gyro - camera, axis=0)
     reported = [name for name, c in zip("xyz", np.diag(likeness), strict=True) if c > SURE]
-    agree = f"gyro and attitude agree about {', '.join(reported)}" if reported else ""
-    found = [Finding("content", f"{agree}.")] if reported else []
-    if not reported:
-        found.append(Finding("content", "the motion is too small to compare gyro and attitude."))
+    agree = (
+        one_reason(Why.SENSORS_AGREE, *reported) if reported else one_reason(Why.TOO_LITTLE_MOTION)
+    )
+    found = [Finding("content", agree)]
     if np.abs(offset).max() > ZERO_OFF:
-        x, y, z = np.degrees(offset)
-        found.append(Finding("content", f"gyro zero: {x:.3g}, {y:.3g}, {z:.3g} deg/s."))
+        found.append(Finding("content", one_reason(Why.GYRO_ZERO, **axes_of("zero", offset))))
     return found

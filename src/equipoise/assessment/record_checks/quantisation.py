@@ -10,6 +10,8 @@ import numpy as np
 
 from equipoise.model.arrays import Series1
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 
 MANY = 0.5  # share of rows with a value of their own above which nothing is quantised (chosen)
@@ -40,6 +42,6 @@ def _quantised(name: str, x: Series1) -> list[Finding]:
     step = step_of(x)
     if step is None:
         return []
-    text = f"gyro {name} comes in steps of {math.degrees(step):.3g} deg/s."
+    found = one_reason(Why.QUANTISED, name, step=step)
     noise = float(np.std(np.diff(x, n=3))) / THIRD
-    return [Finding("problem" if step > COARSE * noise else "content", text)]
+    return [Finding("problem" if step > COARSE * noise else "content", found)]

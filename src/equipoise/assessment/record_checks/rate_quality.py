@@ -7,6 +7,8 @@ import numpy as np
 from equipoise.assessment.record_checks.quantisation import quantisation_findings
 from equipoise.model.arrays import Series1
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 
 THIRD = math.sqrt(20)  # sd of the third difference of unit white noise
@@ -29,7 +31,7 @@ def rate_findings(rate: Samples | None) -> list[Finding]:
 def _dead(name: str, x: Series1) -> list[Finding]:
     if np.ptp(x) > 0:
         return []
-    return [Finding("problem", f"gyro {name} is {math.degrees(x[0]):.3g} deg/s in every row.")]
+    return [Finding("problem", one_reason(Why.DEAD_AXIS, name, rate=float(x[0])))]
 
 
 def _zero_start(rate: Samples) -> list[Finding]:
@@ -39,8 +41,7 @@ def _zero_start(rate: Samples) -> list[Finding]:
     typical = np.median(np.abs(np.diff(rate.values[1:], axis=0)))
     if np.abs(rate.values[1]).max() <= 3 * typical:
         return []
-    text = "rates start at exactly zero: they look like backward differences, not like a gyro."
-    return [Finding("problem", text, (float(rate.t[0]), float(rate.t[1])))]
+    return [Finding("problem", one_reason(Why.ZERO_START), (float(rate.t[0]), float(rate.t[1])))]
 
 
 def rate_noise(rate: Samples) -> float:
@@ -51,5 +52,4 @@ def rate_noise(rate: Samples) -> float:
 
 
 def _noise(rate: Samples) -> Finding:
-    noise = math.degrees(rate_noise(rate))
-    return Finding("content", f"gyro noise: {noise:.2g} deg/s per axis at most, white part.")
+    return Finding("content", one_reason(Why.GYRO_NOISE, noise=rate_noise(rate)))

@@ -14,6 +14,8 @@ from equipoise.assessment.record_checks.attitude_noise import attitude_noise
 from equipoise.assessment.record_checks.quantisation import step_of
 from equipoise.assessment.record_checks.rate_quality import rate_noise
 from equipoise.model.finding import Finding
+from equipoise.model.reasons.finding_reasons import FindingReason as Why
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 
@@ -51,13 +53,12 @@ def unstated_findings(recording: Recording, testbed: Testbed | None) -> list[Fin
     found: list[Finding] = []
     camera = shown_camera(recording.attitude, None)
     if testbed.attitude is None and camera is not None:
-        found.append(_taken("attitude", math.degrees(camera.noise), "deg"))
+        found.append(_taken("attitude", camera.noise, "deg"))
     gyro = shown_gyro(recording.rate, None)
     if testbed.gyro is None and gyro is not None:
-        found.append(_taken("gyro", math.degrees(gyro.noise), "deg/s"))
+        found.append(_taken("gyro", gyro.noise, "deg/s"))
     return found
 
 
 def _taken(name: str, noise: float, unit: str) -> Finding:
-    text = f"the testbed has no sensor.{name}: its noise is taken as {noise:.2g} {unit} a row."
-    return Finding("mended", text)
+    return Finding("mended", one_reason(Why.NOISE_ASSUMED, name, unit, noise=noise))

@@ -27,6 +27,8 @@ from equipoise.control.sample import Sample
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.estimate import COM, Estimate
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import Reason, one_reason
 
 SWING = 0.06  # rad, chosen: 7 degrees from side to side
 DURATION = 60.0  # s, chosen: three swings or more at first
@@ -94,9 +96,9 @@ def levelled_at(
     return HeightSearch(search.height, level, way), Command(shift=way.goal)
 
 
-def raised_note(height: Height) -> str:
-    """Return what to say of a platform that was raised after a look."""
-    return f"raised to {height.depth * 1e6:.3g} um below the target"
+def raised_note(height: Height) -> tuple[Reason, ...]:
+    """Return what a command notes of a platform that was raised after a measurement."""
+    return one_reason(LawReason.RAISED, depth=height.depth)
 
 
 def sees(estimate: Estimate) -> bool:
@@ -126,17 +128,18 @@ def once_level(
     """Return what follows where the shift ``level`` (m) levels the platform: a look, or the end."""
     if height.known:
         last = last_shift(plant, height, level, target)
-        return sent(plant, sample, last, Command(shift=last, finished="level, and at the target"))
+        done = one_reason(LawReason.LEVEL_AT_TARGET)
+        return sent(plant, sample, last, Command(shift=last, finished=done))
     kick = shift_for(plant, np.full(2, SWING * height.depth / np.sqrt(2)))
     since = max(sample.t - BEFORE, 0.0)
     measurement = Measurement(DURATION, "trajectory", hold=plant.still, use_prior=True, since=since)
-    note = f"level; swings by {np.degrees(SWING):.1f} deg for a look at its height"
+    note = one_reason(LawReason.SWINGS_FOR_HEIGHT, swing=SWING)
     return sent(plant, sample, level + kick, Command(measurement=measurement, note=note))
 
 
 def unseen(plant: Hanging, measurement: Estimate, way: Sent, level: Vector3) -> Sent:
     """Return the way back to level, and the end, where a look does not show the centre of mass."""
-    why = f"level; its height was not seen: {measurement.outcome.sentence}"
+    why = (*one_reason(LawReason.HEIGHT_NOT_SHOWN), *measurement.outcome.reasons)
     longest = DURATION + 2 * float(np.linalg.norm(way.goal - level)) / plant.slew + PATIENCE
     return Sent(level, Command(shift=level, finished=why), way.late + longest)
 

@@ -34,6 +34,8 @@ from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.law_card import LawCard
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.5  # s
@@ -71,7 +73,7 @@ class State:
     stood: float = 0.0  # s, since when the masses stand
     measurements: tuple[Shown, ...] = ()
     missed: int = 0  # looks that showed nothing
-    finished: str = ""
+    finished: tuple[Reason, ...] = ()
     waiting: Waiting | None = None
     rise: Vector3 | None = None  # m, the shift after the present one
 
@@ -112,21 +114,18 @@ def after_measurement(state: State, estimate: Estimate, params: Params) -> State
     """Return the state after a look, with the move that it asks for."""
     state = replace(state, observed_shift=None)  # the clock has gone on
     if not shows(estimate):
-        text = f"Looks did not show the centre of mass: {estimate.outcome.sentence}"
+        why = (*one_reason(LawReason.COM_NOT_SHOWN), *estimate.outcome.reasons)
         missed = state.missed + 1
-        return replace(state, missed=missed, finished=text if missed == MISSES else "")
+        return replace(state, missed=missed, finished=why if missed == MISSES else ())
     measurements = (*state.measurements, shown(estimate, state.shift))
     r, sd, _ = combined(measurements, params.up, params.inertia_sd)
     if len(measurements) == 1:
         return levelling(replace(state, measurements=measurements), r, params)
     off: Vector3 = r + state.shift - params.target
     there = bool(np.all(np.abs(off) < np.maximum(SURE * sd, SMALL)) and np.all(sd < ENOUGH))
-    text = (
-        f"At its place after {len(measurements)} looks."
-        if there or len(measurements) == MOST
-        else ""
-    )
-    return replace(state, measurements=measurements, shift=state.shift - off, finished=text)
+    at_place = one_reason(LawReason.AT_PLACE, swings=len(measurements))
+    done = at_place if there or len(measurements) == MOST else ()
+    return replace(state, measurements=measurements, shift=state.shift - off, finished=done)
 
 
 def watched(state: State, sample: Sample) -> State:

@@ -35,6 +35,8 @@ from equipoise.model.command import Command
 from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
 from equipoise.model.law_card import LawCard
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s, chosen: a servo's beat
@@ -88,7 +90,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     reference = reference_at(state.way, sample.t)
     weight = bed.body.mass * params.target
     pid, u = torque(state.pid, sample, reference, params.gains, weight)
-    over = "masses followed tilt and drift" if sample.t >= params.end else ""
+    over = one_reason(LawReason.FOLLOWED) if sample.t >= params.end else ()
     shift = shift_at(params.following, down, sample.t)
     return replace(state, pid=pid), Command(shift=shift, torque=u, finished=over)
 

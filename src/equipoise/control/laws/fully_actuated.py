@@ -63,6 +63,8 @@ from equipoise.model.command import Command
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.law_card import LawCard
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import Reason, axes_of, one_reason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s, chosen: a servo's beat
@@ -183,7 +185,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     start = sample.t if state.start is None else state.start
     down = sample.gravity / float(np.linalg.norm(sample.gravity))
     if -params.sweep.axes[:, 2] @ down < np.cos(params.tilt_limit):
-        return state, Command(finished="Stopped: the platform tilts beyond its limit.")
+        return state, Command(finished=one_reason(LawReason.TILTED))
     want = wanted(params.sweep, sample.t - start, down, sample.rate)
     own = params.inertia @ sample.rate
     error = own - params.inertia @ want.rate
@@ -230,20 +232,16 @@ def fading(params: Params) -> float:
     return w2 * K * W**2 / ((w2 - W**2) ** 2 + (K * W) ** 2)
 
 
-def why_over(state: State, past: float, params: Params) -> str:
+def why_over(state: State, past: float, params: Params) -> tuple[Reason, ...]:
     """Return why the law ends here, or nothing."""
     values, vectors = np.linalg.eigh(state.observed)
-    reported = float(values[0]) * fading(params)
-    if reported >= ENOUGH:
-        return f"Gravity has swept all directions, the least of them for {values[0]:.3g} s."
+    least = float(values[0])
+    if least * fading(params) >= ENOUGH:
+        return one_reason(LawReason.ALL_DIRECTIONS_SWEPT, least=least)
     if params.sweep.angle > 0 or past * params.gain < QUIET:
-        return ""
-    x, y, z = vectors[:, 0]
-    return (
-        f"The platform is still. Gravity has swept all directions but ({x:.2f}, {y:.2f}, {z:.2f}), "
-        f"for {values[0]:.2g} s of {past:.3g} s: the centre of mass may be anywhere along it, and "
-        "is not balanced. A momentum trajectory must move it."
-    )
+        return ()
+    axis = axes_of("axis", vectors[:, 0])
+    return one_reason(LawReason.DIRECTION_NOT_SWEPT, least=least, past=past, **axis)
 
 
 LAW = Law(

@@ -46,11 +46,13 @@ from equipoise.control.plant.pendulum import level_axes
 from equipoise.control.sample import Sample
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import skew
-from equipoise.model.arrays import Floats, Matrix3, Series, Vector3
+from equipoise.model.arrays import Matrix3, Series, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.law_card import LawCard
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import Reason, axes_of, one_reason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.2  # s, chosen: a step in which likely torques change the rate by a degree per second
@@ -289,18 +291,16 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     vertical = params.verticals[state.place % len(params.verticals)]
     impulse = impulse_for(sample, vertical, params)
     if has_left(state, sample, params):
-        return state, Command(
-            shift=state.requested, finished="seen at all attitudes and moved there"
-        )
-    return state, Command(shift=state.requested, impulse=impulse, note=note_of(old, state, params))
+        done = one_reason(LawReason.ALL_ATTITUDES_MEASURED)
+        return state, Command(shift=state.requested, finished=done)
+    return state, Command(shift=state.requested, impulse=impulse, note=moved_by_jets(old, state))
 
 
-def note_of(old: State, state: State, params: Params) -> str:
+def moved_by_jets(old: State, state: State) -> tuple[Reason, ...]:
     """Return what people should know of this step."""
     if state.requested is old.requested:
-        return ""
-    shift: Floats = (state.requested - old.requested) * 1e6
-    return "moved on by (" + ", ".join(f"{x:.2f}" for x in shift) + ") um by what the jets spent"
+        return ()
+    return one_reason(LawReason.MOVED_BY_JETS, **axes_of("shift", state.requested - old.requested))
 
 
 LAW = Law(CARD, begin, step)

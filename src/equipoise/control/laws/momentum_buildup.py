@@ -67,6 +67,8 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
 from equipoise.model.law_card import LawCard
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import Reason, axes_of, one_reason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s
@@ -296,12 +298,11 @@ def following(ledger: Ledger, params: Params) -> Following:
     return Following(-off, ledger.t, drift_of(ledger, book), sag, trim)
 
 
-def report(ledger: Ledger, shift: Vector3, params: Params) -> str:
-    """Return where the centre of mass is believed to be, in words."""
+def report(ledger: Ledger, shift: Vector3, params: Params) -> tuple[Reason, ...]:
+    """Return where the centre of mass is estimated to be."""
     off, covariance = off_goal(ledger, shift - params.target, params.trim, params.book)
-    parts = zip(1e6 * off, 1e6 * np.sqrt(np.diag(covariance)), strict=True)
-    text = ", ".join(f"{value:.3f} +/- {sd:.3f}" for value, sd in parts)
-    return f"The centre of mass is ({text}) um off what was wanted."
+    numbers = axes_of("off", off) | axes_of("sd", np.sqrt(np.diag(covariance)))
+    return one_reason(LawReason.OFF_TARGET_BY, **numbers)
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:

@@ -72,6 +72,8 @@ from equipoise.model.command import Command
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.law_card import LawCard
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.25  # s, chosen: a fiftieth of a swing
@@ -197,10 +199,10 @@ def settle_phase(state: State, sample: Sample, params: Params) -> tuple[State, C
     rest = settle(state.rest, now, PERIOD, params.calm)
     v = damping(state, sample, params)
     state = replace(state, rest=rest)
-    note = ""
+    note = ()
     if is_quiet(rest, sample.t, params.calm):
         state = replace(state, phase="relay", started=sample.t)
-        note = "hangs at rest; the relay experiment begins"
+        note = one_reason(LawReason.RELAY_BEGINS)
     return state, Command(shift=requested_shift(state, plant, v), note=note)
 
 
@@ -218,28 +220,27 @@ def relay_v(state: State, sample: Sample, params: Params) -> tuple[State, Floats
     return replace(state, relays=(relays[0], relays[1])), v
 
 
-def tuned(state: State, params: Params) -> tuple[tuple[Gains, Gains], str]:
+def tuned(state: State, params: Params) -> tuple[tuple[Gains, Gains], tuple[Reason, ...]]:
     """Return the gains by the experiment, or the calculated ones where it is not to be trusted."""
-    found, notes = list[Gains](), list[str]()
+    found, notes = list[Gains](), list[Reason]()
     for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
         cycle = measured(relay, loop.relay) if has_settled(relay) else None
         expected = params.cycles[i]
         if cycle is None or not 1 / IMPLAUSIBLE < cycle.gain / expected.gain < IMPLAUSIBLE:
             found.append(params.gains[i])
-            notes.append("no cycle to be trusted, calculated gains")
+            notes.append(Reason(LawReason.CYCLE_REJECTED))
         else:
             found.append(rule(cycle, loop.lead))
-            notes.append(
-                f"K_u {cycle.gain * 1e6:.3g} um/rad, T_u {cycle.period:.3g} s "
-                f"(calculated {expected.gain * 1e6:.3g} and {expected.period:.3g})"
-            )
-    return (found[0], found[1]), "; ".join(notes)
+            calculated = {"expected_gain": expected.gain, "expected_period": expected.period}
+            numbers = {"gain": cycle.gain, "period": cycle.period} | calculated
+            notes.append(Reason(LawReason.CYCLE_MEASURED, (), numbers))
+    return (found[0], found[1]), tuple(notes)
 
 
 def relay_phase(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next step of the experiment."""
     state, v = relay_v(state, sample, params)
-    note = ""
+    note = ()
     longest = max(cycle.period for cycle in params.cycles)
     late = sample.t - state.started > PATIENCE * (CYCLES_IN + CYCLES_USED + 1) * longest
     if late or all(has_settled(relay) for relay in state.relays):

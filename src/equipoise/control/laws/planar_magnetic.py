@@ -45,6 +45,8 @@ from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.law_card import LawCard
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import one_reason
 from equipoise.model.testbed import Testbed
 
 Phase = Literal["hang", "feedback", "kick", "level", "calm", "end"]
@@ -242,17 +244,17 @@ def requested(state: State, sample: Sample, params: Params) -> Command:
         measurement = Measurement(SWING, METHOD, params.held) if has_arrived(state) else None
         return Command(shift=state.shift, measurement=measurement)
     done = state.phase == "end" and has_arrived(state)
-    text = f"Level, and at its height after {len(state.measurements)} looks." if done else ""
+    why = one_reason(LawReason.LEVEL_AT_HEIGHT, swings=len(state.measurements)) if done else ()
     coils = damping_torque(sample.rate, state.loop)
-    return Command(shift=state.shift, magnetic=coils, finished=text)
+    return Command(shift=state.shift, magnetic=coils, finished=why)
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and the command."""
     if isinstance(sample, Estimate):
         state = after_measurement(state, sample, params)
-        lost = f"{MISSES} looks did not show the centre of mass: {sample.outcome.sentence}"
-        return state, Command(shift=state.shift, finished=lost if state.failed == MISSES else "")
+        lost = (*one_reason(LawReason.COM_NOT_SHOWN), *sample.outcome.reasons)
+        return state, Command(shift=state.shift, finished=lost if state.failed == MISSES else ())
     dt = sample.t - state.t if state.since is not None else 0.0
     state = watched(state, sample, params)
     if state.phase in ("feedback", "calm"):

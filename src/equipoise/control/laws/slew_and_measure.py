@@ -48,6 +48,8 @@ from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, Estimate
 from equipoise.model.law_card import LawCard
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s
@@ -94,7 +96,7 @@ class State:
     observed_shift: Vector3 | None = None  # m, at the last sample
     stood: float = 0.0  # s, since when the masses stand
     moving: bool = False  # the masses are on their way
-    finished: str = ""
+    finished: tuple[Reason, ...] = ()
 
 
 def attitudes(testbed: Testbed) -> tuple[Quaternion, ...]:
@@ -176,13 +178,12 @@ def after_swing(state: State, estimate: Estimate, params: Params) -> State:
     swings, up = state.swings + 1, params.testbed.up
     state = replace(state, observed_shift=None, pid=unwound(), way=None, swings=swings)
     if not shows(estimate):
-        text = f"The swing did not show the centre of mass: {estimate.outcome.sentence}"
-        return replace(state, finished=text if swings == SWINGS else "")
+        why = (*one_reason(LawReason.COM_NOT_SHOWN), *estimate.outcome.reasons)
+        return replace(state, finished=why if swings == SWINGS else ())
     sd = float(np.sqrt(np.trace(estimate.covariance_of(COM))))
     will_do = sd <= params.bearable
-    text = (
-        f"After {swings} swings r is known to {1e6 * sd:.2g} um, {1e6 * params.bearable:.2g} asked."
-    )
+    numbers = {"swings": swings, "sd": sd, "wanted": params.bearable}
+    why = one_reason(LawReason.COM_TOO_UNCERTAIN, **numbers)
     below = 0.0 if will_do else SURE * sd
     return replace(
         state,
@@ -190,7 +191,7 @@ def after_swing(state: State, estimate: Estimate, params: Params) -> State:
         shift=params.target - estimate.com - below * up,
         moving=True,
         round=1 if will_do else 0,
-        finished=text if swings == SWINGS and not will_do else "",
+        finished=why if swings == SWINGS and not will_do else (),
     )
 
 
@@ -200,9 +201,10 @@ def after_measurement(state: State, estimate: Estimate, params: Params) -> State
         state, observed_shift=None, pid=unwound(), way=None, at=0, round=state.round + 1
     )
     if not shows(estimate):
-        return replace(state, finished=f"The turns did not show the centre of mass: "
-                       f"{estimate.outcome.sentence}")  # fmt: skip
-    done = f"At its place after {ROUNDS} rounds of turns." if state.round > ROUNDS else ""
+        why = (*one_reason(LawReason.COM_NOT_SHOWN), *estimate.outcome.reasons)
+        return replace(state, finished=why)
+    at_place = one_reason(LawReason.AT_PLACE_BY_TURNS, rounds=ROUNDS)
+    done = at_place if state.round > ROUNDS else ()
     com: Vector3 = estimate.com + (state.t + AFTER - state.began) * drift_of(estimate)
     return replace(state, com=com, shift=params.target - com, moving=True, finished=done)
 

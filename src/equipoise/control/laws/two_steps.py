@@ -57,6 +57,9 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, Estimate
+from equipoise.model.reasons.law_reasons import LawReason
+from equipoise.model.reasons.reason import Reason, one_reason
+from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s, chosen: a servo's beat
@@ -109,7 +112,7 @@ class State:
     since: float = 0.0  # s, when the push began
     rounds: int = 0  # looks made
     left: float = np.inf  # m, what the last look found
-    ending: str = ""  # why this follow is the last
+    ending: tuple[Reason, ...] = ()  # why this follow is the last
 
 
 def method_for(testbed: Testbed) -> Measurement:
@@ -155,7 +158,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     if isinstance(sample, Estimate):
         return trimmed(state, sample, params)
     if tilt_of(sample, params.gains) > params.tilt_limit:
-        return state, Command(finished="Stopped: the platform tilts beyond its limit.")
+        return state, Command(finished=one_reason(LawReason.TILTED))
     if state.phase == "follow":
         return follow(state, sample, params)
     return swing(state, sample, params)
@@ -190,7 +193,7 @@ def follow(state: State, sample: Sample, params: Params) -> tuple[State, Command
                     since=sample.t)  # fmt: skip
     if state.ending:
         return state, Command(shift=state.rest, finished=state.ending)
-    return state, Command(shift=state.rest, note="Levelled; now a push, and a look at the swing.")
+    return state, Command(shift=state.rest, note=one_reason(LawReason.PUSH_BEGINS))
 
 
 def held_now(state: State, sample: Sample, params: Params) -> tuple[Vector3, Vector3]:
@@ -232,22 +235,21 @@ def trimmed(state: State, estimate: Estimate, params: Params) -> tuple[State, Co
     rounds = state.rounds + 1
     if not estimate.outcome.usable:
         again = replace(state, rounds=rounds, phase="push", step=0)
-        text = f"The look cannot be used: {estimate.outcome.sentence}"
-        over = text if rounds >= params.rounds else ""
-        return again, Command(shift=state.rest, finished=over, note=text)
+        why = (*one_reason(LawReason.ESTIMATE_UNUSABLE), *estimate.outcome.reasons)
+        over = why if rounds >= params.rounds else ()
+        return again, Command(shift=state.rest, finished=over, note=why)
     above = height_in(estimate, params.gains.up) + float(params.gains.up @ state.rest)
     missing = params.target - above
     sideways = abs(above) * float(np.linalg.norm(state.level))
     left = float(np.hypot(missing, sideways))
-    text = (
-        f"Look {rounds}: {1e6 * missing:.2f} um missing along up, "
-        f"about {1e6 * sideways:.2f} um left across."
-    )
+    numbers = {"rounds": rounds, "missing": missing, "across": sideways}
+    found = one_reason(LawReason.HEIGHT_MISSING, **numbers)
     over = why_over(left, replace(state, rounds=rounds), params)
-    up, ending = params.gains.up, f"{text} {over} Level again." if over else ""
+    up = params.gains.up
+    ending = (*found, *over, *one_reason(LawReason.LEVEL_AGAIN)) if over else ()
     held, height = -across(up) @ state.rest, float(up @ state.rest) + missing
     onward = State(held, height, rounds=rounds, left=left, ending=ending)
-    return onward, Command(shift=state.rest + missing * up, note="" if over else text)
+    return onward, Command(shift=state.rest + missing * up, note=() if over else found)
 
 
 def height_in(estimate: Estimate, up: Vector3) -> float:
@@ -260,10 +262,10 @@ def height_in(estimate: Estimate, up: Vector3) -> float:
     return float(estimate.values(("com_up",))[0])
 
 
-def why_over(left: float, state: State, params: Params) -> str:
+def why_over(left: float, state: State, params: Params) -> tuple[Reason, ...]:
     """Return why no further round is made, or nothing."""
     if left <= params.tolerance:
-        return "That is a motor step or less."
+        return one_reason(LawReason.MOTOR_STEP_OR_LESS)
     if left > GAIN * state.left:
-        return "The last round gained nothing."
-    return "The rounds are used up." if state.rounds >= params.rounds else ""
+        return one_reason(LawReason.NOTHING_GAINED)
+    return one_reason(StepReason.ROUNDS_USED_UP) if state.rounds >= params.rounds else ()

@@ -33,7 +33,7 @@ from equipoise.estimation.calibration.drive_calibration import (
     scatter_of,
     shown,
 )
-from equipoise.estimation.calibration.drive_observability import sentences as alike_sentences
+from equipoise.estimation.calibration.drive_observability import reasons_of as alike_reasons
 from equipoise.estimation.calibration.drive_observability import together
 from equipoise.estimation.calibration.sensor_alignment import (
     ALIGNMENT,
@@ -53,6 +53,9 @@ from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
 from equipoise.model.outcome import Outcome
+from equipoise.model.reasons.data_reasons import Unexplained
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import DriveDoubt, SlidingMass, Testbed
 
@@ -64,8 +67,6 @@ NEAR = 1e-3  # rad, chosen: stops err by 1e-3 mm aside then
 SOON = 5e-3  # s, chosen: by which plays may be taken up too late; 50 ms moved backlashes by 2 sd
 ROUNDS = 5  # plain fits at most
 SURE = 4.0  # sd of a scatter before it counts as more than chance
-MIRRORED = "The gyro's axes are a mirror image of the body's: one has the wrong sign."
-UNMOVED = "No mass moves in this record: there is nothing to calibrate masses by."
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -125,7 +126,7 @@ def nothing(fitted: Estimate) -> Estimate | None:
     outcome = fitted.outcome
     if outcome is not UNSETTLED and fitted.has(GYRO[0]):
         mirrored = np.linalg.det(matrix_of(fitted.values(GYRO))) <= 0
-        outcome = Outcome(False, f"{MIRRORED} {outcome.sentence}") if mirrored else outcome
+        outcome = because(Why.GYRO_MIRRORED, outcome) if mirrored else outcome
     if fitted.parameters and outcome is fitted.outcome and outcome is not UNSETTLED:
         return None
     return replace(fitted, method=METHOD, outcome=outcome, parameters=(), ratios=(),
@@ -227,9 +228,9 @@ def concluded(
         ratios=relative_gains(drives, wanted.of(x), covariance),
         unexplained=(
             *fitted.unexplained,
-            *alike_sentences(drives, alike),
-            *scale_sentences(drives, covariance, recording, options),
-            *scatter_sentences(drives, scatters),
+            *alike_reasons(drives, alike),
+            *scale_reasons(drives, covariance, recording, options),
+            *scatter_reasons(drives, scatters),
         ),
     )
 
@@ -238,7 +239,12 @@ def outcome_of(fitted: Estimate, drives: tuple[Drive, ...]) -> Outcome:
     """Return the fit's outcome; a record without moves calibrates no mass."""
     if drives:
         return fitted.outcome
-    return Outcome(False, f"{UNMOVED} {fitted.outcome.sentence}")
+    return because(Why.NO_MASS_MOVES, fitted.outcome)
+
+
+def because(why: Why, fitted: Outcome) -> Outcome:
+    """Return a fit's outcome with a reason before it."""
+    return Outcome((Reason(why), *fitted.reasons))
 
 
 def relative_gains(
@@ -259,37 +265,33 @@ def relative_gains(
     )
 
 
-def scale_sentences(
+def scale_reasons(
     drives: tuple[Drive, ...], covariance: Floats, recording: Recording, options: CalibrateOptions
-) -> tuple[str, ...]:
-    """Say by what the common scale of gains, inertia and centre of mass is known."""
-    trusted = [drive.mass.name for drive in drives if drive.trusted]
+) -> tuple[Reason, ...]:
+    """Return by what the common scale of gains, inertia and centre of mass is known."""
+    trusted = tuple(drive.mass.name for drive in drives if drive.trusted)
     inputs = (recording.momentum, recording.torque)
     if not drives:
         return ()
     if trusted:
-        whose = " and ".join(trusted)
-        return (f"The common scale of gains and inertia is that of {whose}: weight and steps as "
-                "stated.",)  # fmt: skip
+        return (Reason(Unexplained.SCALE_BY_REFERENCE, trusted),)
     if any(c is not None and bool(np.any(c.values)) for c in inputs):
-        return ("The common scale of gains and inertia is that of what devices reported.",)
+        return (Reason(Unexplained.SCALE_BY_DEVICES),)
     if options.hold or options.use_prior:
-        return ("The common scale of gains and inertia is that of the inertia told beforehand.",)
+        return (Reason(Unexplained.SCALE_BY_INERTIA),)
     at = NUMBERS * np.arange(len(drives))
     sd = float(np.sqrt(covariance[np.ix_(at, at)].mean()))
-    return (
-        f"The common scale of gains and inertia is known to {100 * sd:.2g} % only: it rests on "
-        f"each stated weight and step being right to {100 * DOUBT.gain:.0f} %. Ratios of gains, "
-        "rails and sensors do not depend on it, and no balance does; name a mass that you weighed "
-        "and measured as reference to fix it.",
-    )
+    return (Reason(Unexplained.SCALE_BY_STATEMENTS, (), {"sd": sd, "stated": DOUBT.gain}),)
 
 
-def scatter_sentences(drives: tuple[Drive, ...], scatters: list[Parameter]) -> list[str]:
-    """Say whose stops scatter by more than is stated."""
+def scatter_reasons(drives: tuple[Drive, ...], scatters: list[Parameter]) -> list[Reason]:
+    """Return whose stops scatter by more than is stated."""
     return [
-        f"Stops of {drive.mass.name} scatter by {1e3 * found.value:.2g} mm, stated are "
-        f"{1e3 * drive.mass.accuracy:.2g}: state accuracy_mm so and calibrate again."
+        Reason(
+            Unexplained.STOPS_SCATTER,
+            (drive.mass.name,),
+            {"found": found.value, "stated": drive.mass.accuracy},
+        )
         for drive, found in zip(drives, scatters, strict=True)
         if found.observable and found.value - drive.mass.accuracy > SURE * found.sd / 2
     ]

@@ -15,9 +15,12 @@ import numpy as np
 
 from equipoise.estimation.calibration.drive_calibration import SHOWN, Drive
 from equipoise.model.arrays import Floats, Ints
+from equipoise.model.reasons.data_reasons import Unexplained
+from equipoise.model.reasons.reason import Reason
 
 LARGE = 0.3  # of the greatest part of a mass, chosen: smaller ones come along by chance
 KINDS = (("gains", (0,)), ("rails", (1, 2)))  # and which of a drive's columns they are
+ALIKE = {"gains": Unexplained.GAINS_ALIKE, "rails": Unexplained.RAILS_ALIKE}
 
 
 def together(drives: tuple[Drive, ...], covariance: Floats) -> dict[str, list[tuple[int, ...]]]:
@@ -58,12 +61,10 @@ def groups(P: Floats, owner: Ints) -> list[tuple[int, ...]]:
     return sorted(group for group in found if len(group) > 1)
 
 
-def sentences(drives: tuple[Drive, ...], found: dict[str, list[tuple[int, ...]]]) -> list[str]:
-    """Name the masses that a record does not tell apart."""
+def reasons_of(drives: tuple[Drive, ...], found: dict[str, list[tuple[int, ...]]]) -> list[Reason]:
+    """Name the masses that a record does not separate."""
     return [
-        f"The moves do not tell apart the {kind} of "
-        f"{' and '.join(drives[i].mass.name for i in group)}: masses that always move together "
-        "show their sum only. Move each by itself."
+        Reason(ALIKE[kind], tuple(drives[i].mass.name for i in group))
         for kind, each in found.items()
         for group in each
     ]

@@ -25,7 +25,9 @@ from equipoise.model.arrays import Floats, Matrix3, Series1
 from equipoise.model.estimate import INERTIA, Estimate, Parameter
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.method_card import Card
-from equipoise.model.outcome import Outcome
+from equipoise.model.outcome import Outcome, outcome
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 
@@ -35,20 +37,17 @@ WIDEST = 0.9  # chosen: of a moment of inertia, by which a point may lie off it
 STEADY = 1e-9  # N m, N m s, m, chosen: a known input that changes less does not change
 
 
-def fault(kind: Kind, recording: Recording, testbed: Testbed) -> str:
-    """Say what a filter lacks, or nothing."""
+def lacking(kind: Kind, recording: Recording, testbed: Testbed) -> Why | None:
+    """Return what a filter lacks; None: nothing."""
     if recording.attitude is None or testbed.attitude is None:
-        return "It needs a camera, in the record and in the testbed."
+        return Why.NO_CAMERA
     if not kind.attitude and (recording.rate is None or testbed.gyro is None):
-        return "It needs a gyro, in the record and in the testbed."
+        return Why.NO_GYRO
     if kind.estimated == 12 and not drives(recording):
-        return (
-            "It needs a known torque, stored momentum or move that changes: free motion shows "
-            "inertia and centre of mass by their ratio only."
-        )
+        return Why.NO_KNOWN_INPUT
     if kind.unscented and testbed.inertia_sd * (15 if kind.attitude else 12) ** 0.5 > WIDEST:
-        return "The inertia is known too badly: unscented points would have a negative one."
-    return ""
+        return Why.INERTIA_TOO_UNCERTAIN
+    return None
 
 
 def drives(recording: Recording) -> bool:
@@ -108,39 +107,30 @@ def parameters_of(state: State, covariance: Floats) -> tuple[Parameter, ...]:
     )
 
 
-def left_out(state: State, rows: Rows, testbed: Testbed) -> str:
-    """Say what the simplified model's leaving out does, where it is more than the rest."""
+def left_out(state: State, rows: Rows, testbed: Testbed) -> tuple[Reason, ...]:
+    """Return what the simplified model's leaving out does, where it is more than the rest."""
     if state.kind.gyroscopic:
-        return ""
+        return ()
     P, body = state.covariance, testbed.body
     by = float(np.abs(P[3:6, 12]).max())
     rest = float(np.sqrt(np.diag(P)[3:6] - P[3:6, 12] ** 2).max())
     if by < rest:
-        return ""
+        return ()
     moments = np.linalg.eigvalsh(body.inertia_P)
     square, separation = (
         float(np.sum(rows.observed**2)) / len(rows.observed),
         moments[-1] - moments[0],
     )
     rule = square * float(separation) / (body.mass * testbed.gravity)
-    return (
-        f" The gyroscopic torque and products of inertia that the simplified model leaves out move "
-        f"com by some {1e6 * by:.2g} um (|w|^2 dJ / m g: {1e6 * rule:.2g} um), more than all "
-        "else. The interval is as wide as that: a bound, not trustworthy as one of 95 %. Take "
-        "another filter."
-    )
+    return (Reason(Why.GYROSCOPIC_TORQUE_LEFT_OUT, (), {"com": by, "rule": rule}),)
 
 
-def outcome_of(surprise: Series1, text: str) -> Outcome:
-    """Return whether the numbers may be used."""
+def outcome_of(surprise: Series1, more: tuple[Reason, ...]) -> Outcome:
+    """Return whether the rows came as expected, and what else there is to know."""
     observed = surprise[np.isfinite(surprise)]
     ratio = float(np.mean(observed)) / 3 if len(observed) else np.nan
-    first = f"Filtered to the last row; innovations are {ratio:.2g} times what they should be"
-    if not ratio < SURPRISED:
-        return Outcome(
-            False, first + ": inertia, noise or model are wrong, do not trust it." + text
-        )
-    return Outcome(True, first + "." + text)
+    code = Why.FILTERED if ratio < SURPRISED else Why.FILTER_INNOVATIONS_TOO_LARGE
+    return Outcome((Reason(code, (), {"innovation": ratio}), *more))
 
 
 def broken(state: State) -> bool:
@@ -160,20 +150,20 @@ def possible(state: State, testbed: Testbed) -> bool:
 def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> Estimate:
     """Return what a filter believes after the last row of a record, begun from the testbed."""
     recording = arranged(recording, testbed.mass_names)
-    lack = fault(kind, recording, testbed)
-    if lack:
+    lack = lacking(kind, recording, testbed)
+    if lack is not None:
         return refused(card, lack)
     found = noisy_rows(kind, recording, testbed)
     if found is None:
-        return refused(card, f"Fewer than {FEWEST} rows without gaps: too few for a filter.")
+        return refused(card, Why.TOO_FEW_ROWS_FOR_FILTER, least=FEWEST)
     rows, noise = found
     state, passed = advance(begin(kind, testbed, noise), rows)
     unseen = standing_covariance(rows, recording, testbed) + leaning(state, testbed)
     covariance = at_home(state, unseen)
-    outcome = outcome_of(passed.surprise, left_out(state, rows, testbed))
+    ended = outcome_of(passed.surprise, left_out(state, rows, testbed))
     if not possible(state, testbed):
-        outcome = Outcome(False, "No body can have the inertia found: the filter diverged.")
+        ended = outcome(Why.FILTER_DIVERGED)
     return Estimate(
-        card.name, outcome, parameters_of(state, covariance), covariance,
+        card.name, ended, parameters_of(state, covariance), covariance,
         possible=possible(state, testbed), provenance=origin_of(recording), course=passed.course,
     )  # fmt: skip

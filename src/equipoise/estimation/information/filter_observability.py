@@ -51,10 +51,12 @@ from equipoise.estimation.parameters.observability import ALONG, OBSERVABLE, des
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.observability import FilterView
+from equipoise.model.reasons.data_reasons import Unobservable
+from equipoise.model.reasons.reason import Reason
 
 GROWN = 1e4  # chosen: growth behind which rounding does not hide what is seen before it
 ROUNDING = 1e-9  # of the largest singular value, chosen: integration errs by less
-SCALE = "the data do not see the common scale of inertia and first moment"
+SCALE = Reason(Unobservable.SCALE_OF_MOMENT)
 TURNS, RATES = Layout().names[TURN], Layout().names[RATE]
 MOMENT = ("moment_x", "moment_y", "moment_z")
 
@@ -183,8 +185,8 @@ def spelled(unseen: Floats, scale: Floats) -> list[Floats]:
     return found
 
 
-def in_words(unseen: Floats, scale: Floats, names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return a sentence for each direction that is not seen."""
+def directions(unseen: Floats, scale: Floats, names: tuple[str, ...]) -> tuple[Reason, ...]:
+    """Return each direction that is not observable, named by its parameters."""
     return tuple(
         SCALE if abs(float(direction @ scale)) > ALONG else describe(direction, names)
         for direction in spelled(unseen, scale)
@@ -233,9 +235,9 @@ def view_of(model: Model, course: Course, motion: Followed) -> FilterView:
         weight = np.sqrt(rows_at(nodes, count)) / sd
         unseen = unseen_of(joined(outputs, weight, size), OBSERVABLE**0.5)
         rank = len(size) - unseen.shape[1]
-    words = in_words(unseen, scale_in(model, motion), model.states)
+    unobservable = directions(unseen, scale_in(model, motion), model.states)
     measures = "camera" if model.camera else "gyro"
-    return FilterView(model.name, len(size), measures, possible, rank, words)
+    return FilterView(model.name, len(size), measures, possible, rank, unobservable)
 
 
 def filters_along(motion: Followed) -> tuple[FilterView, ...]:

@@ -31,6 +31,7 @@ from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.maths.attitude import tilt, to_matrix
 from equipoise.model.arrays import Floats, Series3, Square
 from equipoise.model.observability import Observability
+from equipoise.model.reasons.reason import distinct
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -50,7 +51,7 @@ def information_along(motion: Followed) -> Observability:
     held = np.isin(layout.names, motion.params.hold)
     bound = bound_at(fitted, held)
     view = bound.view
-    sentences = tuple(dict.fromkeys(view.sentences))
+    unobservable = distinct(view.unobservable)
     line, path = halfway(fitted)
     upward = tilt(path.q, motion.testbed.up)
     return Observability(
@@ -60,7 +61,7 @@ def information_along(motion: Followed) -> Observability:
         stated_before(motion),
         view.hidden,
         held,
-        sentences,
+        unobservable,
         motion.cautions,
         ratios_of(values[CORE], view.covariance[CORE, CORE], view.unseen[CORE])
         if problem.scale_open
@@ -68,7 +69,7 @@ def information_along(motion: Followed) -> Observability:
         condition(free_information(fitted, held)),
         gravity_sweep(line.t, -to_matrix(path.q)[:, 2, :]),
         (float(upward.min()), float(upward.max())),
-        int(np.sum(~held)) - len(sentences),
+        int(np.sum(~held)) - len(unobservable),
         int(np.sum(~held)),
         fitted.point.body(problem.mass).inertia_P,
     )

@@ -27,14 +27,10 @@ from equipoise.estimation.output_error.trajectory import Params, fit
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Ints
 from equipoise.model.errors import InputError
+from equipoise.model.reasons.data_reasons import Caution
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
-
-UNSETTLED = (
-    "The fit did not settle: bounds and ranks are those of the motion where it stopped, which need "
-    "not be the recording's."
-)
-DAMPED = "Damping is sought too, unasked: without it the motion cannot be followed."
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,7 +40,7 @@ class Followed:
     fitted: Fitted
     testbed: Testbed
     params: Params  # what was asked, with what had to be added
-    cautions: tuple[str, ...]  # sentences: why the motion may be another
+    cautions: tuple[Reason, ...]  # why the motion may be another
 
 
 def followed(recording: Recording, testbed: Testbed, params: Params) -> Followed:
@@ -75,18 +71,14 @@ def searched(
     return recording, testbed, params, fit(recording, testbed, params, early=early)
 
 
-def cautions(fitted: Fitted, damped: bool) -> tuple[str, ...]:
-    """Say why the motion may not be the recording's."""
-    found = [DAMPED] if damped else []
+def cautions(fitted: Fitted, damped: bool) -> tuple[Reason, ...]:
+    """Return why the motion may not be the recording's."""
+    found = [Reason(Caution.DAMPING_ADDED)] if damped else []
     share = chi_square_share(fitted)
     if not fitted.converged:
-        found.append(UNSETTLED)
+        found.append(Reason(Caution.NOT_CONVERGED))
     elif share > EXPLAINED:
-        found.append(
-            f"The plain model does not explain the record: it leaves {np.sqrt(share):.2g} times "
-            "the stated noise. Bounds hold for noise as stated, and if nothing else moves the "
-            "platform; an estimate will be wider."
-        )
+        found.append(Reason(Caution.UNEXPLAINED, (), {"times": float(np.sqrt(share))}))
     return tuple(found)
 
 

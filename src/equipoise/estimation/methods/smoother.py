@@ -6,6 +6,7 @@ from equipoise.estimation.model_selection import drift_smoother
 from equipoise.estimation.model_selection.reference_fit import FEWEST, check_sensors
 from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card
+from equipoise.model.reasons.estimate_reasons import EstimateReason
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -15,7 +16,7 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     check_sensors(recording, testbed)
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     if rows < FEWEST:
-        return refused(METHOD.card, f"Only {rows} rows: nothing can be estimated.")
+        return refused(METHOD.card, EstimateReason.TOO_FEW_ROWS, rows=rows)
     return drift_smoother.estimate(recording, testbed, params_of(testbed, options))
 
 

@@ -16,6 +16,8 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import COM, END, INERTIA, RATE, Course, Estimate, Parameter
 from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 
@@ -58,18 +60,20 @@ def outcome_of(track: tracker.Track) -> Outcome:
     late = track.surprise[len(track.t) // 4 :]
     used = late[late <= GATE]
     surprise = float(np.mean(used)) / 3 if len(used) else np.inf
-    text = f"Tracked to the last row; innovations are {surprise:.2g} times what they should be"
-    odd = len(track.not_used)
-    text += f"; {odd} rows were too odd to be used" if odd else ""
-    fits = surprise < SURPRISED and odd < MOST * len(track.t)
-    ending = "." if fits else ": inertia, noise or model are wrong, do not trust the interval."
-    return Outcome(fits, text + ending)
+    rejected = len(track.not_used)
+    code = Why.TRACKED if surprise < SURPRISED else Why.TRACKER_INNOVATIONS_TOO_LARGE
+    reasons = [Reason(code, (), {"innovation": surprise})]
+    if rejected:
+        few = rejected < MOST * len(track.t)
+        code = Why.ROWS_REJECTED if few else Why.TOO_MANY_ROWS_REJECTED
+        reasons.append(Reason(code, (), {"rows": rejected}))
+    return Outcome(tuple(reasons))
 
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
     """Return the belief after the last row, begun from what the testbed says."""
     if recording.attitude is None or len(recording.attitude) < 2:
-        return refused(METHOD.card, "The tracker needs a camera: the record has no attitude.")
+        return refused(METHOD.card, Why.NO_ATTITUDE)
     recording, first = arranged(recording, testbed.mass_names), recording.attitude
     state = tracker.first_state(float(first.t[0]), first.values[0], testbed)
     track = tracker.track(recording, testbed, tracker.Params(), state)

@@ -45,6 +45,8 @@ from equipoise.estimation.tracker import tracker
 from equipoise.model.arrays import Floats, Series, Series1, Vector3
 from equipoise.model.estimate import COM, Course, Estimate
 from equipoise.model.outcome import Outcome
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason, axes_of
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 
@@ -170,18 +172,13 @@ def moved(found: Drifting, after: Smoothed) -> tuple[Vector3, Vector3]:
     return values[-1] - values[0], np.sqrt(np.diag(spread - across - across.T))
 
 
-def drift_sentence(found: Drifting, after: Smoothed, concluded: Estimate) -> str:
-    """Say how far the centre of mass went."""
+def drift_reason(found: Drifting, after: Smoothed, concluded: Estimate) -> Reason:
+    """Return how much the centre of mass drifts."""
     if not concluded.sees(COM):
-        return "Not all of the centre of mass is seen, nor how far it drifts."
+        return Reason(Why.DRIFT_UNOBSERVABLE)
     way, sd = moved(found, after)
-    sizes, sds = (
-        ", ".join(f"{1e6 * x:.2g}" for x in each) for each in (way, widening_of(concluded) * sd)
-    )
-    text = f"from start to end it moves by {sizes} um (sd {sds})."
-    if found.gained < OBSERVED:
-        return f"No drift of the centre of mass is seen: {text}"
-    return f"The centre of mass drifts: {text} com is that of the start, com_end that of the end."
+    numbers = axes_of("way", way) | axes_of("sd", widening_of(concluded) * sd)
+    return Reason(Why.NO_DRIFT if found.gained < OBSERVED else Why.DRIFTS, (), numbers)
 
 
 def estimate(
@@ -204,5 +201,5 @@ def with_course(found: Drifting, after: Smoothed, concluded: Estimate) -> Estima
     """Return the estimate with the course of com, and with what is to be said of it."""
     outcome = concluded.outcome
     if outcome.usable:
-        outcome = Outcome(True, f"{outcome.sentence} {drift_sentence(found, after, concluded)}")
+        outcome = Outcome((*outcome.reasons, drift_reason(found, after, concluded)))
     return replace(concluded, outcome=outcome, course=course_of(found, after, concluded))

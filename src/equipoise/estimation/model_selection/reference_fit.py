@@ -18,14 +18,14 @@ from equipoise.estimation.model_selection.decimation import condensed
 from equipoise.estimation.model_selection.dense_record import surveyed_densely
 from equipoise.estimation.model_selection.initial_model import anchored, plainly
 from equipoise.estimation.model_selection.survey import MOST_EVENTS, survey
-from equipoise.estimation.model_selection.survey_sentences import (
+from equipoise.estimation.model_selection.survey_reasons import (
     DRIVEN,
     driven,
-    lean_sentences,
-    noise_sentences,
-    open_sentences,
-    term_sentences,
-    walk_sentences,
+    lean_reasons,
+    noise_reasons,
+    open_terms,
+    term_reasons,
+    walk_reasons,
 )
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude
 from equipoise.estimation.output_error.outlier_rejection import without_outliers
@@ -36,7 +36,9 @@ from equipoise.estimation.output_error.trajectory import METHOD, Params, at_rest
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate, Residual
-from equipoise.model.outcome import Outcome
+from equipoise.model.outcome import Outcome, outcome
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
@@ -94,26 +96,25 @@ def outcome_of(model: RecordModel, requested: Params, concluded: Estimate) -> Ou
     base, share = concluded.outcome, driven(model)
     if not base.usable:
         return base
-    found = [*noise_sentences(model), *lean_sentences(model, concluded)]
-    found += [*term_sentences(model, requested), *walk_sentences(model)]
-    text = " ".join([base.sentence, *event_sentences(concluded), *found])
+    found = [*base.reasons, *event_reasons(concluded), *noise_reasons(model)]
+    found += [
+        *lean_reasons(model, concluded),
+        *term_reasons(model, requested),
+        *walk_reasons(model),
+    ]
     if share > DRIVEN:
-        return Outcome(
-            False,
-            f"{text} That torque is {share:.2g} times what gravity does: something drives the "
-            "platform that the model does not know, do not trust the numbers.",
-        )
-    if len(model.events) >= MOST_EVENTS:
-        return Outcome(False, f"{text} So many events leave nothing to trust the numbers by.")
-    return Outcome(True, text)
+        found.append(Reason(Why.UNKNOWN_TORQUE, (), {"share": share}))
+    elif len(model.events) >= MOST_EVENTS:
+        found.append(Reason(Why.TOO_MANY_EVENTS))
+    return Outcome(tuple(found))
 
 
-def event_sentences(concluded: Estimate) -> list[str]:
-    """Say how many events the fit steps over."""
+def event_reasons(concluded: Estimate) -> list[Reason]:
+    """Return how many events the fit steps over."""
     if not concluded.events:
         return []
-    times = ", ".join(f"{event.t:.4g}" for event in concluded.events)
-    return [f"It steps over {len(concluded.events)} events, at {times} s."]
+    times = tuple(f"{event.t:.4g}" for event in concluded.events)
+    return [Reason(Why.EVENTS_FOUND, times, {"count": len(times)})]
 
 
 def surveyed(recording: Recording, testbed: Testbed, params: Params) -> RecordModel:
@@ -143,14 +144,16 @@ def estimate(recording: Recording, testbed: Testbed, params: Params) -> Estimate
     check_sensors(recording, testbed)
     rows = sum(len(c) for c in (recording.attitude, recording.rate) if c is not None)
     if rows < FEWEST:
-        outcome = Outcome(False, f"Only {rows} rows: nothing can be estimated.")
-        return Estimate(METHOD, outcome, (), np.zeros((0, 0)))
+        nothing = outcome(Why.TOO_FEW_ROWS, rows=rows)
+        return Estimate(METHOD, nothing, (), np.zeros((0, 0)))
     if not params.robust:
         return estimate_of(recording, testbed, params)
     kept, gone = without_outliers(recording, testbed, params)
     found = estimate_of(kept, testbed, params)
-    word = f" {gone} rows far off the motion are left out." if gone else ""
-    return replace(found, outcome=Outcome(found.outcome.usable, found.outcome.sentence + word))
+    if not gone:
+        return found
+    left_out = Reason(Why.OUTLIERS_REMOVED, (), {"rows": gone})
+    return replace(found, outcome=Outcome((*found.outcome.reasons, left_out)))
 
 
 def estimate_of(recording: Recording, testbed: Testbed, params: Params) -> Estimate:
@@ -172,7 +175,7 @@ def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Est
 def with_survey(model: RecordModel, params: Params, concluded: Estimate) -> Estimate:
     """Return the estimate with what the survey found, and what the held-out part says."""
     concluded = with_moments(concluded, model)
-    concluded = replace(concluded, events=reported_events(model), unexplained=open_sentences(model))
+    concluded = replace(concluded, events=reported_events(model), unexplained=open_terms(model))
     assert concluded.residual is not None
     residual = held_out(model, params.hold_out, concluded.residual)
     return replace(concluded, residual=residual, outcome=outcome_of(model, params, concluded))

@@ -39,7 +39,7 @@ from equipoise.estimation.events.noise_identification import (
 )
 from equipoise.estimation.events.process_noise_spectrum import coloured
 from equipoise.estimation.events.record_model import Happening, RecordModel, improbability, smoothed
-from equipoise.estimation.model_selection import survey_sentences
+from equipoise.estimation.model_selection import survey_reasons
 from equipoise.estimation.model_selection.initial_model import is_close
 from equipoise.estimation.model_selection.model_choice import best_group, levelled
 from equipoise.estimation.model_selection.term_selection import (
@@ -117,7 +117,7 @@ def wandering(model: RecordModel) -> RecordModel:
 
 def is_drowned(model: RecordModel) -> bool:
     """Say whether something drives the platform so that nothing is to be told any further."""
-    return model.wanders and survey_sentences.driven(model) > survey_sentences.DRIVEN
+    return model.wanders and survey_reasons.driven(model) > survey_reasons.DRIVEN
 
 
 def is_calm(model: RecordModel) -> bool:

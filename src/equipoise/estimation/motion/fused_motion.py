@@ -36,6 +36,8 @@ from equipoise.model.arrays import (
     Series4,
     Vector3,
 )
+from equipoise.model.reasons.estimate_reasons import EstimateReason
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
@@ -54,7 +56,7 @@ class LedMotion(NamedTuple):
     q: Series4
     w: Series3  # rad/s, without bias where a camera shows it
     piece: Ints  # (n,) which piece a row belongs to, from 0
-    notes: tuple[str, ...] = ()  # sentences: what of the record is not used
+    notes: tuple[Reason, ...] = ()  # what of the record is not used
 
 
 def pieces_of(t: Series1) -> Ints:
@@ -87,12 +89,14 @@ def taken(channel: Samples, mask: Bools) -> Samples:
     return Samples(channel.t[mask], channel.values[mask])
 
 
-def joined(parts: list[LedMotion], notes: tuple[str, ...] = ()) -> LedMotion:
+def joined(parts: list[LedMotion], notes: tuple[Reason, ...] = ()) -> LedMotion:
     """Return pieces one after the other."""
     if not parts:
         return LedMotion(np.zeros(0), np.zeros((0, 4)), np.zeros((0, 3)), np.zeros(0, np.int64))
     piece = np.repeat(np.arange(len(parts)), [len(part.t) for part in parts])
-    t, q, w = (np.concatenate([part[j] for part in parts]) for j in range(3))
+    t = np.concatenate([part.t for part in parts])
+    q = np.concatenate([part.q for part in parts])
+    w = np.concatenate([part.w for part in parts])
     return LedMotion(t, q, w, piece, notes)
 
 
@@ -113,9 +117,7 @@ def by_gyro(rate: Samples, piece: Ints, testbed: Testbed) -> LedMotion:
     longest = int(np.argmax(np.bincount(piece)))
     part = taken(rate, piece == longest)
     q = integrate_rate(part.t, part.values, level(testbed.up))
-    reported = () if piece[-1] == 0 else (
-        "behind a gap a gyro alone does not know the attitude: only the longest piece is used",
-    )  # fmt: skip
+    reported = () if piece[-1] == 0 else (Reason(EstimateReason.LONGEST_PIECE_ONLY),)
     whole = np.zeros(len(part.t), np.int64)
     return thinned(LedMotion(part.t, q, part.values, whole, reported))
 

@@ -1,4 +1,4 @@
-"""From an optimum to an estimate: covariance, intervals, what was not seen, and a sentence."""
+"""From an optimum to an estimate: covariance, intervals, what was not observed, and the outcome."""
 
 from dataclasses import replace
 
@@ -35,12 +35,14 @@ from equipoise.maths.linalg import inverse_where, lag_one
 from equipoise.maths.whiteness import portmanteau, spectral_peak
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import COM, END, Estimate, Parameter, Residual
-from equipoise.model.outcome import Outcome
+from equipoise.model.outcome import Outcome, outcome
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
 
 SURE = 4.0  # sd of a statistic before it counts as more than chance
 EXPLAINED = 2.0  # chosen: chi-square per degree of freedom above which the model does not hold
-UNSETTLED = Outcome(False, "The fit did not settle; its numbers mean nothing.")
+UNSETTLED = outcome(Why.NOT_CONVERGED)
 
 
 def residual_of(fitted: Fitted, jumped: float = 0.0) -> Residual:
@@ -104,35 +106,26 @@ def end_rows(fitted: Fitted, after: Smoothed | None) -> tuple[Floats, Floats] | 
     return com + moved + com_shift(problem.maps, problem.mass, actual), rows
 
 
-def sentence_of(fitted: Fitted, residual: Residual, view: Visibility, factor: float) -> Outcome:
+def outcome_of(fitted: Fitted, residual: Residual, view: Visibility, factor: float) -> Outcome:
     """Return whether the numbers may be used, and why."""
     if not fitted.converged:
         return UNSETTLED
-    left = (
-        f"{np.degrees(residual.attitude_rms):.3g} deg"
-        if residual.attitude_rms is not None
-        else f"{np.degrees(residual.rate_rms or 0):.3g} deg/s"
-    )
+    camera = residual.attitude_rms is not None
+    rms = {"attitude_rms": residual.attitude_rms or 0.0} if camera else {
+        "rate_rms": residual.rate_rms or 0.0}  # fmt: skip
     if residual.reduced_chi_square > EXPLAINED:
-        return Outcome(
-            False,
-            f"The model does not explain the record: it leaves {left} rms per axis, "
-            f"{np.sqrt(residual.reduced_chi_square):.2g} times the stated noise, with a lag-one "
-            f"correlation of {residual.lag_one:.2f} where noise has 0. Something moves the "
-            "platform that the model does not know; do not trust the intervals.",
-        )
-    text = f"The model explains the record to {left} rms per axis."
+        code = Why.UNEXPLAINED_ATTITUDE if camera else Why.UNEXPLAINED_RATE
+        times = float(np.sqrt(residual.reduced_chi_square))
+        return outcome(code, **rms, times=times, lag_one=residual.lag_one)
+    found = [Reason(Why.EXPLAINED_ATTITUDE if camera else Why.EXPLAINED_RATE, (), rms)]
     if factor > 1:
-        text += (
-            f" What is left is not quite noise (lag-one correlation {residual.lag_one:.2f}, "
-            f"spectral peak {residual.spectral_peak:.2g} times the mean): intervals are widened "
-            f"{factor:.2g} times."
-        )
+        numbers = {"lag_one": residual.lag_one, "spectral_peak": residual.spectral_peak}
+        found.append(Reason(Why.COLOURED_RESIDUAL, (), numbers | {"widening": factor}))
     if view.scale_open:
-        text = "The scale is open: only ratios of inertia and centre of mass are known. " + text
+        found.insert(0, Reason(Why.RATIOS_ONLY))
     elif bool(view.hidden[R].any() or view.hidden[JP].any()):
-        text += " Part of the mass properties is not seen; those intervals are infinite."
-    return Outcome(True, text)
+        found.append(Reason(Why.PART_UNOBSERVABLE))
+    return Outcome(tuple(found))
 
 
 def parameters_of(
@@ -172,7 +165,7 @@ def without_scale(view: Visibility, layout: Layout) -> Visibility:
     """Return the view of a fit in which one moment of inertia was held only for the search."""
     hidden = view.hidden.copy()
     hidden[JP.start : FIXED + len(layout.terms)] = True
-    return Visibility(view.covariance, hidden, (OPEN, *view.sentences), True, view.unseen)
+    return Visibility(view.covariance, hidden, (OPEN, *view.unobservable), True, view.unseen)
 
 
 def without_anchor(normal: Square, fitted: Fitted) -> Square:
@@ -223,11 +216,11 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
     parameters, covariance = parameters_of(fitted, view, factor, after)
     return Estimate(
         method,
-        sentence_of(fitted, residual, view, factor),
+        outcome_of(fitted, residual, view, factor),
         parameters,
         covariance,
         residual,
-        view.sentences,
+        view.unobservable,
         ratios_of(values[CORE], view.covariance[CORE, CORE], view.unseen[CORE])
         if view.scale_open
         else (),

@@ -22,16 +22,15 @@ from equipoise.estimation.parameters.fit_parameters import (
 )
 from equipoise.maths.linalg import symmetrise
 from equipoise.model.arrays import Bools, Floats, Square
+from equipoise.model.reasons.data_reasons import Unobservable
+from equipoise.model.reasons.reason import Reason
 
 OBSERVABLE = 4.0  # 1 / (half a natural size)^2
 PART = 1e-3  # chosen: a smaller component of an unseen direction is rounding
 LOST = 0.1  # natural sizes, chosen: by so much an unseen direction must move what it hides
 DISTANCE = 1e-5  # m, a centre of mass that is not worth calling an offset
 ALONG = 0.9  # chosen: cosine beyond which an unseen direction is the scale
-OPEN = (
-    "the data do not see the common scale of inertia and centre of mass: motion without a known "
-    "move or stored momentum shows ratios only; move a mass, or hold one value that is known"
-)
+OPEN = Reason(Unobservable.SCALE)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +39,7 @@ class Visibility:
 
     covariance: Square  # of what is not hidden
     hidden: Bools
-    sentences: tuple[str, ...]
+    unobservable: tuple[Reason, ...]  # directions
     scale_open: bool
     unseen: Floats  # (n, u) directions of natural size, the scale not among them
 
@@ -71,17 +70,16 @@ def scale_of(values: Floats, size: Floats) -> Floats:
     return stretched / size / float(np.linalg.norm(stretched / size))
 
 
-def describe(direction: Floats, names: tuple[str, ...]) -> str:
+def describe(direction: Floats, names: tuple[str, ...]) -> Reason:
     """Name the parameters that an unseen direction mixes."""
     weight = np.abs(direction)
     chosen: list[str] = [names[k] for k in np.argsort(-weight) if weight[k] > 0.3 * weight.max()]
-    if len(chosen) == 1:
-        return f"the data do not see {chosen[0]}"
-    return "the data cannot tell apart: " + ", ".join(chosen)
+    code = Unobservable.PARAMETER if len(chosen) == 1 else Unobservable.COMBINATION
+    return Reason(code, tuple(chosen))
 
 
 def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, ...]) -> Visibility:
-    """Return covariance, visibility and the sentences about what is not seen."""
+    """Return covariance, visibility and the directions that are not observable."""
     values, vectors = np.linalg.eigh(symmetrise(information * size[:, None] * size))
     unseen = values < OBSERVABLE
     good = vectors[:, ~unseen]
@@ -92,17 +90,17 @@ def examine(information: Square, scale: Floats, size: Floats, names: tuple[str, 
     natural = (good / values[~unseen]) @ good.T + (slight / reported) @ slight.T
     covariance = natural * size[:, None] * size
     scale_open = False
-    sentences: list[str] = []
+    unobservable: list[Reason] = []
     others: list[Floats] = []
     for direction in vectors[:, unseen].T:
         if abs(float(direction @ scale)) > ALONG:
             scale_open = True
-            sentences.append(OPEN)
+            unobservable.append(OPEN)
         else:
-            sentences.append(describe(direction, names))
+            unobservable.append(describe(direction, names))
             others.append(direction * size)
     lost: Floats = np.array(others).reshape(-1, len(size)).T
-    return Visibility(covariance, hidden, tuple(sentences), scale_open, lost)
+    return Visibility(covariance, hidden, tuple(unobservable), scale_open, lost)
 
 
 def examine_unheld(
@@ -122,4 +120,4 @@ def examine_unheld(
     covariance[held, held] = 1.0 / np.diag(information)[held]
     covariance[np.ix_(free, free)], hidden[free] = loose.covariance, loose.hidden
     unseen[free] = loose.unseen
-    return Visibility(covariance, hidden, loose.sentences, loose.scale_open, unseen)
+    return Visibility(covariance, hidden, loose.unobservable, loose.scale_open, unseen)

@@ -1,4 +1,4 @@
-"""What a linear solution is worth, in numbers and in a sentence."""
+"""What a linear solution is worth, in numbers and with reasons."""
 
 from typing import NamedTuple
 
@@ -19,12 +19,13 @@ from equipoise.model.estimate import COM, INERTIA, Course, Estimate, Parameter, 
 from equipoise.model.mass_properties import is_possible
 from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.torque_terms import TERMS, unit_of
 
 MATTERS = 0.5  # sd of noise: a bias beyond it makes 95 % less than 92 %
 MOST_TAKEN = 0.25  # chosen: beyond, a bias is no longer small, and not what repeating it shows
 DROWNED = 100.0  # chosen: ten times as far off as noise explains, nothing is known
-NO_TRUST = "the intervals are widened by it, but are not trustworthy"
 
 
 class Shifts(NamedTuple):
@@ -65,7 +66,7 @@ def conclude(
               for k in range(len(names))),
         covariance,
         residual_of(rows, answer),
-        ((OPEN,) if open_scale else ()) + view.sentences,
+        ((OPEN,) if open_scale else ()) + view.unobservable,
         ratios,
         is_possible(body),
         origin_of(posed.recording),
@@ -180,33 +181,31 @@ def worst(rows: Rows, shift: Floats, answer: Answer) -> tuple[str, float] | None
 
 def outcome_of(rows: Rows, answer: Answer, open_scale: bool, possible: bool) -> Outcome:
     """Return whether the numbers may be used, and what to think of them."""
-    texts = ["The scale is open: only ratios are known." if open_scale else "A linear estimate."]
-    texts += [f"Note: {note}." for note in rows.notes]
-    if not possible:
-        texts.insert(0, "No body can have the inertia found.")
+    found = [] if possible else [Reason(Why.IMPOSSIBLE_INERTIA)]
+    found.append(Reason(Why.LINEAR_RATIOS if open_scale else Why.LINEAR))
+    found += rows.notes
     taken = most_taken(rows, answer)
     if taken > MOST_TAKEN:
-        texts.append(f"Noise in the regressor takes some {100 * taken:.0f} % of a moment of "
-                    "inertia away: do not trust the intervals.")  # fmt: skip
+        found.append(Reason(Why.REGRESSOR_NOISE_TOO_LARGE, (), {"share": taken}))
     if answer.excess > DROWNED:
-        texts.append("The rows leave far more than the sensors' noise: something moves the "
-                    "platform that the model does not know; do not trust the intervals."
-                    )  # fmt: skip
+        found.append(Reason(Why.RESIDUAL_TOO_LARGE, (), {"power": answer.excess}))
     elif answer.excess > 1:
-        texts.append(f"The rows leave more than the sensors' noise, {answer.excess:.2g} times its "
-                    "power where it is most: intervals are widened "
-                    f"{np.sqrt(answer.excess):.2g} times.")  # fmt: skip
-    if (most := worst(rows, answer.shifts.bias, answer)) is not None:
-        texts.append(f"Noise in the regressor moves {most[0]} by about {most[1]:.2g} sd: "
-                    f"{NO_TRUST}; use momentum_corrected, or trajectory.")  # fmt: skip
-    if (most := worst(rows, answer.shifts.blurred, answer)) is not None:
-        texts.append(f"Smoothing the camera's rows blurs quick motion and moves {most[0]} by about "
-                    f"{most[1]:.2g} sd: {NO_TRUST}; a gyro would show it.")  # fmt: skip
-    if (most := worst(rows, answer.shifts.omitted, answer)) is not None:
-        texts.append(f"What the model leaves out moves {most[0]} by about {most[1]:.2g} sd: "
-                    f"{NO_TRUST}.")  # fmt: skip
-    fair = possible and answer.excess <= DROWNED and taken <= MOST_TAKEN
-    return Outcome(fair, " ".join(texts))
+        widening = float(np.sqrt(answer.excess))
+        numbers = {"power": answer.excess, "widening": widening}
+        found.append(Reason(Why.RESIDUAL_LARGE, (), numbers))
+    return Outcome((*found, *biases(rows, answer)))
+
+
+def biases(rows: Rows, answer: Answer) -> list[Reason]:
+    """Return what moves which parameter by more than noise lets an interval allow for."""
+    shifts = answer.shifts
+    causes = (
+        (Why.BIAS_BY_NOISE, shifts.bias),
+        (Why.BIAS_BY_SMOOTHING, shifts.blurred),
+        (Why.BIAS_BY_MODEL, shifts.omitted),
+    )
+    found = [(code, worst(rows, shift, answer)) for code, shift in causes]
+    return [Reason(code, (most[0],), {"sds": most[1]}) for code, most in found if most is not None]
 
 
 def most_taken(rows: Rows, answer: Answer) -> float:

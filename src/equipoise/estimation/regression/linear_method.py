@@ -40,6 +40,7 @@ from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.estimate import INERTIA, NORMAL_95, Estimate
 from equipoise.model.method_card import Card
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.recording import Recording, Samples, arranged
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
@@ -128,17 +129,17 @@ def estimate(
     """Return the estimate; ``draws`` are the record's replicates where they are at hand."""
     n = len(posed.motion.t)
     if n < FEWEST:
-        return refused(card, f"Only {n} rows without a gap: there is nothing to fit.")
+        return refused(card, Why.TOO_FEW_ROWS_WITHOUT_GAP, rows=n)
     rows, fixed = posed_rows(linear, posed, hold)
     if rows.b.size <= len(rows.names) or len(rows.t) < FEWEST:
-        return refused(card, f"Only {len(rows.t)} rows without a gap: there is nothing to fit.")
+        return refused(card, Why.TOO_FEW_ROWS_WITHOUT_GAP, rows=len(rows.t))
     if draws is None:
         what = Drawn(inertia=linear.knows_inertia)
         draws = tuple(pairs(posed, what, max(PAIRS, len(rows.names) + SPARE)))
     try:
         answer = answered(Question(linear, posed, rows, fixed, draws))
     except np.linalg.LinAlgError:
-        return refused(card, "The rows do not determine the unknowns: the platform hardly moved.")
+        return refused(card, Why.HARDLY_MOVED)
     pinned = tuple(name for name in fixed if name not in hold)
     return conclude(card, posed, rows, answer, pinned)
 

@@ -32,7 +32,10 @@ from equipoise.maths.linalg import inverse_spd
 from equipoise.maths.long_run import long_run_covariance, memory
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.estimate import COM, Estimate, Parameter
-from equipoise.model.outcome import Outcome
+from equipoise.model.outcome import Outcome, outcome
+from equipoise.model.reasons.data_reasons import Unobservable
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
@@ -131,46 +134,36 @@ def solve(rests: list[Rest]) -> tuple[Vector3, Matrix3, float]:
     return com, slope(com).T @ slope(com), float(np.sum(left(com) ** 2))
 
 
-def doubts(rests: list[Rest], misfit: float) -> str:
-    """Say why the intervals may be wrong, or nothing."""
+def doubts(rests: list[Rest], misfit: float) -> tuple[Reason, ...]:
+    """Return why the intervals may be wrong, or nothing."""
     swing = max(rest.swing for rest in rests)
     if swing > SWING:
-        return (
-            f" But the platform swung by {np.degrees(swing):.2g} deg rms at a stop, where it "
-            "should rest: the intervals are not trustworthy."
-        )
+        return (Reason(Why.SWINGS_AT_REST, (), {"swing": swing}),)
     if misfit > float(chi2.ppf(SURE, 2 * len(rests) - 3)):
-        return " But the rests do not agree with one another: the intervals are not trustworthy."
-    return ""
+        return (Reason(Why.RESTS_DISAGREE),)
+    return ()
 
 
-def lacking(rests: list[Rest]) -> str:
-    """Say why rests cannot tell the centre of mass, or nothing."""
+def lacking(rests: list[Rest]) -> Outcome | None:
+    """Return why rests cannot show the centre of mass; None: they can."""
     if len(rests) >= 2 and np.linalg.eigvalsh(rest_information(rests))[0] >= WEAKEST * len(rests):
-        return ""
-    return (
-        f"{len(rests)} distinct rest positions found, two are needed: "
-        "move a mass sideways and let the platform settle."
-    )
+        return None
+    return outcome(Why.TOO_FEW_RESTS, rests=len(rests))
 
 
-def too_rough(rests: list[Rest], com: Vector3, information: Matrix3) -> str:
-    """Say that rests are known too roughly to tell how far com is from P, or nothing."""
+def too_rough(rests: list[Rest], com: Vector3, information: Matrix3) -> Outcome | None:
+    """Return that rests are known too roughly to show the distance of com from P, or None."""
     longest = max(float(np.linalg.norm(com + rest.shift)) for rest in rests)
     if float(np.linalg.eigvalsh(information)[0]) * longest**2 >= 1.0:
-        return ""
-    sd, swing = np.degrees([max(s.sd for s in rests), max(s.swing for s in rests)])
-    return (
-        f"The platform swung by {swing:.2g} deg rms at a stop, which tells where it would rest to "
-        f"{sd:.2g} deg only: too roughly to see how far the centre of mass is from the centre of "
-        "rotation. Let it settle after each move, or take a method that needs no rest."
-    )
+        return None
+    sd, swing = max(s.sd for s in rests), max(s.swing for s in rests)
+    return outcome(Why.RESTS_TOO_ROUGH, sd=sd, swing=swing)
 
 
-def unseeing(text: str) -> Estimate:
+def unseeing(why: Outcome) -> Estimate:
     """Return that nothing was found, and why."""
-    unseen = ("the data do not see how far the centre of mass is from the centre of rotation",)
-    return Estimate(METHOD, Outcome(False, text), (), np.zeros((0, 0)), None, unseen)
+    unseen = (Reason(Unobservable.DISTANCE),)
+    return Estimate(METHOD, why, (), np.zeros((0, 0)), None, unseen)
 
 
 def estimate(recording: Recording, testbed: Testbed) -> Estimate:
@@ -187,7 +180,6 @@ def estimate(recording: Recording, testbed: Testbed) -> Estimate:
     parameters = tuple(
         Parameter(name, "m", float(com[k]), float(sd[k])) for k, name in enumerate(COM)
     )
-    text = f"The centre of mass from {len(rests)} rest positions; the inertia is not estimated."
-    text += doubts(rests, misfit)
-    origin = origin_of(recording)
-    return Estimate(METHOD, Outcome(True, text), parameters, covariance, provenance=origin)
+    first = Reason(Why.FROM_RESTS, (), {"rests": len(rests)})
+    ended, origin = Outcome((first, *doubts(rests, misfit))), origin_of(recording)
+    return Estimate(METHOD, ended, parameters, covariance, provenance=origin)

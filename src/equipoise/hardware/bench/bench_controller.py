@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from equipoise.hardware.bench.interlocks import LAST, Observed, Trip, silence, tripped
+from equipoise.hardware.bench.interlocks import LAST, Observed, silence, tripped
 from equipoise.hardware.links.device_links import Links
 from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.row_buffer import RowBuffer
@@ -20,6 +20,8 @@ from equipoise.model.bench_requests import checked_targets
 from equipoise.model.bench_units import MM
 from equipoise.model.errors import BenchStopped, EquipoiseError
 from equipoise.model.hardware import Hardware
+from equipoise.model.reasons.interlocks import Interlock
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -55,7 +57,7 @@ class Keeper:
         self._silent = ""
         self._received = RowBuffer(testbed.masses)
         self.t = 0.0
-        self._trip: Trip | None = None
+        self._trip: Reason | None = None
 
     @property
     def testbed(self) -> Testbed:
@@ -63,7 +65,7 @@ class Keeper:
         return self._testbed
 
     @property
-    def trip(self) -> Trip | None:
+    def trip(self) -> Reason | None:
         """Why every motor is stopped; None: none is."""
         return self._trip
 
@@ -113,10 +115,9 @@ class Keeper:
         return silence(self._observed(self.t), self._limits) is None
 
     @property
-    def trouble(self) -> str:
-        """What keeps masses from being moved now; empty if nothing does."""
-        quiet = silence(self._observed(self.t), self._limits)
-        silent = "" if quiet is None else quiet.sentence
+    def trouble(self) -> Reason | None:
+        """What keeps masses from being moved now; None if nothing does."""
+        silent = silence(self._observed(self.t), self._limits)
         return self.links.unreachable or silent or self.links.unsure
 
     def health(self) -> list[Health]:
@@ -145,10 +146,10 @@ class Keeper:
         self._able()  # to note it may have filled the disk
         self.links.go(by_name, self.t)
 
-    def halt(self, sentence: str = "") -> None:
-        """Stop every mass; with a sentence, masses stay until ``home``."""
-        if sentence:
-            self._stop(Trip("operator", sentence))
+    def halt(self, why: Reason | None = None) -> None:
+        """Stop every mass; with a reason, masses stay until ``home``."""
+        if why is not None:
+            self._stop(why)
             return
         self._note("command", "halt", {})
         self.links.halt(self.t)
@@ -163,9 +164,9 @@ class Keeper:
 
     def _able(self) -> None:
         """Raise BenchStopped while masses may not move."""
-        why = self._trip.sentence if self._trip is not None else self.trouble
-        if why:
-            raise BenchStopped(f"nothing was moved: {why}")
+        why = self._trip or self.trouble
+        if why is not None:
+            raise BenchStopped(f"nothing was moved: {why.sentence}", why)
 
     def _sensed(self, link: SensorLink, t: float) -> None:
         for row in link.turn(t):
@@ -178,14 +179,14 @@ class Keeper:
         """Ask the interlocks; note a sensor that falls silent or comes back while masses stand."""
         observed = self._observed(t)
         found = tripped(observed, self._testbed, self._limits)
-        if found is not None and (self._trip is None or self._trip.kind != found.kind):
+        if found is not None and (self._trip is None or self._trip.code is not found.code):
             self._stop(found)
         quiet = silence(observed, self._limits)
-        said = "" if quiet is None else quiet.sentence.split(" has ")[0]
-        if said != self._silent:
-            text = f"{said} is silent" if said else f"{self._silent} gives rows again"
-            self._note("interlock", text, {})
-            self._silent = said
+        silent = "" if quiet is None else quiet.parameters[0]
+        if silent != self._silent:
+            code = Interlock.SENSOR_SILENT if silent else Interlock.SENSOR_BACK
+            self._warn(Reason(code, (silent or self._silent,)))
+            self._silent = silent
         self._remember(t)
 
     def _observed(self, t: float) -> Observed:
@@ -201,10 +202,14 @@ class Keeper:
                 if state.reported - self._before.get(name, (float("-inf"), 0.0))[0] > REMEMBERED:
                     self._before[name] = (state.reported, at)
 
-    def _stop(self, trip: Trip) -> None:
+    def _stop(self, trip: Reason) -> None:
         self.links.halt(self.t)
         self._trip = trip
-        self._note("interlock", trip.sentence, {"kind": trip.kind})
+        self._warn(trip)
+
+    def _warn(self, why: Reason) -> None:
+        data = {"code": why.code, "parameters": list(why.parameters), "numbers": dict(why.numbers)}
+        self._note("interlock", why.sentence, data)
 
     def _note(self, kind: str, sentence: str, data: Mapping[str, object]) -> None:
         self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
@@ -225,4 +230,4 @@ class Keeper:
                 report(listener)
             except EquipoiseError as error:
                 self._listeners.remove(listener)
-                self._stop(Trip("fault", str(error)))
+                self._stop(Reason(Interlock.RECORD_LOST, (str(error),)))

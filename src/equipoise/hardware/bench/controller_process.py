@@ -4,7 +4,7 @@ The two speak through a pipe. When it breaks, because the commander has ended, b
 crashed, the keeper halts every mass, closes the record and ends. Ctrl-C reaches the commander
 alone. The keeper never waits for the commander: what it has to say waits in a queue.
 
-    commander to keeper    (n, "go", targets)  (n, "home")  (n, "begin")  (n, "halt", sentence)
+    commander to keeper    (n, "go", targets)  (n, "home")  (n, "begin")  (n, "halt", why)
                            (n, "health")       n: counts the commands
     keeper to commander    ("news", News)      ("answer", (n, what came of it, or an error))
 """
@@ -21,10 +21,10 @@ from typing import Any, Protocol
 
 from equipoise.hardware.bench.atomic_message import whole_message
 from equipoise.hardware.bench.bench_controller import Keeper
-from equipoise.hardware.bench.interlocks import Trip
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.links.health import Health
 from equipoise.model.errors import BenchStopped, EquipoiseError
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 
@@ -40,8 +40,8 @@ class News:
     """What a commander knows of its keeper."""
 
     t: float  # s, on the keeper's clock
-    trip: Trip | None
-    trouble: str
+    trip: Reason | None
+    trouble: Reason | None
     answered: bool
     ready: bool
     fresh: bool
@@ -135,7 +135,7 @@ class DistantKeeper:
         self._process.start()
         outlying.close()
         self.testbed = testbed
-        self._news = News(0.0, None, "", False, False, False, None)
+        self._news = News(0.0, None, None, False, False, False, None)
         self._parts: list[Recording] = []
         self._requested = 0  # commands so far
         self._answer(BEGIN)
@@ -156,13 +156,13 @@ class DistantKeeper:
             self._taken_in()
 
     @property
-    def trip(self) -> Trip | None:
+    def trip(self) -> Reason | None:
         """Why every motor is stopped; None: none is."""
         return self._news.trip
 
     @property
-    def trouble(self) -> str:
-        """What keeps masses from being moved now; empty if nothing does."""
+    def trouble(self) -> Reason | None:
+        """What keeps masses from being moved now; None if nothing does."""
         return self._news.trouble
 
     @property
@@ -198,9 +198,9 @@ class DistantKeeper:
         """Let every board find its position."""
         self._request("home")
 
-    def halt(self, sentence: str = "") -> None:
-        """Stop every mass."""
-        self._request("halt", sentence)
+    def halt(self, why: Reason | None = None) -> None:
+        """Stop every mass; with a reason, masses stay until ``home``."""
+        self._request("halt", why)
 
     def health(self) -> list[Health]:
         """Return how well each device speaks."""

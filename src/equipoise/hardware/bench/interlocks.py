@@ -5,7 +5,8 @@
     travel, speed   a mass is beyond its travel, or faster than it can be
     mismatch        a mass stands elsewhere than where it was sent
     fault           a board says that something is wrong
-    operator        a person, or the loss of who commands
+
+``model.reasons.interlocks`` has them all, those of a bench that does not start among them.
 
 A sensor that falls silent stops masses that move; while they stand nothing needs to be stopped,
 and it may come back. Tilt and rate stop nothing where no board knows its masses' places yet, or
@@ -16,29 +17,21 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from statistics import median
-from typing import Literal
 
 import numpy as np
 
 from equipoise.hardware.transport.driver_protocol import BoardState
 from equipoise.maths.attitude import conjugate, multiply, tilt
 from equipoise.model.arrays import Floats
-from equipoise.model.bench_units import MM, PER_DEG
 from equipoise.model.hardware import SafetyLimits
+from equipoise.model.reasons.interlocks import Interlock
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.testbed import SlidingMass, Testbed
 
-Kind = Literal["tilt", "rate", "silence", "travel", "speed", "mismatch", "fault", "operator"]
+TENTHS = 1  # decimals of a silence, chosen: what says more often says nothing more
 LAST = 3  # rows whose median counts, chosen: one bad row is no reason to stop
 HASTE = 1.5  # of a mass's speed, chosen: beyond it, it does not do as it is told
 WAY = 1e-3  # m, chosen: a way on which a speed can be told from two answers of a board
-
-
-@dataclass(frozen=True, slots=True)
-class Trip:
-    """Why every motor is stopped."""
-
-    kind: Kind
-    sentence: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,7 +58,7 @@ class Observed:
         return any(state.phase in ("moving", "homing") for state in self.boards.values())
 
 
-def tripped(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Trip | None:
+def tripped(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reason | None:
     """Return the first reason to stop every motor; None if there is none."""
     return (
         _fault(observed)
@@ -75,11 +68,11 @@ def tripped(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Trip 
     )
 
 
-def silence(observed: Observed, limits: SafetyLimits) -> Trip | None:
+def silence(observed: Observed, limits: SafetyLimits) -> Reason | None:
     """Return which sensor gives no rows, whether masses move or not."""
     for name, since in observed.silent.items():
         if since > limits.stale:
-            return Trip("silence", f"sensor {name} has given no row for {since:.1f} s")
+            return Reason(Interlock.SILENCE, (name,), {"seconds": round(since, TENTHS)})
     return None
 
 
@@ -94,37 +87,35 @@ def turning(observed: Observed) -> float:
     return float(2 * np.arctan2(np.linalg.norm(turned[1:]), abs(turned[0])) / (t1 - t0))
 
 
-def _fault(observed: Observed) -> Trip | None:
+def _fault(observed: Observed) -> Reason | None:
     for name, state in observed.boards.items():
         if state.phase == "fault":
-            return Trip("fault", f"board {name}: {state.sentence}")
+            return Reason(Interlock.FAULT, (name, state.sentence))
     return None
 
 
-def _leaning(observed: Observed, testbed: Testbed) -> Trip | None:
+def _leaning(observed: Observed, testbed: Testbed) -> Reason | None:
     if not observed.attitudes:
         return None
     q = np.array([attitude for _, attitude in observed.attitudes[-LAST:]])
     angle, limit = median(tilt(q, testbed.up).tolist()), testbed.tilt_limit
     if angle <= limit:
         return None
-    found = f"the platform tilts by {PER_DEG * angle:.1f} deg"
-    return Trip("tilt", f"{found}; its limit is {PER_DEG * limit:.1f} deg")
+    return Reason(Interlock.TILT, (), {"tilt": angle, "limit": limit})
 
 
-def _turning(observed: Observed, limits: SafetyLimits) -> Trip | None:
+def _turning(observed: Observed, limits: SafetyLimits) -> Reason | None:
     rate = turning(observed)
     if rate <= limits.rate:
         return None
-    found = f"the platform turns with {PER_DEG * rate:.1f} deg/s"
-    return Trip("rate", f"{found}; the limit is {PER_DEG * limits.rate:.1f} deg/s")
+    return Reason(Interlock.RATE, (), {"rate": rate, "limit": limits.rate})
 
 
-def _silence(observed: Observed, limits: SafetyLimits) -> Trip | None:
+def _silence(observed: Observed, limits: SafetyLimits) -> Reason | None:
     return silence(observed, limits) if observed.moving else None
 
 
-def _masses(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Trip | None:
+def _masses(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reason | None:
     for state in observed.boards.values():
         if not state.sure or state.phase == "homing":
             continue
@@ -140,15 +131,14 @@ def _masses(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Trip 
     return None
 
 
-def _outside(mass: SlidingMass, at: float, limits: SafetyLimits) -> Trip | None:
+def _outside(mass: SlidingMass, at: float, limits: SafetyLimits) -> Reason | None:
     low, high = mass.travel
     if low - limits.mismatch <= at <= high + limits.mismatch:
         return None
-    found = f"mass {mass.name} is at {MM * at:.1f} mm"
-    return Trip("travel", f"{found}; its travel is {MM * low:g} to {MM * high:g} mm")
+    return Reason(Interlock.TRAVEL, (mass.name,), {"at": at, "low": low, "high": high})
 
 
-def _hasty(observed: Observed, mass: SlidingMass, at: float, state: BoardState) -> Trip | None:
+def _hasty(observed: Observed, mass: SlidingMass, at: float, state: BoardState) -> Reason | None:
     """Two answers may be read late by different times; so a way that is short tells nothing."""
     t, where = observed.before.get(mass.name, (0.0, at))
     if state.reported is None or abs(at - where) < WAY or state.reported <= t:
@@ -156,17 +146,13 @@ def _hasty(observed: Observed, mass: SlidingMass, at: float, state: BoardState) 
     speed = abs(at - where) / (state.reported - t)
     if speed <= HASTE * mass.speed:
         return None
-    found = f"mass {mass.name} moves with {MM * speed:.1f} mm/s"
-    return Trip(
-        "speed", f"{found}; it was told {MM * mass.speed:g} mm/s at most, or its board is misheard"
-    )
+    return Reason(Interlock.SPEED, (mass.name,), {"speed": speed, "limit": mass.speed})
 
 
 def _elsewhere(
     mass: SlidingMass, at: float, state: BoardState, limits: SafetyLimits
-) -> Trip | None:
+) -> Reason | None:
     goal = state.goal.get(mass.name)
     if state.phase != "ready" or goal is None or abs(at - goal) <= limits.mismatch:
         return None
-    found = f"mass {mass.name} stands at {MM * at:.2f} mm"
-    return Trip("mismatch", f"{found} and was sent to {MM * goal:.2f} mm")
+    return Reason(Interlock.MISMATCH, (mass.name,), {"at": at, "goal": goal})

@@ -9,10 +9,11 @@ work, and masses stay until ``home``.
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
-from equipoise.hardware.bench.interlocks import Trip
 from equipoise.hardware.links.health import Health
 from equipoise.model.bench_requests import check_duration, checked_inputs
 from equipoise.model.errors import BenchStopped, DriveRefused
+from equipoise.model.reasons.interlocks import Interlock
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import Testbed
 
@@ -42,13 +43,13 @@ class Kept(Protocol):
         ...
 
     @property
-    def trip(self) -> Trip | None:
+    def trip(self) -> Reason | None:
         """Why every motor is stopped; None: none is."""
         ...
 
     @property
-    def trouble(self) -> str:
-        """What keeps masses from being moved now; empty if nothing does."""
+    def trouble(self) -> Reason | None:
+        """What keeps masses from being moved now; None if nothing does."""
         ...
 
     @property
@@ -86,8 +87,8 @@ class Kept(Protocol):
         """Let every board find its position."""
         ...
 
-    def halt(self, sentence: str = "") -> None:
-        """Stop every mass; with a sentence, masses stay until ``home``."""
+    def halt(self, why: Reason | None = None) -> None:
+        """Stop every mass; with a reason, masses stay until ``home``."""
         ...
 
     def health(self) -> list[Health]:
@@ -118,14 +119,14 @@ class RealBench:
         Raises BenchStopped if that does not come about.
         """
         keeper = self._keeper
-        self._until(lambda: keeper.answered, PATIENCE, "not every board answers")
+        self._until(lambda: keeper.answered, PATIENCE, Interlock.NOT_ANSWERING)
         if not keeper.ready:
             keeper.home()
-        self._until(lambda: keeper.ready, HOMING, "the masses do not come home")
+        self._until(lambda: keeper.ready, HOMING, Interlock.NOT_HOME)
 
     def watch(self) -> None:
         """Wait until every sensor gives rows, and begin there; masses may be anywhere."""
-        self._until(lambda: self._keeper.fresh, PATIENCE, "not every sensor gives rows")
+        self._until(lambda: self._keeper.fresh, PATIENCE, Interlock.NOT_STREAMING)
         self._keeper.begin()
 
     def read(self, duration: float) -> Recording:
@@ -139,7 +140,7 @@ class RealBench:
         give_up = self.time + PATIENCE
         while duration > 0 and found.attitude is None and found.rate is None:
             if self.time > give_up:
-                self._keeper.halt(f"no sensor has given a row for {PATIENCE:g} s")
+                self._keeper.halt(Reason(Interlock.NO_ROWS, (), {"seconds": PATIENCE}))
             self._wait()
             found = join(found, self._keeper.taken())
         return found
@@ -149,7 +150,7 @@ class RealBench:
         keeper = self._keeper
         self._turn()
         if keeper.trip is None and not keeper.fresh:
-            self._until(lambda: keeper.fresh, PATIENCE, "masses cannot be moved")
+            self._until(lambda: keeper.fresh, PATIENCE, Interlock.NOT_MOVABLE)
         keeper.go(targets)
         self._turn()
 
@@ -172,13 +173,14 @@ class RealBench:
         except BenchStopped:
             return []
 
-    def _until(self, done: Callable[[], bool], patience: float, otherwise: str) -> None:
+    def _until(self, done: Callable[[], bool], patience: float, otherwise: Interlock) -> None:
         """Wait for something; stop the bench and say what keeps it if it does not come about."""
         end = self.time + patience
         while not done():
             if self.time > end:
-                why = self._keeper.trouble or "no reason is known"
-                self._keeper.halt(f"{otherwise} after {patience:g} s: {why}")
+                cause = self._keeper.trouble
+                why = "no reason is known" if cause is None else cause.sentence
+                self._keeper.halt(Reason(otherwise, (why,), {"seconds": patience}))
             self._wait()
 
     def _wait(self) -> None:
@@ -191,6 +193,6 @@ class RealBench:
         trip = self._keeper.trip
         if trip is not None and trip is not self._reported:
             self._reported = trip
-            raise BenchStopped(f"every mass was stopped: {trip.sentence}")
+            raise BenchStopped(f"every mass was stopped: {trip.sentence}", trip)
         if trip is None:
             self._reported = None

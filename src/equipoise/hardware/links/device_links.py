@@ -8,6 +8,8 @@ from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.mass_interpolation import on_the_way
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.hardware.transport.driver_protocol import BoardState
+from equipoise.model.reasons.interlocks import Interlock
+from equipoise.model.reasons.reason import Reason
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,19 +53,21 @@ class Links:
         return {name: short for part in parts for name, short in part.items()}
 
     @property
-    def unreachable(self) -> str:
-        """The first device whose port is closed, and why; empty if none is."""
-        reported = [(f"sensor {link.unit.name}", link.why) for link in self.sensors]
-        reported += [(f"board {link.board.name}", link.why) for link in self.boards]
-        return next((f"{name} cannot be reached: {why}" for name, why in reported if why), "")
+    def unreachable(self) -> Reason | None:
+        """The first device whose port is closed, and why; None if none is."""
+        links = [(f"sensor {link.unit.name}", link.why) for link in self.sensors]
+        links += [(f"board {link.board.name}", link.why) for link in self.boards]
+        closed = (Reason(Interlock.UNREACHABLE, (name, why)) for name, why in links if why)
+        return next(closed, None)
 
     @property
-    def unsure(self) -> str:
-        """The first board that is at fault or has lost its position, and why; empty if none."""
+    def unsure(self) -> Reason | None:
+        """The first board that is at fault or has lost its position, and why; None if none."""
         for name, state in self.states.items():
             if state.phase == "fault" or not state.sure:
-                return f"board {name}: {state.sentence or 'it has not found its position'}"
-        return ""
+                fault = Reason(Interlock.FAULT, (name, state.sentence))
+                return fault if state.sentence else Reason(Interlock.POSITION_UNKNOWN, (name,))
+        return None
 
     @property
     def health(self) -> list[Health]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from enum import StrEnum
 
 from equipoise.hardware.links.arrival_statistics import Arrivals
 from equipoise.hardware.links.clock_sync import DeviceClock, drift_of, offset_of
@@ -9,6 +10,16 @@ from equipoise.model.hardware import Gives
 from equipoise.model.reading import Counts
 
 PPM, MS = 1e6, 1e3
+
+
+class Defect(StrEnum):
+    """What is wrong with a message or a row."""
+
+    BROKEN = "broken"
+    TWICE = "twice"
+    LATE = "late"
+    FROZEN = "frozen"
+    MISSING = "missing"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,15 +32,15 @@ class Health:
     clocks: Mapping[Gives, DeviceClock] = field(default_factory=dict[Gives, DeviceClock])
 
     @property
-    def wrong(self) -> dict[str, int]:
+    def wrong(self) -> dict[Defect, int]:
         """How many messages or rows were wrong, by what was wrong with them; none that is 0."""
-        found = {"broken": self.counts.corrupt}
+        found = {Defect.BROKEN: self.counts.corrupt}
         if self.arrivals is not None:
             found |= {
-                "twice": self.arrivals.duplicate,
-                "late": self.arrivals.late,
-                "frozen": self.arrivals.frozen,
-                "missing": self.arrivals.missing,
+                Defect.TWICE: self.arrivals.duplicate,
+                Defect.LATE: self.arrivals.late,
+                Defect.FROZEN: self.arrivals.frozen,
+                Defect.MISSING: self.arrivals.missing,
             }
         return {what: count for what, count in found.items() if count}
 

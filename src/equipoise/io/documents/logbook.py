@@ -18,7 +18,7 @@ from equipoise.io.documents.logbook_schema import migrate
 from equipoise.io.documents.run_folder import read_configuration
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Parameter
-from equipoise.model.logged_run import RUN, Build, LoggedRun
+from equipoise.model.logged_run import RUN, Build, LoggedRun, ending_of
 
 INDEX = "logbook.sqlite"
 PATIENCE = 30.0  # s, chosen: for another process to end what it writes
@@ -165,6 +165,7 @@ def _rows(run: LoggedRun) -> Iterator[tuple[str, int, str, str, float, float, bo
 def _run(row: tuple[Any, ...]) -> LoggedRun:
     *values, provenance = row
     named = dict(zip(COLUMNS, values, strict=False))
+    named["outcome"] = ending_of(named["outcome"])
     return LoggedRun(**named, provenance=json.loads(provenance))
 
 

@@ -73,7 +73,8 @@ def recording_of(table: Table, columns: ColumnMap) -> Recording:
         attitude_norm=_samples(norm),
         source=table.source,
         free_from=columns.free_from,
-        notes=(*notes, *of_momentum, *of_torque, *of_devices, *of_field, *of_warmth, *gaps),
+        notes=(*notes, *of_momentum, *of_torque, *of_devices, *of_field, *of_warmth),
+        gaps=tuple(gaps),
     )
 
 

@@ -29,6 +29,7 @@ from equipoise.maths.attitude import tilt
 from equipoise.model.arrays import Bools, Floats, Square
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.testbed import Testbed
 from equipoise.planning.manoeuvre.noiseless_record import Imagined, imagined
 from equipoise.sensors.camera import N_SENSOR
@@ -51,7 +52,7 @@ class Predicted:
     sd: Floats  # SI; infinite: not seen; 0: held
     covariance: Square  # of what is seen
     hidden: Bools
-    sentences: tuple[str, ...]  # directions that are not seen
+    unobservable: tuple[Reason, ...]  # directions
     peak_tilt: float  # rad
     peak_momentum: float  # N m s, stored in wheels and gyros
 
@@ -140,7 +141,7 @@ def prediction(fitted: Fitted, observed: Imagined, testbed: Testbed) -> Predicte
         bound.sd,
         bound.view.covariance,
         bound.view.hidden,
-        bound.view.sentences,
+        bound.view.unobservable,
         float(tilt(observed.motion.q, testbed.up).max()),
         0.0 if observed.recording.momentum is None else largest(observed.recording.momentum.values),
     )

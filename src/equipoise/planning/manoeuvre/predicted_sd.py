@@ -22,6 +22,7 @@ from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.reasons.reason import Reason, distinct
 from equipoise.model.testbed import Testbed
 from equipoise.planning.manoeuvre.limit_check import Peaks, for_search, peaks, rehearsal, started
 from equipoise.planning.manoeuvre.plan import Wish
@@ -46,7 +47,7 @@ class Promise:
     kept: int  # of them, within the limits of tilt and rate
     greatest_tilt: float  # rad, of them
     greatest_rate: float  # rad/s
-    sentences: tuple[str, ...]  # what is not seen
+    unobservable: tuple[Reason, ...]  # directions
 
     @property
     def platforms(self) -> int:
@@ -121,7 +122,7 @@ def promise(
         int(np.sum((tilts <= testbed.tilt_limit) & (rates <= rate_limit))),
         float(tilts.max()),
         float(rates.max()),
-        tuple(dict.fromkeys(sentence for one in said for sentence in one.sentences)),
+        distinct(reason for one in said for reason in one.unobservable),
     )
 
 

@@ -4,8 +4,10 @@ import numpy as np
 
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench_units import MICRO, MM, UM
-from equipoise.model.outcome import Outcome
+from equipoise.model.reasons.reason import one_reason
+from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 from equipoise.model.testbed import SlidingMass
+from equipoise.model.verdict import Verdict
 from equipoise.planning.sizing.budget import Budget
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.contribution import Line
@@ -93,24 +95,19 @@ def direction(v: Vector3) -> str:
     return "(" + ", ".join(f"{round(float(x), 3) + 0.0:g}" for x in positive) + ")"
 
 
-def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]) -> Outcome:
+def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]) -> Verdict:
     """Say whether the required torque (N m) can be met, and if not, what would change that."""
-    found = plain(budget.torque * MICRO)
+    numbers = {"expected": budget.torque, "within": budget.within}
     if required is None:
-        return Outcome(True, f"Nothing is required; {found} uN m are expected.")
-    wanted = plain(required * MICRO)
-    missed = f"The requirement of {wanted} uN m cannot be met:"
+        return Verdict(one_reason(Why.NOTHING_REQUIRED, **numbers))
+    numbers["required"] = required
     if budget.within < ENOUGH:
-        return Outcome(
-            False,
-            f"{missed} only {PERCENT * budget.within:.3g} % of the platforms that the testbed "
-            f"states are within reach of the masses. Of those, {found} uN m are expected.",
-        )
+        return Verdict(one_reason(Why.OUT_OF_REACH, **numbers))
     if budget.torque <= required:
-        return Outcome(True, f"{found} uN m are expected; {wanted} uN m are required.")
+        return Verdict(one_reason(Why.REQUIREMENT_MET, **numbers))
     enough = [change.name for change in better if change.torque <= required]
-    ways = f"enough would be: {'; '.join(enough)}" if enough else "no single change is enough"
-    return Outcome(False, f"{missed} {found} uN m are expected; {ways}.")
+    code = Why.MET_BY_ONE_CHANGE if enough else Why.MET_BY_NO_CHANGE
+    return Verdict(one_reason(code, *enough, **numbers))
 
 
 def worth_listing(budget: Budget, better: tuple[Bettered, ...]) -> tuple[Bettered, ...]:

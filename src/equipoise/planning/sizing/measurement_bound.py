@@ -22,6 +22,8 @@ from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.model.mass_properties import from_centre
+from equipoise.model.reasons.data_reasons import RecordCaution
+from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import GROUPS
 from equipoise.planning.manoeuvre.predicted_information import (
@@ -36,7 +38,6 @@ from equipoise.planning.manoeuvre.reference_manoeuvre import usual
 from equipoise.planning.manoeuvre.reference_swing import gentle_swing, usual_swing
 
 MM = 1e3
-UNSEEN = "The record does not show the centre of mass; it stays as uncertain as it was."
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,7 +49,7 @@ class MeasurementBound:
     inertia: Square  # (6, 6) kg^2 m^4, covariance of that about P, xx yy zz xy xz yz
     inertia_observable: bool
     peak_tilt: float  # rad
-    cautions: tuple[str, ...]
+    cautions: tuple[Reason, ...]
 
     @property
     def com_sd(self) -> Vector3:
@@ -75,15 +76,12 @@ def first_bound(testbed: Testbed, duration: float) -> MeasurementBound:
     )
 
 
-def shortening(testbed: Testbed, manoeuvre: Manoeuvre) -> tuple[str, ...]:
-    """Say that the usual move was shortened, as longer records then need not tell more."""
+def shortening(testbed: Testbed, manoeuvre: Manoeuvre) -> tuple[Reason, ...]:
+    """Return that the usual move was shortened, as longer records then need not tell more."""
     length = longest(manoeuvre)
     if length >= longest(usual(testbed, manoeuvre.duration, {})):
         return ()
-    return (
-        f"The first look's move is shortened to {length * MM:.3g} mm, for time and tilt limit; a "
-        "longer one would tell more.",
-    )
+    return one_reason(RecordCaution.MOVE_SHORTENED, length=length)
 
 
 def longest(manoeuvre: Manoeuvre) -> float:
@@ -138,13 +136,10 @@ def bound_of(
     )
 
 
-def cautions(reported: Predicted, testbed: Testbed, unseen: bool) -> tuple[str, ...]:
-    """Say what is not seen, and whether the platform would touch on its way."""
-    found = [UNSEEN] if unseen else []
+def cautions(reported: Predicted, testbed: Testbed, unseen: bool) -> tuple[Reason, ...]:
+    """Return what is not observable, and whether the platform would touch on its way."""
+    found = one_reason(RecordCaution.COM_UNOBSERVABLE) if unseen else ()
     if reported.peak_tilt > testbed.tilt_limit:
-        peak, limit = np.degrees(reported.peak_tilt), np.degrees(testbed.tilt_limit)
-        found.append(
-            f"A free swing would tilt the platform by {peak:.0f} deg, beyond its limit of "
-            f"{limit:.0f} deg; bounds are those of a bearing without one."
-        )
-    return tuple(found)
+        numbers = {"tilt": reported.peak_tilt, "limit": testbed.tilt_limit}
+        found += one_reason(RecordCaution.SWINGS_BEYOND_LIMIT, **numbers)
+    return found

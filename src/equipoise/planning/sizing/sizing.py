@@ -6,8 +6,8 @@ The budget, and what would better it, is for the shortest record; the others are
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from equipoise.model.outcome import Outcome
 from equipoise.model.presentation import Plotted
+from equipoise.model.verdict import Verdict
 from equipoise.planning.sizing.budget import Budget, budget_of
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.limits import limit_sentence, reach_sentence, verdict
@@ -28,7 +28,7 @@ class Sizing(Plotted):
     better: tuple[Bettered, ...]  # the best first
     reached: str
     limit: str
-    outcome: Outcome
+    verdict: Verdict
 
     @property
     def budget(self) -> Budget:

@@ -13,6 +13,9 @@ import numpy as np
 from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.move import Move
+from equipoise.model.reasons.reason import Reason, axes_of, one_reason
+from equipoise.model.reasons.step_reasons import MoveReason, StepReason
+from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -20,7 +23,7 @@ from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
 from equipoise.procedure.steps.planned_move import planned_move
-from equipoise.procedure.steps.tilt_guard import TILTED, tilted
+from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
 from equipoise.procedure.steps.verify import at, fresh_enough, is_within, verdict
 
@@ -78,7 +81,7 @@ def balance(
     yield measurement_step(bench, fresh)
     while True:
         why = reason_to_stop(bench, progress, options, began)
-        if why:
+        if why is not None:
             bench.stop()
             yield final(bench, progress, options, why)
             return progress.knowledge
@@ -94,7 +97,7 @@ def balance(
         now = knowledge.displacement
         posterior = without_stops(knowledge, bench.testbed, option.targets != now)
         move = planned_move(bench.testbed, now, option.targets, posterior, reason)
-        yield Step("move", bench.time, sentence_of(move), move=move)
+        yield Step("move", bench.time, announced(move), move=move)
         bench.move(move.targets)
         fresh = bench.read(move.duration + MEASUREMENT)
         knowledge = learn(progress.knowledge, fresh, bench.testbed)
@@ -103,26 +106,28 @@ def balance(
         yield measurement_step(bench, fresh)
 
 
-def reason_to_stop(bench: Bench, progress: Progress, options: BalanceOptions, began: float) -> str:
-    """Return why to stop now, or nothing."""
+def reason_to_stop(
+    bench: Bench, progress: Progress, options: BalanceOptions, began: float
+) -> StepReason | None:
+    """Return why to stop now, or None."""
     knowledge = progress.knowledge
     if tilted(knowledge.recording, bench.testbed):
-        return TILTED
+        return StepReason.TILTED
     judged = fresh_enough(knowledge, progress.still_since) and not progress.braking
     movable = len(progress.moves) < options.max_moves
     early = bench.time - began < LATEST * (options.max_time - SETTLE)
     sure = FIRM if movable and early else SPENT
     if judged and is_within(knowledge, options.target, options.tolerance, sure):
-        return "within tolerance"
+        return StepReason.WITHIN_TOLERANCE
     if judged and not knowledge.estimate.outcome.usable and bench.time - began > SETTLE:
-        return "the estimate cannot be used"
+        return StepReason.ESTIMATE_UNUSABLE
     if bench.time - began + MEASUREMENT > options.max_time:
-        return "the time is used up"
+        return StepReason.TIME_USED_UP
     spent = len(progress.moves) >= options.max_moves
     hopeless = np.abs(knowledge.com - options.target) - 2 * knowledge.sd > options.tolerance
     if spent and judged and bool(hopeless.any()):
-        return "the moves are used up"
-    return ""
+        return StepReason.MOVES_USED_UP
+    return None
 
 
 def decide(
@@ -204,48 +209,43 @@ def ripe(bench: Bench, progress: Progress, options: BalanceOptions, began: float
     return bool(np.any(worth)) and (known or late) and fresh_enough(knowledge, progress.still_since)
 
 
-def reason_of(knowledge: Knowledge, testbed: Testbed, option: Option, target: Vector3) -> str:
+def reason_of(
+    knowledge: Knowledge, testbed: Testbed, option: Option, target: Vector3
+) -> MoveReason:
     """Return why this move."""
     if option.brake:
-        return "brake: the platform falls faster than it can be caught"
+        return MoveReason.BRAKE
     above = float((shifted(knowledge, testbed, option.targets) - target) @ testbed.up)
-    return (
-        "below the target first: stiffer, and more to learn from"
-        if above < -NOTABLE
-        else "to target"
-    )
+    return MoveReason.BELOW_FIRST if above < -NOTABLE else MoveReason.TO_TARGET
 
 
-def sentence_of(move: Move) -> str:
-    """Return a move in words."""
-    x, y, z = 1e6 * move.predicted_com
-    return (
-        f"Move ({move.reason}): {1e3 * move.travel:.0f} mm in {move.duration:.1f} s; "
-        f"should leave ({x:.1f}, {y:.1f}, {z:.1f}) um."
-    )
+def announced(move: Move) -> tuple[Reason, ...]:
+    """Return why masses are moved, and what that should leave."""
+    com = axes_of("com", move.predicted_com)
+    return one_reason(move.reason, **com, travel=move.travel, duration=move.duration)
 
 
 def measurement_step(bench: Bench, fresh: Recording) -> Step:
     """Return the step of a look."""
     start, end = fresh.span
-    return Step("measurement", bench.time, f"Looked for {end - start:.1f} s.", recording=fresh)
+    reasons = one_reason(StepReason.OBSERVED, duration=end - start)
+    return Step("measurement", bench.time, reasons, recording=fresh)
 
 
 def estimate_step(bench: Bench, progress: Progress) -> Step:
     """Return the step of an estimate."""
     knowledge = progress.knowledge
-    where = at(knowledge.com, knowledge.sd)
-    text = f"{where[0].upper()}{where[1:]}."
-    return Step("estimate", bench.time, text, knowledge.recording, knowledge.estimate)
+    reasons = one_reason(StepReason.COM_AT, **at(knowledge.com, knowledge.sd))
+    return Step("estimate", bench.time, reasons, knowledge.recording, knowledge.estimate)
 
 
-def final(bench: Bench, progress: Progress, options: BalanceOptions, why: str) -> Step:
+def final(bench: Bench, progress: Progress, options: BalanceOptions, why: StepReason) -> Step:
     """Return the verification, or the stop with its reason."""
     knowledge = progress.knowledge
     last = progress.moves[-1] if progress.moves else None
     judged = verdict(knowledge, last, progress.still_since, options.target, options.tolerance)
-    if why == TILTED:
-        judged = Verdict(False, f"Stopped: {why}.", knowledge.com, knowledge.sd, halted=True)
+    if why is StepReason.TILTED:
+        judged = Verdict(one_reason(VerdictReason.TILTED), knowledge.com, knowledge.sd)
     kind = "verify" if judged.passed else "stop"
-    text = f"{why[0].upper()}{why[1:]}. {judged.sentence}"
-    return Step(kind, bench.time, text, knowledge.recording, knowledge.estimate, verdict=judged)
+    reasons = (Reason(why), *judged.reasons)
+    return Step(kind, bench.time, reasons, knowledge.recording, knowledge.estimate, verdict=judged)

@@ -24,6 +24,8 @@ from equipoise.model.errors import InputError
 from equipoise.model.hands import Hands
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.placing import Placing
+from equipoise.model.reasons.reason import Reason, one_reason
+from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -38,10 +40,9 @@ from equipoise.procedure.balancing.manual_estimate import (
     taught,
 )
 from equipoise.procedure.steps.joint_fit import as_if_stiff
-from equipoise.procedure.steps.verify import CONTRADICTION, judged
+from equipoise.procedure.steps.verify import CONTRADICTION, at, judged, unusable
 
 UM = 1e-6
-ASTRAY = "; that is not where the weights should have left it: look at the last ones placed"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,7 +80,12 @@ def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
     for left in range(options.max_rounds, -1, -1):
         fresh = caught(hands.swing(), testbed)
         start, end = fresh.span
-        yield Step("measurement", hands.time, f"Looked for {end - start:.1f} s.", recording=fresh)
+        yield Step(
+            "measurement",
+            hands.time,
+            one_reason(StepReason.OBSERVED, duration=end - start),
+            recording=fresh,
+        )
         observed = learnt(posterior, fresh, loading, testbed)
         posterior, verdict = observed.posterior, verdict_on(observed, options)
         yield estimate_step(hands, observed, fresh)
@@ -87,7 +93,7 @@ def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
             yield final_step(hands, verdict, fresh, loading)
             return
         placing = planned(testbed, posterior, loading, options)
-        yield Step("place", hands.time, sentence_of(placing, testbed, options), placing=placing)
+        yield Step("place", hands.time, requested_of(placing, testbed, options), placing=placing)
         after = hands.place(placing.after)
         posterior, loading = reloaded(posterior, testbed, loading, after), after
 
@@ -125,7 +131,7 @@ def verdict_on(observed: Progress, options: HandOptions) -> Verdict:
         observed.shown.estimate.outcome,
     )
     if not outcome.usable:
-        return Verdict(False, f"Cannot tell: {outcome.sentence}", com, sd, sure=False)
+        return unusable(outcome, com, sd)
     return judged(com, sd, options.target, options.tolerance)
 
 
@@ -142,27 +148,27 @@ def estimate_step(hands: Hands, observed: Progress, fresh: Recording) -> Step:
     """Return the step of an estimate."""
     latest, posterior = observed.shown.estimate, observed.posterior
     if not latest.outcome.usable:
-        return Step("estimate", hands.time, latest.outcome.sentence, fresh, latest)
-    astray = ASTRAY if observed.astray else ""
-    text = f"Centre of mass at {_um(posterior.com, posterior.sd)} um{astray}."
-    return Step("estimate", hands.time, text, fresh, as_estimate(posterior, latest))
+        return Step("estimate", hands.time, latest.outcome.reasons, fresh, latest)
+    code = StepReason.COM_ASTRAY if observed.astray else StepReason.COM_BY_HAND
+    reasons = one_reason(code, **at(posterior.com, posterior.sd))
+    return Step("estimate", hands.time, reasons, fresh, as_estimate(posterior, latest))
 
 
-def sentence_of(placing: Placing, testbed: Testbed, options: HandOptions) -> str:
+def requested_of(placing: Placing, testbed: Testbed, options: HandOptions) -> tuple[Reason, ...]:
     """Return a placing as what to do, what it should leave, and what it cannot reach."""
     sd = np.sqrt(np.diag(placing.predicted_covariance))
-    leaves = f"should leave {_um(placing.predicted_com, sd)} um"
+    leaves = at(placing.predicted_com, sd)
     if not placing.handled:
-        return f"Nothing to place: {leaves}. Let go once more."
-    text = f"{'. '.join(errands(placing, testbed))}: {leaves}."
+        return one_reason(StepReason.NOTHING_TO_PLACE, **leaves)
+    found = (*errands(placing, testbed), *one_reason(StepReason.PLACING_LEAVES, **leaves))
     beyond = np.abs(placing.predicted_com - options.target) > np.hypot(options.tolerance, sd)
     if not beyond.any():
-        return text
-    axes = ", ".join("xyz"[k] for k in np.flatnonzero(beyond))
-    return f"{text} Stock and places do not reach the target along {axes}."
+        return found
+    axes = ("xyz"[k] for k in np.flatnonzero(beyond))
+    return (*found, *one_reason(StepReason.TARGET_OUT_OF_REACH, *axes))
 
 
-def errands(placing: Placing, testbed: Testbed) -> list[str]:
+def errands(placing: Placing, testbed: Testbed) -> list[Reason]:
     """Return what to move, to take off and to put on, place by place."""
     change, places = placing.after - placing.before, places_of(testbed.grids)
     moves, off, on = list[str](), list[str](), list[str]()
@@ -175,19 +181,15 @@ def errands(placing: Placing, testbed: Testbed) -> list[str]:
             moves.append(f"{n} x {weight.name} from {places[a].name} to {places[b].name}")
         for rest, found in ((givers[both:], off), (takers[both:], on)):
             found += [f"{n} x {weight.name} at {places[p].name}" for p, n in Counter(rest).items()]
-    deeds = (("Move", moves), ("Take off", off), ("Put on", on))
-    return [f"{verb} {', '.join(what)}" for verb, what in deeds if what]
+    deeds = ((StepReason.WEIGHTS_TO_MOVE, moves), (StepReason.WEIGHTS_TO_TAKE_OFF, off),
+             (StepReason.WEIGHTS_TO_PUT_ON, on))  # fmt: skip
+    return [Reason(code, tuple(what)) for code, what in deeds if what]
 
 
 def final_step(hands: Hands, verdict: Verdict, fresh: Recording, loading: Ints) -> Step:
     """Return the verification, or the stop with its reason."""
     kind = "verify" if verdict.passed else "stop"
-    why = "" if verdict.passed else "The rounds are used up. "
-    lie = f" {loading.sum()} weights lie on {np.count_nonzero(loading.sum(axis=1))} places."
-    text = f"{why}{verdict.sentence}{lie}"
-    return Step(kind, hands.time, text, fresh, verdict=verdict)
-
-
-def _um(values: Vector3, sd: Vector3) -> str:
-    pairs = (f"{v / UM:.1f} +/- {s / UM:.1f}" for v, s in zip(values, sd, strict=True))
-    return f"({', '.join(pairs)})"
+    why = () if verdict.passed else one_reason(StepReason.ROUNDS_USED_UP)
+    places = int(np.count_nonzero(loading.sum(axis=1)))
+    lie = one_reason(StepReason.WEIGHTS_LIE, weights=int(loading.sum()), places=places)
+    return Step(kind, hands.time, (*why, *verdict.reasons, *lie), fresh, verdict=verdict)

@@ -8,6 +8,8 @@ from equipoise.control.laws.registry import LAWS
 from equipoise.model.bench import Bench
 from equipoise.model.law_card import LawCard
 from equipoise.model.manoeuvre import Manoeuvre
+from equipoise.model.reasons.reason import one_reason
+from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.step import Step
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.procedure.balancing.run_law import LawOptions, check, run_law
@@ -67,6 +69,6 @@ def planned_and_balanced(
     recording = carried_out(bench, manoeuvre)
     if manoeuvre.waves:
         bench.stop()
-    text = f"Carried out the planned manoeuvre of {manoeuvre.duration:g} s."
-    yield Step("measurement", bench.time, text, recording=recording)
+    reasons = one_reason(StepReason.PLAN_CARRIED_OUT, duration=manoeuvre.duration)
+    yield Step("measurement", bench.time, reasons, recording=recording)
     return (yield from balance(bench, options, recording))

@@ -17,6 +17,9 @@ from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import INERTIA
 from equipoise.model.move import Move
+from equipoise.model.reasons.reason import Reason, axes_of, one_reason
+from equipoise.model.reasons.step_reasons import MoveReason
+from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.verdict import Verdict
@@ -24,7 +27,7 @@ from equipoise.procedure.balancing.balance import UM, BalanceOptions, balance
 from equipoise.procedure.steps.joint_fit import Knowledge
 from equipoise.procedure.steps.planned_move import planned_move, stops_covariance
 from equipoise.procedure.steps.sampler import last_row
-from equipoise.procedure.steps.tilt_guard import TILTED, tilted
+from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import state_now
 
 MEASUREMENT = 5.0  # s between decisions
@@ -170,9 +173,9 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
         shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - displacement)
         if pressing(com, options) or timely(state, com, shift, testbed):
             posterior = before_moving(state, testbed, displacement, goal)
-            move = planned_move(testbed, displacement, goal, posterior, "drift")
+            move = planned_move(testbed, displacement, goal, posterior, MoveReason.DRIFT)
             bench.move(move.targets)
-            yield Step("move", bench.time, sentence_of(move, com), fresh, move=move)
+            yield Step("move", bench.time, drifted(move, com), fresh, move=move)
     last = standing(state, testbed, displacement)
     yield verdict_step(bench, options, last, worst, bench.time < end - 1e-9)
 
@@ -184,10 +187,9 @@ def without_drift(torque: Floats) -> Floats:
     return kept
 
 
-def sentence_of(move: Move, com: Vector3) -> str:
-    """Return a correction in words."""
-    was = ", ".join(f"{1e6 * c:.1f}" for c in com)
-    return f"Drifted to ({was}) um; moved masses by {1e3 * move.travel:.0f} mm in all."
+def drifted(move: Move, com: Vector3) -> tuple[Reason, ...]:
+    """Return why a correction was made, and how large it was."""
+    return one_reason(move.reason, **axes_of("was", com), travel=move.travel)
 
 
 def verdict_step(
@@ -198,12 +200,11 @@ def verdict_step(
     tilted_out: bool,
 ) -> Step:
     """Return the verdict on the whole hold; the belief is a centre of mass and its sd (m)."""
-    passed = bool(np.all(worst <= options.tolerance)) and not tilted_out
-    outlying = ", ".join(f"{1e6 * w:.1f}" for w in worst)
-    text = f"Held for {options.duration / 60:.3g} min; at most ({outlying}) um from the target."
     if tilted_out:
-        text = f"Stopped: {TILTED}."
-    verdict = Verdict(passed, ("Passed: " if passed else "Failed: ") + text, *posterior,
-                      halted=tilted_out)  # fmt: skip
-    return Step("verify" if not tilted_out else "stop", bench.time, verdict.sentence,
-                verdict=verdict)  # fmt: skip
+        reasons = one_reason(VerdictReason.TILTED)
+    else:
+        held = bool(np.all(worst <= options.tolerance))
+        code = VerdictReason.HELD if held else VerdictReason.NOT_HELD
+        reasons = one_reason(code, duration=options.duration, **axes_of("off", worst))
+    verdict = Verdict(reasons, *posterior)
+    return Step("stop" if tilted_out else "verify", bench.time, reasons, verdict=verdict)

@@ -29,6 +29,9 @@ from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
 from equipoise.model.law_card import NEEDS, LawCard, Need
+from equipoise.model.reasons.reason import Reason, one_reason
+from equipoise.model.reasons.step_reasons import StepReason
+from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording, joined, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -38,12 +41,11 @@ from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest,
 from equipoise.procedure.balancing.balance import measurement_step
 from equipoise.procedure.steps.joint_fit import as_if_stiff, learn, without
 from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
-from equipoise.procedure.steps.tilt_guard import TILTED, guarded, tilted
+from equipoise.procedure.steps.tilt_guard import guarded, tilted
 from equipoise.procedure.steps.verification_swing import watched_swing
 from equipoise.procedure.steps.verify import verdict
 
 UM = 1e-6
-SPENT = "the time is used up"
 SETTLE = 1.0  # s, chosen: after it the filter's rate and attitude can be used
 
 
@@ -97,7 +99,7 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
     state, params = law.begin(bench.testbed, options.target)
     end = bench.time + options.max_time - options.proof
     session, observed = first_sight(bench)
-    why, began, following = "", bench.time, None
+    why, began, following = (), bench.time, None
     while not why:
         state, command = law.step(state, observed, params)
         if command.note:
@@ -109,7 +111,7 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
             why, following = command.finished, command.following
             break
         if command.measurement is not None and bench.time + command.measurement.duration > end:
-            why = SPENT
+            why = one_reason(StepReason.TIME_USED_UP)
             break
         if command.measurement is not None:
             session, recording, estimate = measurement(bench, session, command.measurement)
@@ -120,18 +122,18 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
             session, observed, recording = control(bench, session, command, law.card.period)
         why = reason_to_stop(bench, recording, end)
     yield control_step(bench, law.card, began, why, following)
-    if why == TILTED:
+    if any(reason.code is StepReason.TILTED for reason in why):
         bench.stop()
-        yield stop_step(bench, why)
+        yield stop_step(bench)
     else:
         yield proof(bench, session, options)
 
 
-def reason_to_stop(bench: Bench, recording: Recording, end: float) -> str:
+def reason_to_stop(bench: Bench, recording: Recording, end: float) -> tuple[Reason, ...]:
     """Return why to stop now, or nothing."""
     if tilted(recording, bench.testbed):
-        return TILTED
-    return SPENT if bench.time >= end else ""
+        return one_reason(StepReason.TILTED)
+    return one_reason(StepReason.TIME_USED_UP) if bench.time >= end else ()
 
 
 def first_sight(bench: Bench) -> tuple[Session, Sample]:
@@ -213,29 +215,33 @@ def proof(bench: Bench, session: Session, options: LawOptions) -> Step:
     fresh = watched_swing(bench, session.eyes, options.proof)
     if tilted(fresh, bench.testbed):
         bench.stop()
-        return stop_step(bench, TILTED)
+        return stop_step(bench)
     knowledge = learn(None, fresh, without(bench.testbed, "drift"))
     judged = verdict(knowledge, None, began, options.target, options.tolerance)
     kind = "verify" if judged.passed else "stop"
-    return Step(kind, bench.time, judged.sentence, knowledge.recording, knowledge.estimate,
+    return Step(kind, bench.time, judged.reasons, knowledge.recording, knowledge.estimate,
                 verdict=judged)  # fmt: skip
 
 
-def stop_step(bench: Bench, why: str) -> Step:
-    """Return the stop of a run that cannot go on."""
-    verdict = Verdict(False, f"Stopped: {why}.", halted=True)
-    return Step("stop", bench.time, verdict.sentence, verdict=verdict)
+def stop_step(bench: Bench) -> Step:
+    """Return the stop of a run whose platform tilts too much."""
+    verdict = Verdict(one_reason(VerdictReason.TILTED))
+    return Step("stop", bench.time, verdict.reasons, verdict=verdict)
 
 
 def control_step(
-    bench: Bench, card: LawCard, began: float, why: str, following: Following | None
+    bench: Bench,
+    card: LawCard,
+    began: float,
+    why: tuple[Reason, ...],
+    following: Following | None,
 ) -> Step:
     """Return the step that says how long a law was at work and how it ended."""
-    text = f"{card.name} for {bench.time - began:.0f} s of bench time: {why.rstrip('.')}."
-    return Step("control", bench.time, text, following=following)
+    ran = one_reason(StepReason.LAW_RAN, card.name, duration=bench.time - began)
+    return Step("control", bench.time, (*ran, *why), following=following)
 
 
 def estimate_step(bench: Bench, estimate: Estimate) -> Step:
     """Return the step of an estimate."""
-    text = f"{estimate.method}: {estimate.outcome.sentence}"
-    return Step("estimate", bench.time, text, estimate=estimate)
+    reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
+    return Step("estimate", bench.time, reasons, estimate=estimate)

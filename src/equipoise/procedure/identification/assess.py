@@ -25,20 +25,19 @@ from equipoise.estimation.output_error.trajectory import Params
 from equipoise.maths.gaussian_length import Bounded, bounded_length
 from equipoise.maths.linalg import given
 from equipoise.model.arrays import Matrix3, Square, Vector3
-from equipoise.model.bench_units import MICRO, UM
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter, standing_com
+from equipoise.model.reasons.reason import one_reason
+from equipoise.model.reasons.step_reasons import StepReason
+from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording, arranged
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import among
-from equipoise.model.verdict import Verdict
-from equipoise.procedure.identification.requirement import OPEN as CANNOT_REPORT
+from equipoise.model.verdict import Verdict, VerdictOutcome, outcome_of
 from equipoise.procedure.identification.requirement import (
-    PASSED,
     Judged,
     Requirement,
     judged,
-    verdict_answer,
 )
 from equipoise.procedure.identification.swing_metrics import SwingMetrics, swing_metrics
 from equipoise.procedure.steps.clean_record import sound
@@ -102,11 +101,12 @@ def assess(
 ) -> Generator[Step, None, Assessment]:
     """Yield Steps; the last has the verdict if there is a requirement. Returns the Assessment."""
     start, end = recording.span
-    yield Step("measurement", end, f"Read {end - start:.4g} s of recording.", recording=recording)
+    reasons = one_reason(StepReason.RECORDING_READ, duration=end - start)
+    yield Step("measurement", end, reasons, recording=recording)
     fit = fit_of(recording, testbed, options)
     estimate = fit[0]
-    yield Step("estimate", end, f"{estimate.method}: {estimate.outcome.sentence}",
-               estimate=estimate)  # fmt: skip
+    reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
+    yield Step("estimate", end, reasons, estimate=estimate)
     body = testbed.body
     if estimate.outcome.usable:
         body = replace(body, com=estimate.com, inertia_P=estimate.inertia_P)
@@ -175,12 +175,10 @@ def answers_of(options: AssessOptions, torque: InRange, offset: Bounded) -> tupl
     """Return the answers to what is required."""
     found = list[Judged]()
     if options.require_torque is not None:
-        what = f"gravity's torque within {np.degrees(options.tilt):g} deg of level, rms,"
-        requested = Requirement(what, options.require_torque, "uN m", MICRO)
-        found.append(judged(requested, torque.rms))
+        limit = Requirement("torque", options.require_torque, options.tilt)
+        found.append(judged(limit, torque.rms))
     if options.require_offset is not None:
-        what = "the centre of mass's distance from where it is wanted"
-        found.append(judged(Requirement(what, options.require_offset, "um", UM), offset))
+        found.append(judged(Requirement("offset", options.require_offset), offset))
     return tuple(found)
 
 
@@ -190,16 +188,12 @@ def verification(found: Assessment, time: float) -> Step:
     outcome, options = found.estimate.outcome, found.options
     requested = options.require_torque is not None or options.require_offset is not None
     if not outcome.usable:
-        text = f"{CANNOT_REPORT}: {outcome.sentence}"
-        verdict = Verdict(False, text, found.com, sd, sure=False) if requested else None
-        return Step("verify", time, text, verdict=verdict)
+        reasons = (*one_reason(VerdictReason.ESTIMATE_UNUSABLE), *outcome.reasons)
+        return Step("verify", time, reasons,
+                    verdict=Verdict(reasons, found.com, sd) if requested else None)  # fmt: skip
     if not requested:
-        return Step("verify", time, "Nothing is required, so there is no verdict.")
-    answer = verdict_answer([each.answer for each in found.judged])
-    text = " ".join(each.sentence for each in found.judged)
-    if answer == CANNOT_REPORT and found.inertia_sd > DOUBTFUL:
-        text += (
-            f" All of it goes with the inertia, which is known to {100 * found.inertia_sd:.2g} %."
-        )
-    verdict = Verdict(answer == PASSED, text, found.com, sd, sure=answer != CANNOT_REPORT)
-    return Step("verify", time, text, verdict=verdict)
+        return Step("verify", time, one_reason(StepReason.NOTHING_REQUIRED))
+    reasons = tuple(reason for each in found.judged for reason in each.reasons)
+    if outcome_of(reasons) is VerdictOutcome.UNDECIDED and found.inertia_sd > DOUBTFUL:
+        reasons += one_reason(VerdictReason.INERTIA_UNCERTAIN, sd=found.inertia_sd)
+    return Step("verify", time, reasons, verdict=Verdict(reasons, found.com, sd))

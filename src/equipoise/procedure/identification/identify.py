@@ -12,6 +12,8 @@ from equipoise.estimation.method_contract import Options, estimated, heeded
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import Estimate
+from equipoise.model.reasons.reason import one_reason
+from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
@@ -39,8 +41,8 @@ COARSE_TO_FINE = ("equilibrium", "momentum_laboratory", "trajectory")
 
 def step_of(recording: Recording, estimate: Estimate) -> Step:
     """Return the step that reports an estimate."""
-    sentence = f"{estimate.method}: {estimate.outcome.sentence}"
-    return Step("estimate", recording.span[1], sentence, estimate=estimate)
+    reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
+    return Step("estimate", recording.span[1], reasons, estimate=estimate)
 
 
 def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Iterator[Step]:
@@ -52,7 +54,8 @@ def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -
         wanted = nearest(options.method, ["auto", *METHODS])
         raise InputError("method", f"'{options.method}'", wanted)
     start, end = recording.span
-    yield Step("measurement", end, f"Read {end - start:.4g} s of recording.", recording=recording)
+    reasons = one_reason(StepReason.RECORDING_READ, duration=end - start)
+    yield Step("measurement", end, reasons, recording=recording)
     recording, testbed = sound(recording, testbed)
     chosen = COARSE_TO_FINE if options.method == "auto" else (options.method,)
     for name in chosen:

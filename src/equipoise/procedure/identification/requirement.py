@@ -10,21 +10,31 @@ bounds are of a length, which counts every direction in which the centre of mass
 """
 
 from dataclasses import dataclass
+from typing import Literal
 
 from equipoise.maths.gaussian_length import Bounded
+from equipoise.model.reasons.reason import Reason, sentence_of
+from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
+from equipoise.model.verdict import VerdictOutcome, outcome_of
 
-WHOLE, MOST = 100.0, 1e6  # between them numbers are shown whole, without an exponent
-PASSED, FAILED, OPEN = "Passed", "Failed", "Cannot tell"
+Quantity = Literal["torque", "offset"]
+MET = {"torque": Why.TORQUE_MET, "offset": Why.OFFSET_MET}
+EXCEEDED = {"torque": Why.TORQUE_EXCEEDED, "offset": Why.OFFSET_EXCEEDED}
+UNDECIDED = {"torque": Why.TORQUE_UNDECIDED, "offset": Why.OFFSET_UNDECIDED}
+FLOOR_BEYOND_LIMIT = {
+    "torque": Why.TORQUE_FLOOR_BEYOND_LIMIT,
+    "offset": Why.OFFSET_FLOOR_BEYOND_LIMIT,
+}
+TOO_NEAR_LIMIT = {"torque": Why.TORQUE_TOO_NEAR_LIMIT, "offset": Why.OFFSET_TOO_NEAR_LIMIT}
 
 
 @dataclass(frozen=True, slots=True)
 class Requirement:
-    """What must not be exceeded, in SI, and how it is told to people."""
+    """What must not be exceeded, in SI."""
 
-    what: str
-    limit: float
-    unit: str  # as shown
-    factor: float  # shown units in one of SI
+    quantity: Quantity  # gravity's torque, rms over a range of tilts, or com's distance from target
+    limit: float  # N m or m
+    tilt: float = 0.0  # rad, of the range over which torque counts
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,50 +43,33 @@ class Judged:
 
     requirement: Requirement
     found: Bounded
-    answer: str  # one of the three above
-    sentence: str
+    reasons: tuple[Reason, ...]
+
+    @property
+    def outcome(self) -> VerdictOutcome:
+        """Whether it is met."""
+        return outcome_of(self.reasons)
+
+    @property
+    def sentence(self) -> str:
+        """The reasons for a person."""
+        return sentence_of(self.reasons)
 
 
 def judged(requirement: Requirement, found: Bounded) -> Judged:
-    """Return the answer with its sentence."""
-    answer = answer_of(requirement.limit, found)
-    reported = (
-        f"{answer}: {requirement.what} is {shown(requirement, found.value)} "
-        f"(95 %: {shown(requirement, found.low)} to {shown(requirement, found.high)}); "
-        f"at most {shown(requirement, requirement.limit)} is wanted."
-    )
-    if answer == OPEN:
-        reported += f" {doubt(requirement, found)}"
-    return Judged(requirement, found, answer, reported)
+    """Return the answer with its reasons."""
+    numbers = {"found": found.value, "low": found.low, "high": found.high,
+               "limit": requirement.limit, "tilt": requirement.tilt}  # fmt: skip
+    codes = MET if found.high <= requirement.limit else UNDECIDED
+    codes = EXCEEDED if found.low > requirement.limit else codes
+    reasons = [Reason(codes[requirement.quantity], (), numbers)]
+    if codes is UNDECIDED:
+        reasons.append(doubt(requirement, found))
+    return Judged(requirement, found, tuple(reasons))
 
 
-def answer_of(limit: float, found: Bounded) -> str:
-    """Return the answer."""
-    if found.high <= limit:
-        return PASSED
-    return FAILED if found.low > limit else OPEN
-
-
-def doubt(requirement: Requirement, found: Bounded) -> str:
-    """Say why a record cannot tell."""
-    floor = shown(requirement, found.floor)
-    if found.floor > requirement.limit:
-        return (
-            f"The floor of this recording is {floor}: even a perfect platform would not pass. "
-            "Record longer, with larger swings about both axes, or with better sensors."
-        )
-    return f"The floor of this recording is {floor}: the value is too near to the limit to be sure."
-
-
-def shown(requirement: Requirement, value: float) -> str:
-    """Return a value in the unit of the bench."""
-    size = value * requirement.factor
-    text = f"{size:.0f}" if WHOLE <= size < MOST else f"{size:.3g}"
-    return f"{text} {requirement.unit}"
-
-
-def verdict_answer(answers: list[str]) -> str:
-    """Return what several answers come to: failed if one is, passed if all are."""
-    if FAILED in answers:
-        return FAILED
-    return PASSED if all(answer == PASSED for answer in answers) else OPEN
+def doubt(requirement: Requirement, found: Bounded) -> Reason:
+    """Return why a record cannot tell."""
+    beyond = found.floor > requirement.limit
+    codes = FLOOR_BEYOND_LIMIT if beyond else TOO_NEAR_LIMIT
+    return Reason(codes[requirement.quantity], (), {"floor": found.floor})

@@ -11,11 +11,16 @@ import numpy as np
 from equipoise.actuators.sliding_masses import com_shift, com_shift_covariance, mass_maps
 from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.move import Move
+from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.testbed import Testbed
 
 
 def planned_move(
-    testbed: Testbed, now: Floats, targets: Floats, posterior: tuple[Vector3, Matrix3], reason: str
+    testbed: Testbed,
+    now: Floats,
+    targets: Floats,
+    posterior: tuple[Vector3, Matrix3],
+    reason: MoveReason,
 ) -> Move:
     """Return the move from displacements ``now`` to ``targets`` (m).
 

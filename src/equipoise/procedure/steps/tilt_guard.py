@@ -7,7 +7,6 @@ from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 
-TILTED = "the platform tilts beyond its limit"
 OFTEN = 1.0  # s, chosen: how often a long look asks
 
 

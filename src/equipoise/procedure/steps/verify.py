@@ -6,6 +6,9 @@ from scipy.special import ndtr
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import NORMAL_95
 from equipoise.model.move import Move
+from equipoise.model.outcome import Outcome
+from equipoise.model.reasons.reason import Reason, axes_of
+from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.joint_fit import Knowledge
 
@@ -52,24 +55,25 @@ def verdict(
     """Return the verdict on the record since the last move (ended at ``since``, s)."""
     com, sd = knowledge.com, knowledge.sd
     if not knowledge.estimate.outcome.usable:
-        return Verdict(False, f"Cannot tell: {knowledge.estimate.outcome.sentence}", com, sd,
-                       sure=False)  # fmt: skip
+        return unusable(knowledge.estimate.outcome, com, sd)
     if fresh_misfit(knowledge, since) > CONTRADICTION:
-        text = "Failed: the record since the last move does not fit what was found before it."
-        return Verdict(False, text, com, sd)
+        return Verdict((Reason(Why.RECORD_MISFITS),), com, sd)
     if move is not None:
         off = com - move.predicted_com - drift_since(knowledge, since)
         spread = np.sqrt(np.diag(move.predicted_covariance))
         if np.any(np.abs(off) > CONTRADICTION * np.hypot(spread, sd)):
-            text = f"Failed: {at(com, sd)}, which is not where the last move should have left it."
-            return Verdict(False, text, com, sd)
+            return Verdict((Reason(Why.MOVE_MISSED, (), at(com, sd)),), com, sd)
     return judged(com, sd, target, tolerance)
 
 
-def at(com: Vector3, sd: Vector3) -> str:
-    """Return where a centre of mass is, in words."""
-    where = ", ".join(f"{1e6 * c:.2f} +/- {1e6 * s:.2f}" for c, s in zip(com, sd, strict=True))
-    return f"the centre of mass is at ({where}) um"
+def unusable(outcome: Outcome, com: Vector3, sd: Vector3) -> Verdict:
+    """Return the verdict on an estimate that cannot be used."""
+    return Verdict((Reason(Why.ESTIMATE_UNUSABLE), *outcome.reasons), com, sd)
+
+
+def at(com: Vector3, sd: Vector3) -> dict[str, float]:
+    """Return a centre of mass and its sd (m) as a reason's numbers."""
+    return axes_of("com", com) | axes_of("sd", sd)
 
 
 def judged(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Verdict:
@@ -81,14 +85,13 @@ def judged(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Ve
     found = at(com, sd)
     sure = probability_within(com, sd, target, tolerance)
     if np.all(sure >= SURE):
-        return Verdict(True, f"Passed: {found}, within tolerance on every axis.", com, sd)
+        return Verdict((Reason(Why.WITHIN_TOLERANCE, (), found),), com, sd)
     beyond = np.abs(com - target) - NORMAL_95 * sd > tolerance
     if np.any(beyond):
-        axes = ", ".join("xyz"[k] for k in np.flatnonzero(beyond))
-        return Verdict(False, f"Failed: {found}; {axes} outside the tolerance.", com, sd)
-    axes = ", ".join("xyz"[k] for k in np.flatnonzero(sure < SURE))
-    text = f"Cannot tell: {found}; {axes} not known well enough to be sure."
-    return Verdict(False, text, com, sd, sure=False)
+        axes = tuple("xyz"[k] for k in np.flatnonzero(beyond))
+        return Verdict((Reason(Why.OUTSIDE_TOLERANCE, axes, found),), com, sd)
+    axes = tuple("xyz"[k] for k in np.flatnonzero(sure < SURE))
+    return Verdict((Reason(Why.TOO_UNCERTAIN, axes, found),), com, sd)
 
 
 def fresh_enough(knowledge: Knowledge, since: float) -> bool:

@@ -36,7 +36,6 @@ from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.observability import Observability
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Testbed
-from equipoise.study import candour
 from equipoise.study.papers.gyro_slew import Slew, slewed
 
 LARGE, SMALL = (70.0, 30.0, -30.0), (30.0, 10.0, -10.0)  # deg: roll, pitch, yaw
@@ -152,7 +151,7 @@ def warns(estimate: Estimate) -> bool:
     No interval, or an infinite one, counts: nobody can take a number for known that has none.
     """
     open_ended = not all(estimate.has(name) and estimate.sees((name,)) for name in SOUGHT)
-    return candour.warns(estimate) or open_ended
+    return estimate.outcome.warns or open_ended
 
 
 def true_values(testbed: Testbed) -> dict[str, float]:

@@ -50,7 +50,7 @@ def test_a_real_bench_is_practised_homed_let_go_and_balanced(tmp_path, monkeypat
         room.request(HELD)
         room.turn(2)
         assert in_turn(room, "Practising", "The masses go home: hold", "let the platform go")
-        words = [step["word"] for step in room.reported.steps]
+        words = [step["outcome"] for step in room.reported.steps]
         assert words[-1] == "passed", room.reported.steps[-1]
         truth = found.emulated.platform.truth().com
         posterior = room.reported.state["estimate"]
@@ -72,7 +72,7 @@ def test_a_stop_halts_a_real_bench(tmp_path, monkeypatch):
         room.request(HELD)
         room.turn(2)
         last = room.reported.steps[-1]
-        assert (last["of"], last["word"]) == ("stop", "halted")
+        assert (last["of"], last["outcome"]) == ("stop", "halted")
         assert "by hand" in last["sentence"]
         found.wait(0.2)
         where = found.emulated.platform.truth().com
@@ -92,7 +92,7 @@ def test_an_interlock_ends_a_balancing_and_is_shown(tmp_path, monkeypatch):
         room.reported.when = when
         room.request(HELD)
         room.turn(2)
-        assert room.reported.steps[-1]["word"] == "halted"
+        assert room.reported.steps[-1]["outcome"] == "halted"
         assert "no sensor has given a row" in room.reported.state["trip"]
         assert room.reported.state["phase"] == "idle"
 

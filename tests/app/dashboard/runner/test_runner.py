@@ -93,7 +93,7 @@ def test_a_balance_passes_and_its_report_is_kept(room, monkeypatch):
     monkeypatch.setenv("EQUIPOISE_RUNS", str(room.folder))
     room.request(BALANCE)
     room.turn(2)
-    words = [step["word"] for step in room.reported.steps]
+    words = [step["outcome"] for step in room.reported.steps]
     assert words[-1] == "passed", room.reported.steps[-1]
     assert [step["index"] for step in room.reported.steps] == list(range(len(words)))
     assert {step["of"] for step in room.reported.steps} >= {
@@ -120,7 +120,7 @@ def test_a_stop_halts_the_masses_and_ends_the_balance(room):
     room.request(BALANCE)
     room.turn(2)
     last = room.reported.steps[-1]
-    assert (last["of"], last["word"]) == ("stop", "halted")
+    assert (last["of"], last["outcome"]) == ("stop", "halted")
     assert "by hand" in last["sentence"]
     bench = room.runner.station.bench
     where = bench.displacements
@@ -144,7 +144,7 @@ def test_a_pause_in_a_balance_holds_its_time(room):
     room.request(BALANCE)
     room.turn(2)
     assert observed[1] - observed[0] < 0.11
-    assert room.reported.steps[-1]["word"] == "halted"
+    assert room.reported.steps[-1]["outcome"] == "halted"
 
 
 def test_what_cannot_be_done_during_a_balance_is_refused(room):

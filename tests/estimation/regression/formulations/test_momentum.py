@@ -53,7 +53,7 @@ def test_free_motion_gives_ratios_only(axes):
     """No parameter has a finite interval; com over J_zz is right to 5 % of its length."""
     found = estimate(observed(moved=False), TESTBED, axes)
     assert all(np.isinf(p.sd) and not p.observable for p in found.parameters)
-    assert "scale" in found.unobservable[0]
+    assert found.unobservable[0].code == "scale"
     ratios = {p.name: p for p in found.ratios}
     com = np.array([ratios[f"{name}/inertia_P_zz"].value for name in COM_NAMES])
     assert np.linalg.norm(com - COM / INERTIA[2]) < 0.05 * np.linalg.norm(COM / INERTIA[2])
@@ -64,4 +64,5 @@ def test_too_few_rows_are_an_outcome():
     """Half a second of a gyro are eleven rows: nothing to fit, and it says so."""
     found = estimate(window(observed(), 0.0, 0.5), TESTBED, "laboratory")
     assert not found.outcome.usable
-    assert f"{FEWEST - 1} rows" in found.outcome.sentence
+    (reason,) = found.outcome.reasons
+    assert (reason.code, reason.numbers) == ("too_few_rows_without_gap", {"rows": FEWEST - 1})

@@ -13,7 +13,6 @@ from equipoise.app.dashboard.runner.live_estimate import LiveEstimate
 from equipoise.app.runs.balancing import Goal
 from equipoise.model.devices import recorded_name
 from equipoise.model.step import Step
-from equipoise.model.verdict import outcome_of
 
 Document = dict[str, Any]
 
@@ -35,9 +34,9 @@ def about(station: Station, clock: int, session: str) -> Document:
 
 
 def step_document(index: int, step: Step) -> Document:
-    """Return a step; its verdict in a word."""
-    word = None if step.verdict is None else outcome_of(step.verdict)
-    return _line(index, step.kind, step.time, step.sentence, word)
+    """Return a step, with the outcome of its verdict."""
+    outcome = None if step.verdict is None else step.verdict.outcome
+    return _line(index, step.kind, step.time, step.sentence, outcome)
 
 
 def mark_document(index: int, t: float, text: str) -> Document:
@@ -45,8 +44,10 @@ def mark_document(index: int, t: float, text: str) -> Document:
     return _line(index, "mark", t, text, None)
 
 
-def _line(index: int, of: str, t: float, sentence: str, word: str | None) -> Document:
-    return {"kind": "step", "index": index, "of": of, "t": t, "sentence": sentence, "word": word}
+def _line(index: int, of: str, t: float, sentence: str, outcome: str | None) -> Document:
+    return {
+        "kind": "step", "index": index, "of": of, "t": t, "sentence": sentence, "outcome": outcome,
+    }  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, eq=False)

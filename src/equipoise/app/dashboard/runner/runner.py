@@ -35,6 +35,7 @@ from equipoise.model.bench import Bench
 from equipoise.model.errors import BenchStopped, EquipoiseError
 from equipoise.model.recording import Recording, joined
 from equipoise.model.step import Step
+from equipoise.model.verdict import VerdictOutcome
 
 SLICE = 0.1  # s of the bench, chosen: as often as a person can follow numbers
 CAUGHT = 1.1  # of the tilt limit, chosen: where somebody catches a simulated platform
@@ -180,7 +181,7 @@ class Runner:
             self.note = str(error)
         else:
             self.note = done.verdict.sentence
-            self.trip = self.note if done.verdict.halted else None
+            self.trip = self.note if done.verdict.outcome is VerdictOutcome.HALTED else None
             self._begin(Job(Keep(done, limits.law, seed)), "writing the report")
         self.phase, self.stopping = "idle", False
         self.report_state()

@@ -4,8 +4,13 @@ import { seconds } from "./units.js";
 
 const NEAR_END_PX = 40; // a person who is this near to the end wants to see the newest; chosen
 
-/** Classes of the badge; what is not here is quiet. */
-const MOODS = { passed: "good", failed: "bad", halted: "bad", "cannot notify": "unsure" };
+/** Class of the badge and what it says, by the code of a verdict's outcome. */
+const BADGES = {
+  passed: { mood: "good", text: "passed" },
+  failed: { mood: "bad", text: "failed" },
+  halted: { mood: "bad", text: "halted" },
+  undecided: { mood: "unsure", text: "cannot tell" },
+};
 
 /** @param {HTMLElement} place  the box that scrolls */
 export function showStory(place) {
@@ -51,13 +56,14 @@ function itemOf(step) {
     textIn("b", step.of),
     textIn("span", step.sentence),
   );
-  if (step.word) item.append(badge(step.word));
+  if (step.outcome) item.append(badge(step.outcome));
   return item;
 }
 
-function badge(word) {
-  const element = textIn("em", word);
-  element.dataset.mood = MOODS[word] ?? "quiet";
+function badge(outcome) {
+  const { mood, text } = BADGES[outcome];
+  const element = textIn("em", text);
+  element.dataset.mood = mood;
   return element;
 }
 

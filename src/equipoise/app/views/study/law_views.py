@@ -8,7 +8,7 @@ from equipoise.app.text.csv_lines import csv_lines
 from equipoise.app.text.json_document import View
 from equipoise.app.text.units import MICRO, MM, PER_DEG, UM
 from equipoise.model.law_card import NEEDS, LawCard
-from equipoise.study.compare_laws import Comparison, LawSummary, Middle
+from equipoise.study.compare_laws import Comparison, LawSummary, Middle, halted
 from equipoise.study.law_run import LawRun
 from equipoise.study.recommend import advised_law
 
@@ -126,4 +126,4 @@ def _csv_line(run: LawRun) -> list[object]:
     followed = "" if run.followed is None else f"{MICRO * run.followed:.6g}"
     return [run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", followed,
             f"{run.time:.6g}", f"{MM * run.travel:.6g}", run.verdict.passed,
-            run.verdict.halted, run.late, run.verdict.sentence]  # fmt: skip
+            halted(run), run.late, run.verdict.sentence]  # fmt: skip

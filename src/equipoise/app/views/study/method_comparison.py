@@ -140,14 +140,9 @@ def failures(found: MethodComparison) -> Iterator[str]:
     for method in found.methods:
         if method.failed:
             reported = f"{method.method} ({method.failed})"
-            reasons.setdefault(beginning(method.why), []).append(reported)
+            reasons.setdefault(method.why, []).append(reported)
     for reason, methods in reasons.items():
         yield f"Failed: {', '.join(methods)}: {reason}"
-
-
-def beginning(text: str) -> str:
-    """Return the first two sentences: what it is, and what is wrong with it."""
-    return ". ".join(text.split(". ")[:2]).removesuffix(".") + "."
 
 
 def com_table(found: MethodComparison) -> Table:

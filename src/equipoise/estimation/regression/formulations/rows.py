@@ -17,6 +17,7 @@ from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Floats, Ints, Series1
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties
+from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -34,7 +35,7 @@ class Rows:
     piece: Ints | None = None  # (n,) with free constants; None: there are none
     instruments: Floats | None = None  # (n, m, c) like A, of noise that is not A's
     omitted: Floats | None = None  # (n, m) of b: what is left out of the motion, as far as known
-    notes: tuple[str, ...] = ()  # sentences: what of the record is not used
+    notes: tuple[Reason, ...] = ()  # what of the record is not used
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,4 +1,4 @@
-"""What a survey found, in sentences: how noisy, how driven, what is still open."""
+"""What a survey found: how noisy, how driven, what is still open."""
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from equipoise.estimation.parameters.fit_parameters import CORE
 from equipoise.maths.linalg import inverse_spd
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import Estimate
+from equipoise.model.reasons.data_reasons import Unexplained
+from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
+from equipoise.model.reasons.reason import Reason, axes_of
 
 NOISY = 1.3  # chosen: a noise off by more is told
 OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, untold
@@ -19,21 +22,19 @@ LEANS = 4.0  # sd, chosen: a smaller lean is corrected untold
 DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which that tells too little
 
 
-def noise_sentences(model: RecordModel) -> list[str]:
-    """Say where sensors are noisier or quieter than stated."""
+def noise_reasons(model: RecordModel) -> list[Reason]:
+    """Return where sensors are noisier or quieter than stated."""
     pairs = (
-        ("attitude", "deg", model.testbed.attitude, model.stated.attitude),
-        ("gyro", "deg/s", model.testbed.gyro, model.stated.gyro),
+        (Why.ATTITUDE_NOISE_OFF, model.testbed.attitude, model.stated.attitude),
+        (Why.GYRO_NOISE_OFF, model.testbed.gyro, model.stated.gyro),
     )
-    text: list[str] = []
-    for name, unit, found, stated in pairs:
+    reasons: list[Reason] = []
+    for code, found, stated in pairs:
         if found is None or stated is None:
             continue
-        factor = found.noise / stated.noise
-        if not 1 / NOISY < factor < NOISY:
-            size, said = np.degrees(found.noise), np.degrees(stated.noise)
-            text.append(f"The {name} noise is {size:.2g} {unit} a row, not {said:.2g} as stated.")
-    return text
+        if not 1 / NOISY < found.noise / stated.noise < NOISY:
+            reasons.append(Reason(code, (), {"found": found.noise, "stated": stated.noise}))
+    return reasons
 
 
 def added(model: RecordModel, requested: Params) -> tuple[str, ...]:
@@ -42,23 +43,20 @@ def added(model: RecordModel, requested: Params) -> tuple[str, ...]:
     return tuple(t for t in (*model.params.sensor, *model.params.terms) if t not in have)
 
 
-def term_sentences(model: RecordModel, requested: Params) -> list[str]:
-    """Say which terms were added."""
+def term_reasons(model: RecordModel, requested: Params) -> list[Reason]:
+    """Return which terms were added."""
     groups = dict.fromkeys(term.split("_")[0] for term in added(model, requested))
-    if not groups:
-        return []
-    return [f"Terms that the record supports were added: {', '.join(groups)}."]
+    return [Reason(Why.TERMS_ADDED, tuple(groups))] if groups else []
 
 
-def lean_sentences(model: RecordModel, concluded: Estimate) -> list[str]:
-    """Say how far the camera's vertical leans, where the record shows that it does."""
+def lean_reasons(model: RecordModel, concluded: Estimate) -> list[Reason]:
+    """Return by how much the camera's vertical leans, where the record shows that it does."""
     if not set(PLUMB) <= set(model.params.sensor):
         return []
     lean, covariance = concluded.values(PLUMB), concluded.covariance_of(PLUMB)
     if lean @ np.linalg.solve(covariance, lean) < LEANS**2:
         return []
-    size = float(np.degrees(np.linalg.norm(lean)))
-    return [f"The camera's vertical leans {size:.2g} deg from gravity's; that is corrected."]
+    return [Reason(Why.CAMERA_LEANS, (), {"lean": float(np.linalg.norm(lean))})]
 
 
 def gravity_torque(model: RecordModel) -> float:
@@ -82,16 +80,13 @@ def driven(model: RecordModel) -> float:
     return size / max(gravity_torque(model), 1e-12)
 
 
-def walk_sentences(model: RecordModel) -> list[str]:
-    """Say how large the torque is that nothing explains."""
+def walk_reasons(model: RecordModel) -> list[Reason]:
+    """Return how large the torque is that nothing explains."""
     if not model.wanders:
         return []
     seconds = slowest(model)
-    sizes = ", ".join(f"{1e6 * w / np.sqrt(seconds):.2g}" for w in model.walk)
-    return [
-        f"A torque that no term explains wanders by {sizes} uN m about x, y, z within "
-        f"{seconds:.2g} s; intervals count it."
-    ]
+    torque = axes_of("torque", model.walk / np.sqrt(seconds))
+    return [Reason(Why.TORQUE_WANDERS, (), torque | {"seconds": seconds})]
 
 
 def core_sd(normal: Square) -> Floats:
@@ -99,21 +94,19 @@ def core_sd(normal: Square) -> Floats:
     return np.sqrt(np.diag(inverse_spd(normal)))[CORE]
 
 
-def open_sentences(model: RecordModel) -> tuple[str, ...]:
-    """Say which absent terms the record could not tell from com or inertia.
+def open_terms(model: RecordModel) -> tuple[Reason, ...]:
+    """Return which absent terms the record could not tell from com or inertia.
 
     With such a term free, an sd would be more than OPEN times what it is.
     """
     names, units = (x[CORE] for x in (model.fitted.problem.layout.names,
                                       model.fitted.problem.layout.units))  # fmt: skip
-    firm, text = core_sd(model.fitted.at.normal), list[str]()
+    firm, found = core_sd(model.fitted.at.normal), list[Reason]()
     for group in candidates(model):
         problem, jumps = posed_in(with_group(model, group), model.recording)
         free = core_sd(evaluate(problem, model.fitted.point, jumps).normal)
         k = int(np.argmax(free / firm))
         if free[k] > OPEN * firm[k]:
-            text.append(
-                f"{names[k]} is this firm only without a '{group[0].split('_')[0]}' term, which "
-                f"the record does not ask for: with one its sd would be {free[k]:.2g} {units[k]}."
-            )
-    return tuple(text)
+            about = (names[k], group[0].split("_")[0], units[k])
+            found.append(Reason(Unexplained.TERM_WOULD_WIDEN, about, {"sd": float(free[k])}))
+    return tuple(found)

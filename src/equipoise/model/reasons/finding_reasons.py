@@ -1,0 +1,179 @@
+"""What a recording holds, what the platform did in it, and what is wrong with it."""
+
+from equipoise.model.reasons.reason import Code
+
+
+class FindingReason(Code):
+    """One thing that a recording shows, with its sentence."""
+
+    # Channels
+    CHANNEL = "channel", "{0}: {rows:.0f} rows from {first:.6g} to {last:.6g} s, {rate:.4g} Hz."
+    CHANNEL_OF_PARTS = (
+        "channel_of_parts",
+        "{0} of {rest}: {rows:.0f} rows from {first:.6g} to {last:.6g} s, {rate:.4g} Hz.",
+    )
+    SINGLE_ROW = "single_row", "{0}: 1 row, at {first:.6g} s."
+    NOT_RECORDED = "not_recorded", "No {0} was recorded."
+    GAP = "gap", "{0}: a gap of {gap:.3g} s at {t:.6g} s."
+    MORE_GAPS = "more_gaps", "{0}: {count:.0f} shorter gaps besides."
+    UNEVEN_INTERVALS = (
+        "uneven_intervals",
+        "{0}: intervals scatter by {scatter:.2g} s about {interval:.3g} s.",
+    )
+    NOT_IN_TESTBED = "not_in_testbed", "{0} {1} is not in the testbed; {2}"
+    SET_RIGHT = "set_right", "{0}"  # by reading the file, which says what it was
+
+    # Masses and motion
+    NO_POSITIONS = "no_positions", "No mass positions were recorded: the scale stays open."
+    NO_MASS_MOVED = "no_mass_moved", "No mass moved: the scale stays open."
+    MASS_MOVES = (
+        "mass_moves",
+        "mass {0} moves from {start:mm .4g} to {end:mm .4g} mm between {t_start:.6g} and "
+        "{t_end:.6g} s.",
+    )
+    MORE_MOVES = "more_moves", "{count:.0f} further moves of masses."
+    TILT_RANGE = "tilt_range", "tilt: {low:deg .3g} to {high:deg .3g} deg."
+    TILT_RANGE_OF_AXIS = (
+        "tilt_range_of_axis",
+        "tilt of body axis {0}, the most upright one: {low:deg .3g} to {high:deg .3g} deg.",
+    )
+    GRAVITY_NOT_DOWN = (
+        "gravity_not_down",
+        "gravity does not point down: the median tilt is {tilt:deg .0f} deg; body axis {0} is the "
+        "most upright one. Is the laboratory's Z up?",
+    )
+    SPIN = (
+        "spin",
+        "spin about the vertical: {first:deg .4g} deg/s at first, {last:deg .4g} deg/s at last "
+        "(up to {limit:deg .4g} deg/s can be measured at this rate).",
+    )
+
+    # Attitude rows
+    ATTITUDE_NOISE = (
+        "attitude_noise",
+        "attitude noise: {noise:deg .2g} deg per axis at most, white part.",
+    )
+    ROWS_AVERAGED = (
+        "rows_averaged",
+        "each attitude row is the mean over {window:.3g} s (sd {sd:.1g} s): its quaternion is "
+        "{shortness:.2g} short. Taken as moments, the rows put inertia off by the order of "
+        "{damping:.1%}.",
+    )
+    OTHER_WINDOW = (
+        "other_window",
+        "the testbed states averaging_s = {stated:.3g} for the attitude; the record shows "
+        "{window:.3g} s.",
+    )
+    UNSTEADY_WINDOW = (
+        "unsteady_window",
+        "the lengths of the quaternions do not follow the rate: rows may be means over windows of "
+        "different width.",
+    )
+    ROW_NOT_A_MEAN = (
+        "row_not_a_mean",
+        "row {row:.0f} at {t:.6g} s is not a mean as the others are: its quaternion has the length "
+        "{length:.6f}, theirs {theirs:.6f}.",
+    )
+    MORE_ROWS_NOT_MEANS = "more_rows_not_means", "{count:.0f} further rows are no such means."
+
+    # Gyro rows
+    GYRO_NOISE = "gyro_noise", "gyro noise: {noise:deg .2g} deg/s per axis at most, white part."
+    DEAD_AXIS = "dead_axis", "gyro {0} is {rate:deg .3g} deg/s in every row."
+    ZERO_START = (
+        "zero_start",
+        "rates start at exactly zero: they look like backward differences, not like a gyro.",
+    )
+    QUANTISED = "quantised", "gyro {0} comes in steps of {step:deg .3g} deg/s."
+
+    # Rows of either
+    OUTLYING_ROW = (
+        "outlying_row",
+        "{0}: row {row:.0f} at {t:.6g} s is {off:deg .2g} {1} off the motion of its neighbours "
+        "(they scatter by {scatter:deg .2g} {1} per axis).",
+    )
+    MORE_OUTLYING_ROWS = "more_outlying_rows", "{0}: {count:.0f} further rows are outlying."
+    REPEATED_ROW = (
+        "repeated_row",
+        "{0}: row {first:.0f} repeats the one before, from {start:.6g} to {end:.6g} s.",
+    )
+    REPEATED_ROWS = (
+        "repeated_rows",
+        "{0}: rows {first:.0f} to {last:.0f} repeat the one before, from {start:.6g} to "
+        "{end:.6g} s.",
+    )
+    MORE_REPEATED_ROWS = "more_repeated_rows", "{0}: {count:.0f} further repeats of rows."
+    NOISE_ASSUMED = (
+        "noise_assumed",
+        "the testbed has no sensor.{0}: its noise is taken as {noise:deg .2g} {1} a row.",
+    )
+
+    # Gyro and attitude together
+    NO_OVERLAP = "no_overlap", "gyro and attitude hardly overlap in time."
+    RATES_DERIVED = (
+        "rates_derived",
+        "the rates are differences of the attitude to the last digit: not a second sensor.",
+    )
+    OPPOSITE_SIGN = (
+        "opposite_sign",
+        "gyro {0} has the opposite sign (correlation {correlation:.2f}).",
+    )
+    OTHER_AXIS = (
+        "other_axis",
+        "gyro {0} follows attitude {1} (correlation {correlation:.2f}).",
+    )
+    OTHER_AXIS_REVERSED = (
+        "other_axis_reversed",
+        "gyro {0} follows minus attitude {1} (correlation {correlation:.2f}).",
+    )
+    OTHER_SCALE = "other_scale", "gyro {0} is {scale:.3g} times what the attitude shows."
+    SENSORS_AGREE = "sensors_agree", "gyro and attitude agree about {names}."
+    TOO_LITTLE_MOTION = (
+        "too_little_motion",
+        "the motion is too small to compare gyro and attitude.",
+    )
+    GYRO_ZERO = (
+        "gyro_zero",
+        "gyro zero: {zero_x:deg .3g}, {zero_y:deg .3g}, {zero_z:deg .3g} deg/s.",
+    )
+    ATTITUDE_LATE = (
+        "attitude_late",
+        "the attitude is stamped {lag:ms .3g} ms (sd {sd:ms .2g} ms) later than the gyro.",
+    )
+    ATTITUDE_LATE_UNSTATED = (
+        "attitude_late_unstated",
+        "the attitude is stamped {lag:ms .3g} ms (sd {sd:ms .2g} ms) later than the gyro; by the "
+        "testbed it would be {stated:ms .3g} ms.",
+    )
+
+    # Events
+    EVENTS_NOT_SOUGHT = (
+        "events_not_sought",
+        "touches and parts that shift were not searched for: that takes a testbed.",
+    )
+    TOUCH = (
+        "touch",
+        "at {t:.4g} s something gave the platform an impulse of {size:mN m s .2g} mN m s "
+        "(laboratory x, y, z: {size_x:mN m s .2g}, {size_y:mN m s .2g}, {size_z:mN m s .2g}; sd "
+        "{sd:mN m s .1g}).",
+    )
+    PUSH = (
+        "push",
+        "at {t:.4g} s something gave the platform an impulse of {size:mN m s .2g} mN m s "
+        "(laboratory x, y, z: {size_x:mN m s .2g}, {size_y:mN m s .2g}, {size_z:mN m s .2g}; sd "
+        "{sd:mN m s .1g}), as a push from below does at the body azimuth {azimuth:deg .0f} deg, or "
+        "one from above opposite.",
+    )
+    TOUCH_UNCLEAR = (
+        "touch_unclear",
+        "A part that shifted would explain it about as well: intervals allow for either.",
+    )
+    COM_STEP = (
+        "com_step",
+        "at {t:.4g} s the centre of mass moved by {size_x:um .2g}, {size_y:um .2g}, "
+        "{size_z:um .2g} um (body x, y, z; sd {sd_x:um .2g}, {sd_y:um .2g}, {sd_z:um .2g}): a part "
+        "shifted.",
+    )
+    COM_STEP_UNCLEAR = (
+        "com_step_unclear",
+        "A touch would explain it about as well: intervals allow for either.",
+    )

@@ -1,0 +1,43 @@
+"""Why every motor of a bench is stopped, or may not be started."""
+
+from equipoise.model.reasons.reason import Code
+
+
+class Interlock(Code):
+    """One cause, with its sentence; a text that a device or a file gave is quoted."""
+
+    TILT = (
+        "tilt",
+        "the platform tilts by {tilt:deg .1f} deg; its limit is {limit:deg .1f} deg",
+    )
+    RATE = (
+        "rate",
+        "the platform turns with {rate:deg .1f} deg/s; the limit is {limit:deg .1f} deg/s",
+    )
+    SILENCE = "silence", "sensor {0} has given no row for {seconds:.1f} s"
+    TRAVEL = (
+        "travel",
+        "mass {0} is at {at:mm .1f} mm; its travel is {low:mm g} to {high:mm g} mm",
+    )
+    SPEED = (
+        "speed",
+        "mass {0} moves with {speed:mm .1f} mm/s; it may move with {limit:mm g} mm/s at most, or "
+        "its board is misread",
+    )
+    MISMATCH = (
+        "mismatch",
+        "mass {0} stands at {at:mm .2f} mm and was sent to {goal:mm .2f} mm",
+    )
+    FAULT = "fault", "board {0}: {1}"
+    RECORD_LOST = "record_lost", "{0}"  # who records cannot go on
+    NO_ROWS = "no_rows", "no sensor has given a row for {seconds:g} s"
+    NOT_ANSWERING = "not_answering", "not every board answers after {seconds:g} s: {0}"
+    NOT_HOME = "not_home", "the masses do not come home after {seconds:g} s: {0}"
+    NOT_STREAMING = "not_streaming", "not every sensor gives rows after {seconds:g} s: {0}"
+    NOT_MOVABLE = "not_movable", "masses cannot be moved after {seconds:g} s: {0}"
+
+    # What stops nothing, but keeps masses from being moved
+    UNREACHABLE = "unreachable", "{0} cannot be reached: {1}"
+    POSITION_UNKNOWN = "position_unknown", "board {0}: it has not found its position"
+    SENSOR_SILENT = "sensor_silent", "sensor {0} is silent"
+    SENSOR_BACK = "sensor_back", "sensor {0} gives rows again"

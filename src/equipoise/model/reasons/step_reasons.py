@@ -1,0 +1,80 @@
+"""What a step of a procedure did, and why a procedure went on or ended."""
+
+from equipoise.model.reasons.reason import Code
+
+LEAVES = (
+    "{travel:mm .0f} mm in {duration:.1f} s; should leave ({com_x:um .1f}, {com_y:um .1f}, "
+    "{com_z:um .1f}) um."
+)
+PAIRS = (
+    "({com_x:um .1f} +/- {sd_x:um .1f}, {com_y:um .1f} +/- {sd_y:um .1f}, {com_z:um .1f} +/- "
+    "{sd_z:um .1f}) um"
+)
+
+
+class MoveReason(Code):
+    """Why masses are moved, with what the move should leave."""
+
+    TO_TARGET = "to_target", f"Move (to target): {LEAVES}"
+    BELOW_FIRST = (
+        "below_first",
+        f"Move (below the target first: stiffer, and more to learn from): {LEAVES}",
+    )
+    BRAKE = (
+        "brake",
+        f"Move (brake: the platform falls faster than it can be caught): {LEAVES}",
+    )
+    DRIFT = (
+        "drift",
+        "Drifted to ({was_x:um .1f}, {was_y:um .1f}, {was_z:um .1f}) um; moved masses by "
+        "{travel:mm .0f} mm in all.",
+    )
+
+
+class StepReason(Code):
+    """One thing to know about a step, with its sentence."""
+
+    # Records and what they show
+    OBSERVED = "observed", "Observed for {duration:.1f} s."
+    RECORDING_READ = "recording_read", "Read {duration:.4g} s of recording."
+    PLAN_CARRIED_OUT = (
+        "plan_carried_out",
+        "Carried out the planned manoeuvre of {duration:g} s.",
+    )
+    ESTIMATED_BY = "estimated_by", "{0}:"  # the estimate's own reasons follow
+    COM_AT = (
+        "com_at",
+        "The centre of mass is at ({com_x:um .2f} +/- {sd_x:um .2f}, {com_y:um .2f} +/- "
+        "{sd_y:um .2f}, {com_z:um .2f} +/- {sd_z:um .2f}) um.",
+    )
+    COM_BY_HAND = "com_by_hand", f"Centre of mass at {PAIRS}."
+    COM_ASTRAY = (
+        "com_astray",
+        f"Centre of mass at {PAIRS}; that is not where the weights should have left it: check the "
+        "last ones placed.",
+    )
+
+    # Weights that a person places
+    WEIGHTS_TO_MOVE = "weights_to_move", "Move {names}."
+    WEIGHTS_TO_TAKE_OFF = "weights_to_take_off", "Take off {names}."
+    WEIGHTS_TO_PUT_ON = "weights_to_put_on", "Put on {names}."
+    PLACING_LEAVES = "placing_leaves", f"That should leave {PAIRS}."
+    NOTHING_TO_PLACE = (
+        "nothing_to_place",
+        f"Nothing to place: should leave {PAIRS}. Let go once more.",
+    )
+    TARGET_OUT_OF_REACH = (
+        "target_out_of_reach",
+        "Stock and places do not reach the target along {names}.",
+    )
+    WEIGHTS_LIE = "weights_lie", "{weights:.0f} weights lie on {places:.0f} places."
+
+    # Why a procedure ends
+    WITHIN_TOLERANCE = "goal_reached", "Within tolerance."
+    ESTIMATE_UNUSABLE = "estimate_cannot_be_used", "The estimate cannot be used."
+    TIME_USED_UP = "time_used_up", "The time is used up."
+    MOVES_USED_UP = "moves_used_up", "The moves are used up."
+    ROUNDS_USED_UP = "rounds_used_up", "The rounds are used up."
+    TILTED = "tilt_limit_exceeded", "The platform tilts beyond its limit."
+    NOTHING_REQUIRED = "no_verdict_required", "Nothing is required, so there is no verdict."
+    LAW_RAN = "law_ran", "{0} for {duration:.0f} s of bench time:"  # why it ended follows

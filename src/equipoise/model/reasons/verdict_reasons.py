@@ -1,0 +1,109 @@
+"""What a verdict rests on; ``model.verdict`` says which of these pass, fail or cannot tell."""
+
+from equipoise.model.reasons.reason import Code
+
+WHERE = (
+    "the centre of mass is at ({com_x:um .2f} +/- {sd_x:um .2f}, {com_y:um .2f} +/- {sd_y:um .2f}, "
+    "{com_z:um .2f} +/- {sd_z:um .2f}) um"
+)
+HOLD = (
+    "held for {duration:min .3g} min; at most ({off_x:um .1f}, {off_y:um .1f}, {off_z:um .1f}) um "
+    "from the target."
+)
+TORQUE = (
+    "gravity's torque within {tilt:deg g} deg of level, rms, is {found:uN m plain} uN m (95 %: "
+    "{low:uN m plain} uN m to {high:uN m plain} uN m); at most {limit:uN m plain} uN m is wanted."
+)
+OFFSET = (
+    "the centre of mass's distance from where it is wanted is {found:um plain} um (95 %: "
+    "{low:um plain} um to {high:um plain} um); at most {limit:um plain} um is wanted."
+)
+UNPASSABLE = (
+    "even a perfect platform would not pass. Record longer, with larger swings about both axes, or "
+    "with better sensors."
+)
+TOO_NEAR = "the value is too near to the limit to be sure."
+MISSED = "The requirement of {required:uN m plain} uN m cannot be met:"
+
+
+class VerdictReason(Code):
+    """One thing that a verdict rests on, with its sentence."""
+
+    # On the centre of mass, as a record shows it
+    WITHIN_TOLERANCE = "within_tolerance", f"Passed: {WHERE}, within tolerance on every axis."
+    OUTSIDE_TOLERANCE = "outside_tolerance", f"Failed: {WHERE}; {{names}} outside the tolerance."
+    TOO_UNCERTAIN = (
+        "too_uncertain",
+        f"Cannot tell: {WHERE}; {{names}} not known well enough to be sure.",
+    )
+    RECORD_MISFITS = (
+        "record_misfits",
+        "Failed: the record since the last move does not fit what was found before it.",
+    )
+    MOVE_MISSED = (
+        "move_missed",
+        f"Failed: {WHERE}, which is not where the last move should have left it.",
+    )
+    ESTIMATE_UNUSABLE = "estimate_unusable", "Cannot tell:"  # the estimate's own reasons follow
+    HELD = "held", f"Passed: {HOLD}"
+    NOT_HELD = "not_held", f"Failed: {HOLD}"
+
+    # On a run that was broken off
+    TILTED = "tilted", "Stopped: the platform tilts beyond its limit."
+    BENCH_STOPPED = "bench_stopped", "Stopped: {0}."
+    STOPPED_BY_HAND = "stopped_by_hand", "Stopped by hand: {0}."
+
+    # On a requirement
+    TORQUE_MET = "torque_met", f"Passed: {TORQUE}"
+    TORQUE_EXCEEDED = "torque_exceeded", f"Failed: {TORQUE}"
+    TORQUE_UNDECIDED = "torque_undecided", f"Cannot tell: {TORQUE}"
+    TORQUE_FLOOR_BEYOND_LIMIT = (
+        "torque_floor_beyond_limit",
+        f"The floor of this recording is {{floor:uN m plain}} uN m: {UNPASSABLE}",
+    )
+    TORQUE_TOO_NEAR_LIMIT = (
+        "torque_too_near_limit",
+        f"The floor of this recording is {{floor:uN m plain}} uN m: {TOO_NEAR}",
+    )
+    OFFSET_MET = "offset_met", f"Passed: {OFFSET}"
+    OFFSET_EXCEEDED = "offset_exceeded", f"Failed: {OFFSET}"
+    OFFSET_UNDECIDED = "offset_undecided", f"Cannot tell: {OFFSET}"
+    OFFSET_FLOOR_BEYOND_LIMIT = (
+        "offset_floor_beyond_limit",
+        f"The floor of this recording is {{floor:um plain}} um: {UNPASSABLE}",
+    )
+    OFFSET_TOO_NEAR_LIMIT = (
+        "offset_too_near_limit",
+        f"The floor of this recording is {{floor:um plain}} um: {TOO_NEAR}",
+    )
+    INERTIA_UNCERTAIN = (
+        "inertia_uncertain",
+        "All of it goes with the inertia, which is known to {sd:% .2g} %.",
+    )
+
+    # On a design
+    NOTHING_REQUIRED = (
+        "nothing_required",
+        "Nothing is required; {expected:uN m plain} uN m are expected.",
+    )
+    REQUIREMENT_MET = (
+        "requirement_met",
+        "{expected:uN m plain} uN m are expected; {required:uN m plain} uN m are required.",
+    )
+    OUT_OF_REACH = (
+        "out_of_reach",
+        f"{MISSED} only {{within:% .3g}} % of the platforms that the testbed states are within "
+        "reach of the masses. Of those, {expected:uN m plain} uN m are expected.",
+    )
+    MET_BY_ONE_CHANGE = (
+        "met_by_one_change",
+        f"{MISSED} {{expected:uN m plain}} uN m are expected; enough would be: {{choices}}.",
+    )
+    MET_BY_NO_CHANGE = (
+        "met_by_no_change",
+        f"{MISSED} {{expected:uN m plain}} uN m are expected; no single change is enough.",
+    )
+
+    # On methods and laws compared
+    RECOMMENDED = "recommended", "{0}"
+    NONE_RECOMMENDED = "none_recommended", "{0}"
