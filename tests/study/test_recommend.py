@@ -15,7 +15,7 @@ from tests.study.test_compare_laws import made_up as made_up_law
 from tests.support.synthetic_runs import made_up
 
 GOOD = {"refused": 0, "unusable": 0, "broke": 0, "warned": 0, "confident_wrong": 0,
-        "believed": 40, "runs": 40, "coverage": Share(342, 360)}  # fmt: skip
+        "trusted": 40, "runs": 40, "coverage": Share(342, 360)}  # fmt: skip
 
 
 def reported(method, ratio, time=1.0, stated=(120, 120), **more):
@@ -60,7 +60,7 @@ WANTING = {
     "broke": ({"broke": 2}, "fails in 2 of 40 runs"),
     "part": ({"stated": (80, 120)}, "states 80 of 120 values"),
     "wrong": ({"confident_wrong": 1}, "misses by more than 5 sd in 1 of 40 runs"),
-    "warned": ({"warned": 5, "believed": 35}, "warns of its intervals in 5 of 40 runs"),
+    "warned": ({"warned": 5, "trusted": 35}, "warns of its intervals in 5 of 40 runs"),
     "too narrow": ({"coverage": Share(300, 360)}, "intervals that hold 83 %"),
 }
 

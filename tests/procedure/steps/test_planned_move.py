@@ -8,6 +8,7 @@ import pytest
 from equipoise.actuators.sliding_masses import displacements_for
 from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.procedure.balancing.hold import before_moving
 from equipoise.procedure.steps.joint_fit import learn, without_stops
 from equipoise.procedure.steps.planned_move import planned_move
@@ -36,7 +37,7 @@ def stop(mass):
 def test_each_mass_that_moves_adds_a_stop():
     now, goal = np.zeros(3), np.array([1e-2, 0, -2e-2])
     com, known = np.array([1.0, 2, 3]) * UM, np.diag([1.0, 4, 9]) * UM**2
-    move = planned_move(bed(), now, goal, (com, known), "test")
+    move = planned_move(bed(), now, goal, (com, known), MoveReason.TO_TARGET)
     first, _, last = bed().masses
     gone = (first.mass * 1e-2 * first.axis - last.mass * 2e-2 * last.axis) / bed().body.mass
     np.testing.assert_allclose(move.predicted_com, com + gone, rtol=1e-12)
@@ -48,7 +49,7 @@ def test_a_move_lasts_as_long_as_the_mass_that_arrives_last():
     x, y, z = bed().masses
     slow = replace(bed(), masses=(replace(x, speed=z.speed / 5), y, z))
     known = np.zeros(3), np.zeros((3, 3))
-    move = planned_move(slow, np.zeros(3), np.array([1e-2, 0, -2e-2]), known, "test")
+    move = planned_move(slow, np.zeros(3), np.array([1e-2, 0, -2e-2]), known, MoveReason.TO_TARGET)
     assert move.duration == pytest.approx(5 * 1e-2 / z.speed)
     assert move.travel == pytest.approx(3e-2)
 
@@ -71,7 +72,7 @@ def missed(seed):
     now = known.displacement
     targets = now - np.sign(now) * STEPS
     posterior = without_stops(known, UNB, targets != now)
-    move = planned_move(UNB, now, targets, posterior, "test")
+    move = planned_move(UNB, now, targets, posterior, MoveReason.TO_TARGET)
     moved(bench, targets)
     return bench.truth().com - move.predicted_com, move.predicted_covariance
 
