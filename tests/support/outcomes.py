@@ -16,8 +16,8 @@ def of_use(usable: bool = True) -> Outcome:
 
 def verdict(passed: bool, com=None, sd=None) -> Verdict:
     """Return a verdict that passed or failed."""
-    code = VerdictReason.RECOMMENDED if passed else VerdictReason.RECORD_MISFITS
-    return Verdict(one_reason(code, "Passed."), com, sd)
+    code = VerdictReason.NOTHING_REQUIRED if passed else VerdictReason.RECORD_MISFITS
+    return Verdict(one_reason(code), com, sd)
 
 
 def undecided(com=None, sd=None) -> Verdict:

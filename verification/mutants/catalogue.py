@@ -199,7 +199,7 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
-    ("identification/requirement.py", "if found.high <= limit:", "if found.value <= limit:",
+    ("identification/requirement.py", "if found.high <= requirement.limit", "if found.value <= requirement.limit",
      "procedure/identification/test_requirement.py"),
     ("steps/planned_move.py", "(np.abs(change) / speed).max()", "(np.abs(change) / speed).min()",
      "procedure/steps/test_planned_move.py"),

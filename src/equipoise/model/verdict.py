@@ -27,7 +27,6 @@ OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
         Why.OFFSET_MET,
         Why.NOTHING_REQUIRED,
         Why.REQUIREMENT_MET,
-        Why.RECOMMENDED,
     ),
     VerdictOutcome.UNDECIDED: (
         Why.TOO_UNCERTAIN,
@@ -45,7 +44,6 @@ OUTCOMES: Mapping[VerdictOutcome, tuple[Why, ...]] = {
         Why.OUT_OF_REACH,
         Why.MET_BY_ONE_CHANGE,
         Why.MET_BY_NO_CHANGE,
-        Why.NONE_RECOMMENDED,
     ),
     VerdictOutcome.HALTED: (Why.TILTED, Why.BENCH_STOPPED, Why.STOPPED_BY_HAND),
 }

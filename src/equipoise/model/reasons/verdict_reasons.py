@@ -103,7 +103,3 @@ class VerdictReason(Code):
         "met_by_no_change",
         f"{MISSED} {{expected:uN m plain}} uN m are expected; no single change is enough.",
     )
-
-    # On methods and laws compared
-    RECOMMENDED = "recommended", "{0}"
-    NONE_RECOMMENDED = "none_recommended", "{0}"
