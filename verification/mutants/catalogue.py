@@ -199,8 +199,8 @@ DESIGN = _of(
 
 PROCEDURE = _of(
     "procedure",
-    ("identification/requirement.py", "if found.high <= requirement.limit", "if found.value <= requirement.limit",
-     "procedure/identification/test_requirement.py"),
+    ("identification/requirement.py", "if found.high <= requirement.limit",
+     "if found.value <= requirement.limit", "procedure/identification/test_requirement.py"),
     ("steps/planned_move.py", "(np.abs(change) / speed).max()", "(np.abs(change) / speed).min()",
      "procedure/steps/test_planned_move.py"),
     ("steps/clean_record.py", "if mask.mean() > MOST:", "if mask.mean() > 2 * MOST:",
