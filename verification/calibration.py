@@ -21,6 +21,7 @@ from equipoise.model.defects import CameraErrors, GyroErrors
 from equipoise.model.estimate import NORMAL_95, Estimate
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, SlidingMass, Testbed, TrueDrive, Truth
+from equipoise.model.units import DEG, MM, PERCENT, UM
 from equipoise.procedure.identification.calibration_moves import calibration_moves
 from equipoise.simulation.record import record
 from tests.oracle import mujoco_bench as oracle
@@ -30,7 +31,6 @@ from verification.result import Result, Row, Spread, at_most, between, in_turn
 Array = NDArray[np.float64]
 STATED = 40  # seeds for which the claim is stated
 COVER = (0.90, 0.99)
-UM, DEG = 1e-6, np.pi / 180
 OFF = (3.0, 1.0, 2.0)  # deg
 GAIN = (1.05, 0.97, 1.0)
 PLUMB = np.array([0.2, -0.1, 0.0]) * DEG
@@ -245,18 +245,18 @@ def rows_of(label: str, found: Sequence[Found]) -> list[Row]:
     ]  # fmt: skip
 
 
-UNITS = {"gain": (100.0, "%"), "axis": (1 / DEG, "deg"), "backlash": (1e3, "mm"),
-         "plumb": (1 / DEG, "deg"), "gyro": (1 / DEG, "deg")}  # fmt: skip
+UNITS = {"gain": (PERCENT, "%"), "axis": (DEG, "deg"), "backlash": (MM, "mm"),
+         "plumb": (DEG, "deg"), "gyro": (DEG, "deg")}  # fmt: skip
 
 
 def sd_note(label: str, found: Sequence[Found]) -> str:
     """Return the sd reached, the median over seeds and parameters of a kind."""
     said: list[str] = []
-    for kind, (factor, unit) in UNITS.items():
+    for kind, (size, unit) in UNITS.items():
         sd = [s for each in found for name, s in zip(each.names, each.sd, strict=True)
               if name.startswith(kind)]  # fmt: skip
         if sd:
-            said.append(f"{kind} {factor * float(np.median(sd)):.2g} {unit}")
+            said.append(f"{kind} {float(np.median(sd)) / size:.2g} {unit}")
     return f"{label}: median sd: {', '.join(said)}."
 
 

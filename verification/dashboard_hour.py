@@ -19,11 +19,12 @@ from numpy.typing import NDArray
 from equipoise.io.testbed.presets import read_preset
 from equipoise.io.testbed.testbed_file import write_testbed
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import MINUTE
 from tests.support.dashboard_program import Dashboard, browser, dashboard
 from verification.processes import resident, spent
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
 
-RATE, MINUTE = 100.0, 60.0  # Hz, s
+RATE = 100.0  # Hz
 BEGUN = 10  # min, chosen: by then the server keeps as many rows as it ever does
 SHARE, GROWN = 0.15, 0.05  # of one core; of the memory at the tenth minute
 LAST = "window.equipoise.state().series.pose?.last?.[0] ?? 0"  # s

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.model.estimate import NORMAL_95, Estimate
+from equipoise.model.units import MN_M
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import laboratories as labs
 from verification.result import Result, Row, Spread, at_least, at_most, in_turn
@@ -21,7 +22,6 @@ WORST = 4.0  # sd
 COVER = 0.90  # of the 95 % intervals, over all records
 SLOWEST = 60.0  # s of one processor, chosen: what a person waits for
 SCALE = ("inertia_P_zz",)
-MILLI = 1e-3
 Make = Callable[[int], labs.Record]
 
 
@@ -60,11 +60,11 @@ KINDS: dict[str, Kind] = {
         lambda seed: labs.silent(labs.tilted(seed, 5.0), (10.0, 38.0), (48.0, 76.0), (86.0, 114.0))
     ),
     "gap in a spin": Kind(lambda seed: labs.silent(labs.spun(seed), (8.0, 36.0))),
-    "motor 5 mN m, bang-bang": Kind(lambda s: labs.motored(s, labs.bang_bang(5 * MILLI))),
-    "motor 5 mN m, sine": Kind(lambda s: labs.motored(s, labs.sine(5 * MILLI))),
-    "motor 5 mN m, ramps": Kind(lambda s: labs.motored(s, labs.sawtooth(5 * MILLI))),
-    "motor 2 mN m, ramps": Kind(lambda s: labs.motored(s, labs.sawtooth(2 * MILLI))),
-    "motor 50 mN m, bang-bang": Kind(lambda s: labs.motored(s, labs.bang_bang(50 * MILLI))),
+    "motor 5 mN m, bang-bang": Kind(lambda s: labs.motored(s, labs.bang_bang(5 * MN_M))),
+    "motor 5 mN m, sine": Kind(lambda s: labs.motored(s, labs.sine(5 * MN_M))),
+    "motor 5 mN m, ramps": Kind(lambda s: labs.motored(s, labs.sawtooth(5 * MN_M))),
+    "motor 2 mN m, ramps": Kind(lambda s: labs.motored(s, labs.sawtooth(2 * MN_M))),
+    "motor 50 mN m, bang-bang": Kind(lambda s: labs.motored(s, labs.bang_bang(50 * MN_M))),
 }
 
 

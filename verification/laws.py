@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from equipoise.app.text.units import MICRO, MM, UM
 from equipoise.app.views.study.law_views import both
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.units import MM, UM, UN_M
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import CARDS
 from equipoise.procedure.balancing.hold import FIRST_MOVES
@@ -33,9 +33,9 @@ def tasks_of(laws: Sequence[str], seeds: Sequence[int]) -> list[Task]:
 def law_rows(law: LawSummary) -> list[Row]:
     """Return what a law leaves and what it takes."""
     left = f"{both(law.aside, UM)} aside, {both(law.height, UM)} in height"
-    torque = both(law.torque, MICRO, 3)
+    torque = both(law.torque, UN_M, 3)
     if law.followed is not None:
-        torque += f"; masses following {both(law.followed, MICRO, 3)}"
+        torque += f"; masses following {both(law.followed, UN_M, 3)}"
     cost = f"{both(law.time, 1.0, 3)} s, {both(law.travel, MM, 3)} mm"
     lost = f"{law.halted} halted, {law.late} late, {law.false_passes} passed falsely"
     return [
@@ -50,7 +50,7 @@ def best_rows(found: Comparison) -> list[Row]:
     runs = [run for run in found.runs if run.law == BEST]
     good = [run.left <= REQUIRED and run.time <= LONGEST for run in runs]
     left = np.array([run.left for run in runs])
-    wanted = f"{BEST}, masses following: at most {REQUIRED * MICRO:.0f} uN m within 10 min"
+    wanted = f"{BEST}, masses following: at most {REQUIRED / UN_M:.0f} uN m within 10 min"
     return [
         at_least(wanted, float(np.mean(good)), fewest(SHARE, len(runs)), ".0%"),
         at_most(f"{BEST}: torque that 95 % of runs stay below (N m)",
@@ -75,7 +75,7 @@ def measure(
     claim = (
         f"Every law on the preset reference-table, {len(seeds)} platforms, target (0, 0, 0), "
         f"10 min at most: medians, in brackets what 95 % of runs stay below. Torque is rms over "
-        f"directions within 20 deg of level, {both(found.before, MICRO, 3)} uN m before. Late: "
+        f"directions within 20 deg of level, {both(found.before, UN_M, 3)} uN m before. Late: "
         "out of time; halted: broken off for safety; passed falsely: by a verdict, and twice the "
         "tolerance off. The same table: `equipoise compare reference-table --laws --runs "
         f"{len(seeds)}`."
@@ -84,7 +84,7 @@ def measure(
         "Masses that stand still leave 11.9 uN m at the least: what no centre of mass trims of a "
         "deck that sags by 25 um. Masses that follow the tilt by the sag that a law has found "
         "leave less.",
-        f"Medians below {PUBLISHED * MICRO:.0f} uN m, the best published of hardware, with masses "
+        f"Medians below {PUBLISHED / UN_M:.0f} uN m, the best published of hardware, with masses "
         f"that stand: {', '.join(below) or 'none'}.",
     )
     return Result("laws", claim, tuple(rows), notes)

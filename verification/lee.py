@@ -12,6 +12,7 @@ from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Estimate
+from equipoise.model.units import KG_CM
 from equipoise.study.papers.lee import (
     COMPARED,
     LARGE,
@@ -30,7 +31,6 @@ from verification.result import Result, Row, Spread, between, in_turn, triple
 Array = NDArray[np.float64]
 START = {"large": LARGE, "small": SMALL}
 SHOWN = (*INERTIA, *COM)
-KG_CM = 100.0
 SINGULAR = (10.0, 15.0)  # s, as the paper has it
 CLOSE, MOSTLY = 1.0, 0.95  # %, share of runs
 WANTED = (0.90, 0.99)
@@ -67,7 +67,7 @@ def run(name: str, seed: int) -> Run:
     own = read_preset("kau")
     bed = with_printed_errors(own)
     slew, truth = slew_from(own, START[name], seed), true_values(bed)
-    per = np.append(100 / element_sizes(bed.body.inertia_P), np.full(3, bed.body.mass * KG_CM))
+    per = np.append(100 / element_sizes(bed.body.inertia_P), np.full(3, bed.body.mass / KG_CM))
     estimates = estimates_of(slew.recording, bed)
     found = {key: judged(estimate, truth, per) for key, estimate in estimates.items()}
     bound = information_by(coarser(slew.recording, own), own, Params())

@@ -17,10 +17,11 @@ from equipoise.actuators.weight_choice import (
 )
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 from equipoise.model.weights import Weight, WeightGrid, places_of, unloaded
 from tests.support.builders import platform
 
-UM, X, Y, Z = 1e-6, *np.eye(3)
+X, Y, Z = np.eye(3)
 
 
 def deck(**other) -> WeightGrid:

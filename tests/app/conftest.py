@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from equipoise.app.cli import run
+from equipoise.app.text.json_schemas import FOLDER, file_of
+from tests.support.schema_check import faults
 
 KNOWN_MOVE = "60: x1=-10 y1=-10 z1=-50"
 
@@ -51,9 +53,15 @@ def free_file(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="session")
 def strict_json():
-    """Return a reader of JSON that refuses NaN and infinity."""
+    """Return a reader of JSON that refuses NaN, infinity and what the shipped schema refuses."""
 
     def refuse(word: str) -> None:
         raise ValueError(word)
 
-    return lambda text: json.loads(text, parse_constant=refuse)
+    def read(text: str) -> dict:
+        document = json.loads(text, parse_constant=refuse)
+        schema = json.loads((FOLDER / file_of(document["schema"])).read_text(encoding="utf-8"))
+        assert not list(faults(document, schema))
+        return document
+
+    return read

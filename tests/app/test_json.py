@@ -45,7 +45,7 @@ def test_an_unobservable_parameter_is_null_and_ratios_are_given_beside_it(
 def test_a_balancing_run(equipoise, strict_json):
     done = equipoise("balance", "sputnix", "--json", "--seed", "3")
     document = strict_json(done.out)
-    assert document["schema"] == "equipoise/balance/1"
+    assert document["schema"] == "equipoise/balance/2"
     assert done.code == (0 if document["verdict"]["passed"] else 1)
     assert document["verdict"]["outcome"] in ("passed", "failed", "undecided")
     assert all(step["code"] == step["reasons"][0]["code"] for step in document["steps"])
@@ -54,6 +54,11 @@ def test_a_balancing_run(equipoise, strict_json):
     assert np.shape(document["truth"]["inertia_P_kg_m2"]) == (3, 3)
     assert document["steps"][0]["kind"] == "measurement"
     assert document["steps"][-1]["verdict"] == document["verdict"]
+    assert np.abs(np.array(document["verdict"]["com_m"]) - [0, 0, -100e-6]).max() < 10e-6  # m
+    moves = [step["move"] for step in document["steps"] if "move" in step]
+    assert 0 < moves[0]["travel_m"] < 1
+    assert all(abs(at) <= 0.05 for at in moves[0]["targets_m"].values())  # m, the rails' ends
+    assert np.all(np.diag(moves[0]["predicted_covariance_m2"]) < (100e-6) ** 2)
     times = [step["time_s"] for step in document["steps"]]
     assert times == sorted(times)
 

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter, Residual
+from equipoise.model.units import UM
 from tests.support.outcomes import of_use
-
-UM = 1e-6
 
 
 def nine() -> Estimate:

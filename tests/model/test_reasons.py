@@ -12,7 +12,6 @@ from pathlib import Path
 import pytest
 
 from equipoise.model import reasons
-from equipoise.model.bench_units import PER_DEG
 from equipoise.model.outcome import (
     HAPPENED,
     Outcome,
@@ -26,6 +25,7 @@ from equipoise.model.reasons.estimate_reasons import EstimateReason
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import UNITS, Code, Quantity, Reason, distinct, one_reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
+from equipoise.model.units import DEG
 from equipoise.model.verdict import OUTCOMES, Verdict, VerdictOutcome
 
 PACKAGE = Path(reasons.__file__).parents[2]
@@ -205,7 +205,7 @@ def test_a_verdicts_first_word_is_its_outcome():
 @pytest.mark.parametrize(
     ("value", "spec", "text"),
     [
-        (0.5 / PER_DEG, "deg .3g", "0.5"),
+        (0.5 * DEG, "deg .3g", "0.5"),
         (2.5e-6, "um .1f", "2.5"),
         (1.234e-3, "uN m plain", "1234"),
         (9.87e-6, "uN m plain", "9.87"),

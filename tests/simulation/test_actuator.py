@@ -5,6 +5,7 @@ from scipy.stats import chi2
 from equipoise.model.bench_requests import in_steps
 from equipoise.model.errors import InputError, MoveRefused
 from equipoise.model.testbed import Fault
+from equipoise.model.units import MM
 from equipoise.simulation.actuator import (
     CARRIAGE,
     REAL,
@@ -19,8 +20,6 @@ from equipoise.simulation.actuator import (
     sent,
     track_home,
 )
-
-MM = 1e-3
 
 
 class Motors:

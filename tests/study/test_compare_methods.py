@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.methods.registry import METHODS
+from equipoise.model.units import UM
 from equipoise.study.compare_methods import Share, compared_methods, summary
 from equipoise.study.method_families import FAMILY
 from equipoise.study.method_run import Cost, MethodTask
-from tests.support.synthetic_runs import UM, made_up
+from tests.support.synthetic_runs import made_up
 
 
 def test_bias_sd_and_rmse_of_errors_of_1_and_3_um():

@@ -13,6 +13,7 @@ from equipoise.model.estimate import COM, END, INERTIA, Course, Estimate, Parame
 from equipoise.model.outcome import Outcome, outcome
 from equipoise.model.reasons.estimate_reasons import EstimateReason
 from equipoise.model.reasons.reason import Reason
+from equipoise.model.units import UM
 from equipoise.simulation.bench import SimulatedBench
 from equipoise.study.compare_methods import compared_methods
 from equipoise.study.method_record import JudgedRecord, Scene, judged_record
@@ -27,7 +28,7 @@ from equipoise.study.method_run import (
     tried,
 )
 
-UM, NOTHING = 1e-6, Cost(0.0, None)
+NOTHING = Cost(0.0, None)
 BED = read_preset("sputnix")
 MOVES = [(15.0, {"x1": 0.02, "z1": -0.05})]
 TRUTH = dict.fromkeys((*COM, *END, *INERTIA), 0.0)

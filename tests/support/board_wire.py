@@ -9,7 +9,6 @@ from equipoise.hardware.links.mass_interpolation import on_the_way
 from equipoise.io.testbed.presets import read_preset
 
 BED = read_preset("nanosat")  # 8 mm/s, zero at -17 mm, 800 steps per mm
-MM = 1e-3
 TURN = 0.01  # s
 LETTERS = {"grbl": "XYZ", "tmcl": "012"}  # what each kind of board calls its first three axes
 

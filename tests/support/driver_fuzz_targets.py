@@ -15,7 +15,8 @@ from equipoise.hardware.transport.driver_protocol import Phase
 from equipoise.hardware.transport.mjpeg_stream import Parts
 from equipoise.model.errors import BenchStopped
 from equipoise.model.recording import Recording, Samples
-from tests.support.board_wire import BED, MM, Wire, board_of
+from equipoise.model.units import MM
+from tests.support.board_wire import BED, Wire, board_of
 from tests.support.fuzz_target import Target
 from tests.support.sensor_units import PICTURES, unit
 

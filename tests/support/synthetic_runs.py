@@ -4,11 +4,10 @@ import numpy as np
 
 from equipoise.estimation.method_contract import Options
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.units import UM
 from equipoise.study.compare_methods import MethodComparison, stack, summary
 from equipoise.study.method_record import Scene
 from equipoise.study.method_run import JUDGED, Cost, MethodRun
-
-UM = 1e-6
 
 
 def nine(values, factor=UM):

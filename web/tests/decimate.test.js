@@ -10,15 +10,15 @@ function seriesOf(rows, valueAt, { dt = 0.01, sd = 0.5 } = {}) {
   return series;
 }
 
-function draw(series, from, to, buckets, factor = 1) {
+function draw(series, from, to, buckets, unit = 1) {
   const out = [[9, 9], [9], [], []]; // what was drawn before has to go
   const span = { from, to, length: Math.round(1000 * (to - from)) / 1000 };
-  drawn(series, span, { values: 1, sd: true, factor, buckets }, out);
+  drawn(series, span, { values: 1, sd: true, unit, buckets }, out);
   return out;
 }
 
 test("few rows are drawn as they are, in the unit shown", () => {
-  const out = draw(seriesOf(5, (i) => i), 0, 0.04, 100, 1000);
+  const out = draw(seriesOf(5, (i) => i), 0, 0.04, 100, 1e-3);
   assert.deepEqual(out[1], [0, 1000, 2000, 3000, 4000]);
   assert.deepEqual(out[2], [-500, 500, 1500, 2500, 3500]);
   assert.deepEqual(out[3], [500, 1500, 2500, 3500, 4500]);

@@ -8,14 +8,14 @@ test("units are typeset as people write them", () => {
 });
 
 test("a pair of units gives the one of the kind", () => {
-  const pair = { bench: ["um", 1e6], si: ["m", 1] };
-  assert.deepEqual(unitOf(pair, "bench"), { name: "µm", factor: 1e6 });
-  assert.deepEqual(unitOf(pair, "si"), { name: "m", factor: 1 });
+  const pair = { bench: ["um", 1e-6], si: ["m", 1] };
+  assert.deepEqual(unitOf(pair, "bench"), { name: "µm", size: 1e-6 });
+  assert.deepEqual(unitOf(pair, "si"), { name: "m", size: 1 });
 });
 
 test("90 deg are a quarter turn, 12 uN m are 12e-6 N m", () => {
-  assert.equal((Math.PI / 2) * unitForSi("rad", "bench").factor, 90);
-  assert.equal(figures(12e-6 * unitForSi("N m", "bench").factor), "12.00");
+  assert.equal((Math.PI / 2) / unitForSi("rad", "bench").size, 90);
+  assert.equal(figures(12e-6 / unitForSi("N m", "bench").size), "12.00");
   assert.equal(unitForSi("J", "si").name, "J");
 });
 

@@ -26,6 +26,8 @@ from equipoise.maths.linalg import PAIRS
 from equipoise.model.arrays import Floats, Matrix3, Series3, Vector3, Vector6
 from equipoise.model.testbed import SlidingMass
 
+ERRORS, WAYS = 1e6, 1e3  # 1/m, chosen: the programme counts errors in um and ways in mm
+
 
 class MassMaps(NamedTuple):
     """The coefficients of the three sums above, one row a mass."""
@@ -86,11 +88,11 @@ def displacements_for(
     k = len(masses)
     step = np.array([m.resolution if m.resolution > 0 else 1e-3 for m in masses])
     steps_now = now / step
-    gain = mass_maps(masses).first_moment.T * step / total_mass * 1e6  # um a step
+    gain = mass_maps(masses).first_moment.T * step / total_mass * ERRORS  # of a step
     # unknowns: steps to go forward (k), backward (k), error over and under (3 + 3) um, time s
     order = 1.0 + 1e-3 * np.arange(k)  # of equal ways, the one that moves fewer masses
-    travel_mm = step * 1e3 * order
-    cost = np.concatenate([travel_mm, travel_mm, np.full(6, 1e4), [haste + 1e-6]])
+    travel = step * WAYS * order
+    cost = np.concatenate([travel, travel, np.full(6, 1e4), [haste + 1e-6]])
     balance = np.hstack([gain, -gain, np.eye(3), -np.eye(3), np.zeros((3, 1))])
     seconds = np.diag(step / np.array([m.speed for m in masses]))
     clock = np.hstack([seconds, seconds, np.zeros((k, 6)), -np.ones((k, 1))])
@@ -106,7 +108,7 @@ def displacements_for(
         integrality=integer,
         bounds=Bounds(np.zeros(2 * k + 7), upper),
         constraints=[
-            LinearConstraint(balance, shift * 1e6, shift * 1e6),
+            LinearConstraint(balance, shift * ERRORS, shift * ERRORS),
             LinearConstraint(clock, -np.inf, 0.0),
         ],
     )

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from typing import Any
 
 from equipoise.model.reasons.reason import Reason
+from equipoise.model.units import MM
 
 
 class EquipoiseError(Exception):
@@ -42,8 +43,8 @@ class MoveRefused(EquipoiseError):
 
     def __init__(self, mass: str, at: float, requested: float, low: float, high: float) -> None:
         super().__init__(
-            f"mass {mass}: at {at * 1e3:.3g} mm, asked for {requested * 1e3:.3g} mm; "
-            f"its travel is {low * 1e3:.3g} to {high * 1e3:.3g} mm; nothing was moved"
+            f"mass {mass}: at {at / MM:.3g} mm, asked for {requested / MM:.3g} mm; "
+            f"its travel is {low / MM:.3g} to {high / MM:.3g} mm; nothing was moved"
         )
         self.mass = mass
         self.requested = requested

@@ -21,11 +21,12 @@ from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErr
 from equipoise.model.mass_properties import MassProperties, from_centre, smallest_second_moment
 from equipoise.model.testbed import Fault, SlidingMass, Testbed, TrueDrive, Truth
 from equipoise.model.torque_terms import TERMS
+from equipoise.model.units import DEG, in_si
 
 LITTLE = 0.05  # -, chosen: of the moments' geometric mean, what CAD may miss in a product
 # Without a truth: the testbed's own body, let go by hand (chosen: as the preset sputnix).
-SMALL_TILT = 3.0 * pi / 180  # rad
-SMALL_RATE = 0.3 * pi / 180  # rad/s
+SMALL_TILT = in_si(3.0, DEG)  # rad
+SMALL_RATE = in_si(0.3, DEG)  # rad/s
 
 
 @dataclass(frozen=True, slots=True, eq=False)

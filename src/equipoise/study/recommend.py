@@ -21,6 +21,7 @@ from typing import Literal
 
 from scipy.stats import binom
 
+from equipoise.model.units import MS, UN_M
 from equipoise.study.compare_laws import Comparison, LawSummary
 from equipoise.study.compare_methods import WRONG, MethodSummary, Ratios
 
@@ -29,7 +30,6 @@ COVER, RARE, MOSTLY, NEAR = 0.95, 0.01, 0.9, 1.5
 WITHIN = 0.95  # of a law's runs
 FEW = 20  # runs, chosen: with fewer, coverage of 80 % passes for chance
 CALLED: dict[Group, str] = {"com": "the centre of mass", "inertia": "the inertia"}
-MICRO = 1e6  # uN m in sentences
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ def numbers(method: MethodSummary, group: Group) -> str:
         f"RMSE {ratios_of(method, group).rmse:.2g} times the bound, 95 % intervals that hold "
         f"{percent(method.coverage.value)} of {method.coverage.of} (chance leaves "
         f"{percent(least_share(method.trusted))} or more), no failure in {method.runs} runs, "
-        f"{float(f'{1e3 * method.time:.2g}'):g} ms"
+        f"{float(f'{method.time / MS:.2g}'):g} ms"
     )
 
 
@@ -117,7 +117,7 @@ def nobody(
 
 def advised_law(found: Comparison) -> Advice:
     """Return which law to take, and why."""
-    required = f"{MICRO * found.required:.3g} uN m"
+    required = f"{found.required / UN_M:.3g} uN m"
     good = [law for law in found.laws if law_qualifies(law)]
     if not good:
         near = min(
@@ -140,7 +140,7 @@ def law_qualifies(law: LawSummary) -> bool:
 def law_numbers(law: LawSummary) -> str:
     """Return what a recommendation of a law rests on."""
     return (
-        f"{MICRO * law.left.median:.3g} uN m left, {MICRO * law.left.most:.3g} uN m in the worst "
+        f"{law.left.median / UN_M:.3g} uN m left, {law.left.most / UN_M:.3g} uN m in the worst "
         f"of 95 % of runs, within the required torque in {law.within} of {law.runs}, "
         f"{law.halted} halted, {law.false_passes} passed wrongly, {law.time.median:.0f} s"
     )

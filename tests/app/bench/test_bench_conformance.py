@@ -15,6 +15,7 @@ from equipoise.hardware.bench.replayed_bench import ReplayedBench
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.bench import Bench
 from equipoise.model.errors import InputError, MoveRefused
+from equipoise.model.units import MM
 from equipoise.simulation.bench import SimulatedBench
 from tests.support.board_wire import board_of
 from tests.support.emulated_lab import lab, over_tcp
@@ -22,7 +23,6 @@ from tests.support.emulated_lab import lab, over_tcp
 BED = replace(over_tcp(read_preset("nanosat")), tilt_limit=3.0)
 RATE = 40.0  # Hz, as the preset states it of both channels
 TURN = 0.02 + 1e-9  # s by which a bench with a clock of its own may read longer
-MM = 1e-3
 LENGTHS = (0.5, 0.013, 1.3, 0.0, 0.2, 2.0)  # s of readings
 
 

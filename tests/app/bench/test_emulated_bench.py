@@ -20,6 +20,7 @@ from equipoise.model.hardware import Port
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Samples
+from equipoise.model.units import MM
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from tests.support import emulated_lab
 from tests.support.board_wire import board_of
@@ -30,7 +31,6 @@ from tests.support.sensor_units import NEEDS, PICTURES
 BED = over_tcp(read_preset("nanosat"))
 # Left to itself it swings far: where balancing is not the matter, it may.
 FREE = replace(BED, tilt_limit=3.0)
-MM = 1e-3
 
 
 @contextlib.contextmanager

@@ -1,7 +1,5 @@
 """`equipoise assess`, run as people run it: tables, verdict and exit code, JSON, folder."""
 
-import json
-
 import pytest
 
 from equipoise.app.cli import run
@@ -56,19 +54,21 @@ def test_without_a_requirement_there_is_no_verdict(records, capsys):
     assert "Nothing is required" in capsys.readouterr().out
 
 
-def test_two_recordings_are_compared_and_the_document_holds_both(records, tmp_path, capsys):
+def test_two_recordings_are_compared_and_the_document_holds_both(
+    records, tmp_path, capsys, strict_json
+):
     """SI units: 43 um off before, the masses at home; lower by 2 x 15.6 g x 50 mm / 14.24 kg."""
     folder = tmp_path / "out"
     words = ("--before", str(records[0]), "--json", "--out", str(folder))
     assert assess(records[1], *words) == 0
-    document = json.loads(capsys.readouterr().out)
-    assert document["schema"] == "equipoise/assess/1"
+    document = strict_json(capsys.readouterr().out)
+    assert document["schema"] == "equipoise/assess/2"
     assert document["verdict"] is None
-    fell = document["before"]["com"]["value"][2] - document["com"]["value"][2]
+    fell = document["before"]["com"]["value_m"][2] - document["com"]["value_m"][2]
     assert fell == pytest.approx(2 * 0.0156 * 0.05 / 14.24, rel=0.15)
     assert (
-        document["torque_in_range"]["rms"]["low"]
-        > document["before"]["torque_in_range"]["rms"]["high"]
+        document["torque_in_range"]["rms_N_m"]["low"]
+        > document["before"]["torque_in_range"]["rms_N_m"]["high"]
     )
     page = (folder / "report.html").read_text(encoding="utf-8")
     assert "rose" in page

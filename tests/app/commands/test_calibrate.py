@@ -1,7 +1,5 @@
 """`equipoise calibrate` from the command line: moves, tables, JSON, and the file it writes."""
 
-import json
-
 import pytest
 
 from equipoise.app.cli import run
@@ -50,9 +48,9 @@ def test_it_says_what_it_found_and_writes_it_with_the_comments(folder, capsys):
     assert [m.gain for m in after[1:]] == [1.0] * 5
 
 
-def test_json_is_one_document_with_null_for_what_was_not_shown(folder, capsys):
+def test_json_is_one_document_with_null_for_what_was_not_shown(folder, capsys, strict_json):
     assert calibrate(folder, "--reference", "x1", "--json") == 0
-    document = json.loads(capsys.readouterr().out)
+    document = strict_json(capsys.readouterr().out)
     values = {p["name"]: p for p in document["parameters"]}
     assert document["method"] == "calibration"
     assert values["gain_x1"]["value"] == 1.0

@@ -49,7 +49,7 @@ def test_a_law_that_does_not_exist_names_the_nearest(equipoise):
 
 def test_cards_are_json(equipoise, strict_json):
     document = strict_json(equipoise("laws", "--json").out)
-    assert document["schema"] == "equipoise/laws/1"
+    assert document["schema"] == "equipoise/laws/2"
     assert [card["name"] for card in document["laws"]] == list(CARDS)
     one = strict_json(equipoise("laws", "pid", "--json").out)["laws"]
     assert [card["needs"] for card in one] == [list(PID.needs)]
@@ -106,15 +106,15 @@ def test_a_comparison_is_one_document_and_a_line_a_run(equipoise, strict_json, t
     assert strict_json((tmp_path / "here" / "compare.json").read_text("utf-8")) == document
     (law,) = document["laws"]
     assert (law["law"], law["runs"], document["seeds"]) == ("pid", 1, [1])
-    assert law["torque"]["median"] == law["torque"]["most"] > 0
+    assert law["torque_N_m"]["median"] == law["torque_N_m"]["most"] > 0
     assert done.code == (0 if law["within"] else 1)
     with (tmp_path / "here" / "laws.csv").open(encoding="utf-8", newline="") as file:
         (row,) = csv.DictReader(file)
     assert (row["law"], row["seed"]) == ("pid", "1")
-    assert float(row["torque_uN_m"]) == pytest.approx(1e6 * law["torque"]["median"], rel=1e-4)
+    assert float(row["torque_uN_m"]) == pytest.approx(1e6 * law["torque_N_m"]["median"], rel=1e-4)
     aside = 1e-6 * np.hypot(float(row["offset_x_um"]), float(row["offset_y_um"]))
-    assert aside == pytest.approx(law["aside"]["median"], rel=1e-4)
-    assert float(row["time_s"]) == pytest.approx(law["time"]["median"], rel=1e-4)
+    assert aside == pytest.approx(law["aside_m"]["median"], rel=1e-4)
+    assert float(row["time_s"]) == pytest.approx(law["time_s"]["median"], rel=1e-4)
 
 
 SAID = verdict_of(False)

@@ -10,6 +10,7 @@ import pytest
 from equipoise.io.documents.manual_session import Piles
 from equipoise.io.recording.recording_file import write_recording
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.units import UM
 from equipoise.model.weights import unloaded
 from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
 from equipoise.simulation.hands import SimulatedHands
@@ -50,8 +51,8 @@ def test_a_simulated_person_balances_and_it_is_written_down(equipoise, tmp_path,
     assert document["verdict"]["passed"]
     placing = next(s["placing"] for s in document["steps"] if s["kind"] == "place")
     assert placing["handled"] > 0
-    off = np.array(document["truth"]["com_um"]) - [0, 0, -100]
-    assert np.all(np.abs(off) <= [2, 2, 3])
+    off = np.array(document["truth"]["com_m"]) - [0, 0, -100 * UM]
+    assert np.all(np.abs(off) <= np.array([2, 2, 3]) * UM)
 
 
 def test_a_session_resumed_with_every_recording_is_the_run_in_one_go(equipoise, swings):

@@ -1,11 +1,10 @@
 """`plan` and what takes its file: from a recording to a plan, a record by it, and what it told."""
 
-import json
-
 from equipoise.app.cli import run
+from equipoise.model.estimate import COM, INERTIA
 
 
-def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch):
+def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch, strict_json):
     """Few trials: that the plan is good is for others to show; that it fits together, for this."""
     monkeypatch.chdir(tmp_path)
     simulate = "simulate sputnix --out run.csv --duration-s 60 --move"
@@ -16,7 +15,8 @@ def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch):
     )
     assert run(words.split()) in (0, 1)
     out = capsys.readouterr().out
-    plan = json.loads(out[out.index("{") :])
+    plan = strict_json(out[out.index("{") :])
+    assert plan["requested"] == [*COM, *INERTIA]
     assert plan["standing_m"] == {"x1": -0.010, "y1": -0.010, "z1": -0.050}
     assert len(plan["moves"]) == 2
     assert all(sd > 0 for sd in plan["planned"]["sd"].values())
@@ -25,7 +25,7 @@ def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch):
     words = "identify planned.csv --testbed sputnix --plan plan.toml --json"
     assert run(words.split()) == 0
     out = capsys.readouterr().out
-    rows = json.loads(out[out.index("{") :])["plan"]["parameters"]
+    rows = strict_json(out[out.index("{") :])["plan"]["parameters"]
     assert len(rows) == 9
     assert all(0.1 < row["found_sd"] / row["predicted_sd"] < 10 for row in rows)
 

@@ -1,5 +1,6 @@
 """`equipoise reproduce lee`: every figure of the paper, one document, and a table."""
 
+import math
 from functools import cache
 
 import pytest
@@ -41,6 +42,7 @@ def test_all_figures_and_one_document_are_written(equipoise, strict_json, tmp_pa
     assert "From (70, 30, -30) deg" in page
     assert all(f"Lee Fig. {k}." in page for k in range(3, 19))
     large, small = document["manoeuvres"]
+    assert large["start_rad"] == pytest.approx([math.radians(a) for a in (70, 30, -30)])
     assert large["singular_s"] is not None
     assert small["singular_s"] is None
     assert set(large["estimates"]) == set(lee.COMPARED)

@@ -18,8 +18,8 @@ from equipoise.io.recording.recording_file import read_recording  # noqa: E402
 from equipoise.io.testbed.presets import read_preset  # noqa: E402
 from equipoise.maths.attitude import difference, from_euler321, to_matrix  # noqa: E402
 from equipoise.model.recording import Recording, Samples  # noqa: E402
+from equipoise.model.units import DEG  # noqa: E402
 
-DEG = math.pi / 180
 BED = read_preset("sputnix")
 UNIT = next(unit for unit in BED.hardware.sensors if unit.driver == "camera")
 EYE = eye_of(UNIT.settings, "preset")

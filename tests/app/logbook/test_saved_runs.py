@@ -55,7 +55,7 @@ def test_an_entry_holds_what_the_document_holds(runs):
     entry, document = read_run(folder), json.loads((folder / "balance.json").read_text())
     verdict = document["steps"][-1]["verdict"]
     assert entry.outcome == verdict["outcome"]
-    assert [1e6 * p.value for p in entry.standing] == pytest.approx(verdict["com_um"])
+    assert [p.value for p in entry.standing] == pytest.approx(verdict["com_m"])
     testbed = (folder / "testbed.toml").read_bytes()
     assert entry.configuration == hashlib.sha256(testbed).hexdigest()
 

@@ -59,4 +59,4 @@ def test_an_unobservable_value_has_no_bounds():
 def test_units_of_the_bench(name, si, shown, value):
     unit = unit_for(name, si)
     assert unit.name == shown
-    assert unit.factor * value == pytest.approx(1.0)
+    assert unit.size == pytest.approx(value)

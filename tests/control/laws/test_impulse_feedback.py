@@ -10,6 +10,7 @@ from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import skew
 from equipoise.model.devices import JetPair
 from equipoise.model.errors import InputError
+from equipoise.model.units import UM
 from tests.support.simple_loop import (
     CALM,
     GRAVITY,
@@ -25,7 +26,6 @@ from tests.support.simple_loop import (
     table,
 )
 
-UM = 1e-6
 HELD = law.Window(0.0, np.zeros(3), MASS * 20 * GRAVITY * skew(UP), np.zeros(3))  # level, 20 s
 TURN, RATE = [0.03, -0.02, 0.4], [0.004, -0.003, 0.005]  # 2 deg of tilt, 0.4 deg/s
 

@@ -11,9 +11,9 @@ from equipoise.control.elements.loop_stability import radius
 from equipoise.control.laws import l1_adaptive as law
 from equipoise.control.plant.pendulum import rate_of, tilt_of, turned
 from equipoise.model.errors import InputError
+from equipoise.model.units import UM
 from tests.support.simple_loop import NOISE, OFFSET, Loop, Plant, fly, guess, masses, table
 
-UM = 1e-6
 TURN, RATE = [0.03, -0.02, 0.4], [0.004, -0.003, 0.005]  # 2 deg of tilt, 0.4 deg/s
 
 

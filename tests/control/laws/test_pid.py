@@ -11,6 +11,7 @@ from equipoise.control.laws import pid
 from equipoise.control.plant import pendulum
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
+from equipoise.model.units import UM
 from tests.support.outcomes import of_use
 from tests.support.simple_loop import (
     CALM,
@@ -24,7 +25,6 @@ from tests.support.simple_loop import (
     table,
 )
 
-UM = 1e-6
 TURN, RATE = [0.03, -0.02, 0.4], [0.004, -0.003, 0.005]  # 2 deg of tilt, 0.4 deg/s
 
 

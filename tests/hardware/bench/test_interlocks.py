@@ -11,10 +11,10 @@ from equipoise.hardware.transport.driver_protocol import BoardState
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import from_euler321
 from equipoise.model.hardware import SafetyLimits
+from equipoise.model.units import DEG
 
 BED = read_preset("nanosat")  # tilt limit 40 deg; masses of 8 mm/s on +-15 mm
 LIMITS = SafetyLimits(rate=math.radians(60), stale=0.5, mismatch=1e-3)
-DEG = math.pi / 180
 
 
 def attitudes(*rolls_deg):

@@ -13,7 +13,8 @@ from equipoise.hardware.emulated.registry import BOARDS as OUTLYING_SIDES
 from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.errors import BenchStopped, InputError
-from tests.support.board_wire import BED, LETTERS, MM, TURN, Wire, board_of
+from equipoise.model.units import MM
+from tests.support.board_wire import BED, LETTERS, TURN, Wire, board_of
 
 SPEED = 8 * MM
 every_board = pytest.mark.parametrize("kind", sorted(BOARDS))

@@ -6,7 +6,8 @@ import pytest
 
 from equipoise.hardware.boards.grbl_report import Code, Ok, Setting, Status, Welcome, parsed
 from equipoise.hardware.boards.grbl_settings import disagreement
-from tests.support.board_wire import BED, MM, Wire, board_of
+from equipoise.model.units import MM
+from tests.support.board_wire import BED, Wire, board_of
 
 BOARD = board_of("grbl")
 

@@ -14,8 +14,9 @@ from equipoise.hardware.boards.tmcl_settings import disagreement, guards, questi
 from equipoise.hardware.boards.tmcl_talk import Answer, Talk
 from equipoise.hardware.boards.tmcl_words import Reply, Request, packed, replies_in
 from equipoise.hardware.emulated.tmcl import EmulatedTmcl
+from equipoise.model.units import MM
 from tests.support import thorough
-from tests.support.board_wire import BED, MM, TURN, Wire, board_of
+from tests.support.board_wire import BED, TURN, Wire, board_of
 
 BOARD = board_of("tmcl")
 SPEED = 6400  # microsteps/s: 8 mm/s of 800 steps

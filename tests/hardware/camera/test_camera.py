@@ -33,10 +33,10 @@ from equipoise.maths.attitude import (  # noqa: E402
 from equipoise.model.errors import InputError  # noqa: E402
 from equipoise.model.hardware import Port, SensorUnit  # noqa: E402
 from equipoise.model.recording import Recording, Samples  # noqa: E402
+from equipoise.model.units import DEG  # noqa: E402
 from tests.support import thorough  # noqa: E402
 from verification import camera as check  # noqa: E402
 
-DEG = math.pi / 180
 SETTINGS = {
     "columns": 6.0,
     "rows": 5.0,

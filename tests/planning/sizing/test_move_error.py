@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from equipoise.model.units import UM
 from equipoise.planning.sizing.move_error import at_home, move
 from tests.planning.sizing.layouts import X, Y, Z, box, mass, testbed
 
-UM = 1e-6
 QUANTUM = 10e-6  # m: 100 g x 1 mm of 10 kg
 
 

@@ -8,6 +8,7 @@ from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
 from equipoise.io.testbed.presets import read_preset
+from equipoise.model.units import UM
 from equipoise.planning.sizing.reachable_set import (
     contains,
     furthest,
@@ -20,7 +21,6 @@ from equipoise.planning.sizing.reachable_set import (
 )
 from tests.planning.sizing.layouts import TOTAL, X, Y, Z, mass, pyramid
 
-UM = 1e-6
 REACH = 500e-6  # m: 100 g of 10 kg, 50 mm to either side
 SKEW = (mass((1, 0.2, 0)), mass((0, 1, 0.4), travel=(-0.02, 0.06)), mass((0.3, 0, 1), weight=0.03),
         mass((1, 1, 1), weight=0.05), mass((-1, 0.5, 0.2), travel=(0.0, 0.03)))  # fmt: skip

@@ -8,11 +8,11 @@ import pytest
 
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.testbed import Fault
+from equipoise.model.units import UM
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.simulation.bench import SimulatedBench
 
 SPUTNIX = read_preset("sputnix")
-UM = 1e-6
 
 
 def run(testbed, options, seed=3):

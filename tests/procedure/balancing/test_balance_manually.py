@@ -15,6 +15,7 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.hands import Hands
 from equipoise.model.mass_properties import MassProperties, combine
 from equipoise.model.placing import Placing
+from equipoise.model.units import UM
 from equipoise.model.weights import places_of, unloaded
 from equipoise.procedure.balancing.balance_manually import (
     HandOptions,
@@ -28,7 +29,6 @@ from equipoise.simulation.hands import SimulatedHands
 from verification import manual
 from verification.manual import TARGET, half_a_millimetre_off
 
-UM = 1e-6
 BED = read_preset("weights-by-hand")
 placed = cache(manual.placed)
 

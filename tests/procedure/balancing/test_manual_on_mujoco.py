@@ -14,12 +14,12 @@ pytest.importorskip("mujoco", reason="MuJoCo is a development dependency")
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.hands import Hands
 from equipoise.model.mass_properties import parallel_axis
+from equipoise.model.units import UM
 from equipoise.model.weights import places_of
 from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
 from tests.oracle import mujoco_bench as oracle
 from tests.support import thorough
 
-UM = 1e-6
 BED = read_preset("weights-by-hand")
 TARGET = np.array([0.0, 0.0, -100 * UM])
 GROW = {"deck": [0, 0, 1], "left": [0, 1, 0], "right": [0, -1, 0]}  # piles, away from the frame

@@ -9,13 +9,13 @@ from equipoise.actuators.sliding_masses import displacements_for
 from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.reasons.step_reasons import MoveReason
+from equipoise.model.units import UM
 from equipoise.procedure.balancing.hold import before_moving
 from equipoise.procedure.steps.joint_fit import learn, without_stops
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.simulation.bench import SimulatedBench
 from tests.support.builders import platform
 
-UM = 1e-6
 UNB = read_preset("unb")  # a stop errs by 1 um, and a look sees 0.05 um sideways
 BELOW = np.array([0.0, 0.0, -100.0]) * UM
 STEPS = 200 * np.array([mass.resolution for mass in UNB.masses])

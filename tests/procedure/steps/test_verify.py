@@ -8,6 +8,7 @@ import pytest
 from equipoise.model.estimate import Parameter
 from equipoise.model.move import Move
 from equipoise.model.reasons.step_reasons import MoveReason
+from equipoise.model.units import UM
 from equipoise.procedure.steps.joint_fit import learn
 from equipoise.procedure.steps.verify import (
     FRESH,
@@ -18,8 +19,6 @@ from equipoise.procedure.steps.verify import (
 )
 from tests.support.builders import noisy, platform, recording
 from tests.support.outcomes import of_use
-
-UM = 1e-6
 
 
 @pytest.fixture(scope="module")

@@ -41,17 +41,17 @@ def one_of(option: str, name: str, known: list[str]) -> str:
     return name
 
 
-def vector(option: str, values: tuple[float, float, float], factor: float) -> Vector3:
+def vector(option: str, values: tuple[float, float, float], unit: float) -> Vector3:
     """Return three finite numbers as a vector in SI."""
     import numpy as np
 
     if not all(map(math.isfinite, values)):
         raise InputError(option, f"{values}", "three finite numbers")
-    return np.array(values, dtype=float) * factor
+    return np.array(values, dtype=float) * unit
 
 
-def tolerance(option: str, values: tuple[float, float, float], factor: float) -> Vector3:
+def tolerance(option: str, values: tuple[float, float, float], unit: float) -> Vector3:
     """Return three numbers above zero as a vector in SI."""
     for value in values:
         positive(option, value)
-    return vector(option, values, factor)
+    return vector(option, values, unit)

@@ -64,7 +64,7 @@ def surroundings_of(exposure: Exposure) -> "Surroundings":
     from dataclasses import asdict
 
     from equipoise.app.arguments.checks import not_negative
-    from equipoise.app.text.units import PER_DEG, UM
+    from equipoise.model.units import DEG, LITRE, MM, PERCENT, UM, in_si
     from equipoise.planning.sizing.environment import Surroundings
 
     reported = asdict(exposure)
@@ -72,15 +72,15 @@ def surroundings_of(exposure: Exposure) -> "Surroundings":
         not_negative(f"--{name.replace('_', '-')}", value)
     return Surroundings(
         temperature=exposure.temperature_k,
-        expansion=exposure.expansion_um_m_k / UM,
+        expansion=in_si(exposure.expansion_um_m_k, UM),
         length=exposure.length_m,
-        lopsided=exposure.lopsided_percent / 100,
+        lopsided=in_si(exposure.lopsided_percent, PERCENT),
         bending=exposure.bending_hz,
-        bending_share=exposure.bending_share_percent / 100,
-        form_error=exposure.form_error_um / UM,
-        air_change=exposure.air_change_percent / 100,
-        volume=exposure.volume_l / 1000,
-        lever=exposure.lever_mm / 1000,
-        slew=exposure.slew_deg_s / PER_DEG,
+        bending_share=in_si(exposure.bending_share_percent, PERCENT),
+        form_error=in_si(exposure.form_error_um, UM),
+        air_change=in_si(exposure.air_change_percent, PERCENT),
+        volume=in_si(exposure.volume_l, LITRE),
+        lever=in_si(exposure.lever_mm, MM),
+        slew=in_si(exposure.slew_deg_s, DEG),
         air=exposure.air_torque,
     )

@@ -17,6 +17,7 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
+from equipoise.model.units import MM
 
 MOVE = re.compile(r"\s*(?P<time>[^:\s]+)\s*:\s*(?P<goals>\S+=\S+(?:[\s,]+\S+=\S+)*)\s*")
 WANTED_MOVE = "'seconds: mass=mm mass=mm', such as '60: x1=-10 z1=-50'"
@@ -69,7 +70,7 @@ def move_of(text: str, testbed: Testbed) -> tuple[float, dict[str, float]]:
         if name not in known:
             wanted = nearest(name, known) if known else "no move: the testbed has no masses"
             raise InputError(f"--move '{text}'", f"mass '{name}'", wanted)
-    return _number(read["time"], text), {n: _number(mm, text) * 1e-3 for n, mm in pairs}
+    return _number(read["time"], text), {n: _number(mm, text) * MM for n, mm in pairs}
 
 
 def _number(word: str, text: str) -> float:

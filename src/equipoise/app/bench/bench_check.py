@@ -17,10 +17,10 @@ from equipoise.hardware.bench.bench_controller import Keeper
 from equipoise.hardware.bench.real_bench import RealBench
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.maths.attitude import tilt
-from equipoise.model.bench_units import MM, PER_DEG
 from equipoise.model.errors import BenchStopped, EquipoiseError
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import SlidingMass, Testbed
+from equipoise.model.units import DEG, MM
 
 A_LITTLE = 1e-3  # m: out and back
 UPSIDE = 90.0  # deg, chosen: no bench lets a platform tilt so far
@@ -93,7 +93,7 @@ def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[
 def _frames(recording: Recording, testbed: Testbed) -> Iterator[CheckResult]:
     """Tell whether the platform is upright, and what else its rows show to be wrong."""
     if recording.attitude is not None:
-        leaning = PER_DEG * float(np.median(tilt(recording.attitude.values, testbed.up)))
+        leaning = float(np.median(tilt(recording.attitude.values, testbed.up))) / DEG
         text = f"the axis that should point up is {leaning:.1f} deg from up"
         wrong = "; is alignment or laboratory wrong in [[hardware.sensor]]?"
         yield CheckResult(leaning < UPSIDE, text + ("" if leaning < UPSIDE else wrong))
@@ -106,7 +106,7 @@ def _moved(
     bench: RealBench, keeper: Keeper, mass: SlidingMass, agreed: Callable[[str], bool]
 ) -> Iterator[CheckResult]:
     """Move a mass out and back, and tell whether its board says that it went."""
-    if not agreed(f"Move mass {mass.name} by {MM * A_LITTLE:g} mm and back?"):
+    if not agreed(f"Move mass {mass.name} by {A_LITTLE / MM:g} mm and back?"):
         yield CheckResult(True, f"mass {mass.name}: not moved")
         return
     way = A_LITTLE if mass.travel[1] >= A_LITTLE else -A_LITTLE
@@ -117,7 +117,7 @@ def _moved(
             bench.read(MEASUREMENT)
         at = keeper.positions[mass.name]
         if abs(at - goal) > A_LITTLE / 2:
-            found = f"sent to {MM * goal:g} mm, its board says {MM * at:.2f} mm"
+            found = f"sent to {goal / MM:g} mm, its board says {at / MM:.2f} mm"
             raise BenchStopped(f"mass {mass.name}: {found}")
     yield CheckResult(
         True, f"mass {mass.name}: went 1 mm out and back, as its board says; look at it"

@@ -54,18 +54,18 @@ def assess(
     """
     from equipoise.app.arguments.checks import between, positive, vector
     from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
-    from equipoise.app.text.units import PER_DEG, UM
     from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.model.units import DEG, UM, in_si
 
     bed, seeking = testbed_of(testbed), spelt_out(seeking)
     torque, offset = require_torque, require_offset_um
     if torque is not None:
         positive("--require-torque", torque)
     if offset is not None:
-        offset = positive("--require-offset-um", offset) / UM
+        offset = in_si(positive("--require-offset-um", offset), UM)
     windows = None if windows_s is None else positive("--windows-s", windows_s)
-    tilt = between("--tilt-deg", tilt_deg, 0.0, 90.0) / PER_DEG
-    goal = vector("--target-um", target_um, 1 / UM)
+    tilt = in_si(between("--tilt-deg", tilt_deg, 0.0, 90.0), DEG)
+    goal = vector("--target-um", target_um, UM)
     if out is not None:
         check_folder(out)
     recording = fitting_recording_of(file, reading, bed)

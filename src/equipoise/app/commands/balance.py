@@ -123,19 +123,20 @@ def balance(
 def _where(target_um: Triple, tolerance_um: Triple) -> "tuple[Vector3, Vector3]":
     """Return target and tolerance, m, checked."""
     from equipoise.app.arguments.checks import tolerance, vector
-    from equipoise.app.text.units import UM
+    from equipoise.model.units import UM
 
-    target = vector("--target-um", target_um, 1 / UM)
-    return target, tolerance("--tolerance-um", tolerance_um, 1 / UM)
+    target = vector("--target-um", target_um, UM)
+    return target, tolerance("--tolerance-um", tolerance_um, UM)
 
 
 def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> Until:
     """Return moves and time (s) before giving up, and how long to hold (s), checked."""
     from equipoise.app.arguments.checks import not_negative, positive
+    from equipoise.model.units import MINUTE
 
     moves = None if max_moves is None else int(not_negative("--max-moves", max_moves))
     longest = None if max_time_s is None else positive("--max-time-s", max_time_s)
-    return moves, longest, not_negative("--hold-min", hold_min) * 60
+    return moves, longest, not_negative("--hold-min", hold_min) * MINUTE
 
 
 def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:

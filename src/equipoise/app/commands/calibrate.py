@@ -8,6 +8,7 @@ from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.types import Flag, Names
 from equipoise.app.console.terminal import busy, show_paths
 from equipoise.model.errors import InputError
+from equipoise.model.units import MM
 
 if TYPE_CHECKING:
     from equipoise.app.views.calibration_views import Calibrated
@@ -112,7 +113,7 @@ def _report_moves(bed: "Testbed", name: str) -> int:
     plan, duration = calibration_moves(bed)
     lines = [f"equipoise simulate {name} --out run.csv --duration-s {duration:g}"]
     lines += [
-        f'--move "{t:g}: ' + " ".join(f"{m}={1e3 * d:.4g}" for m, d in goals.items()) + '"'
+        f'--move "{t:g}: ' + " ".join(f"{m}={d / MM:.4g}" for m, d in goals.items()) + '"'
         for t, goals in plan
     ]
     print(" \\\n  ".join(lines))

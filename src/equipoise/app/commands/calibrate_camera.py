@@ -4,6 +4,7 @@ from pathlib import Path
 
 from equipoise.app.arguments.types import Whole
 from equipoise.app.console.terminal import counted, show_paths
+from equipoise.model.units import MM
 
 
 def calibrate_camera(
@@ -48,7 +49,7 @@ def calibrate_camera(
 
     check_writable(out)
     square, marker = positive("--square-mm", square_mm), positive("--marker-mm", marker_mm)
-    board = Charuco(dictionary, columns, rows, 1e-3 * square, 1e-3 * marker)
+    board = Charuco(dictionary, columns, rows, square * MM, marker * MM)
     with counted("looking") as on_progress:
         found = lens_from_files(pictures, board, on_progress)
     write_camera_keys(settings_of_lens(found.lens), out)

@@ -137,12 +137,12 @@ def _goal(judging: JudgingLaws) -> "LawGoal":
     """Return what laws are to reach, checked."""
     from equipoise.app.arguments.checks import not_negative, positive, tolerance, vector
     from equipoise.app.runs.comparison import LawGoal
-    from equipoise.app.text.units import PER_DEG, UM
+    from equipoise.model.units import DEG, UM, in_si
 
     return LawGoal(
-        vector("--target-um", judging.target_um, 1 / UM),
-        tolerance("--tolerance-um", judging.tolerance_um, 1 / UM),
-        not_negative("--tilt-deg", judging.tilt_deg) / PER_DEG,
+        vector("--target-um", judging.target_um, UM),
+        tolerance("--tolerance-um", judging.tolerance_um, UM),
+        in_si(not_negative("--tilt-deg", judging.tilt_deg), DEG),
         positive("--require-torque", judging.require_torque),
         positive("--max-time-s", judging.max_time_s),
     )

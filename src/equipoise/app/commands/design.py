@@ -49,14 +49,14 @@ def design(
     """
     from equipoise.app.arguments.checks import not_negative, positive, vector
     from equipoise.app.arguments.inputs import testbed_with_masses
-    from equipoise.app.text.units import PER_DEG, UM
     from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.model.units import DEG, UM, in_si
 
     lengths = [positive("--record-s", length) for length in record_s]
-    target = vector("--target-um", target_um, 1 / UM)
-    tilt = positive("--tilt-deg", tilt_deg) / PER_DEG
+    target = vector("--target-um", target_um, UM)
+    tilt = in_si(positive("--tilt-deg", tilt_deg), DEG)
     count = int(positive("--moves", moves))
-    lean = not_negative("--misalignment-deg", misalignment_deg) / PER_DEG
+    lean = in_si(not_negative("--misalignment-deg", misalignment_deg), DEG)
     if require_torque is not None:
         positive("--require-torque", require_torque)
     around, bed = surroundings_of(exposure), testbed_with_masses(testbed)

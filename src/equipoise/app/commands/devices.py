@@ -1,8 +1,5 @@
 """`equipoise devices`: what is connected to this computer."""
 
-import json as text
-from dataclasses import asdict
-
 from equipoise.app.arguments.types import Flag
 
 
@@ -16,11 +13,13 @@ def devices(*, json: Flag = False) -> int:
     """
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.blocks import paragraphs
+    from equipoise.app.text.json_document import dump
+    from equipoise.app.text.json_lists import DEVICES
     from equipoise.hardware.transport.serial_ports import serial_ports
 
     found = serial_ports()
     if json:
-        print(text.dumps({"schema": "equipoise/devices/1", "serial": [asdict(p) for p in found]}))
+        print(dump(DEVICES.write({"serial": found})))
         return 0
     none = "No serial port was found. Network devices are not listed."
     show(paragraphs(*[f"serial:{p.path}  {p.what}".rstrip() for p in found] or [none]))

@@ -56,8 +56,8 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
 
 def _run(bench: "EmulatedBench", longest: float) -> None:
     """Run as the clock on the wall does, until then or until Ctrl-C."""
-    from equipoise.app.text.units import UM
     from equipoise.hardware.bench.wall_clock import WallClock
+    from equipoise.model.units import UM
 
     clock = WallClock()
     try:
@@ -68,5 +68,5 @@ def _run(bench: "EmulatedBench", longest: float) -> None:
             clock.wait()
     except KeyboardInterrupt:
         pass
-    com = ", ".join(f"{UM * x:.2f}" for x in bench.platform.truth().com)
+    com = ", ".join(f"{x / UM:.2f}" for x in bench.platform.truth().com)
     stdout().print(f"the emulation has ended; the true centre of mass is at ({com}) um")

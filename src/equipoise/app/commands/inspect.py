@@ -39,7 +39,7 @@ def inspect(
     """
     from equipoise.app.arguments.resolve import recording_of, testbed_of
     from equipoise.app.console.rich_blocks import show
-    from equipoise.app.text.json_document import dump, findings_json
+    from equipoise.app.text.json_document import dump, recording_json
     from equipoise.app.text.run_blocks import finding_items
     from equipoise.assessment.findings.event_findings import NOT_SOUGHT
     from equipoise.assessment.findings.record_findings import findings
@@ -54,7 +54,7 @@ def inspect(
 
         write_figure(draw(recording, found, None if bed is None else bed.up), figure)
     if json:
-        print(dump(findings_json(recording, found)))
+        print(dump(recording_json(recording, found)))
         return 0
     show(finding_items(found))
     if figure is not None:

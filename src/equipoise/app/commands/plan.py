@@ -61,13 +61,13 @@ def plan(
     """
     from equipoise.app.arguments.checks import not_negative, positive, seed_of
     from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
-    from equipoise.app.text.units import PER_DEG
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.model.units import DEG, in_si
 
     bed, seeking, seed = testbed_of(testbed), spelt_out(seeking), seed_of(seed)
     duration = positive("--duration-s", duration_s)
-    rate = positive("--max-rate-deg-s", max_rate_deg_s) / PER_DEG
+    rate = in_si(positive("--max-rate-deg-s", max_rate_deg_s), DEG)
     count = int(not_negative("--moves", moves))
     tries = int(positive("--trials", trials))
     if write is not None:

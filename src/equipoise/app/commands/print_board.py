@@ -4,6 +4,7 @@ from pathlib import Path
 
 from equipoise.app.arguments.types import Whole
 from equipoise.app.console.terminal import show_paths
+from equipoise.model.units import MM
 
 
 def print_board(
@@ -59,7 +60,7 @@ def print_board(
     marker = positive("--marker-mm", marker_mm)
     if square_mm is not None:
         square = positive("--square-mm", square_mm)
-        charuco = Charuco(dictionary, columns, rows, 1e-3 * square, 1e-3 * marker)
+        charuco = Charuco(dictionary, columns, rows, square * MM, marker * MM)
         write_paper(charuco_print(charuco, DPI), out)
         show_paths([out])
         return 0
@@ -74,7 +75,7 @@ def print_board(
     board = board_of(reported, "print-board")
     write_paper(board_print(board, DPI), out)
     width, height = board.size
-    show(paragraphs(f"{1e3 * width:g} x {1e3 * height:g} mm over all markers"))
+    show(paragraphs(f"{width / MM:g} x {height / MM:g} mm over all markers"))
     if keys is not None:
         write_camera_keys(reported, keys)
     show_paths([out] if keys is None else [out, keys])

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from equipoise.app.text.units import MM, PER_DEG
 from equipoise.maths.attitude import tilt
 from equipoise.model.arrays import Vector3
 from equipoise.model.recording import CHANNELS, Recording, Samples
+from equipoise.model.units import DEG, MM
 
 SPAN = 60  # s, chosen: so far back tilts are kept
 
@@ -51,12 +51,12 @@ def time_of(known: Newest) -> str:
 
 def tilt_of(known: Newest) -> str:
     """Return the tilt as a text; nothing where it is not known."""
-    return "" if known.tilt is None else f"tilt {known.tilt * PER_DEG:6.2f} deg"
+    return "" if known.tilt is None else f"tilt {known.tilt / DEG:6.2f} deg"
 
 
 def masses_of(known: Newest) -> list[str]:
     """Return where each mass is as a text."""
-    return [f"{name} {at * MM:7.2f} mm" for name, at in known.masses.items()]
+    return [f"{name} {at / MM:7.2f} mm" for name, at in known.masses.items()]
 
 
 def _rows_of(rows: Recording, name: str) -> Samples | None:

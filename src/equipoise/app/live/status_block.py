@@ -18,11 +18,11 @@ from equipoise.app.live.observed_bench import WatchedBench
 from equipoise.app.text.com_estimate import com_after
 from equipoise.app.text.numbers import fixed
 from equipoise.app.text.sparkline import BLOCKS, PLAIN, in_columns, sparkline
-from equipoise.app.text.units import MM, PER_DEG, UM
 from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import DEG, MM, UM
 from equipoise.simulation.bench import SimulatedBench
 
 SLICE = 0.125  # s, chosen: as often as the block is drawn
@@ -70,13 +70,13 @@ class TerminalView:
         newest = self.newest
         reported = ["bench time", f"{newest.time:8.1f} s"]
         if newest.tilt is not None:
-            reported.append(f"{tilt_of(newest)} (limit {self.testbed.tilt_limit * PER_DEG:g})")
+            reported.append(f"{tilt_of(newest)} (limit {self.testbed.tilt_limit / DEG:g})")
         if newest.rate is not None:
-            reported.append(f"rate {newest.rate * PER_DEG:6.2f} deg/s")
+            reported.append(f"rate {newest.rate / DEG:6.2f} deg/s")
         return reported
 
     def _masses(self) -> list[str]:
-        reported = [f"{name} {at * MM:6.2f}" for name, at in self.newest.masses.items()]
+        reported = [f"{name} {at / MM:6.2f}" for name, at in self.newest.masses.items()]
         return ["masses, mm", *reported] if reported else []
 
     def _course(self, width: int, plain: bool) -> list[str]:
@@ -85,7 +85,7 @@ class TerminalView:
         columns, seconds = in_columns(self.newest.tilts, SPAN, width - indent - len(GREATEST))
         if not columns:
             return []
-        greatest = max(value for value in columns if value is not None) * PER_DEG
+        greatest = max(value for value in columns if value is not None) / DEG
         drawn = sparkline(columns, PLAIN if plain else BLOCKS)
         name = f"{'tilt':{indent - len(INDENT)}s}" if width >= WIDE else ""
         return [f"{INDENT}{name}{drawn} to {greatest:.1f} deg, {seconds} s"]
@@ -95,7 +95,7 @@ class TerminalView:
         estimated = None if self._step is None else com_after(self._step)
         if self._step is None or estimated is None:
             return []
-        pairs = zip(AXES, estimated.com * UM, estimated.sd * UM, strict=True)
+        pairs = zip(AXES, estimated.com / UM, estimated.sd / UM, strict=True)
         reported = [f"{axis} {_um(float(value), float(sd))}" for axis, value, sd in pairs]
         return ["com, um", *reported, f"at {self._step.time:.1f} s"]
 

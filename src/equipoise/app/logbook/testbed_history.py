@@ -6,11 +6,11 @@ from datetime import datetime
 from typing import cast
 
 from equipoise.app.text.blocks import Blocks, Column, number, prose, table
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_lists import BUILDS
+from equipoise.app.text.json_shape import View
 from equipoise.io.documents.logbook import Logbook
 from equipoise.model.logged_run import Build
 
-BUILDS = "equipoise/builds/1"
 NOTHING = "comments or layout alone"
 NONE = "none"
 COLUMNS = (prose("platform"), Column("build"), Column("first run"), Column("last run"),
@@ -48,21 +48,19 @@ def builds_blocks(book: Logbook, shown: Sequence[Build]) -> Blocks:
 
 def builds_json(book: Logbook, shown: Sequence[Build]) -> View:
     """Return the same, with each testbed file's text."""
+    return BUILDS.write({"builds": [_build(book, *each) for each in described(book, shown)]})
+
+
+def _build(book: Logbook, build: Build, letter: str, changes: Sequence[str]) -> View:
     return {
-        "schema": BUILDS,
-        "builds": [
-            {
-                "platform": build.platform,
-                "build": letter,
-                "configuration": build.configuration,
-                "first_run": _time(build.first).isoformat(),
-                "last_run": _time(build.last).isoformat(),
-                "runs": build.runs,
-                "changed": list(changes),
-                "text": book.configuration(build.configuration),
-            }
-            for build, letter, changes in described(book, shown)
-        ],
+        "platform": build.platform,
+        "build": letter,
+        "configuration": build.configuration,
+        "first_run": _time(build.first).isoformat(),
+        "last_run": _time(build.last).isoformat(),
+        "runs": build.runs,
+        "changed": changes,
+        "text": book.configuration(build.configuration),
     }
 
 

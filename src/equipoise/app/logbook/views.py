@@ -15,7 +15,8 @@ from equipoise.app.text.blocks import (
     paragraphs,
     table,
 )
-from equipoise.app.text.json_document import View, parameter_json
+from equipoise.app.text.json_lists import LOGBOOK, RUNS_COMPARED
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import decimals_for, fixed, is_known
 from equipoise.app.text.units import unit_for
 from equipoise.io.documents.logbook import Logbook
@@ -33,8 +34,7 @@ TONES: Mapping[Ending, Tone] = {
     Usability.NOT_USABLE: "bad",
 }
 MEANING = "com: as judged, masses as they stand; of identify: masses at home"
-MINUTE = 16  # characters of a time, to the minute
-LOGBOOK, COMPARED = "equipoise/logbook/1", "equipoise/runs-compared/1"
+TO_MINUTE = 16  # characters of a time, to the minute
 
 
 def runs_blocks(book: Logbook, runs: Sequence[LoggedRun]) -> Blocks:
@@ -59,7 +59,7 @@ def runs_blocks(book: Logbook, runs: Sequence[LoggedRun]) -> Blocks:
 
 def local(run: LoggedRun) -> str:
     """Return when a run was made, on the clock that it was made by, to the minute."""
-    return run.made_at[:MINUTE].replace("T", " ")
+    return run.made_at[:TO_MINUTE].replace("T", " ")
 
 
 def com_text(book: Logbook, run: LoggedRun) -> str:
@@ -73,7 +73,7 @@ def com_text(book: Logbook, run: LoggedRun) -> str:
 
 def _short(parameter: Parameter) -> str:
     unit = unit_for(parameter.name, parameter.unit)
-    value, sd = parameter.value * unit.factor, parameter.sd * unit.factor
+    value, sd = parameter.value / unit.size, parameter.sd / unit.size
     if not parameter.observable:
         return "?"
     return fixed(value, max(decimals_for(sd), 0)) if is_known(value, sd) else f"{value:.4g}"
@@ -124,7 +124,7 @@ def _separation(parameter: Parameter, other: Parameter) -> str:
 
 def runs_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
     """Return runs with their numbers."""
-    return {"schema": LOGBOOK, "runs": [_run_json(book, run) for run in runs]}
+    return LOGBOOK.write({"runs": [_run(book, run) for run in runs]})
 
 
 def compared_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
@@ -138,19 +138,15 @@ def compared_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
         }
         for run in runs[1:]
     }
-    return {
-        "schema": COMPARED,
-        "runs": [_run_json(book, r) for r in runs],
-        "sd_from_first": outlying,
-    }
+    return RUNS_COMPARED.write({"runs": [_run(book, r) for r in runs], "sd_from_first": outlying})
 
 
-def _run_json(book: Logbook, run: LoggedRun) -> View:
+def _run(book: Logbook, run: LoggedRun) -> View:
     return {
         "name": run.name, "kind": run.kind, "made_at": run.made_at, "platform": run.platform,
         "configuration": run.configuration, "method": run.method, "bench": run.bench,
-        "outcome": run.outcome, "sentence": run.sentence, "temperature_degC": run.temperature,
-        "parameters": [parameter_json(p) for p in book.numbers(run.name, "home")],
-        "com_as_judged": [parameter_json(p) for p in book.numbers(run.name, "standing")],
-        "provenance": dict(run.provenance),
+        "outcome": run.outcome, "sentence": run.sentence, "temperature": run.temperature,
+        "parameters": book.numbers(run.name, "home"),
+        "com_as_judged": book.numbers(run.name, "standing"),
+        "provenance": run.provenance,
     }  # fmt: skip

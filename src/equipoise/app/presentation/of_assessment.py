@@ -7,7 +7,7 @@ from equipoise.app.presentation import of_estimate
 from equipoise.app.presentation.tables import Arrays, Table
 from equipoise.app.runs.assessment import AssessedPlatform
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -7,7 +7,7 @@ from equipoise.app.presentation.step_rows import step_table
 from equipoise.app.presentation.tables import Arrays, Table, of_table
 from equipoise.app.runs.balancing import Balancing, measurements
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import moments
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from equipoise.app.api.catalogues import Catalogue
 from equipoise.app.presentation.tables import Arrays, Table, of_table
 from equipoise.app.text.blocks import Blocks, prose
 from equipoise.app.text.blocks import table as text_table
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

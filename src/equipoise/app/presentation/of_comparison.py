@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from equipoise.app.presentation.tables import Arrays, Table, of_table
 from equipoise.app.runs.comparison import Compared
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -14,7 +14,8 @@ from equipoise.app.text.estimate_text import (
     residual_line,
     unobservable_items,
 )
-from equipoise.app.text.json_document import View, estimate_json
+from equipoise.app.text.json_document import estimate_json
+from equipoise.app.text.json_shape import View
 from equipoise.model.estimate import COM, INERTIA, Estimate
 
 if TYPE_CHECKING:

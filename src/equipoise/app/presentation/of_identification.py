@@ -7,7 +7,7 @@ from equipoise.app.presentation import of_estimate
 from equipoise.app.presentation.tables import Arrays, Table
 from equipoise.app.runs.identification import Identification
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import finding_items
 
 if TYPE_CHECKING:

@@ -8,7 +8,8 @@ import numpy as np
 from equipoise.app.presentation.tables import Arrays, Table, Variable
 from equipoise.app.text.blocks import Blocks, Column, number
 from equipoise.app.text.blocks import table as text_table
-from equipoise.app.text.json_document import View, numbers
+from equipoise.app.text.json_lists import MASS_PROPERTIES
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.units import unit_for
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible
@@ -16,7 +17,6 @@ from equipoise.model.mass_properties import MassProperties, is_possible
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA = "equipoise/mass_properties/1"
 ELEMENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # in the order of INERTIA
 AXES = ("x", "y", "z")
 
@@ -24,7 +24,7 @@ AXES = ("x", "y", "z")
 def lines(body: MassProperties) -> Iterator[str]:
     """Yield mass, centre of mass and inertia about P."""
     unit = unit_for("com_x", "m")
-    com = ", ".join(f"{value * unit.factor:.4g}" for value in body.com)
+    com = ", ".join(f"{value / unit.size:.4g}" for value in body.com)
     elements = (f"{name[-2:]} {value:.4g}" for name, value in _elements(body))
     yield f"MassProperties: {body.mass:.5g} kg"
     yield f"  com        x, y, z {com} {unit.name}"
@@ -42,7 +42,7 @@ def blocks(body: MassProperties) -> Blocks:
     rows = list[tuple[str, str, str]]()
     for name, si, value in zip(of["name"], of["unit"], of["value"], strict=True):
         unit = unit_for(name, si) if si == "m" else None
-        shown = value * (1.0 if unit is None else unit.factor)
+        shown = value / (1.0 if unit is None else unit.size)
         rows.append((name, f"{shown:.5g}", si if unit is None else unit.name))
     columns = Column(), number("value"), Column("unit")
     return (text_table("Mass properties, masses at home", columns, rows),)
@@ -50,13 +50,7 @@ def blocks(body: MassProperties) -> Blocks:
 
 def document(body: MassProperties) -> View:
     """Return the numbers, SI."""
-    return {
-        "schema": SCHEMA,
-        "mass_kg": body.mass,
-        "com_m": numbers(body.com),
-        "inertia_P_kg_m2": numbers(body.inertia_P),
-        "possible": is_possible(body),
-    }
+    return MASS_PROPERTIES.write(body)
 
 
 def table(body: MassProperties) -> Table:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from equipoise.app.presentation.tables import Arrays, Table, of_table
 from equipoise.app.runs.observation import Observation
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import unit_for
 from equipoise.model.estimate import COM, INERTIA
@@ -24,7 +24,7 @@ def lines(done: Observation) -> Iterator[str]:
         there = [bounds.names.index(name) for name in names if name in bounds.names]
         if there:
             unit = unit_for(names[0], bounds.units[there[0]])
-            sds = (with_sd(0.0, float(bounds.sd[k]) * unit.factor)[1] for k in there)
+            sds = (with_sd(0.0, float(bounds.sd[k]) / unit.size)[1] for k in there)
             yield f"  {head:10s} least sd {', '.join(sds)} {unit.name}"
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from equipoise.app.presentation.tables import Arrays, Table, of_table
 from equipoise.app.runs.planning import Planning
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 from equipoise.model.estimate import COM, INERTIA
 
 if TYPE_CHECKING:

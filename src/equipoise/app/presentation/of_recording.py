@@ -8,14 +8,14 @@ import numpy as np
 from equipoise.app.presentation.tables import Arrays, Table, Variable
 from equipoise.app.text.blocks import Blocks, Column, items, number, prose
 from equipoise.app.text.blocks import table as text_table
-from equipoise.app.text.json_document import View, numbers
+from equipoise.app.text.json_lists import CHANNELS as DOCUMENT
+from equipoise.app.text.json_shape import View
 from equipoise.model.arrays import Floats
 from equipoise.model.recording import CHANNELS, Recording, Samples
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA = "equipoise/channels/1"
 AXES = ("x", "y", "z")
 UNITS = {
     "rate": "rad/s",
@@ -79,20 +79,15 @@ def blocks(recording: Recording) -> Blocks:
 
 def document(recording: Recording) -> View:
     """Return every row of every channel, SI."""
-    return {
-        "schema": SCHEMA,
+    return DOCUMENT.write({
         "source": recording.source,
         "sha256": recording.sha256,
-        "notes": list(recording.notes),
+        "notes": recording.notes,
         "channels": {
-            name: {
-                "columns": list(parts(recording, name)),
-                "t_s": numbers(rows.t),
-                "values": numbers(rows.values),
-            }
+            name: {"columns": parts(recording, name), "rows": rows}
             for name, rows in channels(recording).items()
         },
-    }
+    })  # fmt: skip
 
 
 def table(recording: Recording) -> Table:

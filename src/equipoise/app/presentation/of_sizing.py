@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from equipoise.app.presentation.tables import Arrays, Table, of_table
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 from equipoise.planning.sizing.sizing import Sizing
 
 if TYPE_CHECKING:

@@ -20,11 +20,11 @@ from equipoise.app.text.blocks import (
 )
 from equipoise.app.text.estimate_text import estimate_tables, residual_line, unobservable_items
 from equipoise.app.text.run_blocks import finding_items, moment_of
-from equipoise.app.text.units import GRAM, MM, PER_DEG
 from equipoise.model.estimate import Estimate
 from equipoise.model.finding import Finding
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import DEG, GRAM, MM
 
 ALL_OBSERVED = "Every quantity above was seen in the data or given beforehand."
 MASSES = (Column("sliding mass"), number("mass", "g"), number("travel", "mm"),
@@ -88,10 +88,10 @@ def _platform(bed: Testbed) -> Iterator[Block]:
         rows = (
             (
                 mass.name,
-                f"{mass.mass * GRAM:.4g}",
-                f"{mass.travel[0] * MM:g} to {mass.travel[1] * MM:g}",
-                f"{mass.resolution * MM:g}",
-                f"{mass.accuracy * MM:g}",
+                f"{mass.mass / GRAM:.4g}",
+                f"{mass.travel[0] / MM:g} to {mass.travel[1] / MM:g}",
+                f"{mass.resolution / MM:g}",
+                f"{mass.accuracy / MM:g}",
             )
             for mass in bed.masses
         )
@@ -104,10 +104,10 @@ def _platform(bed: Testbed) -> Iterator[Block]:
 def _platform_pairs(bed: Testbed) -> dict[str, str]:
     pairs = {"file": bed.source, "mass": f"{bed.body.mass:.5g} kg"}
     if bed.attitude is not None:
-        noise = f"{bed.attitude.noise * PER_DEG:.3g} deg (1 sd)"
+        noise = f"{bed.attitude.noise / DEG:.3g} deg (1 sd)"
         pairs["camera"] = f"{bed.attitude.rate:g} Hz, {noise}"
     if bed.gyro is not None:
-        pairs["gyro"] = f"{bed.gyro.rate:g} Hz, {bed.gyro.noise * PER_DEG:.3g} deg/s (1 sd)"
+        pairs["gyro"] = f"{bed.gyro.rate:g} Hz, {bed.gyro.noise / DEG:.3g} deg/s (1 sd)"
     return pairs
 
 

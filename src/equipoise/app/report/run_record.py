@@ -10,7 +10,7 @@ from datetime import datetime
 
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.text.blocks import Blocks, Section
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 from equipoise.model.estimate import Estimate
 from equipoise.model.logged_run import Kind
 from equipoise.model.recording import Recording

@@ -15,13 +15,13 @@ from dataclasses import dataclass
 
 from equipoise.app.arguments.checks import one_of
 from equipoise.app.runs.waiting import QUIET, Waiting
-from equipoise.app.text.units import MM
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.law_card import LawCard
 from equipoise.model.presentation import Plotted
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import MM
 from equipoise.procedure.balancing.balance import BalanceOptions
 from equipoise.procedure.balancing.catalogue import CARDS
 from equipoise.procedure.balancing.hold import FIRST_MOVES
@@ -109,7 +109,7 @@ def texts_of(contest: Contest) -> dict[str, str]:
     """Return what was asked, as the report has it."""
     scene, seeds, goal = contest.scene, contest.seeds, contest.goal
     moves = ", ".join(
-        f"{t:g}: " + " ".join(f"{name}={d * MM:.6g}" for name, d in targets.items())
+        f"{t:g}: " + " ".join(f"{name}={d / MM:.6g}" for name, d in targets.items())
         for t, targets in scene.moves
     )
     return {

@@ -13,11 +13,11 @@ from equipoise.app.runs.terminal_waiting import at_terminal
 from equipoise.app.text.blocks import Heading
 from equipoise.app.text.com_estimate import at_home
 from equipoise.app.text.estimate_text import estimate_tables
-from equipoise.app.text.units import MM, UM
 from equipoise.model.estimate import Estimate
 from equipoise.model.recording import Recording, join, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import MM
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from equipoise.procedure.identification.record_courses import (
     RecordCourses,
@@ -30,8 +30,8 @@ from equipoise.procedure.identification.record_courses import (
 from equipoise.simulation.bench import SimulatedBench
 
 MEASURED = 60.0  # s before and after the move, as in the paper-like runs
-MOVE = {"x1": -10 / MM, "y1": -10 / MM, "z1": -50 / MM}  # m, the paper's section 3
-GOAL = Goal(np.array([0.0, 0.0, -100.0]) / UM, np.array([2.0, 2.0, 3.0]) / UM)
+MOVE = {"x1": -10 * MM, "y1": -10 * MM, "z1": -50 * MM}  # m, the paper's section 3
+GOAL = Goal(np.array([0.0, 0.0, -100e-6]), np.array([2e-6, 2e-6, 3e-6]))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

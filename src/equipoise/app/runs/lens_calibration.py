@@ -7,6 +7,7 @@ from equipoise.hardware.camera.aruco import Charuco, Picture, charuco_points
 from equipoise.hardware.camera.calibration import Calibration, View, lens_from
 from equipoise.hardware.camera.pictures import SUFFIXES, picture_at
 from equipoise.model.errors import InputError
+from equipoise.model.units import MM
 
 LEAST = 3  # squares each way, chosen: fewer have no corner in between
 
@@ -16,7 +17,7 @@ def lens_from_files(
 ) -> Calibration:
     """Return the lens; InputError if files are no pictures of one size, or do not tell it."""
     if min(board.columns, board.rows) < LEAST or not board.marker < board.square:
-        found = f"{board.columns} x {board.rows} squares of {1e3 * board.square:g} mm"
+        found = f"{board.columns} x {board.rows} squares of {board.square / MM:g} mm"
         wanted = f"at least {LEAST} each way, and markers smaller than a square"
         raise InputError("--columns, --rows, --marker-mm", found, wanted)
     paths = _paths(files)

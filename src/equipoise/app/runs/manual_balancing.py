@@ -11,7 +11,6 @@ from equipoise.app.console.terminal import watched
 from equipoise.app.runs.balancing import Balancing, Goal
 from equipoise.app.runs.recorded_operator import FiledHands
 from equipoise.app.text.com_estimate import ComEstimate
-from equipoise.app.text.units import UM
 from equipoise.io.documents.manual_session import Piles, Round, Session
 from equipoise.io.toml.write_toml import numbers
 from equipoise.model.arrays import Ints
@@ -22,6 +21,7 @@ from equipoise.model.placing import Placing
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.balance_manually import HandOptions, balance_by_hand
 from equipoise.procedure.identification.record_courses import RecordCourses, step_motions

@@ -11,7 +11,7 @@ import numpy as np
 from equipoise.app.text.blocks import Column, Table, number, table
 from equipoise.app.text.com_estimate import ComEstimate
 from equipoise.app.text.numbers import decimals_for, fixed, is_known, with_sd
-from equipoise.app.text.units import MICRO, UM, Unit
+from equipoise.app.text.units import Unit
 from equipoise.assessment.metrics.residual_torque import (
     Uncertain,
     level_torque,
@@ -21,6 +21,7 @@ from equipoise.assessment.metrics.residual_torque import (
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM, UN_M
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,7 +65,7 @@ def rows(change: Change) -> Iterator[Row]:
     """Yield centre of mass, torque when level, period of swing."""
     for i, axis in enumerate("xyz"):
         yield _row(f"centre of mass {axis}", Unit("um", UM), change, partial(_component, i))
-    yield _row("gravity torque when level", Unit("uN m", MICRO), change, _torque)
+    yield _row("gravity torque when level", Unit("uN m", UN_M), change, _torque)
     yield _row("period of swing", Unit("s", 1.0), change, _period)
 
 
@@ -91,10 +92,10 @@ def _weight(change: Change) -> float:
 def _row(name: str, unit: Unit, change: Change, quantity: Quantity) -> Row:
     """Return one line: the truths and the target with the digits that the result bears."""
     estimated = [quantity(change, at, change.inertia_P) for at in (change.before, change.after)]
-    before, after = (Uncertain(n.value * unit.factor, n.sd * unit.factor) for n in estimated)
+    before, after = (Uncertain(n.value / unit.size, n.sd / unit.size) for n in estimated)
 
     def exact(com: Vector3, inertia: Matrix3) -> str:
-        value = quantity(change, ComEstimate(com, np.zeros(3)), inertia).value * unit.factor
+        value = quantity(change, ComEstimate(com, np.zeros(3)), inertia).value / unit.size
         return _exact(value, after)
 
     truths = (change.truth_before, change.truth_after)

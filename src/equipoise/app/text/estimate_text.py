@@ -5,9 +5,10 @@ from collections.abc import Iterator, Sequence
 
 from equipoise.app.text.blocks import Blocks, Claim, Column, Row, Table, items, number, table
 from equipoise.app.text.numbers import fixed, interval, significant, with_sd
-from equipoise.app.text.units import PER_DEG, UM, unit_for
+from equipoise.app.text.units import unit_for
 from equipoise.maths.whiteness import WHITE
 from equipoise.model.estimate import COM, Estimate, Parameter, Residual
+from equipoise.model.units import DEG, UM
 from equipoise.model.verdict import Verdict
 
 COLUMNS = (Column(), *map(number, ("value", "sd", "95 % interval")), Column("unit"))
@@ -16,8 +17,8 @@ COLUMNS = (Column(), *map(number, ("value", "sd", "95 % interval")), Column("uni
 def cells(parameter: Parameter) -> tuple[str, str, str, str, str]:
     """Return name, value, sd, 95 % interval and unit, in the unit of the bench."""
     unit = unit_for(parameter.name, parameter.unit)
-    value, sd = parameter.value * unit.factor, parameter.sd * unit.factor
-    low, high = parameter.low95 * unit.factor, parameter.high95 * unit.factor
+    value, sd = parameter.value / unit.size, parameter.sd / unit.size
+    low, high = parameter.low95 / unit.size, parameter.high95 / unit.size
     value_text, sd_text = with_sd(value, sd)
     return parameter.name, value_text, sd_text, interval(value, low, high, sd), unit.name
 
@@ -80,7 +81,7 @@ def noise_floor_line(verdict: Verdict) -> str:
     if verdict.noise_floor is None:
         return ""
     reported = (f"{axis} {significant(um, 2)} um" if math.isfinite(um) else f"{axis} not seen"
-            for axis, um in zip("xyz", UM * verdict.noise_floor, strict=True))  # fmt: skip
+            for axis, um in zip("xyz", verdict.noise_floor / UM, strict=True))  # fmt: skip
     return (
         f"Noise floor of this record (95 %): {', '.join(reported)}. "
         "A smaller offset cannot be told from none."
@@ -104,4 +105,4 @@ def _white(residual: Residual) -> str:
 
 
 def _rms(value: float | None) -> str:
-    return "?" if value is None else f"{value * PER_DEG:.3g}"
+    return "?" if value is None else f"{value / DEG:.3g}"

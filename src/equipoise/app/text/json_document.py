@@ -1,28 +1,30 @@
-"""Results as JSON documents: SI units, and null for what is not a finite number."""
+"""Recordings, estimates and runs as JSON documents: SI units, null for what is not finite."""
 
 import json
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from equipoise.app.text.units import MM, UM
-from equipoise.model.arrays import Floats
-from equipoise.model.estimate import Course, Estimate, Parameter, Residual
-from equipoise.model.event import UNITS, Event
-from equipoise.model.finding import Finding
-from equipoise.model.mass_properties import MassProperties
-from equipoise.model.move import Move
-from equipoise.model.outcome import Outcome
-from equipoise.model.placing import Placing
-from equipoise.model.reasons.reason import Reason
-from equipoise.model.recording import CHANNELS, Recording
-from equipoise.model.step import Step
-from equipoise.model.verdict import Verdict
-
-ESTIMATE, BALANCE, RECORDING = (
-    f"equipoise/{kind}/1" for kind in ("estimate", "balance", "recording")
+from equipoise.app.text.json_shape import (
+    COUNT,
+    FLAG,
+    MATRIX,
+    NUMBER,
+    TEXT,
+    VECTOR,
+    View,
+    by_name,
+    document,
+    fields,
+    key,
+    many,
+    maybe,
+    shape,
 )
-View = dict[str, Any]
+from equipoise.model.estimate import Estimate
+from equipoise.model.event import UNITS
+from equipoise.model.finding import Finding
+from equipoise.model.recording import CHANNELS, Recording
 
 
 def dump(document: View) -> str:
@@ -41,213 +43,179 @@ def finite(value: Any) -> Any:
     return value
 
 
-def numbers(values: Floats | None, factor: float = 1.0) -> list[Any] | None:
-    """Return an array as lists."""
-    return None if values is None else (values * factor).tolist()
+TEXTS, NUMBERS = many(TEXT), by_name(NUMBER)
+
+# Why: a code for programs, what it is about, its numbers in SI, and a sentence for people.
+WHY = (
+    *fields("code", TEXT),
+    *fields("parameters", TEXTS),
+    *fields("numbers", NUMBERS),
+    *fields("sentence", TEXT),
+)
+REASONS = many(shape(*WHY))
+
+FINDING = shape(
+    *fields("kind code", TEXT),
+    *fields("reasons", REASONS),
+    *fields("sentence", TEXT),
+    key("span_s", maybe(VECTOR), lambda f: f.span),
+)
+
+OUTCOME = shape(
+    *fields("code trust", TEXT),
+    *fields("usable", FLAG),
+    *fields("reasons", REASONS),
+    *fields("sentence", TEXT),
+)
+
+# One move of a schedule: when masses are sent, and where to from home.
+SENT = shape(
+    key("time_s", NUMBER, lambda move: move[0]),
+    key("targets_m", NUMBERS, lambda move: move[1]),
+)
+
+PARAMETER = shape(
+    *fields("name unit", TEXT),
+    *fields("value sd low95 high95", NUMBER),
+    *fields("observable", FLAG),
+)
+
+# A jump of momentum in laboratory axes, or of com in body axes.
+EVENT = shape(
+    *fields("kind", TEXT),
+    key("kind_unclear", FLAG, lambda e: e.unclear),
+    key("time_s", NUMBER, lambda e: e.t),
+    key("time_sd_s", NUMBER, lambda e: e.t_sd),
+    key("unit", TEXT, lambda e: UNITS[e.kind]),
+    key("size", VECTOR, lambda e: e.size),
+    key("covariance", MATRIX, lambda e: e.covariance),
+    key("chi_square", NUMBER, lambda e: e.surprise),
+    key("azimuth_rad", NUMBER, lambda e: e.azimuth),
+)
+
+RESIDUAL = shape(
+    key("attitude_rms_rad", NUMBER, lambda r: r.attitude_rms),
+    key("rate_rms_rad_s", NUMBER, lambda r: r.rate_rms),
+    *fields("chi_square degrees_of_freedom reduced_chi_square lag_one", NUMBER),
+    key("whiteness_p", NUMBER, lambda r: r.whiteness),
+    *fields("spectral_peak steady_rms held_out_rms", NUMBER),
+    key("held_out_span_s", maybe(VECTOR), lambda r: r.held_out_span),
+    *fields("error_index", NUMBER),
+    key("parameter_error_indices", NUMBERS, lambda r: r.error_indices),
+)
+
+# Parameters along a record, a row for each time; units are those of the parameters.
+COURSE = shape(
+    *fields("names", TEXTS),
+    key("t_s", VECTOR, lambda c: c.t),
+    *fields("values sd", MATRIX),
+)
+
+# What a record showed of what its plan had predicted.
+PLAN_CHECK = shape(
+    *fields("source", TEXT),
+    key("parameters", many(shape(*fields("name", TEXT), *fields("predicted_sd found_sd", NUMBER))),
+        lambda check: check["parameters"]),
+)  # fmt: skip
+
+ESTIMATE = document(
+    "equipoise/estimate/1",
+    *fields("method", TEXT),
+    *fields("outcome", OUTCOME),
+    *fields("parameters", many(PARAMETER)),
+    *fields("covariance", MATRIX),
+    *fields("residual", maybe(RESIDUAL)),
+    *fields("unobservable", REASONS),
+    *fields("events", many(EVENT)),
+    *fields("unexplained", REASONS),
+    *fields("ratios", many(PARAMETER)),
+    *fields("possible", FLAG),
+    *fields("course", maybe(COURSE)),
+    key("findings", many(FINDING), lambda _: ()),  # see ``estimate_json``
+    *fields("provenance", by_name(TEXT)),
+    key("plan", PLAN_CHECK, lambda _: None, optional=True),
+)
+
+RECORDING = document(
+    "equipoise/recording/1",
+    *fields("source sha256", TEXT),
+    key("span_s", VECTOR, lambda found: found["span"]),
+    *fields("rows", by_name(COUNT)),
+    *fields("masses devices", TEXTS),
+    *fields("findings", many(FINDING)),
+)
+
+VERDICT = shape(
+    *fields("outcome", TEXT),
+    *fields("passed", FLAG),
+    *fields("code", TEXT),
+    *fields("reasons", REASONS),
+    *fields("sentence", TEXT),
+    key("com_m", maybe(VECTOR), lambda v: v.com),
+    key("sd_m", maybe(VECTOR), lambda v: v.sd),
+    key("noise_floor_m", maybe(VECTOR), lambda v: v.noise_floor),
+)
+
+# What a move or a placing should leave.
+PREDICTED = (
+    key("predicted_com_m", VECTOR, lambda done: done.predicted_com),
+    key("predicted_covariance_m2", MATRIX, lambda done: done.predicted_covariance),
+)
+
+MOVE = shape(
+    key("targets_m", NUMBERS, lambda m: m.targets),
+    key("travel_m", NUMBER, lambda m: m.travel),
+    key("duration_s", NUMBER, lambda m: m.duration),
+    *PREDICTED,
+    *fields("reason", TEXT),
+)
+
+# The step's sentence says what goes where.
+PLACING = shape(*fields("handled", COUNT), *PREDICTED)
+
+STEP = shape(
+    *fields("kind code", TEXT),
+    key("time_s", NUMBER, lambda step: step.time),
+    *fields("reasons", REASONS),
+    *fields("sentence", TEXT),
+    key("estimate", ESTIMATE, lambda step: step.estimate, optional=True),
+    key("move", MOVE, lambda step: step.move, optional=True),
+    key("placing", PLACING, lambda step: step.placing, optional=True),
+    key("verdict", VERDICT, lambda step: step.verdict, optional=True),
+)
+
+TRUTH = shape(
+    key("com_m", VECTOR, lambda body: body.com),
+    key("inertia_P_kg_m2", MATRIX, lambda body: body.inertia_P),
+)
+
+# Truth only where it is simulated; a run that waits for a person has no verdict yet.
+BALANCE = document(
+    "equipoise/balance/2",
+    *fields("steps", many(STEP)),
+    *fields("verdict", maybe(VERDICT)),
+    key("truth", TRUTH, lambda run: run["truth"], optional=True),
+    *fields("provenance", by_name(TEXT)),
+)
 
 
-def schedule_json(moves: Sequence[tuple[float, Mapping[str, float]]]) -> list[View]:
-    """Return when masses are sent, and where to from home."""
-    return [{"time_s": t, "targets_m": dict(targets)} for t, targets in moves]
+def estimate_json(
+    estimate: Estimate, findings: Sequence[Finding] = (), plan: View | None = None
+) -> View:
+    """Return an estimate, with what was found in its record and came of its plan."""
+    found = ESTIMATE.write(estimate) | {"findings": [FINDING.write(each) for each in findings]}
+    return found if plan is None else found | {"plan": PLAN_CHECK.write(plan)}
 
 
-def estimate_json(estimate: Estimate, findings: Sequence[Finding] = ()) -> View:
-    """Return an estimate, schema equipoise/estimate/1."""
-    return {
-        "schema": ESTIMATE,
-        "method": estimate.method,
-        "outcome": outcome_json(estimate.outcome),
-        "parameters": [parameter_json(p) for p in estimate.parameters],
-        "covariance": numbers(estimate.covariance),
-        "residual": None if estimate.residual is None else residual_json(estimate.residual),
-        "unobservable": reasons_json(estimate.unobservable),
-        "events": [event_json(event) for event in estimate.events],
-        "unexplained": reasons_json(estimate.unexplained),
-        "ratios": [parameter_json(p) for p in estimate.ratios],
-        "possible": estimate.possible,
-        "course": None if estimate.course is None else course_json(estimate.course),
-        "findings": [finding_json(f) for f in findings],
-        "provenance": dict(estimate.provenance),
-    }
-
-
-def outcome_json(outcome: Outcome) -> View:
-    """Return what happened, how far to rely on it, and why."""
-    return {
-        "code": outcome.code,
-        "trust": outcome.trust,
-        "usable": outcome.usable,
-        "reasons": reasons_json(outcome.reasons),
-        "sentence": outcome.sentence,
-    }
-
-
-def reasons_json(reasons: Sequence[Reason]) -> list[View]:
-    """Return reasons: a code, what it is about, its numbers in SI, and a sentence for people."""
-    return [
-        {
-            "code": reason.code,
-            "parameters": list(reason.parameters),
-            "numbers": dict(reason.numbers),
-            "sentence": reason.sentence,
-        }
-        for reason in reasons
-    ]
-
-
-def course_json(course: Course) -> View:
-    """Return what was believed along a record: times, values and sd, a row each."""
-    return {
-        "names": list(course.names),
-        "t_s": numbers(course.t),
-        "values": numbers(course.values),
-        "sd": numbers(course.sd),
-    }
-
-
-def parameter_json(parameter: Parameter) -> View:
-    """Return one number with its uncertainty."""
-    return {
-        "name": parameter.name,
-        "unit": parameter.unit,
-        "value": parameter.value,
-        "sd": parameter.sd,
-        "low95": parameter.low95,
-        "high95": parameter.high95,
-        "observable": parameter.observable,
-    }
-
-
-def event_json(event: Event) -> View:
-    """Return an event: a jump of momentum in laboratory axes, or of com in body axes."""
-    return {
-        "kind": event.kind,
-        "kind_unclear": event.unclear,
-        "time_s": event.t,
-        "time_sd_s": event.t_sd,
-        "unit": UNITS[event.kind],
-        "size": numbers(event.size),
-        "covariance": numbers(event.covariance),
-        "chi_square": event.surprise,
-        "azimuth_rad": event.azimuth,
-    }
-
-
-def residual_json(residual: Residual) -> View:
-    """Return what the model leaves."""
-    return {
-        "attitude_rms_rad": residual.attitude_rms,
-        "rate_rms_rad_s": residual.rate_rms,
-        "chi_square": residual.chi_square,
-        "degrees_of_freedom": residual.degrees_of_freedom,
-        "reduced_chi_square": residual.reduced_chi_square,
-        "lag_one": residual.lag_one,
-        "whiteness_p": residual.whiteness,
-        "spectral_peak": residual.spectral_peak,
-        "steady_rms": residual.steady_rms,
-        "held_out_rms": residual.held_out_rms,
-        "held_out_span_s": residual.held_out_span,
-        "error_index": residual.error_index,
-        "parameter_error_indices": dict(residual.error_indices),
-    }
-
-
-def finding_json(finding: Finding) -> View:
-    """Return a finding."""
-    return {
-        "kind": finding.kind,
-        "code": finding.code,
-        "reasons": reasons_json(finding.reasons),
-        "sentence": finding.sentence,
-        "span_s": finding.span,
-    }
-
-
-def findings_json(recording: Recording, findings: Sequence[Finding]) -> View:
-    """Return what a recording holds, schema equipoise/recording/1."""
+def recording_json(recording: Recording, findings: Sequence[Finding]) -> View:
+    """Return what a recording holds."""
     channels = {name: getattr(recording, name) for name in CHANNELS}
-    return {
-        "schema": RECORDING,
+    return RECORDING.write({
         "source": recording.source,
         "sha256": recording.sha256,
-        "span_s": recording.span,
+        "span": recording.span,
         "rows": {name: 0 if c is None else len(c) for name, c in channels.items()},
-        "masses": list(recording.mass_names),
-        "devices": list(recording.device_names),
-        "findings": [finding_json(f) for f in findings],
-    }
-
-
-def balance_json(
-    steps: Sequence[Step], verdict: Verdict | None, truth: MassProperties | None, provenance: View
-) -> View:
-    """Return a balancing run, schema equipoise/balance/1; truth only when it was simulated.
-
-    A run that waits for a person has no verdict yet.
-    """
-    document: View = {
-        "schema": BALANCE,
-        "steps": [step_json(step) for step in steps],
-        "verdict": None if verdict is None else verdict_json(verdict),
-    }
-    if truth is not None:
-        document["truth"] = {
-            "com_um": numbers(truth.com, UM),
-            "inertia_P_kg_m2": numbers(truth.inertia_P),
-        }
-    return document | {"provenance": provenance}
-
-
-def verdict_json(verdict: Verdict) -> View:
-    """Return a verdict."""
-    return {
-        "outcome": verdict.outcome,
-        "passed": verdict.passed,
-        "code": verdict.code,
-        "reasons": reasons_json(verdict.reasons),
-        "sentence": verdict.sentence,
-        "com_um": numbers(verdict.com, UM),
-        "sd_um": numbers(verdict.sd, UM),
-        "noise_floor_um": numbers(verdict.noise_floor, UM),
-    }
-
-
-def step_json(step: Step) -> View:
-    """Return a step, without the recording that it looked at."""
-    view: View = {
-        "kind": step.kind,
-        "code": step.code,
-        "time_s": step.time,
-        "reasons": reasons_json(step.reasons),
-        "sentence": step.sentence,
-    }
-    if step.estimate is not None:
-        view["estimate"] = estimate_json(step.estimate)
-    if step.move is not None:
-        view["move"] = move_json(step.move)
-    if step.placing is not None:
-        view["placing"] = placing_json(step.placing)
-    if step.verdict is not None:
-        view["verdict"] = verdict_json(step.verdict)
-    return view
-
-
-def placing_json(placing: Placing) -> View:
-    """Return a placing and what it should leave; the step's sentence says what goes where."""
-    return {
-        "handled": placing.handled,
-        "predicted_com_um": numbers(placing.predicted_com, UM),
-        "predicted_covariance_um2": numbers(placing.predicted_covariance, UM**2),
-    }
-
-
-def move_json(move: Move) -> View:
-    """Return a move and what it should leave."""
-    return {
-        "targets_mm": {name: at * MM for name, at in move.targets.items()},
-        "travel_mm": move.travel * MM,
-        "duration_s": move.duration,
-        "predicted_com_um": numbers(move.predicted_com, UM),
-        "predicted_covariance_um2": numbers(move.predicted_covariance, UM**2),
-        "reason": move.reason,
-    }
+        "masses": recording.mass_names,
+        "devices": recording.device_names,
+        "findings": findings,
+    })  # fmt: skip

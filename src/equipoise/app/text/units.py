@@ -2,30 +2,30 @@
 
 from dataclasses import dataclass
 
-from equipoise.model.bench_units import GRAM, MICRO, MM, PER_DEG, UM
+from equipoise.model.units import DEG, GRAM, MINUTE, MM, MS, UM, UN_M
 
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit to show: one SI unit is ``factor`` of it."""
+    """A unit to show: ``size`` is how large it is in SI."""
 
     name: str
-    factor: float
+    size: float
 
 
 SHOWN = {
     "m": Unit("um", UM),
     "kg": Unit("g", GRAM),
-    "rad": Unit("deg", PER_DEG),
-    "rad/s": Unit("deg/s", PER_DEG),
-    "N m": Unit("uN m", MICRO),
-    "N m s": Unit("uN m s", MICRO),
-    "N m s2": Unit("uN m s2", MICRO),
-    "m/s": Unit("um/min", 60 * UM),
+    "rad": Unit("deg", DEG),
+    "rad/s": Unit("deg/s", DEG),
+    "N m": Unit("uN m", UN_M),
+    "N m s": Unit("uN m s", UN_M),
+    "N m s2": Unit("uN m s2", UN_M),
+    "m/s": Unit("um/min", UM / MINUTE),
     "1/(kg m)": Unit("um/(kg m2)", UM),
 }
 TRAVEL = Unit("mm", MM)
-LATE = Unit("ms", 1e3)
+LATE = Unit("ms", MS)
 TYPESET = {
     "um": "µm",
     "uN m": "µN m",

@@ -23,18 +23,17 @@ from equipoise.app.text.blocks import (
 from equipoise.app.text.estimate_text import outcome_claim, residual_line, unobservable_items
 from equipoise.app.text.numbers import significant, with_sd
 from equipoise.app.text.run_blocks import finding_items, moments, verdict_blocks, verdict_claim
-from equipoise.app.text.units import MICRO, UM
 from equipoise.assessment.metrics.allan import FEWEST
 from equipoise.assessment.metrics.swing_height import Hanging
 from equipoise.maths.gaussian_length import Bounded
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.estimate import COM
+from equipoise.model.units import MINUTE, PERCENT, UM, UN_M
 from equipoise.procedure.identification.assess import Assessment
 from equipoise.procedure.identification.drift_metrics import OverHours
 from equipoise.procedure.identification.record_courses import RecordCourses
 
 MODES = {0: "slow swing", 1: "quick swing", None: "both swings, as one"}
-PERCENT = 100.0
 Row = tuple[str, str, str, str, str, str]
 
 
@@ -68,27 +67,27 @@ def range_table(done: Assessment) -> Table:
     """Return what counts: torque within the range, distance from the target."""
     torque, tilt = done.torque, np.degrees(done.torque.tilt)
     lines = [
-        [f"torque within {tilt:g} deg, rms", *bounds(torque.rms, MICRO), "uN m"],
+        [f"torque within {tilt:g} deg, rms", *bounds(torque.rms, UN_M), "uN m"],
         [
             f"torque within {tilt:g} deg, greatest",
-            significant(torque.worst * MICRO),
-            f"up to {significant(torque.worst_high * MICRO)}",
+            significant(torque.worst / UN_M),
+            f"up to {significant(torque.worst_high / UN_M)}",
             "",
             "uN m",
         ],
         ["centre of mass from its target", *bounds(done.offset, UM), "um"],
     ]
     remark = (
-        f"The inertia is known to {PERCENT * done.inertia_sd:.2g} %, and all of this goes with it. "
+        f"The inertia is known to {done.inertia_sd / PERCENT:.2g} %, and all of this goes with it. "
         "Floor: what a perfect platform could be proven to in this recording."
     )
     columns = (Column(), *map(number, ("found", "95 % bounds", "floor")), Column("unit"))
     return table("What gravity does to the platform as it stands", columns, lines, (remark,))
 
 
-def bounds(found: Bounded, factor: float) -> tuple[str, str, str]:
+def bounds(found: Bounded, unit: float) -> tuple[str, str, str]:
     """Return value, bounds and floor as texts."""
-    value, low, high, floor = (significant(x * factor) for x in found)
+    value, low, high, floor = (significant(x / unit) for x in found)
     return value, f"{low} to {high}", floor
 
 
@@ -153,7 +152,7 @@ def components(com: Vector3, covariance: Matrix3) -> tuple[str, str, str]:
 
 def length_text(value: float, sd: float) -> str:
     """Return a length in um with its sd."""
-    return " ± ".join(with_sd(value * UM, sd * UM))
+    return " ± ".join(with_sd(value / UM, sd / UM))
 
 
 def torque_table(done: Assessment) -> Table:
@@ -163,9 +162,9 @@ def torque_table(done: Assessment) -> Table:
     series = (("torque felt", metrics.torque, "uN m"), ("energy of motion", metrics.energy, "uJ"))
     for name, observed, unit in series:
         if observed is not None:
-            value, sd = with_sd(observed.rms * MICRO, observed.rms_sd * MICRO)
-            lines.append([name, f"{value} ± {sd}", significant(observed.greatest * MICRO),
-                          significant(observed.noise * MICRO, 2), unit])  # fmt: skip
+            value, sd = with_sd(observed.rms / UN_M, observed.rms_sd / UN_M)
+            lines.append([name, f"{value} ± {sd}", significant(observed.greatest / UN_M),
+                          significant(observed.noise / UN_M, 2), unit])  # fmt: skip
     columns = (Column(), *map(number, ("rms, noise taken off", "greatest", "noise")),
                Column("unit"))  # fmt: skip
     title = "Along the record: all torques together, and energy"
@@ -188,13 +187,13 @@ def change_table(before: Assessment, after: Assessment) -> Table:
     """Return two recordings side by side."""
     tilt = np.degrees(after.torque.tilt)
     rows = (
-        (f"torque within {tilt:g} deg, rms", before.torque.rms, after.torque.rms, MICRO, "uN m"),
+        (f"torque within {tilt:g} deg, rms", before.torque.rms, after.torque.rms, UN_M, "uN m"),
         ("centre of mass from its target", before.offset, after.offset, UM, "um"),
     )
     lines = [
-        [name, *(" (".join(bounds(each, factor)[:2]) + ")" for each in (old, new)), unit,
+        [name, *(" (".join(bounds(each, unit)[:2]) + ")" for each in (old, new)), name_of_unit,
          fall(old, new)]
-        for name, old, new, factor, unit in rows
+        for name, old, new, unit, name_of_unit in rows
     ]  # fmt: skip
     columns = (Column(), number("before (95 %)"), number("after (95 %)"), Column("unit"), Column())
     return table("Before and after", columns, lines)
@@ -207,17 +206,17 @@ def hours_table(hours: OverHours) -> Table:
     if wander is None:
         few = f"{len(hours.t)} looks are too few: drift and Allan deviation need {FEWEST}."
         return table(title, (), (), (few, left_out) if hours.left_out else (few,))
-    per_minute, root = 60 * UM, 60**0.5 * UM
+    per_minute, root = UM / MINUTE, UM / MINUTE**0.5
     lines = [
-        ["drift", *(" ± ".join(with_sd(float(d) * per_minute, float(s) * per_minute))
+        ["drift", *(" ± ".join(with_sd(float(d) / per_minute, float(s) / per_minute))
                     for d, s in zip(wander.drift, wander.drift_sd, strict=True)), "um/min", ""],
-        ["walk", *(significant(float(c) * root, 2) for c in wander.walk), "um/sqrt(min)", ""],
+        ["walk", *(significant(float(c) / root, 2) for c in wander.walk), "um/sqrt(min)", ""],
     ]  # fmt: skip
     for span, deviation, alone, error in zip(
         wander.span, wander.deviation, wander.measurements_alone, wander.error, strict=True
     ):
-        texts = (f"{d * UM:.2g} ({a * UM:.2g})" for d, a in zip(deviation, alone, strict=True))
-        name, spread = f"Allan deviation, {span:.4g} s", f"{PERCENT * error:.0f} %"
+        texts = (f"{d / UM:.2g} ({a / UM:.2g})" for d, a in zip(deviation, alone, strict=True))
+        name, spread = f"Allan deviation, {span:.4g} s", f"{error / PERCENT:.0f} %"
         lines.append([name, *texts, "um", spread])
     remarks = ["In brackets: what looks that only err would leave."]
     remarks += [left_out] if hours.left_out else []
@@ -267,7 +266,7 @@ def requested(reported: AssessedPlatform) -> dict[str, str]:
     done, before, options = reported.done, reported.before, reported.done.options
     texts = {
         "recording": done.recording.source,
-        "target": f"({', '.join(f'{UM * x:g}' for x in options.target)}) um",
+        "target": f"({', '.join(f'{x / UM:g}' for x in options.target)}) um",
         "range of tilts": f"{np.degrees(options.tilt):g} deg",
     }
     if before is not None:

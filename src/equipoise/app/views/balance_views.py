@@ -11,11 +11,12 @@ from equipoise.app.report.run_record import Logged, Output, RunRecord, origin
 from equipoise.app.runs.balancing import Balancing, Goal, change_of, measurements
 from equipoise.app.text.before_after import change_table
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_document import View, balance_json
+from equipoise.app.text.json_document import BALANCE
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import fixed
 from equipoise.app.text.run_blocks import verdict_blocks
-from equipoise.app.text.units import UM
 from equipoise.model.arrays import Vector3
+from equipoise.model.units import UM
 from equipoise.procedure.identification.record_courses import RecordCourses
 
 
@@ -45,7 +46,12 @@ def change_blocks(done: Balancing) -> Blocks:
 def document_of(done: Balancing, seed: int | None) -> View:
     """Return the run as JSON."""
     truth = done.truths[-1] if done.truths else None
-    return balance_json(done.steps, done.verdict, truth, _origin(done, seed))
+    return BALANCE.write({
+        "steps": done.steps,
+        "verdict": done.verdict,
+        "truth": truth,
+        "provenance": _origin(done, seed),
+    })  # fmt: skip
 
 
 def logged_of(done: Balancing) -> Logged:
@@ -117,4 +123,4 @@ def true_course(done: Balancing) -> TrueCourse | None:
 
 
 def _um(vector: Vector3) -> str:
-    return f"({', '.join(fixed(float(v) * UM, 1) for v in vector)}) um"
+    return f"({', '.join(fixed(float(v) / UM, 1) for v in vector)}) um"

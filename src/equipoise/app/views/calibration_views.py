@@ -8,19 +8,19 @@ from equipoise.app.text.blocks import Blocks, Column, Section, Table, number, pa
 from equipoise.app.text.estimate_text import outcome_claim, parameter_table, residual_line
 from equipoise.app.text.json_document import estimate_json
 from equipoise.app.text.numbers import with_sd
-from equipoise.app.text.units import PER_DEG
 from equipoise.model.estimate import COM, INERTIA, Estimate, Parameter
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import DEG, GRAM, MM
 
-# A column, what its parameter is called, unit a SI unit.
+# A column, what its parameter is called, its unit in SI.
 DRIVES = (
     (number("gain"), "gain_{}", 1.0),
-    (number("g mm / mm"), "product_{}", 1e3),
-    (number("rail off", "deg"), "across_{}_1", PER_DEG),
-    (number("across", "deg"), "across_{}_2", PER_DEG),
-    (number("backlash", "mm"), "backlash_{}", 1e3),
-    (number("stops scatter", "mm"), "scatter_{}", 1e3),
+    (number("g mm / mm"), "product_{}", GRAM),
+    (number("rail off", "deg"), "across_{}_1", DEG),
+    (number("across", "deg"), "across_{}_2", DEG),
+    (number("backlash", "mm"), "backlash_{}", MM),
+    (number("stops scatter", "mm"), "scatter_{}", MM),
 )
 RAILS = tuple((number(letter), "axis_{}_" + letter, 1.0) for letter in "xyz")
 SENSORS = ("gyro_", "plumb_")
@@ -31,11 +31,11 @@ STAYS = (
 )
 
 
-def said(parameter: Parameter, factor: float) -> str:
+def said(parameter: Parameter, unit: float) -> str:
     """Return a number with its sd, that it was trusted, or that the moves did not show it."""
     if not parameter.observable:
         return "not shown"
-    value, sd = with_sd(parameter.value * factor, parameter.sd * factor)
+    value, sd = with_sd(parameter.value / unit, parameter.sd / unit)
     if sd == "held":
         return f"{value} trusted" if parameter.sd == 0 else value
     return f"{value} +/- {sd}"
@@ -127,8 +127,8 @@ def remarks_of(done: Calibrated) -> dict[str, str]:
         one, two = (found.parameters[found.index(f"across_{name}_{k}")] for k in (1, 2))
         texts = {
             "gain": said(found.parameters[found.index(f"gain_{name}")], 1.0),
-            "axis": f"{said(one, PER_DEG)} and {said(two, PER_DEG)} deg off as stated",
-            "backlash_mm": said(found.parameters[found.index(f"backlash_{name}")], 1e3),
+            "axis": f"{said(one, DEG)} and {said(two, DEG)} deg off as stated",
+            "backlash_mm": said(found.parameters[found.index(f"backlash_{name}")], MM),
         }
         remarks |= {f"{key} {name}": f"calibrated: {text}" for key, text in texts.items()}
     return remarks

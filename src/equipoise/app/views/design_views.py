@@ -20,10 +20,11 @@ from equipoise.app.text.blocks import (
     paragraphs,
     table,
 )
-from equipoise.app.text.json_document import View, numbers, reasons_json, verdict_json
-from equipoise.app.text.units import GRAM, MICRO, MM, PER_DEG, UM
+from equipoise.app.text.json_results import DESIGN
+from equipoise.app.text.json_shape import View
 from equipoise.model.arrays import Floats, Matrix3
 from equipoise.model.reasons.reason import Reason, distinct
+from equipoise.model.units import DEG, GRAM, MM, PERCENT, UM, UN_M
 from equipoise.planning.sizing.budget import Budget
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.contribution import Line
@@ -32,12 +33,9 @@ from equipoise.planning.sizing.limits import plain, worth_listing
 from equipoise.planning.sizing.mass_steps import MassStep
 from equipoise.planning.sizing.measurement_bound import MeasurementBound
 from equipoise.planning.sizing.reachable_set import furthest, tolerance, volume, weakest
-from equipoise.planning.sizing.sensitivity import Bettered
 from equipoise.planning.sizing.sizing import Sizing
 
-SCHEMA = "equipoise/design/1"
 AXES = ("x", "y", "z")
-PERCENT = 100.0
 
 
 def output_of(found: Sizing) -> Output:
@@ -83,10 +81,10 @@ def outcome_claim(found: Sizing) -> Claim:
 def record_of(found: Sizing) -> RunRecord:
     """Return the design as a report."""
     case = found.case
-    required = "" if found.required is None else f"{plain(found.required * MICRO)} uN m"
+    required = "" if found.required is None else f"{plain(found.required / UN_M)} uN m"
     requested = {
-        "target": f"({', '.join(f'{UM * x:g}' for x in case.target)}) um",
-        "range of tilts": f"{case.tilt * PER_DEG:.3g} deg",
+        "target": f"({', '.join(f'{x / UM:g}' for x in case.target)}) um",
+        "range of tilts": f"{case.tilt / DEG:.3g} deg",
         "records": ", ".join(f"{budget.first.duration:g} s" for budget in found.budgets),
         "looks and moves": str(case.moves),
     }
@@ -109,8 +107,8 @@ def reach_table(found: Sizing) -> Table:
     for k, axis in enumerate(np.eye(3)):
         needed, sd = found.case.target[k] - bed.body.com[k], bed.com_sd[k]
         ends = [-furthest(reach, -axis) + 0.0, furthest(reach, axis)]
-        wanted = f"{plain(needed * UM)} +/- {plain(sd * UM)}"
-        rows.append((AXES[k], *(plain(end * UM) for end in ends), wanted))
+        wanted = f"{plain(needed / UM)} +/- {plain(sd / UM)}"
+        rows.append((AXES[k], *(plain(end / UM) for end in ends), wanted))
     columns = (Column("along"), *(number(heading, "um") for heading in ("from", "to", "needed")))
     return table("Shifts of the centre of mass that the masses can make from home", columns, rows)
 
@@ -120,16 +118,16 @@ def steps_table(steps: Sequence[MassStep], tilt: float) -> Table:
     rows = [
         (
             step.mass.name,
-            plain(step.mass.mass * GRAM),
-            plain(step.mass.resolution * MM),
-            plain(step.shift * UM),
-            plain(step.torque * MICRO),
-            plain(step.within_tilt * MICRO),
-            plain(step.stop_sd * UM),
+            plain(step.mass.mass / GRAM),
+            plain(step.mass.resolution / MM),
+            plain(step.shift / UM),
+            plain(step.torque / UN_M),
+            plain(step.within_tilt / UN_M),
+            plain(step.stop_sd / UM),
         )
         for step in steps
     ]
-    within = f"rms within {tilt * PER_DEG:.3g} deg"
+    within = f"rms within {tilt / DEG:.3g} deg"
     columns = (Column("mass"), number("", "g"), number("step", "mm"), number("step", "um"),
                number("step", "uN m"), number(within, "uN m"),
                number("stop's sd", "um"))  # fmt: skip
@@ -142,10 +140,10 @@ def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Table:
     rows = [
         (
             f"{budget.first.duration:g} s",
-            triple(budget.first.com_sd * UM),
-            triple(PERCENT * budget.first.inertia_sd[:3] / moments),
-            triple(budget.last.com_sd * UM),
-            plain(budget.torque * MICRO),
+            triple(budget.first.com_sd / UM),
+            triple(budget.first.inertia_sd[:3] / PERCENT / moments),
+            triple(budget.last.com_sd / UM),
+            plain(budget.torque / UN_M),
         )
         for budget in budgets
     ]
@@ -170,21 +168,21 @@ def budget_table(found: Sizing) -> Table:
     """Return the lines of the budget, the largest first."""
     budget = found.budget
     rows = [(*line_cells(line), share(line, budget), line.basis) for line in budget.lines]
-    rows.append(("together", "", plain(budget.torque * MICRO), "", ""))
+    rows.append(("together", "", plain(budget.torque / UN_M), "", ""))
     columns = (Column(), number("x  y  z rms", "um"), number("rms", "uN m"),
                number("of squares"), Column("from"))  # fmt: skip
     title = (
         f"What is left after {found.case.moves} measurements of "
         f"{found.case.measurement_time:g} s and as many "
-        f"moves, within {found.case.tilt * PER_DEG:.3g} deg of level"
+        f"moves, within {found.case.tilt / DEG:.3g} deg of level"
     )
     return table(title, columns, rows)
 
 
 def line_cells(line: Line) -> tuple[str, str, str]:
     """Return cause, offset and torque."""
-    offset = "" if line.moment is None else triple(rms(line.moment) * UM)
-    return line.cause, offset, plain(line.torque * MICRO)
+    offset = "" if line.moment is None else triple(rms(line.moment) / UM)
+    return line.cause, offset, plain(line.torque / UN_M)
 
 
 def rms(moment: Matrix3) -> Floats:
@@ -194,17 +192,17 @@ def rms(moment: Matrix3) -> Floats:
 
 def share(line: Line, budget: Budget) -> str:
     """Return the share of a line in the sum of all squares."""
-    part = PERCENT * line.torque**2 / sum(other.torque**2 for other in budget.lines)
+    part = line.torque**2 / PERCENT / sum(other.torque**2 for other in budget.lines)
     return f"{part:.0f} %" if part >= 1 else "< 1 %"
 
 
 def better_table(found: Sizing) -> Table:
     """Return what would be left if one thing were better."""
     shown = worth_listing(found.budget, found.better)
-    rows = [(b.name, plain(b.torque * MICRO), f"{PERCENT * b.within:.3g} %") for b in shown] or [
+    rows = [(b.name, plain(b.torque / UN_M), f"{b.within / PERCENT:.3g} %") for b in shown] or [
         ("nothing that is one step better changes it by 1 %", "", "")
     ]
-    now = f"{plain(found.budget.torque * MICRO)} now"
+    now = f"{plain(found.budget.torque / UN_M)} now"
     columns = (Column("one thing better"), number(f"left ({now})", "uN m"), number("within reach"))
     return table("What to buy next, the best first", columns, rows)
 
@@ -239,103 +237,28 @@ def lengths_with(reason: Reason, measurements: Sequence[MeasurementBound]) -> li
     )
 
 
-def cautions_json(found: Sizing) -> list[View]:
-    """Return what is odd about the records, with their lengths."""
-    reported = cautions(found)
-    views = reasons_json([reason for reason, _ in reported])
-    return [
-        view | {"records_s": lengths} for view, (_, lengths) in zip(views, reported, strict=True)
-    ]
-
-
 def design_json(found: Sizing) -> View:
-    """Return a design, schema equipoise/design/1, SI."""
-    case = found.case
-    return {
-        "schema": SCHEMA,
-        "testbed": case.testbed.name,
-        "source": case.testbed.source,
-        "target_m": numbers(case.target),
-        "tilt_rad": case.tilt,
-        "moves": case.moves,
-        "reach": reach_json(found),
-        "masses": [step_json(step) for step in found.steps],
-        "measurements": [budget_json(budget) for budget in found.budgets],
-        "budget": [line_json(line) for line in found.budget.lines],
-        "better": [bettered_json(b) for b in found.better],
-        "limit": found.limit,
-        "not_stated": list(uncounted(case)),
-        "cautions": cautions_json(found),
-        "verdict": verdict_json(found.verdict),
-    }
+    """Return a design as JSON, SI units."""
+    return DESIGN.write({
+        "found": found,
+        "reach": reach_of_masses(found),
+        "not_stated": uncounted(found.case),
+        "cautions": cautions(found),
+    })  # fmt: skip
 
 
-def reach_json(found: Sizing) -> View:
-    """Return what the masses can reach; facets are normal.shift <= height."""
+def reach_of_masses(found: Sizing) -> View:
+    """Return what the masses can reach."""
     reach, axes = found.reach, np.eye(3)
     return {
         "rank": reach.rank,
         "low_m": [-furthest(reach, -axis) + 0.0 for axis in axes],
         "high_m": [furthest(reach, axis) for axis in axes],
         "tolerance_m": tolerance(reach),
-        "weakest_direction": numbers(weakest(reach)),
+        "weakest_direction": weakest(reach),
         "volume_m3": volume(reach),
-        "facet_normals": numbers(reach.normals),
-        "facet_heights_m": numbers(reach.heights),
+        "facet_normals": reach.normals,
+        "facet_heights_m": reach.heights,
         "share_within": found.budget.within,
         "sentence": found.reached,
-    }
-
-
-def step_json(step: MassStep) -> View:
-    """Return the least step of a mass."""
-    return {
-        "name": step.mass.name,
-        "mass_kg": step.mass.mass,
-        "step_m": step.mass.resolution,
-        "com_step_m": step.shift,
-        "torque_N_m": step.torque,
-        "torque_within_tilt_N_m": step.within_tilt,
-        "com_stop_sd_m": step.stop_sd,
-    }
-
-
-def budget_json(budget: Budget) -> View:
-    """Return what a length of record comes to."""
-    return {
-        "record_s": budget.first.duration,
-        "first": measurement_json(budget.first),
-        "last": measurement_json(budget.last),
-        "torque_N_m": budget.torque,
-    }
-
-
-def measurement_json(measurement: MeasurementBound) -> View:
-    """Return what a look tells."""
-    return {
-        "com_sd_m": numbers(measurement.com_sd),
-        "com_covariance_m2": numbers(measurement.com),
-        "inertia_P_sd_kg_m2": numbers(measurement.inertia_sd),
-        "peak_tilt_rad": measurement.peak_tilt,
-    }
-
-
-def line_json(line: Line) -> View:
-    """Return a line of the budget."""
-    moment = None if line.moment is None else numbers(line.moment)
-    return {
-        "name": line.name,
-        "cause": line.cause,
-        "torque_N_m": line.torque,
-        "com_moment_m2": moment,
-        "basis": line.basis,
-    }
-
-
-def bettered_json(better: Bettered) -> View:
-    """Return what would be left with one thing better."""
-    return {
-        "change": better.name,
-        "torque_N_m": better.torque,
-        "share_within": better.within,
     }

@@ -12,7 +12,8 @@ from equipoise.app.text.estimate_text import (
     residual_line,
     unobservable_items,
 )
-from equipoise.app.text.json_document import View, estimate_json
+from equipoise.app.text.json_document import estimate_json
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import moments
 from equipoise.app.views.plan_check import kept_json, plan_blocks
 from equipoise.procedure.identification.record_courses import RecordCourses
@@ -45,10 +46,8 @@ def blocks(done: Identification) -> Blocks:
 
 def document_of(done: Identification) -> View:
     """Return the estimate as JSON, with the findings."""
-    document = estimate_json(done.estimate, done.findings)
-    return (
-        document if done.plan is None else document | {"plan": kept_json(done.plan, done.estimate)}
-    )
+    checked = None if done.plan is None else kept_json(done.plan, done.estimate)
+    return estimate_json(done.estimate, done.findings, checked)
 
 
 def logged_of(done: Identification, is_file: bool = True) -> Logged:

@@ -12,7 +12,8 @@ from equipoise.app.runs.manual_balancing import ByHand
 from equipoise.app.text.blocks import Blocks, paragraphs
 from equipoise.app.text.com_estimate import as_it_stands
 from equipoise.app.text.estimate_text import outcome_claim
-from equipoise.app.text.json_document import View, balance_json
+from equipoise.app.text.json_document import BALANCE
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import verdict_blocks
 from equipoise.app.views.balance_views import change_blocks, requested, wanted
 from equipoise.model.arrays import Vector3
@@ -63,10 +64,13 @@ def blocks(done: ByHand) -> Blocks:
 
 def document_of(done: ByHand, of: dict[str, str]) -> View:
     """Return the run as JSON; ``of`` says what it was made of."""
-    truths, provenance = done.balancing.truths, origin(**of)
-    return balance_json(
-        done.balancing.steps, done.verdict, truths[-1] if truths else None, provenance
-    )
+    truths = done.balancing.truths
+    return BALANCE.write({
+        "steps": done.balancing.steps,
+        "verdict": done.verdict,
+        "truth": truths[-1] if truths else None,
+        "provenance": origin(**of),
+    })  # fmt: skip
 
 
 def record_of(done: ByHand, of: dict[str, str], courses: RecordCourses) -> RunRecord:

@@ -1,13 +1,11 @@
 """Cards of methods for terminal and JSON."""
 
 from collections.abc import Sequence
-from dataclasses import asdict
 
 from equipoise.app.text.blocks import Blocks, Column, Pairs, prose, table
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_lists import METHODS
+from equipoise.app.text.json_shape import View
 from equipoise.model.method_card import REGIMES, Card
-
-SCHEMA = "equipoise/methods/1"
 
 
 def blocks(cards: Sequence[Card]) -> Blocks:
@@ -34,5 +32,5 @@ def card_rows(card: Card) -> list[tuple[str, str]]:
 
 
 def methods_json(cards: Sequence[Card]) -> View:
-    """Return cards, schema equipoise/methods/1."""
-    return {"schema": SCHEMA, "methods": [asdict(card) for card in cards]}
+    """Return cards as JSON."""
+    return METHODS.write({"methods": cards})

@@ -18,17 +18,17 @@ from equipoise.app.text.blocks import (
     prose,
     table,
 )
-from equipoise.app.text.json_document import View, numbers, parameter_json, reasons_json
+from equipoise.app.text.json_results import OBSERVE
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.run_blocks import reason_items
-from equipoise.app.text.units import PER_DEG, unit_for
+from equipoise.app.text.units import unit_for
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Parameter
 from equipoise.model.observability import FilterView, Observability
+from equipoise.model.units import DEG, PERCENT
 
-SCHEMA = "equipoise/observe/1"
 BODY = (*COM, *INERTIA)
-PERCENT = 100.0
 Texts = tuple[str, str, str, str, str]
 
 
@@ -90,13 +90,13 @@ def rows_of(information: Observability, names: Sequence[str]) -> Iterator[Texts]
         unit, sd = unit_for(name, information.units[k]), float(information.sd[k])
         share = shared(sd, sizes[name]) if name in sizes else ""
         before = float(information.before[k])
-        stated = with_sd(0.0, before * unit.factor)[1] if math.isfinite(before) else ""
-        yield name, with_sd(0.0, sd * unit.factor)[1], share, stated, unit.name
+        stated = with_sd(0.0, before / unit.size)[1] if math.isfinite(before) else ""
+        yield name, with_sd(0.0, sd / unit.size)[1], share, stated, unit.name
 
 
 def shared(sd: float, size: float) -> str:
     """Return an sd as a share of a moment of inertia."""
-    return f"{PERCENT * sd / size:.2g} %" if 0 < sd < math.inf else ""
+    return f"{sd / PERCENT / size:.2g} %" if 0 < sd < math.inf else ""
 
 
 def bound_table(title: str, information: Observability, names: Sequence[str]) -> Table:
@@ -119,7 +119,7 @@ def ratio_table(ratios: Sequence[Parameter]) -> Table:
     """Return bounds of what does not need the scale."""
     units = [unit_for(ratio.name, ratio.unit) for ratio in ratios]
     rows = (
-        (ratio.name, with_sd(0.0, ratio.sd * unit.factor)[1], unit.name)
+        (ratio.name, with_sd(0.0, ratio.sd / unit.size)[1], unit.name)
         for ratio, unit in zip(ratios, units, strict=True)
     )
     columns = (Column(), number("least sd"), Column("unit"))
@@ -142,8 +142,8 @@ def filter_row(view: FilterView) -> tuple[str, ...]:
 
 def sweep_line(information: Observability) -> str:
     """Say how far the platform tilts and gravity moves in the body."""
-    low, high = (angle * PER_DEG for angle in information.tilt)
-    away = math.asin(min(math.sqrt(information.gravity_sweep), 1.0)) * PER_DEG
+    low, high = (angle / DEG for angle in information.tilt)
+    away = math.asin(min(math.sqrt(information.gravity_sweep), 1.0)) / DEG
     return (
         f"Tilt from {low:.3g} to {high:.3g} deg; gravity leaves its mean direction in the body by "
         f"{away:.3g} deg rms (least eigenvalue of its sweep {information.gravity_sweep:.2g})."
@@ -163,27 +163,18 @@ def rank_claim(information: Observability) -> Claim:
 
 
 def observe_json(done: Observation) -> View:
-    """Return what a recording can show, schema equipoise/observe/1."""
+    """Return what a recording can show as JSON, SI units."""
     recording, information, filters = done.recording, done.bounds, done.filters
-    return {
-        "schema": SCHEMA,
+    return OBSERVE.write({
         "source": recording.source,
         "sha256": recording.sha256,
-        "parameters": [bound_json(information, k) for k in range(len(information.names))],
-        "ratios": [parameter_json(ratio) for ratio in information.ratios],
-        "rank": information.rank,
-        "size": information.size,
-        "condition": information.condition,
-        "gravity_sweep": information.gravity_sweep,
-        "tilt_rad": list(information.tilt),
-        "inertia_P_kg_m2": numbers(information.inertia_P),
-        "unobservable": reasons_json(information.unobservable),
-        "cautions": reasons_json(information.cautions),
-        "filters": [filter_json(view) for view in filters],
-    }
+        "found": information,
+        "parameters": [bound_of(information, k) for k in range(len(information.names))],
+        "filters": filters,
+    })  # fmt: skip
 
 
-def bound_json(information: Observability, k: int) -> View:
+def bound_of(information: Observability, k: int) -> View:
     """Return one bound, SI."""
     return {
         "name": information.names[k],
@@ -192,16 +183,4 @@ def bound_json(information: Observability, k: int) -> View:
         "testbed_sd": float(information.before[k]),
         "observable": not bool(information.hidden[k]),
         "held": bool(information.held[k]),
-    }
-
-
-def filter_json(view: FilterView) -> View:
-    """Return what a filter sees."""
-    return {
-        "name": view.name,
-        "measures": view.measures,
-        "size": view.size,
-        "possible_rank": view.possible,
-        "rank": view.rank,
-        "unobservable": reasons_json(view.unobservable),
     }

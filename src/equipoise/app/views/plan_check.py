@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from equipoise.app.text.blocks import Blocks, Column, Table, number, paragraphs, table
-from equipoise.app.text.json_document import View
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import unit_for
 from equipoise.model.estimate import COM, INERTIA, Estimate
@@ -42,7 +42,7 @@ def kept_table(plan: Plan, estimate: Estimate) -> Table:
     rows: list[tuple[str, ...]] = []
     for name, sd, found in pairs(plan, estimate):
         unit = unit_for(name, "m" if name in COM else "kg m2")
-        texts = [with_sd(0.0, value * unit.factor)[1] for value in (sd, found)]
+        texts = [with_sd(0.0, value / unit.size)[1] for value in (sd, found)]
         rows.append((name, *texts, f"{found / sd:.2f}", unit.name))
     return table("What was planned, and what came of it", columns, rows)
 

@@ -23,19 +23,20 @@ from equipoise.app.text.blocks import (
     number,
     table,
 )
-from equipoise.app.text.json_document import View, reasons_json, schedule_json
+from equipoise.app.text.json_results import PLAN
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.run_blocks import reason_items
-from equipoise.app.text.units import MM, PER_DEG, Unit, unit_for
+from equipoise.app.text.units import Unit, unit_for
 from equipoise.model.arrays import Vector3
 from equipoise.model.devices import ReactionWheel
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import Manoeuvre, SquareWave
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import DEG, MM, MN_M
 from equipoise.planning.manoeuvre.criterion import OF_COM, OF_MOMENT, size_of
 from equipoise.planning.manoeuvre.predicted_sd import Promise, times_better
 
-SCHEMA = "equipoise/plan/1"
 UPRIGHT = 0.999  # cosine, chosen: a body's z that counts as upright
 
 
@@ -78,7 +79,7 @@ def record_of(done: Planning) -> RunRecord:
             "wanted": ", ".join(request.names),
             "criterion": request.criterion,
             "length of the record": f"{request.duration:g} s",
-            "greatest rate": f"{PER_DEG * request.rate:g} deg/s",
+            "greatest rate": f"{request.rate / DEG:g} deg/s",
             "earlier recording": "none" if request.earlier is None else request.earlier.source,
         },
         testbed=request.testbed,
@@ -110,7 +111,7 @@ def promise_row(done: Planning, name: str) -> Row:
 
 def sd_text(promise: Promise, name: str, unit: Unit) -> str:
     """Return a predicted sd."""
-    return with_sd(0.0, float(promise.sd_of((name,))[0]) * unit.factor)[1]
+    return with_sd(0.0, float(promise.sd_of((name,))[0]) / unit.size)[1]
 
 
 def steps_of(manoeuvre: Manoeuvre, testbed: Testbed) -> Iterator[tuple[str, str]]:
@@ -132,7 +133,7 @@ def steps_of(manoeuvre: Manoeuvre, testbed: Testbed) -> Iterator[tuple[str, str]
 
 def displacements(targets: Mapping[str, float]) -> str:
     """Return displacements from home."""
-    return ", ".join(f"{name} {MM * d:+.4g} mm" for name, d in targets.items())
+    return ", ".join(f"{name} {d / MM:+.4g} mm" for name, d in targets.items())
 
 
 def lean_words(manoeuvre: Manoeuvre, up: Vector3) -> str:
@@ -144,24 +145,24 @@ def lean_words(manoeuvre: Manoeuvre, up: Vector3) -> str:
     if up[2] > UPRIGHT:
         angle = math.degrees(math.atan2(side[1], side[0]))
         where = f"{angle:.0f} deg from body x towards y"
-    slack = f"to about {PER_DEG * manoeuvre.tilt_sd:g} deg"
-    return f"tilt it by {PER_DEG * manoeuvre.tilt:.3g} deg, {slack}, the side at {where} lowest"
+    slack = f"to about {manoeuvre.tilt_sd / DEG:g} deg"
+    return f"tilt it by {manoeuvre.tilt / DEG:.3g} deg, {slack}, the side at {where} lowest"
 
 
 def rate_words(rate: Vector3, up: Vector3) -> str:
     """Return how to let go."""
     if not np.any(rate):
         return "let go without a push"
-    x, y, z = (f"{PER_DEG * v:+.3g}" for v in rate + 0.0)
-    spin = PER_DEG * float(rate @ up)
+    x, y, z = (f"{v / DEG:+.3g}" for v in rate + 0.0)
+    spin = float(rate @ up) / DEG
     return f"let go with a push: ({x}, {y}, {z}) deg/s in body axes, {spin:.3g} of it a spin"
 
 
 def wave_words(wave: SquareWave, testbed: Testbed) -> str:
     """Return what a device is driven by."""
     wheel = any(w.name == wave.device for w in testbed.wheels)
-    size = (f"{1e3 * wave.amplitude:+.3g} mN m" if wheel
-            else f"{PER_DEG * wave.amplitude:+.3g} deg/s")  # fmt: skip
+    size = (f"{wave.amplitude / MN_M:+.3g} mN m" if wheel
+            else f"{wave.amplitude / DEG:+.3g} deg/s")  # fmt: skip
     turns = f"every {wave.period / 2:g} s, first at {wave.period * (0.5 - wave.phase):g} s"
     return f"drive {wave.device} by {size}, and turn it round {turns}"
 
@@ -170,10 +171,10 @@ def limits_line(promise: Promise, request: Request, who: str) -> str:
     """Say how far a manoeuvre goes."""
     testbed, expected, n = request.testbed, promise.expected, promise.tried
     text = (
-        f"{who} tilts the platform that is expected by {PER_DEG * expected.peak_tilt:.3g} deg at "
-        f"most, {n} others by up to {PER_DEG * promise.greatest_tilt:.3g} deg, and reaches "
-        f"{PER_DEG * promise.greatest_rate:.3g} deg/s; {promise.kept} of them keep the limits of "
-        f"{PER_DEG * testbed.tilt_limit:.3g} deg and {PER_DEG * request.rate:g} deg/s"
+        f"{who} tilts the platform that is expected by {expected.peak_tilt / DEG:.3g} deg at "
+        f"most, {n} others by up to {promise.greatest_tilt / DEG:.3g} deg, and reaches "
+        f"{promise.greatest_rate / DEG:.3g} deg/s; {promise.kept} of them keep the limits of "
+        f"{testbed.tilt_limit / DEG:.3g} deg and {request.rate / DEG:g} deg/s"
     )
     if any(isinstance(d, ReactionWheel) for d in testbed.devices) or testbed.cmgs:
         text += f", stored momentum {expected.peak_momentum:.2g} N m s"
@@ -214,41 +215,8 @@ def verdict(done: Planning) -> str:
 
 
 def plan_json(done: Planning) -> View:
-    """Return a plan, schema equipoise/plan/1, SI units."""
-    plan, request = done.planned, done.request
-    m = plan.manoeuvre
-    return {
-        "schema": SCHEMA,
-        "testbed": request.testbed.name,
-        "requested": list(request.names),
-        "criterion": request.criterion,
+    """Return a plan as JSON, SI units."""
+    return PLAN.write({
+        "done": done,
         "sizes": {"com_m": OF_COM, "inertia_relative": OF_MOMENT},
-        "duration_s": m.duration,
-        "tilt_rad": m.tilt,
-        "low_side": m.low_side.tolist(),
-        "rate_rad_s": m.rate.tolist(),
-        "tilt_sd_rad": m.tilt_sd,
-        "rate_sd_rad_s": m.rate_sd,
-        "standing_m": dict(m.standing),
-        "moves": schedule_json(m.moves),
-        "waves": [
-            {"device": w.device, "amplitude": w.amplitude, "period_s": w.period, "phase": w.phase}
-            for w in m.waves
-        ],
-        "usual": promise_json(done.usual),
-        "planned": promise_json(plan),
-    }
-
-
-def promise_json(promise: Promise) -> View:
-    """Return what a manoeuvre promises."""
-    return {
-        "sd": dict(zip(promise.names, map(float, promise.sd), strict=True)),
-        "platforms": promise.platforms,
-        "platforms_tried_for_limits": promise.tried,
-        "within_limits": promise.kept,
-        "greatest_tilt_rad": promise.greatest_tilt,
-        "greatest_rate_rad_s": promise.greatest_rate,
-        "peak_momentum_N_m_s": promise.expected.peak_momentum,
-        "unobservable": reasons_json(promise.unobservable),
-    }
+    })  # fmt: skip

@@ -66,6 +66,7 @@ from equipoise.model.law_card import LawCard
 from equipoise.model.reasons.law_reasons import LawReason
 from equipoise.model.reasons.reason import Reason, axes_of, one_reason
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 
 PERIOD = 0.1  # s, chosen: a servo's beat
 ZETA = 1.0  # chosen: no overshoot
@@ -172,8 +173,8 @@ def cone_for(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
         raise InputError(
             testbed.name,
             f"{have.torque:.3g} N m and {have.momentum:.3g} N m s of wheels or gyros to count on, "
-            f"and a centre of mass that may be {1e6 * offset:.3g} um off sideways and "
-            f"{1e6 * low:.3g} um along up: a cone of {np.degrees(max(angle, 0.0)):.2g} deg",
+            f"and a centre of mass that may be {offset / UM:.3g} um off sideways and "
+            f"{low / UM:.3g} um along up: a cone of {np.degrees(max(angle, 0.0)):.2g} deg",
             f"{np.degrees(NARROWEST):.2g} deg: a coarse balance first, or stronger devices",
         )
     return angle

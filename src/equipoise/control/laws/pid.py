@@ -75,6 +75,7 @@ from equipoise.model.law_card import LawCard
 from equipoise.model.reasons.law_reasons import LawReason
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 
 PERIOD = 0.25  # s, chosen: a fiftieth of a swing
 LATE = 0.5  # chosen: the share of the lead that masses and sensors may be late in the relay's cycle
@@ -139,8 +140,8 @@ def loop_of(plant: Hanging, axis: int) -> Loop:
     if relay < STEPS * plant.step or relay <= 0:
         raise InputError(
             "law pid",
-            f"masses that shift the centre of mass by {plant.slew * 1e6:.3g} um/s in steps of "
-            f"{plant.step * 1e6:.3g} um, {delay:.2g} s late",
+            f"masses that shift the centre of mass by {plant.slew / UM:.3g} um/s in steps of "
+            f"{plant.step / UM:.3g} um, {delay:.2g} s late",
             f"{STEPS} steps in {LATE * lead:.2g} s, a quarter of a hanging swing's radian",
         )
     return Loop(float(plant.gain[axis]), frequency, lead, delay, plant.slew, relay)

@@ -48,6 +48,7 @@ from equipoise.model.law_card import LawCard
 from equipoise.model.reasons.law_reasons import LawReason
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 
 Phase = Literal["hang", "feedback", "kick", "level", "calm", "end"]
 
@@ -117,9 +118,9 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     params = Params(plant, up, target, depth, speed, held(testbed), testbed.inertia_sd)
     loop = loop_for(plant, depth, params.variant)
     if plant.coils == 0 or loop.integral * TEN_DEGREES > FAST * speed:
-        raise InputError("planar_magnetic", f"masses that shift by {1e6 * speed:.3g} um/s and "
+        raise InputError("planar_magnetic", f"masses that shift by {speed / UM:.3g} um/s and "
                          f"coils that give {plant.coils:.3g} N m", "coils, a known field, and "
-                         f"{1e6 * loop.integral * TEN_DEGREES / FAST:.3g} um/s")  # fmt: skip
+                         f"{loop.integral * TEN_DEGREES / FAST / UM:.3g} um/s")  # fmt: skip
     return State("hang", -hang * up, loop), params
 
 

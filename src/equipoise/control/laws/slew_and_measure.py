@@ -51,6 +51,7 @@ from equipoise.model.law_card import LawCard
 from equipoise.model.reasons.law_reasons import LawReason
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 
 PERIOD = 0.1  # s
 SHARE = 0.7  # of the tilt limit, chosen: the tilt of A, B and C
@@ -135,7 +136,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     bearable = can.momentum / needed
     if bearable < CLOSE:
         raise InputError("slew_and_measure", f"wheels or gyros that store {can.momentum:.3g} N m s",
-                         f"{needed * CLOSE:.3g} N m s: m g {1e6 * CLOSE:g} um while the turns last"
+                         f"{needed * CLOSE:.3g} N m s: m g {CLOSE / UM:g} um while the turns last"
                          )  # fmt: skip
     loop = gains_for(J, can.torque)
     params = Params(testbed, loop, pace, target, turns, bearable, held)

@@ -17,6 +17,7 @@ from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 
 MARGIN = 0.3  # chosen: of Routh's condition
 
@@ -30,7 +31,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     if margin < MARGIN:
         raise InputError(
             testbed.name,
-            f"a centre of mass that may be {1e6 * height:.3g} um above P, where Routh's condition "
+            f"a centre of mass that may be {height / UM:.3g} um above P, where Routh's condition "
             f"has a margin of {margin:.2g}",
             f"{MARGIN} or more: lower it first, or a firmer com_sd",
         )

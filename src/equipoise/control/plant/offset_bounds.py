@@ -13,6 +13,7 @@ from equipoise.maths.linalg import skew
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 
 LIKELY = 2.0  # sd, chosen: few offsets exceed it
 
@@ -81,7 +82,7 @@ def refuse_unless_below(testbed: Testbed, least: float, most: float) -> None:
 def about_masses(testbed: Testbed) -> str:
     """Return the likely offset and what masses can do about it, in words."""
     return (
-        f"a centre of mass that may be {1e6 * likely_offset(testbed):.3g} um off sideways, and "
-        f"masses that shift it by {1e6 * greatest_slew(testbed):.3g} um/s and "
-        f"{1e6 * greatest_shift(testbed):.3g} um"
+        f"a centre of mass that may be {likely_offset(testbed) / UM:.3g} um off sideways, and "
+        f"masses that shift it by {greatest_slew(testbed) / UM:.3g} um/s and "
+        f"{greatest_shift(testbed) / UM:.3g} um"
     )

@@ -30,6 +30,7 @@ from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Series, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 
 SURE = 3.0  # sds of the height, chosen
 LIKELY = 2.0  # sds of what is left sideways, chosen
@@ -129,8 +130,8 @@ def hanging(testbed: Testbed) -> Hanging:
     reach = greatest_shift(testbed)
     lowered = min(-depth - height, 0.0)
     if reach < -lowered or reach == 0:
-        wanted = f"masses that shift it by {(depth + height) * 1e6:.3g} um, whatever the direction"
-        raise InputError("balancing law", f"masses that shift it by {reach * 1e6:.3g} um", wanted)
+        wanted = f"masses that shift it by {(depth + height) / UM:.3g} um, whatever the direction"
+        raise InputError("balancing law", f"masses that shift it by {reach / UM:.3g} um", wanted)
     axes = level_axes(up)
     moments = np.einsum("ij,jk,ik->i", axes, body.inertia_P, axes)
     return Hanging(

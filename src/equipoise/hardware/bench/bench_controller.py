@@ -17,13 +17,13 @@ from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.links.sensor_link import SensorLink
 from equipoise.model.arrays import Floats
 from equipoise.model.bench_requests import checked_targets
-from equipoise.model.bench_units import MM
 from equipoise.model.errors import BenchStopped, EquipoiseError
 from equipoise.model.hardware import Hardware
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import MM
 
 REMEMBERED = 0.2  # s, chosen: between the two answers from which a mass's speed is told
 
@@ -141,7 +141,7 @@ class Keeper:
         goals = checked_targets(self._testbed.masses, here, targets)
         self._able()
         by_name = {self._testbed.masses[i].name: goal for i, goal in goals.items()}
-        reported = ", ".join(f"{name} to {MM * goal:.3f} mm" for name, goal in by_name.items())
+        reported = ", ".join(f"{name} to {goal / MM:.3f} mm" for name, goal in by_name.items())
         self._note("command", f"go: {reported}", by_name)
         self._able()  # to note it may have filled the disk
         self.links.go(by_name, self.t)

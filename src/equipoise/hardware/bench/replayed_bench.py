@@ -14,6 +14,7 @@ from equipoise.model.bench_requests import check_duration, checked_inputs, check
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording, rows_between
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import MM
 
 Wait = Callable[[float], None]  # s
 
@@ -67,7 +68,7 @@ class ReplayedBench:
         here = np.array([self._displacement(name) for name in self._testbed.mass_names])
         checked_targets(self._testbed.masses, here, targets)
         reported = ", ".join(
-            f"{name} to {requested * 1e3:.3g} mm" for name, requested in targets.items()
+            f"{name} to {requested / MM:.3g} mm" for name, requested in targets.items()
         )
         self._note(f"asked to move {reported}; masses do as was recorded")
 

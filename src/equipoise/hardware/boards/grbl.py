@@ -40,9 +40,9 @@ from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import MotorBoard
 from equipoise.model.reading import Counts
 from equipoise.model.testbed import SlidingMass
+from equipoise.model.units import MINUTE, MM, in_si
 
 RESET, HOLD, RESUME, CANCEL = b"\x18", b"!", b"~", b"\x85"
-PER_MM, PER_MIN = 1e3, 60.0
 BEGIN = 4.0  # s, chosen: an Arduino's loader takes two of them after the port is opened
 TRY = 1.5  # s, chosen: between resets while it has not begun
 LONGEST_HOMING = 60.0  # s, chosen: it answers nothing meanwhile
@@ -270,8 +270,8 @@ class Grbl:
         for axis in self._board.axes:
             if axis.mass in way.to:
                 words += f" {axis.letter}{self._position(axis.mass, way.to[axis.mass]):.4f}"
-                square += (PER_MM * (way.to[axis.mass] - self._sent[axis.mass])) ** 2
-        feed = max(square**0.5 / way.duration * PER_MIN, 1.0)
+                square += ((way.to[axis.mass] - self._sent[axis.mass]) / MM) ** 2
+        feed = max(square**0.5 / way.duration * MINUTE, 1.0)
         self._sent = {**self._sent, **way.to}
         self._awaited, self._since = "leg", t
         return f"$J=G53 G21 G90{words} F{feed:.2f}\n".encode()
@@ -311,12 +311,12 @@ class Grbl:
 
     def _displacement(self, name: str, position_mm: float) -> float:
         sign = -1.0 if self._reversed(name) else 1.0
-        return sign * (position_mm / PER_MM - self._zero[name])
+        return sign * (in_si(position_mm, MM) - self._zero[name])
 
     def _position(self, name: str, displacement: float) -> float:
         """Return the board's position, mm."""
         sign = -1.0 if self._reversed(name) else 1.0
-        return PER_MM * (self._zero[name] + sign * displacement)
+        return (self._zero[name] + sign * displacement) / MM
 
     def _reversed(self, name: str) -> bool:
         return next(axis.reversed for axis in self._board.axes if axis.mass == name)

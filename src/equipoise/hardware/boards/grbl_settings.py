@@ -10,9 +10,9 @@ from collections.abc import Mapping, Sequence
 
 from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass
+from equipoise.model.units import MINUTE, MM
 
 LETTERS = "XYZABC"
-PER_MM, MM_MIN = 1e3, 6e4  # mm in a metre; mm/min in a metre per second
 NEAR = 1e-3  # relative, chosen: settings are printed to three decimals
 
 
@@ -38,10 +38,10 @@ def _of_axis(
     missing = [n for n in (100 + k, 110 + k, 130 + k) if n not in settings]
     if missing:
         return f"it has no axis {axis.letter} (no ${missing[0]}), wanted for mass {mass.name}"
-    steps, wanted = settings[100 + k], axis.steps_per_m / PER_MM
+    steps, wanted = settings[100 + k], axis.steps_per_m * MM
     if abs(steps - wanted) > NEAR * wanted:
         return f"${100 + k}={steps:g} steps per mm of {axis.letter}; the testbed says {wanted:g}"
-    speed = mass.speed * MM_MIN
+    speed = mass.speed * MINUTE / MM
     if settings[110 + k] < speed * (1 - NEAR):
         found = f"${110 + k}={settings[110 + k]:g} mm/min at most of {axis.letter}"
         return f"{found}; mass {mass.name} is to go with {speed:g}"
@@ -51,7 +51,7 @@ def _of_axis(
 def _travel(axis: Axis, mass: SlidingMass, greatest: float) -> str:
     """Grbl's machine space after homing is from minus the travel to zero."""
     sign = -1.0 if axis.reversed else 1.0
-    ends = sorted(PER_MM * (axis.zero + sign * end) for end in mass.travel)
+    ends = sorted((axis.zero + sign * end) / MM for end in mass.travel)
     if -greatest * (1 + NEAR) <= ends[0] and ends[1] <= NEAR:
         return ""
     found = f"$13{LETTERS.index(axis.letter)}={greatest:g} mm of travel, {-greatest:g} to 0"

@@ -17,8 +17,8 @@ from equipoise.hardware.camera.upright import DOWN, camera_to_laboratory, checke
 from equipoise.model.arrays import Matrix3
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.hardware import Setting
+from equipoise.model.units import MM
 
-MM = 1e-3
 DICTIONARY = "4X4_50"
 BOARD = ("columns", "rows", "marker_mm", "gap_mm")
 LENS = ("fx_px", "fy_px", "cx_px", "cy_px", "width_px", "height_px")

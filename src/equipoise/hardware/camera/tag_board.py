@@ -12,6 +12,7 @@ import numpy as np
 from equipoise.hardware.camera import aruco
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
+from equipoise.model.units import MM
 
 POINTS, MARGIN = 8, 0.12  # on each side of a marker, chosen: and off its corners, which blur rounds
 LEAST = 2  # markers, chosen: one alone is seen alike from two sides too easily
@@ -83,7 +84,7 @@ def checked_board(board: TagBoard, where: str) -> TagBoard:
         wanted = f"at least {LEAST} markers"
         raise InputError(where, f"{board.columns} columns and {board.rows} rows", wanted)
     if board.marker <= 0 or board.gap <= 0:
-        found = f"marker_mm {1e3 * board.marker:g} and gap_mm {1e3 * board.gap:g}"
+        found = f"marker_mm {board.marker / MM:g} and gap_mm {board.gap / MM:g}"
         raise InputError(where, found, "lengths greater than zero")
     there = aruco.count_of(aruco.dictionary(board.dictionary, where))
     if board.first < 0 or board.ids.stop > there:

@@ -14,6 +14,7 @@ from equipoise.hardware.boards.axis_letters import check_letters
 from equipoise.hardware.emulated.device import Leg
 from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass
+from equipoise.model.units import MINUTE, MM
 
 LETTERS = "XYZABC"
 BLOCKS = 15  # of the planner
@@ -163,8 +164,8 @@ class EmulatedGrbl:
         # No axis goes faster than its setting, whatever the speed of the whole.
         way = [abs(b - a) for a, b in zip(begin, to, strict=True)]
         length = sum(step**2 for step in way) ** 0.5
-        needs = [60 * step / self._settings[110 + k] for k, step in enumerate(way)]
-        taken = max([60 * length / values["F"], *needs])
+        needs = [MINUTE * step / self._settings[110 + k] for k, step in enumerate(way)]
+        taken = max([MINUTE * length / values["F"], *needs])
         start = self._blocks[-1].end if self._blocks else self._now + DELAY
         self._blocks.append(Block(start, start + taken, begin, tuple(to)))
         self._lead_masses(self._blocks[-1])
@@ -255,13 +256,13 @@ class EmulatedGrbl:
 
     def _displacement(self, axis: Axis, place: Sequence[float]) -> float:
         sign = -1.0 if axis.reversed else 1.0
-        return sign * (1e-3 * place[LETTERS.index(axis.letter)] - axis.zero)
+        return sign * (place[LETTERS.index(axis.letter)] * MM - axis.zero)
 
     def _place(self, displacement: dict[str, float]) -> tuple[float, ...]:
         place = [0.0] * self._count
         for axis in self._axes:
             sign = -1.0 if axis.reversed else 1.0
-            place[LETTERS.index(axis.letter)] = 1e3 * (axis.zero + sign * displacement[axis.mass])
+            place[LETTERS.index(axis.letter)] = (axis.zero + sign * displacement[axis.mass]) / MM
         return tuple(place)
 
     def _say(self, data: bytes) -> None:
@@ -280,8 +281,8 @@ def _defaults(board: MotorBoard, masses: Sequence[SlidingMass], count: int) -> d
     by_name = {mass.name: mass for mass in masses}
     for axis in board.axes:
         k, mass = LETTERS.index(axis.letter), by_name[axis.mass]
-        settings[100 + k] = axis.steps_per_m / 1e3
-        settings[110 + k] = 6e4 * mass.speed
+        settings[100 + k] = axis.steps_per_m * MM
+        settings[110 + k] = mass.speed * MINUTE / MM
     if board.homing:
         settings |= {20: 1, 22: 1}
     return settings

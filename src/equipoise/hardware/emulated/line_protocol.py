@@ -16,9 +16,10 @@ from equipoise.maths.attitude import to_euler321
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording
+from equipoise.model.units import MS, US
 
 BOOTED = 3.0  # s, chosen: the sketch's clock is ahead by so much
-PER_S = {"t_s": 1.0, "t_ms": 1e3, "t_us": 1e6}
+CLOCKS = {"t_s": 1.0, "t_ms": MS, "t_us": US}
 
 
 class EmulatedLineProtocol:
@@ -50,11 +51,11 @@ class EmulatedLineProtocol:
 
     def _full(self, values: Mapping[str, float]) -> bool:
         names = {_name_and_path(column)[0] for column in self._columns}
-        return names <= {*values, *PER_S, "n", "-"}
+        return names <= {*values, *CLOCKS, "n", "-"}
 
     def _line(self, t: float, values: dict[str, float]) -> bytes:
         self._n += 1
-        values |= {name: round((t + BOOTED) * scale, 3) for name, scale in PER_S.items()}
+        values |= {name: round((t + BOOTED) / unit, 3) for name, unit in CLOCKS.items()}
         values |= {"n": self._n, "-": 0.0}
         named = [(_name_and_path(column)[1], values[_name_and_path(column)[0]])
                  for column in self._columns]  # fmt: skip

@@ -12,6 +12,7 @@ from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording
+from equipoise.model.units import MS, US
 
 BOOTED = 20.0  # s, chosen: before the bench began
 EPOCH = 1.7e9  # s, chosen: Unix time when the bench began
@@ -66,11 +67,11 @@ class EmulatedMavlink:
         return self._packed(self._dialect.MAVLink_heartbeat_message(2, 12, 0, 0, 4, 3))
 
     def _attitude(self, t: float, q: Floats) -> Any:
-        boot = round((t + BOOTED) * 1e3)
+        boot = round((t + BOOTED) / MS)
         return self._dialect.MAVLink_attitude_quaternion_message(boot, *map(float, q), *FILTERED)
 
     def _imu(self, t: float, w: Floats) -> Any:
-        unix, still = round((t + EPOCH) * 1e6), (0.0, 0.0, -9.807)
+        unix, still = round((t + EPOCH) / US), (0.0, 0.0, -9.807)
         field = (0.2, 0.0, 0.4)
         return self._dialect.MAVLink_highres_imu_message(
             unix, *still, *map(float, w), *field, 1013.0, 0.0, 100.0, 25.0, 0xFFF

@@ -11,6 +11,7 @@ from equipoise.hardware.links.frame_transform import as_sensed
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording
+from equipoise.model.units import NS
 
 EPOCH = 1_700_000_000  # s, chosen: ROS time when the bench began
 KNOWN = [1e-4, 0.0, 0.0, 0.0, 1e-4, 0.0, 0.0, 0.0, 1e-4]  # rad^2, chosen
@@ -63,7 +64,7 @@ class EmulatedRosBridge:
 
 
 def _header(t: float) -> dict[str, Any]:
-    nanoseconds = round(t * 1e9)
+    nanoseconds = round(t / NS)
     stamp = {"sec": EPOCH + nanoseconds // 10**9, "nanosec": nanoseconds % 10**9}
     return {"header": {"stamp": stamp, "frame_id": "imu"}}
 

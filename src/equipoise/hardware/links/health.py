@@ -8,8 +8,7 @@ from equipoise.hardware.links.arrival_statistics import Arrivals
 from equipoise.hardware.links.clock_sync import DeviceClock, drift_of, offset_of
 from equipoise.model.hardware import Gives
 from equipoise.model.reading import Counts
-
-PPM, MS = 1e6, 1e3
+from equipoise.model.units import MS, PPM
 
 
 class Defect(StrEnum):
@@ -74,7 +73,7 @@ class Health:
 
     def _clock(self, channel: Gives) -> str:
         clock = self.clocks[channel]
-        drift, offset = PPM * drift_of(clock), MS * offset_of(clock)
+        drift, offset = drift_of(clock) / PPM, offset_of(clock) / MS
         pace = f"{abs(drift):.0f} ppm {'slow' if drift > 0 else 'fast'}"
         jumps = f", {clock.jumps} jumps" if clock.jumps else ""
         return f"clock of {channel} set off by {offset:+.1f} ms, {pace}{jumps}"

@@ -8,7 +8,6 @@ gx_rad_s gy_rad_s gz_rad_s  rate about the sensor's axes; or gx_deg_s gy_deg_s g
 -                           not of interest
 """
 
-import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from equipoise.hardware.sensors.settings import Settings, check_gives
 from equipoise.model.errors import nearest
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Reading
+from equipoise.model.units import DEG
 
 TIMES = {"t_s": 1.0, "t_ms": 1e-3, "t_us": 1e-6}  # s
 NUMBER, SKIPPED = "n", "-"
@@ -26,7 +26,7 @@ QUATERNION = ("qw", "qx", "qy", "qz")
 ANGLES = ("yaw_deg", "pitch_deg", "roll_deg")
 RATES: dict[tuple[str, ...], float] = {
     ("gx_rad_s", "gy_rad_s", "gz_rad_s"): 1.0,
-    ("gx_deg_s", "gy_deg_s", "gz_deg_s"): math.pi / 180,
+    ("gx_deg_s", "gy_deg_s", "gz_deg_s"): DEG,
 }
 SETS: tuple[tuple[str, ...], ...] = (QUATERNION, ANGLES, *RATES)
 KNOWN = [*TIMES, NUMBER, SKIPPED, *(name for each in SETS for name in each)]

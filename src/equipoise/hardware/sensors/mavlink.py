@@ -25,6 +25,7 @@ from equipoise.hardware.sensors.tally import Tally
 from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.reading import Counts, Reading
+from equipoise.model.units import MS, US
 
 KEYS = ("rate_hz", "rate_from")
 ATTITUDE, IMU = "ATTITUDE_QUATERNION", "HIGHRES_IMU"
@@ -129,8 +130,8 @@ class Mavlink:
             if self._rate != IMU or not fresh:
                 return None
             rate = (message.xgyro, message.ygyro, message.zgyro)
-            return _rate(rate, message.time_usec * 1e-6)
-        stamp = message.time_boot_ms * 1e-3
+            return _rate(rate, message.time_usec * US)
+        stamp = message.time_boot_ms * MS
         turn = unit_row((message.q1, message.q2, message.q3, message.q4), UNIT)
         if turn is None:
             return []

@@ -22,6 +22,7 @@ from equipoise.hardware.sensors.settings import Settings, check_gives
 from equipoise.hardware.sensors.tally import Tally
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Counts, Reading
+from equipoise.model.units import NS
 
 IMU, POSE = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PoseStamped"
 KEYS = ("topic_attitude", "topic_rate", "type_attitude")
@@ -143,7 +144,7 @@ def _stamp(message: Message) -> float | None:
     """Return the time of a message; None if it was never filled in."""
     stamp = message["header"]["stamp"]
     seconds, nanoseconds = _numbers({"s": stamp["sec"], "n": stamp["nanosec"]}, "sn")
-    return seconds + 1e-9 * nanoseconds or None
+    return seconds + nanoseconds * NS or None
 
 
 def _sd(covariance: Sequence[Any]) -> float | None:

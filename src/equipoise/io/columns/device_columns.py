@@ -3,16 +3,16 @@
 wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  jet_<name>_N_m
 """
 
-import math
 import re
 
 from equipoise.io.columns.column_map import DeviceColumn
 from equipoise.model.errors import InputError
+from equipoise.model.units import DEG
 
 # What is reported: its unit in the column's name, the size of that in SI.
 UNITS = {
     "wheel": ("rad_s", 1.0),
-    "gimbal": ("deg", math.pi / 180),
+    "gimbal": ("deg", DEG),
     "dipole": ("A_m2", 1.0),
     "jet": ("N_m", 1.0),
 }

@@ -13,10 +13,10 @@ from collections.abc import Callable
 from equipoise.io.columns.column_map import ColumnMap, Columns
 from equipoise.io.columns.native_columns import is_native, native_map
 from equipoise.model.errors import InputError, nearest
+from equipoise.model.units import NS
 
 MOTIVE_TIME = "Time (Seconds)"
 LETTERS = ("W", "X", "Y", "Z")
-NANO = 1e-9
 TURN = r".*(orientation|rotation)/"
 RATE = r".*(angular_velocity|twist/angular)/"
 # Stamps of a message, then the times at which a recorder put it down; pattern, factor to s.
@@ -24,9 +24,9 @@ STAMPS = (
     (r".*header/stamp/secs?", 1.0, r".*header/stamp/n(ano)?secs?"),
     (r".*timestamp/secs?", 1.0, r".*timestamp/n(ano)?secs?"),
     (r"__time", 1.0, None),
-    (r"field/header/stamp", NANO, None),  # rostopic echo -p writes stamps in ns
+    (r"field/header/stamp", NS, None),  # rostopic echo -p writes stamps in ns
     (r".*header/stamp", 1.0, None),
-    (r"%time|rosbagTimestamp", NANO, None),
+    (r"%time|rosbagTimestamp", NS, None),
     (r"[Tt]ime(_s| ?[\[(]s[\])])?", 1.0, None),
 )
 
@@ -114,7 +114,7 @@ def _stamp(names: tuple[str, ...], plain: list[str], source: str) -> tuple[Colum
         first = _first(names, plain, pattern)
         second = _first(names, plain, rest) if rest else None
         if first and (second or not rest):
-            fine = (Columns((second,), NANO),) if second else ()
+            fine = (Columns((second,), NS),) if second else ()
             return (Columns((first,), unit), *fine)
     wanted = "'header/stamp/sec' with 'nanosec', '__time' or 'time'"
     raise InputError(f"{source}, header", "no time column", wanted)

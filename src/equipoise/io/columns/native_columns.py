@@ -17,6 +17,7 @@ from equipoise.io.columns.device_columns import column_of, device_of, wanted_col
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.recording import Recording, Samples
+from equipoise.model.units import MM, UT
 
 TIME = "time_s"
 ATTITUDE = ("q_w", "q_x", "q_y", "q_z")
@@ -29,7 +30,6 @@ GROUPS = (ATTITUDE, RATE, MOMENTUM, TORQUE, FIELD, TEMPERATURE)
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
 OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature)_.*")
-PER_MM, MM, PER_UT, UT = 1e3, 1e-3, 1e6, 1e-6
 NAMED = 5  # columns that are told by name; chosen: a screen
 
 
@@ -80,11 +80,11 @@ def native_columns(recording: Recording) -> dict[str, Series1]:
     channels = (
         (recording.attitude, ATTITUDE, 1.0),
         (recording.rate, RATE, 1.0),
-        (recording.masses, masses, PER_MM),
+        (recording.masses, masses, 1 / MM),
         (recording.momentum, MOMENTUM, 1.0),
         (recording.torque, TORQUE, 1.0),
         (recording.devices, tuple(d.column for d in devices), per_unit),
-        (recording.field, FIELD, PER_UT),
+        (recording.field, FIELD, 1 / UT),
         (recording.temperature, TEMPERATURE, 1.0),
     )
     present = [(c, names, unit) for c, names, unit in channels if c is not None and len(c)]

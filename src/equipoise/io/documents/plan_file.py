@@ -1,6 +1,5 @@
 """Plan files: TOML to a manoeuvre that a testbed can make, and back. A unit is part of its key."""
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -17,9 +16,9 @@ from equipoise.model.devices import ControlMomentGyro, ReactionWheel
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.manoeuvre import HAND_RATE, HAND_TILT, Manoeuvre, Plan, SquareWave
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import DEG, MM, UM
 
 WANTED = "a plan file (TOML); `equipoise plan` writes one"
-MM, UM, DEG = 1e-3, 1e-6, math.pi / 180
 HEAD = "# A manoeuvre. `equipoise plan` wrote it; simulate, identify and balance take it.\n"
 Six = Annotated[list[float], Field(min_length=6, max_length=6)]
 Targets = dict[Name, float]
@@ -197,11 +196,11 @@ def text_of_plan(plan: Plan, testbed: Testbed) -> str:
         "testbed": plan.testbed,
         "duration_s": number(m.duration),
         "start": {
-            "tilt_deg": number(m.tilt / DEG),
+            "tilt_deg": number(m.tilt, DEG),
             "low_side": numbers(np.round(m.low_side, 6) + 0.0),
             "rate_deg_s": numbers(np.round(m.rate / DEG, 6) + 0.0),
-            "tilt_sd_deg": number(m.tilt_sd / DEG),
-            "rate_sd_deg_s": number(m.rate_sd / DEG),
+            "tilt_sd_deg": number(m.tilt_sd, DEG),
+            "rate_sd_deg_s": number(m.rate_sd, DEG),
         },
         "standing": {"at_mm": in_mm(m.standing)} if m.standing else {},
         "move": [{"time_s": number(t), "to_mm": in_mm(goals)} for t, goals in m.moves],
@@ -213,7 +212,7 @@ def text_of_plan(plan: Plan, testbed: Testbed) -> str:
 
 def in_mm(displacements: Mapping[str, float]) -> dict[str, float]:
     """Return displacements by mass, mm."""
-    return {name: number(d / MM) for name, d in displacements.items()}
+    return {name: number(d, MM) for name, d in displacements.items()}
 
 
 def wave_keys(wave: SquareWave, testbed: Testbed) -> dict[str, Any]:

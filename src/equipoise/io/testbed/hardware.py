@@ -11,6 +11,7 @@ from equipoise.io.toml.table_records import RecordTable, record_of
 from equipoise.model import hardware as model
 from equipoise.model.arrays import Matrix3
 from equipoise.model.errors import InputError, nearest
+from equipoise.model.units import MM
 
 Address = Annotated[
     str,
@@ -36,7 +37,7 @@ class Axis(RecordTable):
     letter: Annotated[str, Field(pattern=r"^([XYZABC]|[0-9])$")] = Field(
         description="the board's name of the axis; of a Trinamic module the motor's number"
     )
-    steps_per_mm: Annotated[Positive, Holds("steps_per_m", 1e3)] = Field(
+    steps_per_mm: Annotated[Positive, Holds("steps_per_m", 1 / MM)] = Field(
         description="as set in the board, which is asked for it"
     )
     zero_mm: float = Field(0.0, description="the board's position where the mass is at home")

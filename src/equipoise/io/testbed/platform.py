@@ -25,6 +25,7 @@ from equipoise.model import testbed as model
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.mass_properties import MassProperties, from_centre
+from equipoise.model.units import MM, MS
 
 HANGS = 1e-3  # m: a centre of mass guessed this far off P hangs there on purpose (chosen)
 STANDS_OUT = 10.0  # times the other components, for its axis to be the vertical one (chosen)
@@ -82,12 +83,12 @@ class SlidingMass(RecordTable):
     backlash_mm: NotNegative = 0.0
     speed_mm_s: Positive = Field(10.0, description="chosen: a small stepper on a lead screw")
     lag_sd_ms: NotNegative = Field(
-        1e3 * model.LAG_SD,
+        model.LAG_SD / MS,
         description="one sd of how late it follows a recorded command, chosen: a soft servo's; "
         "masses with one value share one lag; 0: at once, or the log is a measurement",
     )
     sag_sd_mm: NotNegative = Field(
-        1e3 * model.SAG_SD,
+        model.SAG_SD / MM,
         description="one sd of how far it hangs below a command on an upright rail, chosen: a "
         "soft servo's; 0: a stiff drive, a lead screw's",
     )

@@ -12,20 +12,20 @@ Value = str | float | int | list["Value"] | dict[str, "Value"]
 DIGITS = 15  # 200.0 mm comes back as 200.0, not 200.00000000000003
 
 
-def number(value: float, factor: float = 1.0) -> float:
-    """Return a number as it is written."""
-    return float(f"{value * factor:.{DIGITS}g}")
+def number(value: float, unit: float = 1.0) -> float:
+    """Return a number as it is written, in a unit of so much SI."""
+    return float(f"{value / unit:.{DIGITS}g}")
 
 
-def numbers(values: Iterable[float], factor: float = 1.0) -> list[float]:
-    """Return numbers as they are written."""
-    return [number(v, factor) for v in values]
+def numbers(values: Iterable[float], unit: float = 1.0) -> list[float]:
+    """Return numbers as they are written, in a unit of so much SI."""
+    return [number(v, unit) for v in values]
 
 
 def as_written(value: Any, unit: float = 1.0) -> Any:
     """Return a value in SI as it is written in a unit, however deep its numbers lie."""
     if isinstance(value, float):
-        return number(value / unit)
+        return number(value, unit)
     if isinstance(value, Mapping):
         return {key: as_written(each, unit) for key, each in cast(Any, value).items()}
     if isinstance(value, tuple | list | np.ndarray):

@@ -10,11 +10,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from equipoise.model.bench_units import MICRO, MM, PER_DEG, UM
+from equipoise.model.units import DEG, MINUTE, MM, MN_M, MS, PERCENT, UM, UN_M
 
-MILLI, PERCENT, PER_MIN = 1e3, 100.0, 1 / 60
-UNITS = {"": 1.0, "deg": PER_DEG, "um": UM, "mm": MM, "ms": MILLI, "uN m": MICRO, "mN m s": MILLI,
-         "%": PERCENT, "min": PER_MIN}  # fmt: skip
+UNITS = {"": 1.0, "deg": DEG, "um": UM, "mm": MM, "ms": MS, "uN m": UN_M, "mN m s": MN_M,
+         "%": PERCENT, "min": MINUTE}  # fmt: skip
 Number = int | float  # a count, or a quantity
 LISTS = {"names": ", ", "both": " and ", "choices": "; "}
 PLAIN = "plain"  # three digits, or whole where there are more before the point
@@ -40,7 +39,7 @@ class Quantity(float):
     def __format__(self, spec: str) -> str:
         """Return the number in the unit that is named first, with the digits that follow."""
         unit, _, digits = spec.rpartition(" ")
-        value = float(self) * UNITS[unit]
+        value = float(self) / UNITS[unit]
         if digits == PLAIN:
             digits = ".0f" if WHOLE <= abs(value) < MOST else ".3g"
         return format(value, digits)

@@ -21,8 +21,8 @@ from equipoise.model.bench_requests import in_steps
 from equipoise.model.devices import ControlMomentGyro, ReactionWheel
 from equipoise.model.manoeuvre import Manoeuvre, SquareWave
 from equipoise.model.testbed import SlidingMass, Testbed
+from equipoise.model.units import DEG
 
-DEG = np.pi / 180
 TILT_STEP, SIDE_STEP, RATE_STEP = 0.5 * DEG, 5 * DEG, 0.1 * DEG  # chosen: what a person reads
 SWAY = 1.0 * DEG  # rad/s, chosen: a greater push sideways does what a greater tilt does
 EARLY, LATE = 2.0, 0.9  # s, share of the time, chosen: a swing is to be seen before and after

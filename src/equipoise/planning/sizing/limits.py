@@ -3,10 +3,10 @@
 import numpy as np
 
 from equipoise.model.arrays import Vector3
-from equipoise.model.bench_units import MICRO, MM, UM
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 from equipoise.model.testbed import SlidingMass
+from equipoise.model.units import MM, PERCENT, UM, UN_M
 from equipoise.model.verdict import Verdict
 from equipoise.planning.sizing.budget import Budget
 from equipoise.planning.sizing.case import Case
@@ -16,23 +16,22 @@ from equipoise.planning.sizing.sensitivity import Bettered
 
 ENOUGH = 0.95  # of platforms as stated, chosen: as many as a law has to balance in ``compare``
 NOTABLE = 0.01  # of the torque, chosen: a change that brings less is not worth a line
-PERCENT = 100.0
 WAYS = ("nothing", "one line", "a plane")
 
 
 def limit_sentence(case: Case, budget: Budget, better: tuple[Bettered, ...]) -> str:
     """Say which line is the largest, and what would become of the result if it were better."""
-    line, total = budget.lines[0], plain(budget.torque * MICRO)
+    line, total = budget.lines[0], plain(budget.torque / UN_M)
     text = (
-        f"{line.cause}{detail(case, line)} limits the result: {plain(line.torque * MICRO)} of "
+        f"{line.cause}{detail(case, line)} limits the result: {plain(line.torque / UN_M)} of "
         f"{total} uN m rms within {np.degrees(case.tilt):.3g} deg of level."
     )
     mending = [change for change in better if change.line == line.name]
     if mending:
         best = mending[0]
-        after = plain(best.torque * MICRO)
+        after = plain(best.torque / UN_M)
         return f"{text} {capital(best.name)} would bring it from {total} to {after} uN m."
-    without = np.sqrt(max(budget.torque**2 - line.torque**2, 0.0)) * MICRO
+    without = np.sqrt(max(budget.torque**2 - line.torque**2, 0.0)) / UN_M
     return f"{text} Without it {plain(without)} uN m would be left."
 
 
@@ -52,7 +51,7 @@ def mass_figures(case: Case, quantity: str) -> str:
     groups: dict[float, list[str]] = {}
     for mass in case.testbed.masses:
         groups.setdefault(length(mass, quantity), []).append(mass.name)
-    return ", ".join(f"{size * MM:.3g} mm of {', '.join(names)}" for size, names in groups.items())
+    return ", ".join(f"{size / MM:.3g} mm of {', '.join(names)}" for size, names in groups.items())
 
 
 def length(mass: SlidingMass, quantity: str) -> float:
@@ -74,8 +73,8 @@ def capital(text: str) -> str:
 
 def reach_sentence(reach: Reach, within: float) -> str:
     """Say what masses can correct, and of how many platforms that is enough."""
-    share = f"{PERCENT * within:.3g} % of the platforms that the testbed states"
-    size = plain(tolerance(reach) * UM)
+    share = f"{within / PERCENT:.3g} % of the platforms that the testbed states"
+    size = plain(tolerance(reach) / UM)
     if reach.rank == 3:
         return (
             f"An offset from the target of up to {size} um can be corrected whatever its "

@@ -37,8 +37,6 @@ from equipoise.planning.manoeuvre.predicted_information import (
 from equipoise.planning.manoeuvre.reference_manoeuvre import usual
 from equipoise.planning.manoeuvre.reference_swing import gentle_swing, usual_swing
 
-MM = 1e3
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeasurementBound:

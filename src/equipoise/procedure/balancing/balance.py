@@ -19,6 +19,7 @@ from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
@@ -26,8 +27,6 @@ from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
 from equipoise.procedure.steps.verify import at, fresh_enough, is_within, verdict
-
-UM = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)

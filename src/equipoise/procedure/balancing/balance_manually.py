@@ -29,6 +29,7 @@ from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.model.weights import places_of, unloaded
 from equipoise.procedure.balancing.manual_estimate import (
@@ -41,8 +42,6 @@ from equipoise.procedure.balancing.manual_estimate import (
 )
 from equipoise.procedure.steps.joint_fit import as_if_stiff
 from equipoise.procedure.steps.verify import CONTRADICTION, at, judged, unusable
-
-UM = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -22,8 +22,9 @@ from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
-from equipoise.procedure.balancing.balance import UM, BalanceOptions, balance
+from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.procedure.steps.joint_fit import Knowledge
 from equipoise.procedure.steps.planned_move import planned_move, stops_covariance
 from equipoise.procedure.steps.sampler import last_row

@@ -36,6 +36,7 @@ from equipoise.model.recording import Recording, joined, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS, among
+from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
 from equipoise.procedure.balancing.balance import measurement_step
@@ -45,7 +46,6 @@ from equipoise.procedure.steps.tilt_guard import guarded, tilted
 from equipoise.procedure.steps.verification_swing import watched_swing
 from equipoise.procedure.steps.verify import verdict
 
-UM = 1e-6
 SETTLE = 1.0  # s, chosen: after it the filter's rate and attitude can be used
 
 

@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass
 
-from equipoise.app.text.units import MICRO, SHOWN, TRAVEL, Unit
+from equipoise.app.text.units import SHOWN, TRAVEL, Unit
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import PERCENT, UJ
 
 AXES = ("x", "y", "z")
-SHARE = Unit("%", 100.0)
-ENERGY = Unit("uJ", MICRO)
+SHARE = Unit("%", PERCENT)
+ENERGY = Unit("uJ", UJ)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +31,7 @@ class Series:
 
     def document(self) -> dict[str, object]:
         """Return it for the page."""
-        unit = {"bench": [self.bench.name, self.bench.factor], "si": [self.si, 1.0]}
+        unit = {"bench": [self.bench.name, self.bench.size], "si": [self.si, 1.0]}
         return {"name": self.name, "title": self.title, "columns": list(self.columns),
                 "sd": self.sd, "unit": unit, "chart": self.chart, "line": self.line}  # fmt: skip
 

@@ -14,6 +14,7 @@ from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.runner import Runner
 from equipoise.app.runs.balancing import Goal, Limits
 from equipoise.model.errors import EquipoiseError, InputError
+from equipoise.model.units import MM
 
 FASTEST = 100.0  # times, chosen
 
@@ -129,7 +130,7 @@ class Desk:
     def _jog(self, request: requests.Jog) -> None:
         runner = self._runner
         runner.station.bench.move({request.mass: request.displacement})
-        reported = f"{request.mass} sent to {1e3 * request.displacement:.2f} mm by hand"
+        reported = f"{request.mass} sent to {request.displacement / MM:.2f} mm by hand"
         runner.mark(reported)
         runner.say("")
 

@@ -10,6 +10,7 @@ from equipoise.app.dashboard.server.fields import button, triple
 from equipoise.app.dashboard.server.request_queue import Counter
 from equipoise.app.text.units import TRAVEL
 from equipoise.model.testbed import SlidingMass
+from equipoise.model.units import in_si
 
 TARGET_UM, TOLERANCE_UM = (0.0, 0.0, -100.0), (2.0, 2.0, 3.0)  # as ``equipoise balance`` has them
 SPEEDS = {0.5: "half", 1.0: "real time", 2.0: "2 x", 5.0: "5 x", 20.0: "20 x", 0.0: "fastest"}
@@ -93,7 +94,7 @@ class Controls:
             self._jog(mass)
 
     def _jog(self, mass: SlidingMass) -> None:
-        low, high = (TRAVEL.factor * edge for edge in mass.travel)
+        low, high = (edge / TRAVEL.size for edge in mass.travel)
         with ui.row().classes("eq-jog"):
             field = ui.number(
                 f"{mass.name}: {low:g} to {high:g} mm", value=0.0, min=low, max=high, format="%.2f"
@@ -101,7 +102,7 @@ class Controls:
 
             def move() -> None:
                 if field.value is not None:
-                    self._request(requests.Jog(mass.name, field.value / TRAVEL.factor))
+                    self._request(requests.Jog(mass.name, in_si(field.value, TRAVEL.size)))
 
             self._button(f"Move {mass.name}", move)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from nicegui import ui
 
 from equipoise.app.dashboard.protocol.series import AXES
-from equipoise.app.text.units import UM
+from equipoise.model.units import UM, in_si
 
 Triple = tuple[float, float, float]
 
@@ -22,7 +22,7 @@ class TripleField:
         x, y, z = (field.value for field in self.fields)
         if x is None or y is None or z is None:
             return None
-        return (x / UM, y / UM, z / UM)
+        return (in_si(x, UM), in_si(y, UM), in_si(z, UM))
 
 
 def triple(what: str, shown_um: Triple) -> TripleField:

@@ -118,7 +118,7 @@ export class Chart {
     const pixels = Math.round(this.plot.bbox.width / devicePixelRatio);
     const { columns, sd } = this.reported;
     const buckets = Math.max(FEWEST_BUCKETS, pixels);
-    drawn(series, span, { values: columns.length, sd, factor: this.unit.factor, buckets }, this.out);
+    drawn(series, span, { values: columns.length, sd, unit: this.unit.size, buckets }, this.out);
   }
 
   /** @returns {[number, number]} lines, marks and the newest bands; older, wider bands may leave */
@@ -136,7 +136,7 @@ export class Chart {
 
   /** @returns {number[]} what is marked on the y axis, in the unit shown */
   marked() {
-    const rule = this.reported.line === null ? [] : [0, this.reported.line * this.unit.factor];
+    const rule = this.reported.line === null ? [] : [0, this.reported.line / this.unit.size];
     const targets = this.targets().flatMap((t) => [t.value - t.tolerance, t.value + t.tolerance]);
     return [...rule, ...targets];
   }
@@ -144,10 +144,10 @@ export class Chart {
   targets() {
     const goal = this.reported.name === TARGETED ? this.store.state?.goal : null;
     if (!goal) return [];
-    const { factor } = this.unit;
+    const { size } = this.unit;
     const all = goal.target.map((target, c) => ({
-      value: target * factor,
-      tolerance: goal.tolerance[c] * factor,
+      value: target / size,
+      tolerance: goal.tolerance[c] / size,
       colour: this.colours.lines[this.lineStyles[c].colour],
     }));
     return all.filter((_, c) => !this.hidden.has(c));
@@ -156,7 +156,7 @@ export class Chart {
   drawMarks() {
     if (!this.unit) return;
     const { line } = this.reported;
-    if (line !== null) drawRule(this.plot, line * this.unit.factor, this.colours.text);
+    if (line !== null) drawRule(this.plot, line / this.unit.size, this.colours.text);
     drawTargets(this.plot, this.targets());
   }
 
@@ -170,7 +170,7 @@ export class Chart {
       this.heading.write(this.unit.name, this.out[0][idx], under);
     } else {
       const last = this.store.last(this.reported.name);
-      const newest = columns.map((column) => last && last[column] * this.unit.factor);
+      const newest = columns.map((column) => last && last[column] / this.unit.size);
       this.heading.write(this.unit.name, null, newest);
     }
   }

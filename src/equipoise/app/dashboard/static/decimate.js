@@ -11,7 +11,7 @@
  * @param {import("./series.js").Series} series
  * @param {{from: number, to: number, length: number}} span  s; the length by itself, since the
  *   difference of the others is another one in its last figure, and so would buckets be
- * @param {{values: number, sd: boolean, factor: number, buckets: number}} how
+ * @param {{values: number, sd: boolean, unit: number, buckets: number}} how
  * @param {(number|null)[][]} out  as many arrays as 1 + values (1 + 2 sd); used again each time
  */
 export function drawn(series, span, how, out) {
@@ -27,7 +27,7 @@ function rowsAsTheyAre(series, first, end, how, out) {
   for (let row = first; row < end; row++) {
     out[0].push(series.at(row, 0));
     for (let c = 0; c < how.values; c++) {
-      const value = series.at(row, 1 + c) * how.factor;
+      const value = series.at(row, 1 + c) / how.unit;
       out[1 + c].push(known(value));
       if (how.sd) pushBand(out, how.values, c, value, sdAt(series, row, c, how));
     }
@@ -39,7 +39,7 @@ function pushBand(out, values, c, value, sd) {
   out[2 + values + 2 * c].push(known(value + sd));
 }
 
-const sdAt = (series, row, c, how) => series.at(row, 1 + how.values + c) * how.factor;
+const sdAt = (series, row, c, how) => series.at(row, 1 + how.values + c) / how.unit;
 const known = (value) => (Number.isFinite(value) ? value : null);
 
 function leastAndGreatest(series, first, end, width, how, out) {
@@ -68,7 +68,7 @@ function pushBucket(series, start, end, c, how, out) {
 function extremes(series, start, end, c, how) {
   const observed = { least: Infinity, greatest: -Infinity, low: Infinity, high: -Infinity };
   for (let row = start; row < end; row++) {
-    const value = series.at(row, 1 + c) * how.factor;
+    const value = series.at(row, 1 + c) / how.unit;
     if (value < observed.least) [observed.least, observed.rowOfLeast] = [value, row];
     if (value > observed.greatest) [observed.greatest, observed.rowOfGreatest] = [value, row];
     if (!how.sd) continue;

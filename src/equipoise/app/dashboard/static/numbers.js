@@ -65,5 +65,5 @@ function write(output, [name, , si, read], store, kind) {
   output.dataset.si = JSON.stringify(Number.isFinite(value) ? value : null);
   if (sd !== undefined) output.dataset.sd = JSON.stringify(Number.isFinite(sd) ? sd : null);
   if (name === "time") output.textContent = Number.isFinite(value) ? seconds(value) : "–";
-  else output.textContent = withSd(value * unit.factor, sd * unit.factor, unit.name);
+  else output.textContent = withSd(value / unit.size, sd / unit.size, unit.name);
 }

@@ -1,19 +1,19 @@
 /**
  * Units to show numbers in: those of the bench (um, mm, deg ...) or SI. All numbers inside are SI.
  * @typedef {"bench"|"si"} Kind
- * @typedef {{name: string, factor: number}} Unit  one SI unit is `factor` of it
+ * @typedef {{name: string, size: number}} Unit  `size` is how large it is in SI
  */
 
-const PER_DEG = 180 / Math.PI;
+const DEG = Math.PI / 180;
 
 /** For what the server's `about` states no unit, by SI unit: the units of the printed reports. */
 const SHOWN = {
   s: { bench: ["s", 1], si: ["s", 1] },
-  m: { bench: ["um", 1e6], si: ["m", 1] },
-  rad: { bench: ["deg", PER_DEG], si: ["rad", 1] },
-  "rad/s": { bench: ["deg/s", PER_DEG], si: ["rad/s", 1] },
-  "N m": { bench: ["uN m", 1e6], si: ["N m", 1] },
-  J: { bench: ["uJ", 1e6], si: ["J", 1] },
+  m: { bench: ["um", 1e-6], si: ["m", 1] },
+  rad: { bench: ["deg", DEG], si: ["rad", 1] },
+  "rad/s": { bench: ["deg/s", DEG], si: ["rad/s", 1] },
+  "N m": { bench: ["uN m", 1e-6], si: ["N m", 1] },
+  J: { bench: ["uJ", 1e-6], si: ["J", 1] },
 };
 
 /**
@@ -22,8 +22,8 @@ const SHOWN = {
  * @returns {Unit}
  */
 export function unitOf(pair, kind) {
-  const [name, factor] = pair[kind];
-  return { name: typeset(name), factor };
+  const [name, size] = pair[kind];
+  return { name: typeset(name), size };
 }
 
 /** @returns {Unit} the unit of a quantity that has this SI unit */

@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.com_panels import draw_com, include
 from equipoise.app.figures.base.style import BAND, legend, panels, styled
-from equipoise.app.text.units import UM
 from equipoise.model.arrays import Series1, Series3, Vector3
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
+from equipoise.model.units import UM
 
 CAPTION = (
     "Centre of mass with the masses as they stand, um in body axes, while the platform is "
@@ -39,12 +39,12 @@ def draw(course: Course, recording: Recording, story: Story) -> Figure:
     column = [row[0] for row in grid]
     draw_com(column, course, recording)
     for i, axes in enumerate(column):
-        low, high = (target[i] - tolerance[i]) * UM, (target[i] + tolerance[i]) * UM
+        low, high = (target[i] - tolerance[i]) / UM, (target[i] + tolerance[i]) / UM
         axes.axhspan(low, high, color="black", alpha=0.16, linewidth=0, label="target")
         include(axes, low, high)
         mark_measurements(axes, i, measurements)
         if truth is not None:
-            t, y = truth[0], truth[1][:, i] * UM
+            t, y = truth[0], truth[1][:, i] / UM
             axes.plot(t, y, "x", color="black", markersize=4.5, zorder=6, label="truth")
     legend(figure, column[0])
     figure.align_ylabels()
@@ -54,7 +54,7 @@ def draw(course: Course, recording: Recording, story: Story) -> Figure:
 def mark_measurements(axes: Axes, i: int, measurements: Sequence[Marked]) -> None:
     """Draw one component of the procedure's estimates, with bars of two sd."""
     for k, (t, com, sd) in enumerate(measurements):
-        y, spread = com[i] * UM, BAND * sd[i] * UM
+        y, spread = com[i] / UM, BAND * sd[i] / UM
         axes.errorbar(
             t, y, spread, fmt="o", color="black", markersize=5, markerfacecolor="white",
             elinewidth=1, capsize=2.5, zorder=5, label=None if k else "estimate",

@@ -5,8 +5,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator, StrMethodFormatter
 
 from equipoise.app.figures.base.style import AXES, BAND, WIDE, XYZ, styled
-from equipoise.app.text.units import UM
 from equipoise.assessment.metrics.allan import Wander
+from equipoise.model.units import MINUTE, UM
 from equipoise.procedure.identification.drift_metrics import OverHours
 
 CAPTION = (
@@ -24,17 +24,17 @@ def draw(hours: OverHours, wander: Wander) -> Figure:
     for i, name in enumerate(AXES):
         axes = grid[name]
         axes.errorbar(
-            hours.t / 60, hours.com[:, i] * UM, BAND * hours.sd[:, i] * UM, fmt="o",
+            hours.t / MINUTE, hours.com[:, i] / UM, BAND * hours.sd[:, i] / UM, fmt="o",
             color=XYZ[i], elinewidth=0.8, markersize=2.5,
         )  # fmt: skip
         axes.set_ylabel(f"$r_{name}$, um")
     grid["z"].set_xlabel("time, min")
     axes = grid["allan"]
     for i, name in enumerate(AXES):
-        error = wander.deviation[:, i] * np.minimum(wander.error, 0.9) * UM
-        axes.errorbar(wander.span, wander.deviation[:, i] * UM, error, color=XYZ[i], marker="o",
+        error = wander.deviation[:, i] * np.minimum(wander.error, 0.9) / UM
+        axes.errorbar(wander.span, wander.deviation[:, i] / UM, error, color=XYZ[i], marker="o",
                       capsize=2, label=name)  # fmt: skip
-        axes.plot(wander.span, wander.measurements_alone[:, i] * UM, color=XYZ[i], linestyle="--")
+        axes.plot(wander.span, wander.measurements_alone[:, i] / UM, color=XYZ[i], linestyle="--")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xticks(wander.span, [f"{span:g}" for span in wander.span])

@@ -3,9 +3,9 @@
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import XYZ, course, panels, styled
-from equipoise.app.text.units import MM
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import SlidingMass, Testbed
+from equipoise.model.units import MM
 
 CAPTION = "Displacements of the balancing masses from home, mm; dotted: ends of the rails."
 
@@ -19,10 +19,10 @@ def draw(recording: Recording, testbed: Testbed) -> Figure:
     for (axes,), group in zip(grid, groups, strict=False):
         assert tracks is not None
         for k, (column, mass) in enumerate(group):
-            y = tracks.values[:, column] * MM
+            y = tracks.values[:, column] / MM
             course(axes, tracks.t, y, XYZ[k % len(XYZ)], mass.name)
             for end in mass.travel:
-                axes.axhline(end * MM, color="#888888", linestyle=":", linewidth=0.9)
+                axes.axhline(end / MM, color="#888888", linestyle=":", linewidth=0.9)
         axes.set_ylabel("mm")
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     grid[0][0].set_title("displacement from home")

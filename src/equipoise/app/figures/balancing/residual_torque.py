@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import AXES, BAND, XYZ, legend, line, panels, styled
-from equipoise.app.text.units import MICRO
 from equipoise.model.noise_corrected_series import NoiseCorrectedSeries
+from equipoise.model.units import UN_M
 
 CAPTION = (
     "Torque on the platform in body axes, from its motion and inertia alone (Savitzky-Golay). "
@@ -19,10 +19,10 @@ def draw(response: NoiseCorrectedSeries) -> Figure:
     """Return the figure."""
     figure, grid = panels(3, height=1.2)
     column = [row[0] for row in grid]
-    noise = BAND * response.noise / np.sqrt(3) * MICRO
+    noise = BAND * response.noise / np.sqrt(3) / UN_M
     for i, axes in enumerate(column):
         axes.axhspan(-noise, noise, color="black", alpha=0.12, linewidth=0, label="noise")
-        line(axes, response.t, response.values[:, i] * MICRO, XYZ[i], "torque" if i == 0 else "")
+        line(axes, response.t, response.values[:, i] / UN_M, XYZ[i], "torque" if i == 0 else "")
         axes.set_ylabel(f"{AXES[i]}, uN m")
     legend(figure, column[0])
     figure.align_ylabels()

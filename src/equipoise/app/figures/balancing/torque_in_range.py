@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
-from equipoise.app.text.units import MICRO, PER_DEG
 from equipoise.assessment.metrics.torque_range import torque_in_range
+from equipoise.model.units import DEG, UN_M
 from equipoise.procedure.identification.assess import Assessment
 
 CAPTION = (
@@ -23,17 +23,17 @@ def draw(done: Assessment) -> Figure:
     axes = figure.subplots()
     tilts = np.linspace(0.02, max(done.torque.tilt, done.testbed.tilt_limit), POINTS)
     found = [torque_in_range(done.pull, done.weight, done.testbed.up, float(a)) for a in tilts]
-    rms = np.array([each.rms for each in found]) * MICRO
-    x = tilts * PER_DEG
+    rms = np.array([each.rms for each in found]) / UN_M
+    x = tilts / DEG
     axes.fill_between(x, rms[:, 1], rms[:, 2], color=BLUE, alpha=0.2, linewidth=0)
     axes.plot(x, rms[:, 0], color=BLUE, label="rms")
-    worst = [each.worst * MICRO for each in found]
+    worst = [each.worst / UN_M for each in found]
     axes.plot(x, worst, color=ORANGE, linestyle="--", label="worst attitude")
     axes.plot(x, rms[:, 3], color=GREY, linestyle=":", label="floor")
     if done.options.require_torque is not None:
-        limit = done.options.require_torque * MICRO
-        axes.plot([0, done.torque.tilt * PER_DEG], [limit, limit], color="black", label="required")
-    axes.axvspan(0, done.torque.tilt * PER_DEG, color="black", alpha=0.05, linewidth=0)
+        limit = done.options.require_torque / UN_M
+        axes.plot([0, done.torque.tilt / DEG], [limit, limit], color="black", label="required")
+    axes.axvspan(0, done.torque.tilt / DEG, color="black", alpha=0.05, linewidth=0)
     axes.set_xlim(0, x[-1])
     axes.set_ylim(0, None)
     axes.set_xlabel("within a tilt of, deg")

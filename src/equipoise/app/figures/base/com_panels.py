@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 
 from equipoise.app.figures.base.style import AXES, XYZ, around, band, line, mark_travel
-from equipoise.app.text.units import UM
 from equipoise.model.arrays import Series1, Series3
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
+from equipoise.model.units import UM
 
 SETTLED = 0.15  # share of the rows before a panel's scale is taken; chosen: past the first guess
 
@@ -20,7 +20,7 @@ def draw_com(
     t, com, sd = course.t, course.values, course.sd
     late = slice(int(SETTLED * len(t)), None)
     for i, axes in enumerate(every):
-        value, spread = com[:, i] * UM, sd[:, i] * UM
+        value, spread = com[:, i] / UM, sd[:, i] / UM
         band(axes, t, value, spread, XYZ[i])
         line(axes, t, value, XYZ[i], label)
         axes.set_ylim(around(value[late], spread[late]))
@@ -39,4 +39,4 @@ def include(axes: Axes, low: float, high: float) -> None:
 def draw_truth(every: Sequence[Axes], t: Series1, com: Series3) -> None:
     """Draw the simulated truth (m), dashed; rows of NaN break it."""
     for i, axes in enumerate(every):
-        axes.plot(t, com[:, i] * UM, color="black", linestyle="--", linewidth=0.9, label="truth")
+        axes.plot(t, com[:, i] / UM, color="black", linestyle="--", linewidth=0.9, label="truth")

@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from equipoise.app.text.units import MM
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.recording import Recording, Samples
+from equipoise.model.units import UM
 
 # Okabe and Ito's colours, which colour-blind readers can tell apart.
 BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#777777"
@@ -128,7 +128,7 @@ def travel_times(masses: Samples | None) -> list[tuple[float, float]]:
     """Return when any mass travels, s."""
     if masses is None or len(masses) < 2:
         return []
-    moving = np.any(np.abs(np.diff(masses.values, axis=0)) * MM > 1e-3, axis=1)
+    moving = np.any(np.abs(np.diff(masses.values, axis=0)) > UM, axis=1)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], moving, [False]]).astype(int)))
     return [(float(masses.t[a]), float(masses.t[b])) for a, b in edges.reshape(-1, 2)]
 

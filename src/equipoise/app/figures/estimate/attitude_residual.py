@@ -14,10 +14,10 @@ from equipoise.app.figures.base.style import (
     panels,
     styled,
 )
-from equipoise.app.text.units import PER_DEG
 from equipoise.maths.attitude import difference
 from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording
+from equipoise.model.units import DEG
 
 CAPTION = (
     "Measured attitude less the estimated model's, as a small turn about each body axis, deg. "
@@ -30,14 +30,14 @@ def draw(recording: Recording, after: PredictedMotion, noise: float | None) -> F
     """Return the figure; ``noise`` is the camera's stated sd in rad, if there is one."""
     measured = recording.attitude
     assert measured is not None
-    left = difference(measured.values, after.q) * PER_DEG
+    left = difference(measured.values, after.q) / DEG
     figure, grid = panels(3, height=1.15)
     grid[0][0].set_ylim(around(left, np.zeros(3)))
     for i, (axes,) in enumerate(grid):
         if i:
             axes.sharey(grid[0][0])
         if noise is not None:
-            limit = BAND * noise * PER_DEG
+            limit = BAND * noise / DEG
             axes.axhspan(-limit, limit, color=GREY, alpha=0.12, linewidth=0)
         axes.axhline(0, color=GREY, linewidth=0.7)
         dots(axes, measured.t, left[:, i], XYZ[i])

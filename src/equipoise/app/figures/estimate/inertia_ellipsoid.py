@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import AXES, BLUE, GREY, ORANGE, styled
-from equipoise.app.text.units import MM
 from equipoise.model.arrays import Floats
 from equipoise.model.mass_properties import MassProperties, second_moments
+from equipoise.model.units import MM
 
 CAPTION = (
     "The ellipsoid of even density with this mass and inertia, mm in body axes; centre of mass "
@@ -41,8 +41,8 @@ def draw(body: MassProperties) -> Figure:
     """Return the figure; the body must be physically possible."""
     figure = Figure(figsize=(SIZE, SIZE))
     axes = figure.add_subplot(projection="3d")
-    axes.plot_wireframe(*(surface(body) * MM), color=BLUE, linewidth=0.5, alpha=0.6)
-    axes.plot(*(body.com[:, None] * MM), "o", color=ORANGE, label="centre of mass")
+    axes.plot_wireframe(*(surface(body) / MM), color=BLUE, linewidth=0.5, alpha=0.6)
+    axes.plot(*(body.com[:, None] / MM), "o", color=ORANGE, label="centre of mass")
     axes.plot([0.0], [0.0], [0.0], "x", color=GREY, label="P")
     for letter in AXES:
         getattr(axes, f"set_{letter}label")(f"{letter}, mm")

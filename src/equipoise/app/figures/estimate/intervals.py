@@ -31,8 +31,8 @@ def draw(parameters: Sequence[Parameter]) -> Figure:
 def _panel(axes: Axes, group: Sequence[Parameter]) -> None:
     """Draw one group, a bar a parameter."""
     unit = unit_for(group[0].name, group[0].unit)
-    values = np.array([p.value for p in group]) * unit.factor
-    half = NORMAL_95 * np.array([p.sd for p in group]) * unit.factor
+    values = np.array([p.value for p in group]) / unit.size
+    half = NORMAL_95 * np.array([p.sd for p in group]) / unit.size
     names = [p.name.rsplit("_", 1)[1] for p in group]
     axes.errorbar(range(len(group)), values, half, fmt="o", color=BLUE, capsize=3)
     axes.set_xticks(range(len(group)), names)

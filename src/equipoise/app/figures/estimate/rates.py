@@ -12,9 +12,9 @@ from equipoise.app.figures.base.style import (
     panels,
     styled,
 )
-from equipoise.app.text.units import PER_DEG
 from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording
+from equipoise.model.units import DEG
 
 CAPTION = (
     "Angular velocity in body axes, deg/s: the estimated model (lines) and the gyro, if there is "
@@ -29,8 +29,8 @@ def draw(recording: Recording, after: PredictedMotion) -> Figure:
     axes = grid[0][0]
     for i, colour in enumerate(XYZ):
         if recording.rate is not None:
-            dots(axes, recording.rate.t, recording.rate.values[:, i] * PER_DEG, colour)
-        line(axes, after.t, after.rate[:, i] * PER_DEG, colour, f"$\\omega_{AXES[i]}$")
+            dots(axes, recording.rate.t, recording.rate.values[:, i] / DEG, colour)
+        line(axes, after.t, after.rate[:, i] / DEG, colour, f"$\\omega_{AXES[i]}$")
     axes.set_ylabel("angular velocity, deg/s")
     mark_travel([axes], recording)
     legend(figure, axes)

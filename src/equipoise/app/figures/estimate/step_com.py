@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import AXES, BAND, WIDE, XYZ, styled
-from equipoise.app.text.units import UM
 from equipoise.model.arrays import Vector3
+from equipoise.model.units import UM
 
 
 class Mark(NamedTuple):
@@ -42,7 +42,7 @@ def draw(marks: Sequence[Mark], wanted: Wanted | None) -> Figure:
     row = figure.subplots(1, 3, sharey=True)
     for i, axes in enumerate(row):
         if wanted is not None:
-            low, high = ((wanted.target[i] + s * wanted.tolerance[i]) * UM for s in (-1, 1))
+            low, high = ((wanted.target[i] + s * wanted.tolerance[i]) / UM for s in (-1, 1))
             axes.axvspan(low, high, color="black", alpha=0.16, linewidth=0)
         _marks(axes, i, marks)
         axes.set_xlabel(f"$r_{AXES[i]}$, um")
@@ -55,6 +55,6 @@ def draw(marks: Sequence[Mark], wanted: Wanted | None) -> Figure:
 def _marks(axes: Axes, i: int, marks: Sequence[Mark]) -> None:
     for k, mark in enumerate(marks):
         axes.errorbar(
-            mark.com[i] * UM, k, xerr=BAND * mark.sd[i] * UM, fmt="o", color=XYZ[i],
+            mark.com[i] / UM, k, xerr=BAND * mark.sd[i] / UM, fmt="o", color=XYZ[i],
             markerfacecolor="white", markersize=5, elinewidth=1.2, capsize=2.5,
         )  # fmt: skip

@@ -12,9 +12,9 @@ from equipoise.app.figures.base.style import (
     panels,
     styled,
 )
-from equipoise.app.text.units import PER_DEG
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
+from equipoise.model.units import DEG
 
 CAPTION = (
     "Angular velocity in body axes as the tracker (Kalman filter) sees it, deg/s. "
@@ -29,10 +29,10 @@ def draw(course: Course, recording: Recording) -> Figure:
     figure, grid = panels(1, height=2.8)
     axes = grid[0][0]
     for i, colour in enumerate(XYZ):
-        rate, sd = course.values[:, i] * PER_DEG, course.sd[:, i] * PER_DEG
+        rate, sd = course.values[:, i] / DEG, course.sd[:, i] / DEG
         band(axes, course.t, rate, sd, colour)
         line(axes, course.t, rate, colour, f"$\\omega_{AXES[i]}$")
-    settled = course.values[int(SETTLED * len(course.t)) :] * PER_DEG
+    settled = course.values[int(SETTLED * len(course.t)) :] / DEG
     low, high = float(settled.min()), float(settled.max())
     air = 0.15 * (high - low)
     axes.set(ylabel="angular velocity, deg/s", ylim=(low - air, high + air))

@@ -7,13 +7,12 @@ import numpy as np
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.figures.papers import lee_course, lee_slew
 from equipoise.app.figures.papers.lee_slew import Shown
-from equipoise.app.text.units import PER_DEG
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.units import DEG, KG_CM
 from equipoise.study.papers.lee import NEAR, Manoeuvre, angles_of, singular_times, true_values
 from equipoise.study.papers.lee_course import Courses
 
-KG_CM = 100.0  # kg cm in a kg m
 SINGULAR = f" Grey: the gyros' measure is below {NEAR:g}."
 BOTH = (
     " Left: the rows as printed; right: every term averaged alike, free constants. Least squares "
@@ -42,7 +41,7 @@ def slew_pictures(done: Manoeuvre) -> Iterator[Picture]:
     """Yield Figs. 3 to 9."""
     slew, near = done.slew, singular_times(done.slew)
     torque = tuple(f"$u_{axis}$" for axis in "xyz")
-    angles = angles_of(done.testbed, slew.q) * PER_DEG
+    angles = angles_of(done.testbed, slew.q) / DEG
     t = slew.t
     shown: Mapping[str, tuple[str, Shown]] = {
         "figure03_attitude": (
@@ -52,7 +51,7 @@ def slew_pictures(done: Manoeuvre) -> Iterator[Picture]:
         "figure04_rate": ("Angular velocity as the gyro saw it, deg/s.", gyro_rate(done)),
         "figure05_gimbal_angles": (
             "Gimbal angles, deg.",
-            Shown(t, slew.angles * PER_DEG, "gimbal angle, deg", GYROS),
+            Shown(t, slew.angles / DEG, "gimbal angle, deg", GYROS),
         ),
         "figure06_singularity": (
             "Singularity index, the measure sqrt(det D D^T) with the gyros' momentum as unit.",
@@ -60,7 +59,7 @@ def slew_pictures(done: Manoeuvre) -> Iterator[Picture]:
         ),
         "figure07_gimbal_rates": (
             "Gimbal rates asked for, deg/s.",
-            Shown(t, slew.rates * PER_DEG, "gimbal rate, deg/s", GYROS),
+            Shown(t, slew.rates / DEG, "gimbal rate, deg/s", GYROS),
         ),
         "figure08_required_torque": (
             "Required torque on the platform, N m.",
@@ -79,7 +78,7 @@ def gyro_rate(done: Manoeuvre) -> Shown:
     """Return the rates of a slew as the gyro saw them."""
     rate = done.slew.recording.rate
     assert rate is not None
-    return Shown(rate.t, rate.values * PER_DEG, "angular velocity, deg/s", RATES)
+    return Shown(rate.t, rate.values / DEG, "angular velocity, deg/s", RATES)
 
 
 def number(name: str) -> str:
@@ -150,7 +149,7 @@ def labels_of(group: tuple[str, ...]) -> tuple[str, ...]:
 
 def scale_of(group: tuple[str, ...], mass: float) -> float:
     """Return by what to multiply values in SI: com (m) is shown as m r in kg cm."""
-    return mass * KG_CM if group == COM else 1.0
+    return mass / KG_CM if group == COM else 1.0
 
 
 def picked(names: tuple[str, ...], values: Floats, group: tuple[str, ...], mass: float) -> Floats:

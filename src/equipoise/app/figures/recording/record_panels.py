@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from equipoise.app.figures.base.style import AXES, BLUE, SIX, XYZ, course, dots
-from equipoise.app.text.units import MM, PER_DEG
 from equipoise.assessment.findings.channel_content import GAP
 from equipoise.assessment.findings.motion_range import AXES as BODY_AXES
 from equipoise.assessment.findings.motion_range import heading_rate, most_upright
@@ -14,9 +13,9 @@ from equipoise.assessment.record_checks.outliers import outlying_attitudes, outl
 from equipoise.maths.attitude import tilt
 from equipoise.model.arrays import Series1, Series3, Vector3
 from equipoise.model.recording import Recording, Samples
+from equipoise.model.units import DEG, MM, MS
 
 Panel = Callable[[Axes], None]
-MILLI = 1e3
 FEWEST = 3  # rows that a rate is told from
 RARE = 0.005  # share of values at either end that may be drawn beyond the range (chosen)
 WIDENED = 0.5  # of the range of the others, within which they are not beyond it (chosen)
@@ -60,7 +59,7 @@ def _tilt(attitude: Samples, up: Vector3 | None) -> Panel:
     of = f"tilt of {name}, deg" if up is None else "tilt, deg"
 
     def draw(axes: Axes) -> None:
-        dots(axes, attitude.t, tilt(attitude.values, axis) * PER_DEG, BLUE)
+        dots(axes, attitude.t, tilt(attitude.values, axis) / DEG, BLUE)
         axes.set_ylabel(of)
 
     return draw
@@ -69,7 +68,7 @@ def _tilt(attitude: Samples, up: Vector3 | None) -> Panel:
 def _heading_rate(attitude: Samples) -> Panel:
     def draw(axes: Axes) -> None:
         t, rate = heading_rate(attitude)
-        _dots_within(axes, t, [rate * PER_DEG], [BLUE], [""])
+        _dots_within(axes, t, [rate / DEG], [BLUE], [""])
         axes.set_ylabel("heading rate,\ndeg/s")
 
     return draw
@@ -92,7 +91,7 @@ def _rough(t: Series1, rough: Series3, label: str) -> Panel:
 
 
 def _three(axes: Axes, t: Series1, values: Series3) -> None:
-    _dots_within(axes, t, list(values.T * PER_DEG), list(XYZ), list(AXES))
+    _dots_within(axes, t, list(values.T / DEG), list(XYZ), list(AXES))
     _legend(axes)
 
 
@@ -122,7 +121,7 @@ def _range(values: Series1) -> tuple[float, float]:
 def _masses(masses: Samples, names: tuple[str, ...]) -> Panel:
     def draw(axes: Axes) -> None:
         for i, name in enumerate(names):
-            course(axes, masses.t, masses.values[:, i] * MM, SIX[i % len(SIX)], name)
+            course(axes, masses.t, masses.values[:, i] / MM, SIX[i % len(SIX)], name)
         axes.set_ylabel("masses, mm")
         _legend(axes)
 
@@ -136,7 +135,7 @@ def _spacing(attitude: Samples | None, rate: Samples | None) -> Panel:
         steps: list[Series1] = []
         for name, channel, colour in (("attitude", attitude, BLUE), ("gyro", rate, XYZ[1])):
             if channel is not None:
-                steps.append(np.diff(channel.t) * MILLI)
+                steps.append(np.diff(channel.t) / MS)
                 dots(axes, channel.t[:-1], steps[-1], colour, name)
                 gap = steps[-1] > GAP * np.median(steps[-1])
                 axes.plot(channel.t[:-1][gap], steps[-1][gap], "o", color=colour)

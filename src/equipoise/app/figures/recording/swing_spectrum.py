@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
-from equipoise.app.text.units import PER_DEG
 from equipoise.assessment.metrics.swing_modes import swing_rates
+from equipoise.model.units import DEG
 from equipoise.procedure.identification.assess import Assessment
 
 CAPTION = (
@@ -26,9 +26,7 @@ def draw(done: Assessment) -> Figure:
     down = done.com / max(size, 1e-12)
     predicted = swing_rates(done.weight * size, done.testbed.body.inertia_P, down) / (2 * np.pi)
     for column, colour, name in zip(observed.amplitude.T, (BLUE, ORANGE), "xy", strict=True):
-        axes.plot(
-            observed.frequency, column * PER_DEG, color=colour, label=f"vertical along {name}"
-        )
+        axes.plot(observed.frequency, column / DEG, color=colour, label=f"vertical along {name}")
     for k, hanging in enumerate(done.metrics.hanging):
         f, half = hanging.swing.frequency, observed.resolution / 2
         axes.axvspan(f - half, f + half, color="black", alpha=0.08, linewidth=0)

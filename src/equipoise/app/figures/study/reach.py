@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Ellipse
 
 from equipoise.app.figures.base.style import AXES, BLUE, GREEN, GREY, ORANGE, WIDE, legend, styled
-from equipoise.app.text.units import UM
+from equipoise.model.units import UM
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.reachable_set import Reach, outline, tolerance
 
@@ -39,17 +39,17 @@ def extent(reach: Reach, case: Case) -> float:
     """Return the largest coordinate that is shown, um."""
     corners = np.vstack([outline(reach, plane) for plane in PLANES])
     needed = np.abs(case.target - case.testbed.body.com) + 2 * case.testbed.com_sd
-    return UM * float(max(np.abs(corners).max(), needed.max()))
+    return float(max(np.abs(corners).max(), needed.max())) / UM
 
 
 def draw_reach(axes: Axes, reach: Reach, plane: tuple[int, int]) -> None:
     """Draw the outline of what can be reached, and the largest circle about home within it."""
-    corners = outline(reach, plane) * UM
+    corners = outline(reach, plane) / UM
     closed = np.vstack([corners, corners[:1]])
     axes.fill(*closed.T, color=BLUE, alpha=0.15, linewidth=0)
     axes.plot(*closed.T, color=BLUE, label="within reach")
     if reach.rank == 3:
-        radius = tolerance(reach) * UM
+        radius = tolerance(reach) / UM
         axes.add_patch(Circle((0, 0), radius, fill=False, color=GREEN, linestyle="--"))
         axes.plot([], [], color=GREEN, linestyle="--", label="any direction")
     axes.plot(0, 0, "+", color=GREY, markersize=8, label="home")
@@ -58,8 +58,8 @@ def draw_reach(axes: Axes, reach: Reach, plane: tuple[int, int]) -> None:
 def draw_needed(axes: Axes, case: Case, plane: tuple[int, int]) -> None:
     """Draw the shifts that bring platforms, as stated, to the target."""
     across = list(plane)
-    x, y = (case.target - case.testbed.body.com)[across] * UM
-    sd = case.testbed.com_sd[across] * UM
+    x, y = (case.target - case.testbed.body.com)[across] / UM
+    sd = case.testbed.com_sd[across] / UM
     for many, alpha in ((1, 0.35), (2, 0.15)):
         size = 2 * many * sd
         axes.add_patch(Ellipse((x, y), *size, color=ORANGE, alpha=alpha, linewidth=0, zorder=2))

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, WIDE, styled
-from equipoise.app.text.units import MICRO
+from equipoise.model.units import UN_M
 from equipoise.planning.sizing.budget import Budget
 from equipoise.planning.sizing.sensitivity import Bettered
 
@@ -32,14 +32,14 @@ def draw(budget: Budget, better: Sequence[Bettered], required: float | None) -> 
     lower.set_xlabel("uN m rms")
     if required is not None:
         for axes in (upper, lower):
-            axes.axvline(required * MICRO, color="black", linestyle="--", linewidth=0.9)
+            axes.axvline(required / UN_M, color="black", linestyle="--", linewidth=0.9)
         lower.set_title("dashed: required", loc="right")
     return figure
 
 
 def bars(axes: Axes, rows: Sequence[tuple[str, float, str]], title: str) -> None:
     """Draw bars from above, with their numbers beside them."""
-    torque = [value * MICRO for _, value, _ in rows]
+    torque = [value / UN_M for _, value, _ in rows]
     drawn = axes.barh(range(len(rows)), torque, color=[colour for *_, colour in rows], height=0.7)
     axes.bar_label(drawn, fmt="%.3g", padding=3, fontsize=8)
     axes.set_yticks(range(len(rows)), [name for name, *_ in rows])

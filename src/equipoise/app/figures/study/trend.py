@@ -10,8 +10,8 @@ from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import BAND, GREY, WIDE, XYZ, styled
-from equipoise.app.text.units import UM
 from equipoise.model.arrays import Series, Series1
+from equipoise.model.units import UM
 
 CAPTION = (
     "Centre of mass (um) and moments of inertia (kg m2) with the masses at home, run by run, with "
@@ -19,7 +19,7 @@ CAPTION = (
     "recorded: against temperature."
 )
 LABELS = ("$r_x$, um", "$r_y$, um", "$r_z$, um", "$J_{xx}$", "$J_{yy}$", "$J_{zz}$")
-FACTORS = np.array([UM, UM, UM, 1.0, 1.0, 1.0])
+SIZES = np.array([UM, UM, UM, 1.0, 1.0, 1.0])
 
 
 class Trend(NamedTuple):
@@ -58,7 +58,7 @@ def draw(trend: Trend) -> Figure:
 
 
 def _points(axes: Axes, x: Series1, trend: Trend, i: int) -> None:
-    y, spread = trend.values[:, i] * FACTORS[i], BAND * trend.sd[:, i] * FACTORS[i]
+    y, spread = trend.values[:, i] / SIZES[i], BAND * trend.sd[:, i] / SIZES[i]
     axes.errorbar(
         x, y, spread, fmt="o", color=XYZ[i % 3], markersize=4, markerfacecolor="white",
         elinewidth=1, capsize=2,

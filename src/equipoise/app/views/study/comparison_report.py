@@ -7,8 +7,8 @@ from equipoise.app.figures.study import compared_accuracy, compared_coverage, co
 from equipoise.app.report.run_record import Output, RunRecord, origin
 from equipoise.app.runs.comparison import Compared
 from equipoise.app.text.blocks import Blocks, Claim, Section, Table
-from equipoise.app.text.json_document import View
-from equipoise.app.text.units import MICRO
+from equipoise.app.text.json_lists import COMPARE
+from equipoise.app.text.json_shape import View, name_of
 from equipoise.app.views.study.law_views import comparison_json, laws_csv, laws_table
 from equipoise.app.views.study.method_comparison import (
     methods_csv,
@@ -18,6 +18,7 @@ from equipoise.app.views.study.method_comparison import (
 )
 from equipoise.app.views.study.review_views import laws_table as table_3
 from equipoise.app.views.study.review_views import methods_table as table_2
+from equipoise.model.units import UN_M
 from equipoise.study.compare_methods import MethodComparison
 from equipoise.study.recommend import Advice, advised_law, advised_method, least_share
 
@@ -61,11 +62,11 @@ def recommendations(done: Compared) -> Blocks:
 
 
 def document(done: Compared) -> View:
-    """Return one document: of methods, of laws, or of both, schema equipoise/compare/1."""
+    """Return one document: of methods, of laws, or of both."""
     methods = None if done.methods is None else methods_json(done.methods)
     laws = None if done.laws is None else comparison_json(done.laws)
     if methods is not None and laws is not None:
-        return {"schema": "equipoise/compare/1", "methods": methods, "laws": laws}
+        return {"schema": name_of(COMPARE), "methods": methods, "laws": laws}
     return methods or laws or {}
 
 
@@ -75,9 +76,9 @@ def pictures(done: Compared) -> Iterator[Picture]:
         yield from method_pictures(done.methods)
     if done.laws is not None and done.laws.laws:
         laws = sorted(done.laws.laws, key=lambda law: law.left.most)
-        left = [compared_torque.Left(law.law, law.left.median * MICRO, law.left.most * MICRO)
+        left = [compared_torque.Left(law.law, law.left.median / UN_M, law.left.most / UN_M)
                 for law in laws]  # fmt: skip
-        drawn = compared_torque.draw(left, done.laws.required * MICRO)
+        drawn = compared_torque.draw(left, done.laws.required / UN_M)
         yield Picture("laws_torque", compared_torque.CAPTION, drawn)
 
 

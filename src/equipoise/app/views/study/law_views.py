@@ -1,18 +1,16 @@
 """Cards of laws, and laws compared, for terminal, JSON and CSV."""
 
 from collections.abc import Sequence
-from dataclasses import asdict
 
 from equipoise.app.text.blocks import Blocks, Column, Pairs, Table, number, prose, table
 from equipoise.app.text.csv_lines import csv_lines
-from equipoise.app.text.json_document import View
-from equipoise.app.text.units import MICRO, MM, PER_DEG, UM
+from equipoise.app.text.json_lists import COMPARE_LAWS, LAWS
+from equipoise.app.text.json_shape import View
 from equipoise.model.law_card import NEEDS, LawCard
+from equipoise.model.units import DEG, MM, PERCENT, UM, UN_M
 from equipoise.study.compare_laws import Comparison, LawSummary, Middle, halted
 from equipoise.study.law_run import LawRun
 from equipoise.study.recommend import advised_law
-
-SCHEMA = "equipoise/laws/1"
 
 
 def blocks(cards: Sequence[LawCard]) -> Blocks:
@@ -40,13 +38,13 @@ def card_pairs(card: LawCard) -> Pairs:
 
 
 def laws_json(cards: Sequence[LawCard]) -> View:
-    """Return cards, schema equipoise/laws/1."""
-    return {"schema": SCHEMA, "laws": [asdict(card) for card in cards]}
+    """Return cards as JSON."""
+    return LAWS.write({"laws": cards})
 
 
-def both(values: Middle, factor: float, digits: int = 2) -> str:
+def both(values: Middle, unit: float, digits: int = 2) -> str:
     """Return a median, and in brackets what 95 % stay below."""
-    middle, most = values.median * factor, values.most * factor
+    middle, most = values.median / unit, values.most / unit
     return f"{short(middle, digits)} ({short(most, digits)})"
 
 
@@ -61,9 +59,9 @@ def summary_cells(law: LawSummary) -> tuple[str, ...]:
         law.law,
         both(law.aside, UM),
         both(law.height, UM),
-        both(law.torque, MICRO, 3),
-        "-" if law.followed is None else both(law.followed, MICRO, 3),
-        f"{100 * law.within / law.runs:.0f} %",
+        both(law.torque, UN_M, 3),
+        "-" if law.followed is None else both(law.followed, UN_M, 3),
+        f"{law.within / law.runs / PERCENT:.0f} %",
         both(law.time, 1.0, 3),
         both(law.travel, MM, 3),
         f"{law.halted}",
@@ -74,7 +72,7 @@ def summary_cells(law: LawSummary) -> tuple[str, ...]:
 
 def laws_table(found: Comparison) -> Table:
     """Return all laws, the one that leaves the least torque first, and who was refused why."""
-    required = f"<= {found.required * MICRO:g} uN m"
+    required = f"<= {found.required / UN_M:g} uN m"
     columns = (Column("law"), number("aside", "um"), number("height", "um"),
                number("torque", "uN m"), number("following"), number(required),
                number("time", "s"), number("travel", "mm"), number("halted"), number("late"),
@@ -83,7 +81,7 @@ def laws_table(found: Comparison) -> Table:
     said = (
         f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
         f"the runs stay below. Offsets from the target; torque rms within "
-        f"{found.tilt * PER_DEG:.3g} deg of level, {both(found.before, MICRO, 3)} uN m before; "
+        f"{found.tilt / DEG:.3g} deg of level, {both(found.before, UN_M, 3)} uN m before; "
         "following: with masses that follow the tilt by the sag that was found. "
         "Halted: broken off for safety; late: out of time; false: passed by a verdict, and twice "
         "the tolerance off."
@@ -93,24 +91,8 @@ def laws_table(found: Comparison) -> Table:
 
 
 def comparison_json(found: Comparison) -> View:
-    """Return the comparison, schema equipoise/compare_laws/1, SI."""
-    return {
-        "schema": "equipoise/compare_laws/1",
-        "testbed": found.testbed.name,
-        "seeds": list(found.seeds),
-        "tilt": found.tilt,
-        "required_torque": found.required,
-        "torque_before": found.before._asdict(),
-        "laws": [_summary_json(law) for law in found.laws],
-        "refused": [asdict(each) for each in found.refusals],
-        "recommended": asdict(advised_law(found)),
-    }
-
-
-def _summary_json(law: LawSummary) -> View:
-    cells = asdict(law)
-    return {key: value._asdict() if isinstance(value, Middle) else value
-            for key, value in cells.items()}  # fmt: skip
+    """Return the comparison as JSON, SI units."""
+    return COMPARE_LAWS.write({"found": found, "recommended": advised_law(found)})
 
 
 def laws_csv(found: Comparison) -> str:
@@ -122,8 +104,8 @@ def laws_csv(found: Comparison) -> str:
 
 
 def _csv_line(run: LawRun) -> list[object]:
-    offset = [f"{UM * x:.6g}" for x in run.offset]
-    followed = "" if run.followed is None else f"{MICRO * run.followed:.6g}"
-    return [run.law, run.seed, *offset, f"{MICRO * run.torque:.6g}", followed,
-            f"{run.time:.6g}", f"{MM * run.travel:.6g}", run.verdict.passed,
+    offset = [f"{x / UM:.6g}" for x in run.offset]
+    followed = "" if run.followed is None else f"{run.followed / UN_M:.6g}"
+    return [run.law, run.seed, *offset, f"{run.torque / UN_M:.6g}", followed,
+            f"{run.time:.6g}", f"{run.travel / MM:.6g}", run.verdict.passed,
             halted(run), run.late, run.verdict.sentence]  # fmt: skip

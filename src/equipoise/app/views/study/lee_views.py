@@ -13,12 +13,14 @@ from equipoise.app.text.blocks import (
     number,
     table,
 )
-from equipoise.app.text.json_document import View, estimate_json
+from equipoise.app.text.json_lists import REPRODUCE_LEE
+from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.observability import Observability
 from equipoise.model.testbed import Testbed
+from equipoise.model.units import DEG, G_CM, PERCENT
 from equipoise.study.papers.lee import (
     DAMPING,
     DURATION,
@@ -32,10 +34,7 @@ from equipoise.study.papers.lee import (
 )
 from equipoise.study.papers.lee_course import Courses, courses_of
 
-SCHEMA = "equipoise/reproduce-lee/1"
 SHOWN = (*INERTIA, *COM)
-PERCENT = 100.0
-G_CM = 1e5  # g cm in a kg m; the paper has kg cm
 SENSORS = ("fine attitude", "the preset's own")
 LEAST = (
     "Cramer-Rao bound: no unbiased method has a smaller sd. Fine attitude: 0.02 deg at 100 Hz "
@@ -51,15 +50,15 @@ def name_of(parameter: str) -> str:
 
 def factors(testbed: Testbed) -> dict[str, float]:
     """Return by what to multiply each unknown in SI to show it."""
-    return dict.fromkeys(INERTIA, 1.0) | dict.fromkeys(COM, testbed.body.mass * G_CM)
+    return dict.fromkeys(INERTIA, 1.0) | dict.fromkeys(COM, testbed.body.mass / G_CM)
 
 
 def percents(testbed: Testbed) -> dict[str, float]:
-    """Return percent by SI: of sqrt(J_ii J_jj), or of the component of m r."""
+    """Return one percent of sqrt(J_ii J_jj), or of the component of m r, SI."""
     truth = true_values(testbed)
     sizes = dict(zip(INERTIA, element_sizes(testbed.body.inertia_P), strict=True))
     sizes |= {name: abs(truth[name]) for name in COM}
-    return {name: PERCENT / float(size) for name, size in sizes.items()}
+    return {name: PERCENT * float(size) for name, size in sizes.items()}
 
 
 def cell_of(estimate: Estimate, name: str, done: Manoeuvre) -> str:
@@ -68,7 +67,7 @@ def cell_of(estimate: Estimate, name: str, done: Manoeuvre) -> str:
         return ""
     found, factor = estimate.parameters[estimate.index(name)], factors(done.testbed)[name]
     value, sd = with_sd(found.value * factor, found.sd * factor)
-    error = (found.value - true_values(done.testbed)[name]) * percents(done.testbed)[name]
+    error = (found.value - true_values(done.testbed)[name]) / percents(done.testbed)[name]
     return f"{value} ({sd}) {error:+.2g}%"
 
 
@@ -122,7 +121,7 @@ def bound_table(runs: Sequence[Manoeuvre]) -> Table:
     for name in SHOWN:
         bounds = [bound for run in runs for bound in (run.bound, run.coarse_bound)]
         share = percents(runs[0].testbed)[name]
-        lines.append([name_of(name), *(f"{least(b)[name] * share:.2g} %" for b in bounds)])
+        lines.append([name_of(name), *(f"{least(b)[name] / share:.2g} %" for b in bounds)])
     columns = (Column(), *map(number, heads))
     return table("Least sd that the data allow", columns, lines, (LEAST,))
 
@@ -135,21 +134,17 @@ def least(bound: Observability) -> dict[str, float]:
 def document_of(runs: Sequence[Manoeuvre], seed: int) -> View:
     """Return the reproduction as JSON, SI units."""
     loop = {"frequency_rad_s": FREQUENCY, "damping": DAMPING, "integral_rad_s": INTEGRAL}
-    return {
-        "schema": SCHEMA,
-        "seed": seed,
-        "loop": loop,
-        "manoeuvres": [run_json(run) for run in runs],
-    }
+    slews = [slew_of(run) for run in runs]
+    return REPRODUCE_LEE.write({"seed": seed, "loop": loop, "manoeuvres": slews})
 
 
-def run_json(run: Manoeuvre) -> View:
-    """Return one slew."""
+def slew_of(run: Manoeuvre) -> View:
+    """Return what the document says of one slew."""
     return {
-        "start_deg": list(run.start),
-        "singular_s": singular_times(run.slew),
+        "start": [angle * DEG for angle in run.start],
+        "singular": singular_times(run.slew),
         "truth": true_values(run.testbed),
-        "estimates": {name: estimate_json(found) for name, found in run.estimates.items()},
+        "estimates": run.estimates,
         "warns": {name: warns(found) for name, found in run.estimates.items()},
         "least_sd": least(run.bound),
         "least_sd_of_preset_sensors": least(run.coarse_bound),

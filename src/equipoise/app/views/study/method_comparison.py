@@ -1,24 +1,22 @@
 """Methods compared, as tables, JSON and CSV."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
 
 import numpy as np
 
 from equipoise.app.text.blocks import Column, Table, number, table
 from equipoise.app.text.csv_lines import csv_lines
-from equipoise.app.text.json_document import View, numbers, schedule_json
-from equipoise.app.text.units import UM
+from equipoise.app.text.json_lists import COMPARE_METHODS
+from equipoise.app.text.json_shape import View
 from equipoise.app.views.study.law_views import short
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.arrays import Floats
 from equipoise.model.estimate import COM
+from equipoise.model.units import MEGABYTE, MS, PERCENT, UM
 from equipoise.study.compare_methods import MethodComparison, MethodSummary, Ratios, Share
 from equipoise.study.method_run import JUDGED, MethodRun
 from equipoise.study.recommend import advised_method, lacks
 
-SCHEMA = "equipoise/compare_methods/1"
-MS, MB, PERCENT = 1e3, 1e-6, 100.0
 OPEN = (
     "Nothing in these records, and no option, fixes the common scale of inertia and centre of "
     "mass, so there is no bound and nothing to compare by: give --move, --hold or --prior."
@@ -48,7 +46,7 @@ def figure(value: float, digits: int = 2) -> str:
 
 def percent(share: Share) -> str:
     """Return a share in percent, "-" of nothing."""
-    return f"{PERCENT * share.value:.0f} %" if share.of else "-"
+    return f"{share.value / PERCENT:.0f} %" if share.of else "-"
 
 
 def some(count: int) -> str:
@@ -106,8 +104,8 @@ def cost_table(found: MethodComparison) -> Table:
     lines = [
         [
             method.method,
-            figure(MS * method.time),
-            "-" if method.memory is None else figure(MB * method.memory),
+            figure(method.time / MS),
+            "-" if method.memory is None else figure(method.memory / MEGABYTE),
             "-" if method.settled is None else seconds(method.settled),
         ]
         for method in ran
@@ -148,14 +146,14 @@ def failures(found: MethodComparison) -> Iterator[str]:
 def com_table(found: MethodComparison) -> Table:
     """Return bias and sd of the centre of mass along each axis and RMSE of the whole, um."""
     headings = (*(f"{what} {axis}" for axis in "xyz" for what in ("bias", "sd")), "RMSE")
-    bound = [observed_text(b * UM) for b in found.bound[:3]]
+    bound = [observed_text(b / UM) for b in found.bound[:3]]
     lines = [
-        ["bound", "", bound[0], "", bound[1], "", bound[2], observed_text(norm(found.bound) * UM)]
+        ["bound", "", bound[0], "", bound[1], "", bound[2], observed_text(norm(found.bound) / UM)]
     ]
     for method in shown_order(found):
-        columns = np.stack([method.bias[:3], method.sd[:3]], axis=1) * UM
+        columns = np.stack([method.bias[:3], method.sd[:3]], axis=1) / UM
         if np.any(np.isfinite(method.rmse[:3])):
-            whole = figure(norm(method.rmse) * UM)
+            whole = figure(norm(method.rmse) / UM)
             lines.append([method.method, *(figure(float(x)) for x in columns.ravel()), whole])
     remark = (
         "sd: of the errors over the runs. RMSE: of the vector, of what is stated of it. Bounds are "
@@ -174,12 +172,12 @@ def norm(sizes: Floats) -> float:
 def inertia_table(found: MethodComparison) -> Table:
     """Return RMSE of the inertia, percent of sqrt(J_ii J_jj)."""
     part = slice(3, 9)
-    factor = PERCENT / element_sizes(found.scene.testbed.body.inertia_P)
+    percent_of_size = PERCENT * element_sizes(found.scene.testbed.body.inertia_P)
     headings = (*(name[-2:] for name in JUDGED[part]), "bias / bound")
-    lines = [["bound", *map(observed_text, found.bound[part] * factor), ""]]
+    lines = [["bound", *map(observed_text, found.bound[part] / percent_of_size), ""]]
     for method in shown_order(found):
         if method.inertia.stated.part:
-            cells = map(figure, method.rmse[part] * factor)
+            cells = map(figure, method.rmse[part] / percent_of_size)
             lines.append([method.method, *cells, figure(method.inertia.bias)])
     title = "RMSE of the inertia about P, percent of sqrt(J_ii J_jj)"
     return table(title, (Column(), *map(number, headings)), lines)
@@ -191,30 +189,9 @@ def observed_text(bound: float) -> str:
 
 
 def methods_json(found: MethodComparison) -> View:
-    """Return the comparison, schema equipoise/compare_methods/1, SI."""
-    scene = found.scene
-    return {
-        "schema": SCHEMA,
-        "testbed": scene.testbed.name,
-        "seeds": list(found.seeds),
-        "duration_s": scene.duration,
-        "moves": schedule_json(scene.moves),
-        "options": asdict(scene.options),
-        "parameters": list(JUDGED),
-        "bound": numbers(found.bound),
-        "methods": [summary_json(method) for method in found.methods],
-        "recommended": {group: asdict(advised_method(found.methods, group))
-                        for group in ("com", "inertia")},
-    }  # fmt: skip
-
-
-def summary_json(method: MethodSummary) -> View:
-    """Return one method; arrays are in the order of ``parameters``."""
-    view = asdict(method)
-    view |= {name: numbers(getattr(method, name)) for name in ("bias", "sd", "rmse")}
-    for name in ("com", "inertia"):
-        view[name]["stated"] = getattr(method, name).stated._asdict()
-    return view | {"coverage": method.coverage._asdict()}
+    """Return the comparison as JSON, SI units."""
+    advice = {group: advised_method(found.methods, group) for group in ("com", "inertia")}
+    return COMPARE_METHODS.write({"found": found, "parameters": JUDGED, "recommended": advice})
 
 
 def methods_csv(runs: Sequence[MethodRun]) -> str:
@@ -230,8 +207,8 @@ def methods_csv(runs: Sequence[MethodRun]) -> str:
 
 
 def _csv_line(run: MethodRun) -> list[object]:
-    factor = np.where(np.isin(JUDGED, COM), UM, 1.0)
-    values = np.concatenate([run.error * factor, run.sd * factor, run.bound * factor])
+    unit = np.where(np.isin(JUDGED, COM), UM, 1.0)
+    values = np.concatenate([run.error / unit, run.sd / unit, run.bound / unit])
     cost = ("" if run.settled is None else plain(run.settled), plain(run.cost.time),
             "" if run.cost.memory is None else run.cost.memory)  # fmt: skip
     return [run.method, run.seed, run.ending, run.warned, *map(plain, values),

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from equipoise.app.text.blocks import Column, Table, number, prose, table
-from equipoise.app.text.units import MICRO, UM
-from equipoise.app.views.study.method_comparison import MB, MS, percent, seconds
+from equipoise.app.views.study.method_comparison import percent, seconds
+from equipoise.model.units import MEGABYTE, MS, UM, UN_M
 from equipoise.study.compare_laws import LawSummary
 from equipoise.study.compare_methods import MethodSummary
 from equipoise.study.review_tables import LawRow, MethodRow, Span, law_rows, method_rows
@@ -26,9 +26,9 @@ TABLE_3 = (
 )
 
 
-def spread_text(span: Span, factor: float = 1.0) -> str:
+def spread_text(span: Span, unit: float = 1.0) -> str:
     """Return from the best to the worst."""
-    best, worst = (seconds(value * factor) for value in span)
+    best, worst = (seconds(value / unit) for value in span)
     return best if best == worst else f"{best} to {worst}"
 
 
@@ -49,7 +49,7 @@ def method_cells(row: MethodRow) -> list[str]:
         spread_text(row.accuracy),
         spread_text(row.bias),
         spread_text(row.time, MS),
-        spread_text(row.memory, MB),
+        spread_text(row.memory, MEGABYTE),
         spread_text(row.settled),
         percent(row.failed),
         percent(row.wrong),
@@ -81,7 +81,7 @@ def law_cells(row: LawRow) -> list[str]:
         row.printed.says,
         row.printed.reported or "none",
         ", ".join(row.laws),
-        spread_text(row.torque, MICRO),
+        spread_text(row.torque, UN_M),
         spread_text(row.aside, UM),
         spread_text(row.height, UM),
         spread_text(row.time),

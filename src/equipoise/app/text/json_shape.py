@@ -1,0 +1,120 @@
+"""A document by declaration: which keys, what of the record stands there, and of which kind.
+
+One declaration gives the document (``Kind.write``) and its JSON Schema (``Kind.schema``), so that
+neither can say what the other does not. A key ends in the SI unit of its number, unless a key
+``unit`` stands beside it.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+View = dict[str, Any]
+Read = Callable[[Any], Any]
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kind:
+    """What may stand behind a key."""
+
+    schema: Mapping[str, Any]
+    write: Read
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Key:
+    """A key of a document."""
+
+    name: str
+    kind: Kind
+    read: Read
+    optional: bool = False  # left out, rather than null, where there is nothing
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
+
+
+def _listed(values: Any) -> Any:
+    """Return an array as lists."""
+    return values.tolist() if hasattr(values, "tolist") else list(values)
+
+
+TEXT = Kind({"type": "string"}, _as_it_is)
+FLAG = Kind({"type": "boolean"}, _as_it_is)
+COUNT = Kind({"type": "integer"}, _as_it_is)
+NUMBER = Kind({"type": ["number", "null"]}, _as_it_is)  # null: not finite, or there is none
+VECTOR = Kind({"type": "array", "items": NUMBER.schema}, _listed)
+MATRIX = Kind({"type": "array", "items": VECTOR.schema}, _listed)
+
+
+def maybe(kind: Kind) -> Kind:
+    """Return a kind that may be null."""
+    schema = {"anyOf": [kind.schema, {"type": "null"}]}
+    return Kind(schema, lambda value: None if value is None else kind.write(value))
+
+
+def many(kind: Kind) -> Kind:
+    """Return a list of a kind."""
+    schema = {"type": "array", "items": kind.schema}
+    return Kind(schema, lambda values: [kind.write(value) for value in values])
+
+
+def by_name(kind: Kind) -> Kind:
+    """Return a kind by names that the data give."""
+    schema = {"type": "object", "additionalProperties": kind.schema}
+    return Kind(schema, lambda named: {name: kind.write(each) for name, each in named.items()})
+
+
+def key(name: str, kind: Kind, read: Read, optional: bool = False) -> Key:
+    """Return a key and what of the record stands there."""
+    return Key(name, kind, read, optional)
+
+
+def fields(names: str, kind: Kind) -> tuple[Key, ...]:
+    """Return keys that are called as the fields of the record are."""
+    return tuple(Key(name, kind, _field(name)) for name in names.split())
+
+
+def _field(name: str) -> Read:
+    def read(record: Any) -> Any:
+        return record[name] if hasattr(record, "keys") else getattr(record, name)
+
+    return read
+
+
+def shape(*keys: Key) -> Kind:
+    """Return the kind of a record: an object with these keys and no other."""
+    schema = {
+        "type": "object",
+        "properties": {each.name: each.kind.schema for each in keys},
+        "required": [each.name for each in keys if not each.optional],
+        "additionalProperties": False,
+    }
+    return Kind(schema, lambda record: _object(keys, record))
+
+
+def _object(keys: tuple[Key, ...], record: Any) -> View:
+    found = ((each, each.read(record)) for each in keys)
+    return {
+        each.name: each.kind.write(value)
+        for each, value in found
+        if not (each.optional and value is None)
+    }
+
+
+def document(name: str, *keys: Key) -> Kind:
+    """Return the kind of a whole document, which says by its key ``schema`` what it is."""
+    constant = Kind({"const": name}, _as_it_is)
+    return shape(key("schema", constant, lambda _: name), *keys)
+
+
+def name_of(kind: Kind) -> str:
+    """Return the name of a document, such as equipoise/balance/2."""
+    return kind.schema["properties"]["schema"]["const"]
+
+
+def json_schema(kind: Kind) -> View:
+    """Return the JSON Schema of a document."""
+    return {"$schema": DIALECT, "title": name_of(kind), **kind.schema}
