@@ -136,10 +136,12 @@ def without_work(monkeypatch):
             return Refusal(task.law, "it does not like it")
         return made_up(task.law, task.seed, torques[task.law] * task.seed)
 
-    def found(requested, _workers):
+    def found(requested, _workers, _waiting):
         tasks = [Task(card.name, requested.testbed, seed, BalanceOptions(), 60.0, 0.3)
                  for seed in requested.seeds for card in requested.cards]  # fmt: skip
-        return compared(tasks, requested.cards, requested.required, lambda *_: map(finding, tasks))
+        return compared(
+            tasks, requested.cards, requested.goal.required, lambda *_: map(finding, tasks)
+        )
 
     monkeypatch.setattr(comparison, "run", found)
 
