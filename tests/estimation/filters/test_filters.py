@@ -205,7 +205,7 @@ def test_the_simplified_model_says_when_it_does_not_hold():
     testbed, record = replace(platform(gyro=True), inertia_sd=0.0), spun(10.0)
     found, whole = (estimate(m, record, testbed) for m in (kf_simplified, ekf_6))
     assert "gyroscopic_torque_left_out" in codes_of(found)
-    assert found.outcome.trust == "not_trustworthy"
+    assert found.outcome.warns
     bias, sd = np.array([p.value for p in found.parameters]) - COM, [p.sd for p in found.parameters]
     assert np.abs(bias).max() > 10e-6
     assert np.abs(bias / sd).max() < 2
@@ -236,7 +236,7 @@ def test_a_wrong_noise_or_body_is_not_usable(module):
     )
     found = estimate(module, record, quiet)
     assert not found.outcome.usable
-    assert codes_of(found) == ["filter_innovations_too_large"]
+    assert codes_of(found)[0] == "filter_innovations_too_large"
 
 
 @every_filter
