@@ -49,8 +49,8 @@ def test_a_balancing_run(equipoise, strict_json):
     assert done.code == (0 if document["verdict"]["passed"] else 1)
     assert document["verdict"]["outcome"] in ("passed", "failed", "undecided")
     assert all(step["code"] == step["reasons"][0]["code"] for step in document["steps"])
-    assert len(document["verdict"]["com_um"]) == len(document["verdict"]["sd_um"]) == 3
-    assert len(document["truth"]["com_um"]) == 3
+    assert len(document["verdict"]["com_m"]) == len(document["verdict"]["sd_m"]) == 3
+    assert len(document["truth"]["com_m"]) == 3
     assert np.shape(document["truth"]["inertia_P_kg_m2"]) == (3, 3)
     assert document["steps"][0]["kind"] == "measurement"
     assert document["steps"][-1]["verdict"] == document["verdict"]

@@ -241,7 +241,7 @@ HARDWARE = _of(
      "return values @ unit.alignment", "hardware/sensors/test_sensors.py"),
     ("boards/tmcl_steps.py", "axis.zero + _sign(axis) * displacement",
      "axis.zero - _sign(axis) * displacement", "hardware/boards/test_tmcl.py"),
-    ("boards/grbl.py", "PER_MM, PER_MIN = 1e3, 60.0", "PER_MM, PER_MIN = 1e3, 6.0",
+    ("boards/grbl.py", "/ way.duration * MINUTE", "/ way.duration / MINUTE",
      "hardware/boards/test_grbl.py"),
     ("sensors/vectornav.py", "(v[3], v[0], v[1], v[2])", "(v[0], v[1], v[2], v[3])",
      "hardware/sensors/test_sensors.py"),
