@@ -50,7 +50,7 @@ IDENTIFY = (
         "identify_planned",
         "identify run.csv --testbed sputnix --plan plan.toml --prior --term viscous",
         (
-            "plan sputnix --duration-s 30 --trials 20 --moves 1 --seed 3 --out plan.toml",
+            "plan sputnix --duration-s 30 --trials 20 --moves 1 --seed 3 --write plan.toml",
             "simulate sputnix --plan plan.toml --out run.csv --seed 3",
         ),
     ),
