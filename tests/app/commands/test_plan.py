@@ -16,7 +16,7 @@ def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch, 
     assert run(words.split()) in (0, 1)
     out = capsys.readouterr().out
     plan = strict_json(out[out.index("{") :])
-    assert plan["requested"] == [*COM, *INERTIA]
+    assert plan["requested"] == [*INERTIA, *COM]
     assert plan["standing_m"] == {"x1": -0.010, "y1": -0.010, "z1": -0.050}
     assert len(plan["moves"]) == 2
     assert all(sd > 0 for sd in plan["planned"]["sd"].values())

@@ -6,7 +6,7 @@ from functools import cache
 import pytest
 
 from equipoise.io.testbed.presets import read_preset
-from equipoise.study import lee
+from equipoise.study.papers import lee
 
 SHORT = 16.0  # s: the large slew has passed its singularity
 FIGURES = {f"figure{k:02d}" for k in range(3, 19)}
