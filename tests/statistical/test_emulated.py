@@ -1,5 +1,6 @@
 """The claims of `make verify` about emulated benches, on fewer platforms and in less time."""
 
+from equipoise.model.verdict import VerdictOutcome
 from tests.support import thorough
 from verification import emulated_balancing, faulty_benches, long_emulation
 
@@ -8,7 +9,7 @@ def test_balancing_through_emulated_devices_is_within_tolerance() -> None:
     """Platforms, each also judged right."""
     seeds = range(100, 100 + thorough.count(3, 1))
     runs = [emulated_balancing.balanced_through("nanosat", seed) for seed in seeds]
-    assert all(run.passed and run.good for run in runs), runs
+    assert all(run.outcome is VerdictOutcome.PASSED and run.good for run in runs), runs
 
 
 def test_faults_end_in_recovery_or_in_a_stop_with_its_sentence() -> None:

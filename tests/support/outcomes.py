@@ -17,7 +17,7 @@ def of_use(usable: bool = True) -> Outcome:
 def verdict(passed: bool, com=None, sd=None) -> Verdict:
     """Return a verdict that passed or failed."""
     code = VerdictReason.NOTHING_REQUIRED if passed else VerdictReason.RECORD_MISFITS
-    return Verdict(one_reason(code), com, sd)
+    return Verdict(one_reason(code, expected=1e-6), com, sd)
 
 
 def undecided(com=None, sd=None) -> Verdict:

@@ -5,19 +5,17 @@ import pytest
 
 from equipoise.app.runs.balancing import Balancing
 from equipoise.app.runs.demonstration import GOAL, measured
+from equipoise.app.runs.identification import Identification
 from equipoise.app.views.balance_views import pictures_of, pictures_of_tracking
-from equipoise.app.views.identify_views import Identification, account_of
+from equipoise.app.views.identify_views import record_of
 from equipoise.estimation.tracker import tracker
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import window
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
-from equipoise.procedure.identification.record_courses import (
-    balancing_courses,
-    identification_courses,
-)
+from equipoise.procedure.identification.record_courses import balancing_courses
 from equipoise.simulation.bench import SimulatedBench
 
-BED = read_preset("sputnix")
+BED, TRACKER = read_preset("sputnix"), IdentifyOptions("tracker")
 
 
 @pytest.fixture
@@ -39,28 +37,27 @@ def moved():
 
 
 def reported(recording):
-    """Return the report of an identification by the tracker."""
-    steps = list(identify(recording, BED, IdentifyOptions("tracker")))
-    courses = identification_courses(recording, BED, steps)
-    return account_of(Identification(BED, recording, (), steps), courses)
+    """Return the report of an identification by the tracker, and its estimate."""
+    done = Identification(BED, recording, (), list(identify(recording, BED, TRACKER)))
+    return record_of(done, done.courses()), done.estimate
 
 
 def test_identify_with_its_report_runs_the_filter_once(filter_runs, moved):
-    account = reported(window(moved, 0.0, 60.0))
+    report, _ = reported(window(moved, 0.0, 60.0))
     assert filter_runs == ["fed"]
-    names = [picture.name for picture in account.pictures]
+    names = [picture.name for picture in report.figures]
     assert names == ["figure11_tracked_rate", "figure12_tracked_com"]
 
 
 def test_across_a_move_one_more_run_ignores_the_move(filter_runs, moved):
-    account = reported(moved)
+    report, _ = reported(moved)
     assert filter_runs == ["fed", "ignored"]
-    assert account.pictures[-1].name == "figure13_move"
+    assert report.figures[-1].name == "figure13_move"
 
 
 def test_the_figure_shows_the_course_of_the_result(moved):
-    account = reported(window(moved, 0.0, 60.0))
-    figure, course = account.pictures[1].figure, account.estimate.course
+    report, estimate = reported(window(moved, 0.0, 60.0))
+    figure, course = report.figures[1].figure, estimate.course
     for axes, x in zip(figure.axes, course.values.T, strict=True):
         line = next(each for each in axes.lines if each.get_label() == "tracker")
         np.testing.assert_allclose(line.get_ydata()[-1], 1e6 * x[-1], rtol=1e-12)

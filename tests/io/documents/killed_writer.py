@@ -17,6 +17,7 @@ from equipoise.io.documents.run_folder import TESTBED
 from equipoise.io.files.atomic_folder import write_folder
 from equipoise.model.estimate import Parameter
 from equipoise.model.logged_run import RUN, LoggedRun
+from equipoise.model.verdict import VerdictOutcome
 
 
 def run(made_at="2026-03-01T12:00:00+01:00", **more) -> LoggedRun:
@@ -27,7 +28,8 @@ def run(made_at="2026-03-01T12:00:00+01:00", **more) -> LoggedRun:
     )
     known = {
         "name": "", "kind": "balance", "platform": "Mock-up", "configuration": "c1",
-        "method": "measure_and_move", "bench": "simulated", "outcome": "passed",
+        "method": "measure_and_move", "bench": "simulated",
+        "outcome": VerdictOutcome.PASSED,
         "sentence": "Good.",
         "parameters": home, "standing": home[:1], "provenance": {"seed": "1"},
     }  # fmt: skip

@@ -16,6 +16,7 @@ from equipoise.io.documents.logbook_schema import MIGRATIONS
 from equipoise.io.documents.run_file import read_run
 from equipoise.model.errors import InputError
 from equipoise.model.logged_run import RUN
+from equipoise.model.verdict import VerdictOutcome
 from tests.io.documents import killed_writer
 from tests.io.documents.killed_writer import put, run
 from tests.support import thorough
@@ -56,7 +57,7 @@ def test_it_knows_what_came_changed_or_went_since(tmp_path):
     assert listed(tmp_path) == ["one", "two"]
     (tmp_path / "two" / RUN).unlink()
     put(tmp_path, "three", run("2026-03-03T12:00:00+01:00"))
-    put(tmp_path, "one", run("2026-03-04T12:00:00+01:00", outcome="failed"))
+    put(tmp_path, "one", run("2026-03-04T12:00:00+01:00", outcome=VerdictOutcome.FAILED))
     os.utime(tmp_path / "one" / RUN, ns=(1, 1))
     with open_logbook(tmp_path) as book:
         assert [(r.name, r.outcome) for r in book.runs()] == [

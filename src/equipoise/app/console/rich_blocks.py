@@ -22,6 +22,7 @@ from equipoise.app.text.blocks import (
 
 STYLES = {"plain": "", "good": "green", "bad": "red", "caution": "yellow", "quiet": "dim"}
 MARKS = {"plain": "", "good": "ok", "bad": "PROBLEM", "caution": "!", "quiet": "~"}
+WHAT = 11  # letters of the longest kind of step, "measurement"
 NARROW = 2  # letters of a list's marks with the gap behind them
 STEP_STYLES = {
     "measurement": "dim",
@@ -119,7 +120,7 @@ def _quiet_table(header: bool) -> RichTable:
 def _(block: Moment) -> RichTable:
     grid = RichTable.grid(padding=(0, 2))
     grid.add_column(width=9, justify="right", no_wrap=True)
-    grid.add_column(width=8, no_wrap=True)
+    grid.add_column(width=WHAT, no_wrap=True)
     grid.add_column()
     cells = map(Text, (block.time, block.what, block.text))
     grid.add_row(*cells, style=STEP_STYLES.get(block.what, ""))
