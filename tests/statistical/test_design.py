@@ -3,6 +3,7 @@
 import pytest
 
 from equipoise.io.testbed.presets import read_preset
+from tests.support import thorough
 from verification import design_predictions as check
 
 SKEW, TIERED = check.pyramid(), read_preset("reference-table")
@@ -10,7 +11,10 @@ SKEW, TIERED = check.pyramid(), read_preset("reference-table")
 
 @pytest.mark.parametrize("testbed", [SKEW, TIERED], ids=["pyramid", "coarse and fine"])
 def test_reach_and_what_moves_leave(testbed):
-    rows = (*check.reach_rows(testbed, 30), *check.move_rows(testbed, range(300)))
+    rows = (
+        *check.reach_rows(testbed, 30),
+        *check.move_rows(testbed, range(thorough.count(300, 100))),
+    )
     assert [row for row in rows if not row.ok] == []
 
 

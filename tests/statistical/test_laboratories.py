@@ -9,7 +9,9 @@ from equipoise.estimation.model_selection.reference_fit import surveyed
 from equipoise.estimation.model_selection.survey import is_drowned
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.procedure.steps.clean_record import sound
+from tests.support import thorough
 from verification import laboratories, starts
+from verification.result import in_turn
 
 QUICK = (
     "280 deg/s, spinning down", "tilts to 20 deg", "gyro in steps", "gyro that the testbed lacks",
@@ -19,16 +21,17 @@ QUICK = (
 
 def test_no_record_fails_and_no_wrong_number_is_firm() -> None:
     """One record of each kind that takes seconds; compiling is not counted against the time."""
-    result = laboratories.measure(range(1), kinds=QUICK, slowest=float("inf"))
+    result = laboratories.measure(range(1), kinds=thorough.some(QUICK, 4), slowest=float("inf"))
     assert result.missed == ()
 
 
 def test_search_finds_the_optimum_from_anywhere() -> None:
     """One seed, from half an inertia too much, and from nothing."""
-    assert starts.measure(range(1)).missed == ()
+    for name in thorough.some(list(starts.STARTS), 2):
+        assert [row for row in starts.rows_of(name, range(1), in_turn) if not row.ok] == []
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", thorough.some([1, 2], 1))
 def test_behind_a_long_gap_a_spin_is_followed_with_damping(seed: int) -> None:
     """Without it the fit is a turn off behind the gap, 9 deg rms, where noise is 0.05."""
     record = laboratories.KINDS["gap in a spin"].make(seed)

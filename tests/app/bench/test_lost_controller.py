@@ -24,12 +24,14 @@ from equipoise.io.mcap.live_recording import RecordingStopped
 from equipoise.io.testbed.presets import read_preset
 from equipoise.io.testbed.testbed_file import write_testbed
 from equipoise.model.errors import BenchStopped
+from tests.support import thorough
 
 COMMANDER = """
 import sys, time
 from pathlib import Path
 from equipoise.app.bench.open_bench import Wanted, real_bench
 from equipoise.io.testbed.testbed_file import read_testbed
+from tests.support import thorough
 
 def main():
     wanted = Wanted(read_testbed(sys.argv[1]), Path(sys.argv[2]))
@@ -44,6 +46,7 @@ if __name__ == "__main__":
 """
 
 
+MOMENTS = thorough.count(300, 100)
 AGAIN = 2.0  # s, chosen: until a person who sees that nothing stops presses again
 TRIES = 4  # chosen: a real-time test on a computer that does other things too
 
@@ -178,7 +181,7 @@ def running():
 @pytest.mark.skipif(os.name == "nt", reason="no interval timers")
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_ctrl_c_at_any_moment_leaves_the_bench_at_command():
-    """Of 300 moments: without whole messages one of 200 broke the pipe; without numbers every
+    """Of so many moments: without whole messages one of 200 broke the pipe; without numbers every
     second answer was taken for another command's. Python itself loses a KeyboardInterrupt that
     comes up in the callback of a weak reference and only warns: then Ctrl-C is pressed again.
     (Such references are made by the shape checks of tests; without these none was lost.)"""
@@ -188,7 +191,7 @@ def test_ctrl_c_at_any_moment_leaves_the_bench_at_command():
         with running() as bench:
             bench.start()
             bench.watch()
-            for k in range(300):
+            for k in range(MOMENTS):
                 with pytest.raises(KeyboardInterrupt):  # noqa: PT012
                     signal.setitimer(signal.ITIMER_REAL, rng.uniform(1e-4, 0.02), AGAIN)
                     while True:

@@ -10,7 +10,7 @@ def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch, 
     simulate = "simulate sputnix --out run.csv --duration-s 60 --move"
     assert run([*simulate.split(), "30: x1=-10 y1=-10 z1=-50"]) == 0
     words = (
-        "plan sputnix --duration-s 60 --prior-record run.csv --trials 20 --moves 2 --json "
+        "plan sputnix --duration-s 60 --prior-record run.csv --trials 8 --moves 2 --json "
         "--write plan.toml"
     )
     assert run(words.split()) in (0, 1)

@@ -123,7 +123,7 @@ def test_an_estimate_says_where_it_comes_from(name):
         assert estimate.provenance["version"]
 
 
-@pytest.mark.parametrize(("name", "trouble"), thorough.pairs(METHODS, TROUBLES, 3))
+@pytest.mark.parametrize(("name", "trouble"), thorough.pairs(METHODS, TROUBLES, 6))
 def test_a_faulty_record_is_handled_or_reported(name, trouble):
     """As `identify` runs it: an answer within 6 sd of the truth, or word that it is not to be
     trusted, or a refusal with its reason. (What stands level has its com above or below P.)"""

@@ -28,11 +28,13 @@ from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.estimate import COM as NAMES
 from equipoise.model.estimate import END as NAMES_END
 from equipoise.model.recording import Recording, Samples
+from tests.support import thorough
 from tests.support.builders import COM, INERTIA, level, move_at, noisy, platform, recording
 from tests.support.drift_records import com_at, ramp, random_walk, wandered
 from tests.support.outcomes import codes_of
 
 END = 120.0
+SEEDS = thorough.count(8, 4)
 TRACK = move_at(60.0, END)
 BED = platform(gyro=True)
 run = METHODS["smoother"].run
@@ -79,9 +81,9 @@ def test_without_drift_it_is_the_trajectory_fit(gyro):
 
 
 def test_without_drift_its_intervals_cover():
-    """Eight seeds: every com and inertia within 4 sd, and the mean square near 1."""
+    """Some seeds: every com and inertia within 4 sd, and the mean square near 1."""
     z = []
-    for seed in range(8):
+    for seed in range(SEEDS):
         found = run(calm(seed=seed), BED, Options())
         z.append((found.values(tuple(p.name for p in found.parameters[:9]))
                   - np.append(COM, INERTIA)) / [p.sd for p in found.parameters[:9]])  # fmt: skip
@@ -92,11 +94,11 @@ def test_without_drift_its_intervals_cover():
 # --- With drift -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("size", [1e-8, 3e-8, 1e-7, 1e-6])
+@pytest.mark.parametrize("size", thorough.some([1e-8, 3e-8, 1e-7, 1e-6], 2))
 def test_the_band_covers_a_walk(size):
-    """Eight seeds: mean square near 1 in stated sd, over nine tenths within 1.96 sd."""
+    """Some seeds: mean square near 1 in stated sd, over nine tenths within 1.96 sd."""
     z = []
-    for seed in range(8):
+    for seed in range(SEEDS):
         way, record = uneasy(size, seed)
         found = run(record, BED, Options())
         assert found.outcome.usable
@@ -110,7 +112,7 @@ def test_the_band_covers_a_walk_along_one_axis():
     """The other axes stay as narrow as if nothing drifted, to 1.5 times."""
     size, z = np.array([0.0, 3e-8, 0.0]), []
     still = run(calm(), BED, Options()).course.sd.mean(axis=0)
-    for seed in range(6):
+    for seed in range(thorough.count(6, 3)):
         way = random_walk(seed, size, END)
         found = run(noisy(wandered(way, TRACK), seed), BED, Options()).course
         z.append((found.values - com_at(way, found.t)) / found.sd)
@@ -120,16 +122,19 @@ def test_the_band_covers_a_walk_along_one_axis():
 
 
 def test_the_size_of_the_walk_is_found():
-    """A fifth and ten times what is expected: to a factor of 1.6 in x and y, over five seeds."""
+    """A fifth and ten times what is expected: to a factor of 1.6 in x and y, over the seeds."""
     for size in (1e-8, 5e-7):
-        found = [drift_smoother.drifting(uneasy(size, seed)[1], BED, Params()) for seed in range(5)]
+        found = [
+            drift_smoother.drifting(uneasy(size, seed)[1], BED, Params())
+            for seed in range(thorough.count(5, 3))
+        ]
         step = np.exp(np.mean([np.log(each.sd[:2]) for each in found]))
         assert step / np.sqrt(0.5) == pytest.approx(size, rel=0.6)
 
 
 def test_a_ramp_is_followed_from_end_to_end():
     """2 nm/s in x and y for two minutes, with a level camera: how far it went, within 3.5 sd."""
-    for seed in range(4):
+    for seed in range(thorough.count(4, 2)):
         way = ramp(np.array([5e-9, -3e-9, 0.0]), END)
         found = drift_smoother.drifting(noisy(wandered(way, TRACK), seed), level(BED), Params())
         moved, sd = drift_smoother.moved(found, smooth_at(found.fitted))
@@ -337,7 +342,7 @@ def test_jumps_do_not_pull_at_the_scale():
     With the jumps' pull all moments come out many sd too small.
     """
     pulled, free = [], []
-    for seed in range(6):
+    for seed in range(thorough.count(6, 3)):
         _, record = uneasy(1e-6, seed)
         found = run(record, BED, Options())
         sd = np.array([p.sd for p in found.parameters[3:5]])

@@ -15,12 +15,15 @@ from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import AttitudeSensor
+from tests.support import thorough
 from tests.support.builders import COM, INERTIA, move_at, noisy, platform, recording
 from tests.support.driven_records import driven, driven_platform
 from tests.support.outcomes import codes_of
 
 NAMES = (*COM_NAMES, *INERTIA_NAMES)
 TRUTH = np.array([*COM, *INERTIA])
+LENGTH, SHORT = (60.0, 30.0) if thorough.THOROUGH else (30.0, 15.0)  # s
+RECORDS = thorough.count(12, 6)
 
 
 def run(name, recording_, testbed, **options):
@@ -94,9 +97,9 @@ def test_a_leaning_camera_is_drawn():
 
 
 def test_stated_sd_is_the_scatter_of_records():
-    """Corrected momentum on 12 records of half a minute: sd within 30 % of scatter, pooled."""
+    """Corrected momentum on records of half a minute: sd within 30 % of scatter, pooled."""
     bed = driven_platform()
-    found = [run("momentum_corrected", driven(seed, 30.0), bed) for seed in range(12)]
+    found = [run("momentum_corrected", driven(seed, 30.0), bed) for seed in range(RECORDS)]
     values = np.array([each.values(NAMES) for each in found])
     stated = np.array([[each.parameters[each.index(n)].sd for n in NAMES] for each in found])
     z = (values - TRUTH) / stated
@@ -105,7 +108,7 @@ def test_stated_sd_is_the_scatter_of_records():
 
 def test_the_bias_of_a_noisy_regressor_is_found_and_reported():
     """A gyro ten times as noisy: J low by percents; the bias is within the interval, and told."""
-    bed, record = driven_platform(), driven(1, 60.0)
+    bed, record = driven_platform(), driven(1, LENGTH)
     rng = np.random.default_rng(2)
     w = record.rate.values + 10 * bed.gyro.noise * rng.normal(size=record.rate.values.shape)
     noisy_bed = replace(bed, gyro=replace(bed.gyro, noise=10.05 * bed.gyro.noise))
@@ -124,7 +127,7 @@ def test_the_bias_of_a_noisy_regressor_is_found_and_reported():
 def test_what_the_simplified_model_omits_is_reported_and_included_in_the_sd():
     bed = driven_platform()
     bed = replace(bed, body=replace(bed.body, inertia_P=unpack_symmetric(INERTIA)), inertia_sd=0.0)
-    found = run("simplified", driven(1, 60.0), bed)
+    found = run("simplified", driven(1, LENGTH), bed)
     assert "bias_by_model" in codes_of(found)
     sd = np.sqrt(np.diag(found.covariance_of(COM_NAMES)))
     assert np.all(np.abs(found.com - COM) < 3 * sd)
@@ -132,9 +135,9 @@ def test_what_the_simplified_model_omits_is_reported_and_included_in_the_sd():
 
 def test_an_unreported_torque_makes_the_estimate_unusable_and_is_reported():
     """The known torque left out of half the record: far more than noise is left, and it says so."""
-    record = driven(1, 60.0)
+    record = driven(1, LENGTH)
     torque = record.torque
-    half = torque.values * (torque.t < 30)[:, None]
+    half = torque.values * (torque.t < LENGTH / 2)[:, None]
     found = run("momentum_body", replace(record, torque=Samples(torque.t, half)), driven_platform())
     assert not found.outcome.usable
     assert "residual_too_large" in codes_of(found)
@@ -142,7 +145,7 @@ def test_an_unreported_torque_makes_the_estimate_unusable_and_is_reported():
 
 def test_regressor_bias_is_not_mistaken_for_an_unreported_torque():
     """Slopes of a cubic lose percents of J; without that, what is left is noise."""
-    found = run("torque_savitzky_golay", driven(1, 60.0), driven_platform())
+    found = run("torque_savitzky_golay", driven(1, LENGTH), driven_platform())
     assert {"bias_by_noise", "regressor_noise_too_large"} & set(codes_of(found))
     assert found.residual.spectral_peak < 2.0
 
@@ -167,7 +170,7 @@ def test_bands_cover_every_frequency_once():
 
 def test_damped_and_possible_end_where_least_squares_do():
     names = ("momentum_body", "momentum_damped", "momentum_possible")
-    plain, *others = (run(name, driven(1, 60.0), driven_platform()) for name in names)
+    plain, *others = (run(name, driven(1, LENGTH), driven_platform()) for name in names)
     sd = np.sqrt(np.diag(plain.covariance_of(NAMES)))
     for other in others:
         assert np.all(np.abs(other.values(NAMES) - plain.values(NAMES)) < 1e-3 * sd)
@@ -175,7 +178,7 @@ def test_damped_and_possible_end_where_least_squares_do():
 
 def test_error_indices_of_a_good_fit_are_small():
     """What is left is noise of 1e-3 rad/s times J, beside momenta of some 0.01 N m s."""
-    residual = run("momentum_body", driven(1, 60.0), driven_platform()).residual
+    residual = run("momentum_body", driven(1, LENGTH), driven_platform()).residual
     assert 0 < residual.error_index < 0.1
     assert set(residual.error_indices) == set(NAMES)
     assert all(0 < value < 1 for name, value in residual.error_indices.items() if "P_xx" in name)
@@ -186,7 +189,7 @@ def test_every_linear_method_finds_a_held_body(module):
     """J held at the truth, fine sensors: com within 4 stated sd on a known drive."""
     bed = driven_platform()
     bed = replace(bed, body=replace(bed.body, inertia_P=unpack_symmetric(INERTIA)), inertia_sd=0.0)
-    found = module.METHOD.run(driven(1, 30.0), bed, Options(hold=INERTIA_NAMES))
+    found = module.METHOD.run(driven(1, SHORT), bed, Options(hold=INERTIA_NAMES))
     if not found.outcome.usable:
         assert {"regressor_noise_too_large", "residual_too_large"} & set(codes_of(found))
         return

@@ -18,10 +18,12 @@ from equipoise.procedure.identification.swing_metrics import (
     swing_metrics,
 )
 from equipoise.simulation.bench import SimulatedBench
+from tests.support import thorough
 from tests.support.builders import COM, INERTIA, move_at, noisy, platform, recording
 from verification.verdicts import swing
 
 STIFF = np.zeros((3, 3))
+PLATFORMS = range(thorough.count(12, 4))
 
 
 def assessed(record, testbed, **requested):
@@ -108,7 +110,7 @@ def test_a_platform_that_sags_has_the_torque_of_both():
     assert abs(true - stiff) > 0.05 * true
 
 
-@pytest.mark.parametrize("seed", [8, 19])
+@pytest.mark.parametrize("seed", thorough.some([8, 19], 1))
 def test_simple_measurements_agree_with_mujoco(seed):
     """Height, torque and energy within four of their own sd: a camera alone, and with a gyro."""
     from verification.verdicts import measurements
@@ -120,10 +122,10 @@ def test_simple_measurements_agree_with_mujoco(seed):
 
 
 def test_verdicts_are_seldom_wrong():
-    """Twelve platforms of each kind: no more wrong passes than 2.5 % leaves but once in 1000."""
+    """Platforms of each kind: no more wrong passes than 2.5 % leaves but once in 1000."""
     from verification import verdicts
 
-    rows = [*verdicts.drawn_rows(range(12)), *verdicts.edge_rows(range(12))]
+    rows = [*verdicts.drawn_rows(PLATFORMS), *verdicts.edge_rows(PLATFORMS)]
     assert [row.quantity for row in rows if not row.ok] == []
 
 
@@ -141,7 +143,7 @@ def test_the_inertia_that_is_known_is_that_of_the_testbed():
 
 
 def test_measurements_over_time_show_a_drift():
-    """1 um/min along x for nine looks of 40 s; the height stays. Twice as late, twice as far."""
+    """1 um/min along x for nine measurements of 40 s; the height stays."""
     bed = read_preset("sputnix")
     truth = replace(bed.truth, com=np.array([-3e-6, 2e-6, -60e-6]), torque={"drift_x": 1e-6 / 60})
     record = SimulatedBench(replace(bed, truth=truth), 4).read(360.0)
