@@ -6,10 +6,11 @@ nothing is asked again: an answer that comes late would be taken for that of the
 
 from collections import deque
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from equipoise.hardware.boards.tmcl_words import Request, packed, refusal, replies_in
 from equipoise.hardware.transport.driver_protocol import SILENCE
+from equipoise.hardware.transport.tally import Tally
 from equipoise.model.reading import Counts
 
 
@@ -23,7 +24,7 @@ class Answer:
     t: float  # s
 
 
-class Talk:
+class Talk(Tally):
     """Says one script of requests after the other."""
 
     def __init__(self) -> None:
@@ -79,13 +80,13 @@ class Talk:
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
         replies, breaks, self._rest = replies_in(self._rest + data)
-        self._count(corrupt=breaks)
+        self.count(corrupt=breaks)
         for reply in replies:
             pending = self._pending
             if pending is None or reply.command != pending.command:
-                self._count(foreign=1)
+                self.count(foreign=1)
                 continue
-            self._count(good=1)
+            self.count(good=1)
             self._pending = None
             if not self._void:
                 self.answers[pending] = Answer(reply.status, reply.value, reply.done, t)
@@ -95,13 +96,7 @@ class Talk:
         """Return the next request once the one before is answered."""
         if self._pending is not None or not self._script:
             return b""
-        self._count(corrupt=bool(self._rest))
+        self.count(corrupt=bool(self._rest))
         self._rest = b""  # what is left over now belongs to no answer
         self._pending, self._requested, self._void = self._script.popleft(), t, False
         return packed(self._pending)
-
-    def _count(self, good: int = 0, corrupt: int = 0, foreign: int = 0) -> None:
-        c = self.counts
-        self.counts = replace(
-            c, good=c.good + good, corrupt=c.corrupt + corrupt, foreign=c.foreign + foreign
-        )

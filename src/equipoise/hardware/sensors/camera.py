@@ -10,7 +10,6 @@ mjpg-streamer and cameras with an ESP32 send it, is the time at which the pictur
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -19,48 +18,38 @@ from equipoise.hardware.camera.eye import eye_of
 from equipoise.hardware.camera.pose import Pose
 from equipoise.hardware.camera.raw_picture import unpacked
 from equipoise.hardware.camera.sight import Sight
+from equipoise.hardware.sensors.conversation import Conversation
 from equipoise.hardware.transport.mjpeg_stream import Part, Parts
 from equipoise.maths.attitude import from_matrix
 from equipoise.model.hardware import SensorUnit
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Reading
 
 BEGIN, END = b"\xff\xd8", b"\xff\xd9"  # of a JPEG picture
 STAMP = "x-timestamp"
 
 
-class Camera:
+class Camera(Conversation):
     """The conversation with a camera."""
 
     def __init__(self, unit: SensorUnit) -> None:
         self._where = f"hardware.sensor {unit.name}: settings"
         self._eye = eye_of(unit.settings, self._where)
-        self._request = request(unit.port.address)
-        self._parts, self._counts = Parts(), Counts()
-        self._sight = self._anew()
-        self._greet = False
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._counts
+        super().__init__(request(unit.port.address))
+        self._parts, self._sight = Parts(), self._anew()
 
     def opened(self) -> None:
         """Begin anew."""
+        super().opened()
         self._parts.cleared()
-        self._counts, self._sight, self._greet = Counts(), self._anew(), True
-
-    def due(self, t: float) -> bytes:
-        """Return the request for the stream, once."""
-        greet, self._greet = self._greet, False
-        return self._request if greet else b""
+        self._sight = self._anew()
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows of the pictures that are whole with these bytes."""
-        if not self._request:
+        if not self._greeting:
             return self._raw(data)
         lost = self._parts.lost
         readings = [r for part in self._parts.cut(data) for r in self._part(part)]
-        self._count(corrupt=self._parts.lost - lost)
+        self.count(corrupt=self._parts.lost - lost)
         return readings
 
     def _anew(self) -> Sight:
@@ -69,8 +58,7 @@ class Camera:
     def _raw(self, data: bytes) -> list[Reading]:
         picture = unpacked(data)
         if picture is None:
-            self._count(corrupt=1)
-            return []
+            return self.counted([])
         return self._observed(picture.grey, picture.t, picture.number)
 
     def _part(self, part: Part) -> list[Reading]:
@@ -78,26 +66,17 @@ class Camera:
         whole = body.startswith(BEGIN) and body.endswith(END)
         picture = decoded(body) if whole else None
         if picture is None:
-            self._count(corrupt=1)
-            return []
+            return self.counted([])
         return self._observed(picture, stamp_of(part.head.get(STAMP, "")), None)
 
     def _observed(self, picture: Picture, stamp: float | None, number: int | None) -> list[Reading]:
         size = (self._eye.lens.height, self._eye.lens.width)
         pose = self._sight.observe(picture) if picture.shape == size else None
         if not isinstance(pose, Pose):
-            self._count(foreign=1)
-            return []
-        self._count(good=1)
+            return self.counted(None)
         attitude = from_matrix(self._eye.to_laboratory @ pose.turn)
         sd = math.sqrt(float(np.trace(pose.covariance)) / 3)
-        return [Reading("attitude", tuple(map(float, attitude)), stamp, number, sd)]
-
-    def _count(self, good: int = 0, corrupt: int = 0, foreign: int = 0) -> None:
-        now = self._counts
-        self._counts = replace(
-            now, good=now.good + good, corrupt=now.corrupt + corrupt, foreign=now.foreign + foreign
-        )
+        return self.counted([Reading("attitude", tuple(map(float, attitude)), stamp, number, sd)])
 
 
 def request(address: str) -> bytes:

@@ -18,10 +18,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 from equipoise.hardware.sensors.attitudes import unit_row
+from equipoise.hardware.sensors.conversation import Conversation
 from equipoise.hardware.sensors.settings import Settings, check_gives
-from equipoise.hardware.sensors.tally import Tally
 from equipoise.model.hardware import Gives, SensorUnit
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Reading
 from equipoise.model.units import NS
 
 IMU, POSE = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PoseStamped"
@@ -36,7 +36,7 @@ class NotThere(Exception):
     """A message in which a quantity is declared not to be."""
 
 
-class RosBridge:
+class RosBridge(Conversation):
     """The conversation; settings: ``topic_attitude``, ``topic_rate`` and ``type_attitude``."""
 
     def __init__(self, unit: SensorUnit) -> None:
@@ -51,26 +51,9 @@ class RosBridge:
         self._types = {"attitude": settings.text("type_attitude", IMU, (IMU, POSE)), "rate": IMU}
         if len(set(self._topics.values())) < len(self._topics) and self._types["attitude"] == POSE:
             raise settings.wrong(f"one topic of {POSE} for both", f"{IMU}, or two topics")
-        self._tally, self._greet = Tally(), True
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._tally.counts
-
-    def opened(self) -> None:
-        """Begin anew."""
-        self._tally.cleared()
-        self._greet = True
-
-    def due(self, t: float) -> bytes:
-        """Return the subscriptions, once, a line each."""
-        greet, self._greet = self._greet, False
-        if not greet:
-            return b""
         types = {topic: self._types[channel] for channel, topic in self._topics.items()}
         requested = ({"op": "subscribe", "topic": t, "type": kind} for t, kind in types.items())
-        return b"".join(json.dumps(each).encode() + b"\n" for each in requested)
+        super().__init__(b"".join(json.dumps(each).encode() + b"\n" for each in requested))
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows of a message."""
@@ -78,13 +61,8 @@ class RosBridge:
             message = json.loads(data)
             readings = self._published(cast("Message", message)) if _is_published(message) else []
         except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
-            self._tally.corrupt()
-            return []
-        if readings:
-            self._tally.good()
-        else:
-            self._tally.foreign()
-        return readings
+            return self.counted([])
+        return self.counted(readings or None)
 
     def _published(self, message: Message) -> list[Reading]:
         """Return the rows of a topic; raises for one that is not what it should be."""

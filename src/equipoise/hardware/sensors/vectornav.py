@@ -17,11 +17,11 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from equipoise.hardware.sensors.attitudes import from_angles, unit_row
+from equipoise.hardware.sensors.conversation import Conversation
 from equipoise.hardware.sensors.settings import Settings
-from equipoise.hardware.sensors.tally import Tally
 from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.hardware import Gives, SensorUnit
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Reading
 
 Values = Sequence[float]
 
@@ -61,29 +61,18 @@ UNIT = 1e-3  # chosen: a quaternion of six decimals is of length one within this
 KEYS = ("message", "rate_hz")
 
 
-class VectorNav:
+class VectorNav(Conversation):
     """The conversation; settings: ``message`` such as VNQMR and ``rate_hz``, asked for if given."""
 
     def __init__(self, unit: SensorUnit) -> None:
-        self._lines, self._tally = Lines(), Tally()
-        self._greeting = _greeting(unit)
-        self._greet = self._first = False
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._tally.counts
+        super().__init__(_greeting(unit))
+        self._lines, self._first = Lines(), False
 
     def opened(self) -> None:
         """Begin anew."""
+        super().opened()
         self._lines.cleared()
-        self._tally.cleared()
-        self._greet, self._first = True, True
-
-    def due(self, t: float) -> bytes:
-        """Return what asks for messages, once."""
-        greet, self._greet = self._greet, False
-        return self._greeting if greet else b""
+        self._first = True
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows that are complete with these bytes."""
@@ -92,20 +81,11 @@ class VectorNav:
     def _line(self, line: bytes) -> list[Reading]:
         body, first, self._first = checked(line), self._first, False
         if body is None:
-            if not first:  # the port may have been opened in the middle of a line
-                self._tally.corrupt()
+            self.count(corrupt=not first)  # the port may have been opened in the middle of a line
             return []
         name, *fields = body.split(b",")
         message = MESSAGES.get(name)
-        if message is None:
-            self._tally.foreign()
-            return []
-        readings = _readings(message, numbers(fields))
-        if readings:
-            self._tally.good()
-        else:
-            self._tally.corrupt()
-        return readings
+        return self.counted(None if message is None else _readings(message, numbers(fields)))
 
 
 def checked(line: bytes) -> bytes | None:
