@@ -32,15 +32,10 @@ class ReplayedBench:
 
     def __init__(self, testbed: Testbed, recording: Recording, wait: Wait | None = None) -> None:
         """Begin at the first row; ``wait`` is asked to let each reading's time pass, None: no."""
-        self._testbed, self._recording, self._wait = testbed, recording, wait
+        self.testbed, self._recording, self._wait = testbed, recording, wait
         self._time, self._end = recording.span
         self._observed = -math.inf  # s, up to which rows have been handed out
         self._notes: list[str] = []
-
-    @property
-    def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
-        return self._testbed
 
     @property
     def time(self) -> float:
@@ -65,8 +60,8 @@ class ReplayedBench:
 
     def move(self, targets: Mapping[str, float]) -> None:
         """Check displacements (m) against the travel; masses do as was recorded."""
-        here = np.array([self._displacement(name) for name in self._testbed.mass_names])
-        checked_targets(self._testbed.masses, here, targets)
+        here = np.array([self._displacement(name) for name in self.testbed.mass_names])
+        checked_targets(self.testbed.masses, here, targets)
         reported = ", ".join(
             f"{name} to {requested / MM:.3g} mm" for name, requested in targets.items()
         )
@@ -74,7 +69,7 @@ class ReplayedBench:
 
     def drive(self, inputs: Mapping[str, float]) -> None:
         """Note what devices were asked for; they do as was recorded."""
-        checked_inputs(self._testbed.devices, inputs)
+        checked_inputs(self.testbed.devices, inputs)
         self._note(f"asked to drive {', '.join(inputs)}; devices do as was recorded")
 
     def stop(self) -> None:
