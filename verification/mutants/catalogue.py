@@ -32,7 +32,6 @@ MODEL = _of("model", *(
         ("self.inertia_P - parallel_axis", "self.inertia_P + parallel_axis"),
         ("return 0.5 * np.trace(inertia) * EYE", "return np.trace(inertia) * EYE"),
         ("body.mass > 0 and smallest", "body.mass > -1 and smallest"),
-        ("from_centre(body.mass, body.com - new_P", "from_centre(body.mass, body.com + new_P"),
     )
 ))  # fmt: skip
 

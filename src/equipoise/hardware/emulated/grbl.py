@@ -17,7 +17,6 @@ from equipoise.model.testbed import SlidingMass
 from equipoise.model.units import MINUTE, MM
 
 LETTERS = "XYZABC"
-BLOCKS = 15  # of the planner
 LINE = 80  # characters that a line may have
 DELAY = 0.02  # s, chosen: from a command to the first step, as a planner needs
 HOMING = 3.0  # s, chosen: for all axes to find their switches

@@ -6,8 +6,6 @@ A dialect makes such a map from a header; a person writes one as a small TOML fi
 
 from dataclasses import dataclass
 
-AXES = ("x", "y", "z", "-x", "-y", "-z")
-
 
 @dataclass(frozen=True, slots=True)
 class Columns:
