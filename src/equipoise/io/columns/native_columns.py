@@ -9,6 +9,7 @@ One table for all channels; a cell is blank where its channel has no row at that
 
 import re
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +27,15 @@ MOMENTUM = ("h_x_N_m_s", "h_y_N_m_s", "h_z_N_m_s")
 TORQUE = ("torque_x_N_m", "torque_y_N_m", "torque_z_N_m")
 FIELD = ("field_x_uT", "field_y_uT", "field_z_uT")
 TEMPERATURE = ("temperature_degC",)
-GROUPS = (ATTITUDE, RATE, MOMENTUM, TORQUE, FIELD, TEMPERATURE)
+# Of a column map: the columns, and what one of their unit is in SI.
+GROUPS = {
+    "quaternion": (ATTITUDE, 1.0),
+    "rate": (RATE, 1.0),
+    "momentum": (MOMENTUM, 1.0),
+    "torque": (TORQUE, 1.0),
+    "field": (FIELD, UT),
+    "temperature": (TEMPERATURE, 1.0),
+}
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
 OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature)_.*")
@@ -44,21 +53,20 @@ def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
         raise InputError(f"{source}, header", f"no column '{TIME}'", f"'{TIME}', {_shown(names)}")
     masses = [match for match in map(MASS.fullmatch, names) if match]
     devices = [device for device in map(device_of, names) if device]
-    known = [TIME, *chain(*GROUPS), *(m[0] for m in masses), *(d.column for d in devices)]
+    ours = chain.from_iterable(group for group, _ in GROUPS.values())
+    known = [TIME, *ours, *(m[0] for m in masses), *(d.column for d in devices)]
     _check_names(names, known, source)
+    groups: dict[str, Any] = {
+        channel: _group(names, group, source, unit) for channel, (group, unit) in GROUPS.items()
+    }
     return ColumnMap(
         name="native",
         time=(Columns((TIME,)),),
-        quaternion=_group(names, ATTITUDE, source),
-        rate=_group(names, RATE, source),
         masses=tuple(MassColumn(match[1], match[0], MM) for match in masses),
-        momentum=_group(names, MOMENTUM, source),
-        torque=_group(names, TORQUE, source),
         devices=tuple(devices),
-        field=_group(names, FIELD, source, UT),
-        temperature=_group(names, TEMPERATURE, source),
         native=True,
         notes=_left_aside(names, known),
+        **groups,
     )
 
 
@@ -106,7 +114,7 @@ def _spread(channel: Samples, time: Series1, unit: float | Floats) -> Floats:
 
 
 def _group(
-    names: tuple[str, ...], group: tuple[str, ...], source: str, unit: float = 1.0
+    names: tuple[str, ...], group: tuple[str, ...], source: str, unit: float
 ) -> Columns | None:
     """Return the columns of a channel: all of them or none."""
     missing = [name for name in group if name not in names]

@@ -33,6 +33,8 @@ ORTHOGONAL = 1e-3  # chosen: a rotation written to three digits
 class Axis(RecordTable):
     """One axis of a motor board and the mass that it moves."""
 
+    KIND = model.Axis
+
     mass: str
     letter: Annotated[str, Field(pattern=r"^([XYZABC]|[0-9])$")] = Field(
         description="the board's name of the axis; of a Trinamic module the motor's number"
@@ -42,10 +44,6 @@ class Axis(RecordTable):
     )
     zero_mm: float = Field(0.0, description="the board's position where the mass is at home")
     reversed: bool = Field(False, description="the board counts against the mass's axis")
-
-    def record(self, where: str) -> model.Axis:
-        """Return the axis."""
-        return record_of(model.Axis, self, where)
 
 
 class Board(RecordTable):

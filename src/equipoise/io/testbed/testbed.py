@@ -33,6 +33,8 @@ WRITTEN_AS = {"sensor.gyro.noise_density_deg_s_rthz": "sensor.gyro.noise_deg_s"}
 class Attitude(RecordTable):
     """A camera or motion capture."""
 
+    KIND = model.AttitudeSensor
+
     rate_hz: Positive
     noise_deg: Positive = Field(description="one sd per axis and sample")
     delay_s: NotNegative = 0.0
@@ -43,10 +45,6 @@ class Attitude(RecordTable):
         description="one sd of how far its vertical may lean from gravity's, chosen: levelled by "
         "eye; 0: it does not lean",
     )
-
-    def record(self, where: str) -> model.AttitudeSensor:
-        """Return the sensor."""
-        return record_of(model.AttitudeSensor, self, where)
 
 
 class Gyro(RecordTable):

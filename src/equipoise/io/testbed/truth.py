@@ -69,39 +69,33 @@ class Drive(RecordTable):
     Nothing here is relative to what is stated, so that it stays true when that is calibrated.
     """
 
+    KIND = model.TrueDrive
+
     mass: str
     gain: Positive | None = Field(None, description="as the mass's own key")
     axis: Direction | None = Field(None, description="direction of the rail, body axes")
     backlash_mm: NotNegative | None = None
     accuracy_mm: NotNegative | None = Field(None, description="one sd of where it really stops")
 
-    def record(self, where: str) -> model.TrueDrive:
-        """Return the drive."""
-        return record_of(model.TrueDrive, self, where)
-
 
 class Contact(RecordTable):
     """The platform touches something for a moment."""
 
+    KIND = defects.Contact
+
     time_s: Positive
     impulse_N_m_s: Triple = Field(description="about the centre of rotation, laboratory axes")
-
-    def record(self, where: str) -> defects.Contact:
-        """Return the contact."""
-        return record_of(defects.Contact, self, where)
 
 
 class ComStep(RecordTable):
     """A part slips, once."""
 
+    KIND = defects.ComStep
+
     time_s: Positive
     com_um: Annotated[Triple, Holds("shift")] = Field(
         description="by how much the total centre of mass moves, body axes"
     )
-
-    def record(self, where: str) -> defects.ComStep:
-        """Return the slip."""
-        return record_of(defects.ComStep, self, where)
 
 
 class Gap(RecordTable):
