@@ -76,6 +76,7 @@ class Recording(Plotted):
 
 
 CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field", "temperature")
+INPUTS = ("masses", "momentum", "torque", "devices")  # straight lines between their rows
 
 
 def window(recording: Recording, start: float, end: float) -> Recording:
@@ -94,18 +95,11 @@ def window(recording: Recording, start: float, end: float) -> Recording:
         last = int(np.searchsorted(channel.t, end, side="left")) + 1
         return Samples(channel.t[first:last], channel.values[first:last])
 
-    return replace(
-        recording,
-        attitude=sensor(recording.attitude),
-        attitude_norm=sensor(recording.attitude_norm),
-        rate=sensor(recording.rate),
-        masses=known(recording.masses),
-        momentum=known(recording.momentum),
-        torque=known(recording.torque),
-        devices=known(recording.devices),
-        field=sensor(recording.field),
-        temperature=sensor(recording.temperature),
-    )
+    parts = {
+        name: (known if name in INPUTS else sensor)(getattr(recording, name))
+        for name in (*CHANNELS, "attitude_norm")
+    }
+    return replace(recording, **parts)
 
 
 def rows_between(recording: Recording, since: float, until: float) -> Recording:

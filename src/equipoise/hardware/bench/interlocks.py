@@ -63,7 +63,7 @@ def tripped(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reaso
     return (
         _fault(observed)
         or (_leaning(observed, testbed) or _turning(observed, limits) if observed.able else None)
-        or _silence(observed, limits)
+        or (silence(observed, limits) if observed.moving else None)
         or _masses(observed, testbed, limits)
     )
 
@@ -109,10 +109,6 @@ def _turning(observed: Observed, limits: SafetyLimits) -> Reason | None:
     if rate <= limits.rate:
         return None
     return Reason(Interlock.RATE, (), {"rate": rate, "limit": limits.rate})
-
-
-def _silence(observed: Observed, limits: SafetyLimits) -> Reason | None:
-    return silence(observed, limits) if observed.moving else None
 
 
 def _masses(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reason | None:

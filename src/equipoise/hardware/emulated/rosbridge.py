@@ -49,7 +49,9 @@ class EmulatedRosBridge:
         said: list[bytes] = []
         for topic, kind in self._types.items():
             settings = self._unit.settings
-            parts = {name: row[name] for name in row if settings.get(f"topic_{name}") == topic}
+            parts: dict[Gives, Floats] = {
+                name: row[name] for name in row if settings.get(f"topic_{name}") == topic
+            }
             if parts:
                 message = _header(t) | (_imu(parts) if kind.endswith("Imu") else _pose(parts))
                 published = {"op": "publish", "topic": topic, "msg": message}

@@ -55,8 +55,8 @@ class Links:
     @property
     def unreachable(self) -> Reason | None:
         """The first device whose port is closed, and why; None if none is."""
-        links = [(f"sensor {link.unit.name}", link.why) for link in self.sensors]
-        links += [(f"board {link.board.name}", link.why) for link in self.boards]
+        links = [(f"sensor {link.unit.name}", link.connection.why) for link in self.sensors]
+        links += [(f"board {link.board.name}", link.connection.why) for link in self.boards]
         closed = (Reason(Interlock.UNREACHABLE, (name, why)) for name, why in links if why)
         return next(closed, None)
 
@@ -103,4 +103,4 @@ class Links:
     def close(self) -> None:
         """Close every port."""
         for link in (*self.boards, *self.sensors):
-            link.close()
+            link.connection.close()

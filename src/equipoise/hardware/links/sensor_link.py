@@ -32,18 +32,13 @@ class SensorLink:
         periods: Mapping[Gives, float],
     ) -> None:
         """Take how far apart rows of each channel are, s, as the testbed states it."""
-        self.unit, self.driver, self._connection = unit, driver, connection
+        self.unit, self.driver, self.connection = unit, driver, connection
         self._periods = periods
         self.clocks: dict[Gives, DeviceClock] = {}  # channels may come in messages of two clocks
         self.arrivals = Arrivals()
         self._came: float | None = None  # s, when a row last came
         self._last: dict[Gives, float] = {}  # s, the time of the last row of each channel
         self._since: float | None = None  # s, when it was first waited for
-
-    @property
-    def why(self) -> str:
-        """Why the port is closed; empty while it is open."""
-        return self._connection.why
 
     @property
     def health(self) -> Health:
@@ -60,19 +55,15 @@ class SensorLink:
         """Return the rows that have arrived."""
         if self._since is None:
             self._since = t
-        turn = self._connection.turn(t)
+        turn = self.connection.turn(t)
         if turn.opened:
             self.driver.opened()
         rows = self._rows(turn.data, t)
         if rows:
             self._came = t
-        if not self._connection.why:
-            self._connection.send(self.driver.due(t), t)
+        if not self.connection.why:
+            self.connection.send(self.driver.due(t), t)
         return rows
-
-    def close(self) -> None:
-        """Close the port."""
-        self._connection.close()
 
     def _rows(self, turn: Sequence[bytes], t: float) -> list[Row]:
         """Return the rows of all that came in a turn, those of a channel later and later."""

@@ -137,6 +137,7 @@ def read_column_map(path: str | Path) -> ColumnMap:
     source = str(path)
     if table.attitude is None and table.rate is None:
         raise InputError(source, "neither [attitude] nor [rate]", "at least one of them")
+    separator = "\t" if table.separator == "tab" else table.separator
     quaternion, euler = _attitude(table.attitude, f"{source}: attitude")
     body = _axes(table.body, f"{source}: body") or ("x", "y", "z")
     return ColumnMap(
@@ -145,7 +146,10 @@ def read_column_map(path: str | Path) -> ColumnMap:
         quaternion=quaternion,
         euler=euler,
         rate=_triad(table.rate, "rate", f"{source}: rate"),
-        masses=tuple(_mass(m, f"{source}: mass[{i + 1}]") for i, m in enumerate(table.mass)),
+        masses=tuple(
+            MassColumn(m.name, m.column, factor(m.unit, "length", f"{source}: mass[{i}]"))
+            for i, m in enumerate(table.mass, 1)
+        ),
         momentum=_triad(table.momentum, "momentum", f"{source}: momentum"),
         torque=_triad(table.torque, "torque", f"{source}: torque"),
         devices=tuple(_device(d, f"{source}: device[{i + 1}]") for i, d in enumerate(table.device)),
@@ -155,13 +159,8 @@ def read_column_map(path: str | Path) -> ColumnMap:
         body=body,
         inverse=table.attitude is not None and table.attitude.turns == "laboratory to body",
         mean_of_frames=table.mean_of_frames,
-        layout=_layout(table),
+        layout=Layout(separator, table.decimal, table.skip_rows),
     )
-
-
-def _layout(table: MapFile) -> Layout:
-    separator = "\t" if table.separator == "tab" else table.separator
-    return Layout(separator, table.decimal, table.skip_rows)
 
 
 def _attitude(table: AttitudeTable | None, where: str) -> tuple[Columns | None, Euler | None]:
@@ -184,10 +183,6 @@ def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:
         return None
     axes = None if table.axes is None else _axes(table.axes, f"{where}.axes")
     return Columns(tuple(table.columns), factor(table.unit, kind, where), axes)
-
-
-def _mass(table: MassTable, where: str) -> MassColumn:
-    return MassColumn(table.name, table.column, factor(table.unit, "length", where))
 
 
 def _device(table: DeviceTable, where: str) -> DeviceColumn:

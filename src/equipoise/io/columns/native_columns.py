@@ -50,7 +50,8 @@ def is_native(names: tuple[str, ...]) -> bool:
 def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
     """Return what a native header's columns mean; InputError for a name that is nearly ours."""
     if TIME not in names:
-        raise InputError(f"{source}, header", f"no column '{TIME}'", f"'{TIME}', {_shown(names)}")
+        wanted = f"'{TIME}', in s, beside {', '.join(names[:6])}"
+        raise InputError(f"{source}, header", f"no column '{TIME}'", wanted)
     masses = [match for match in map(MASS.fullmatch, names) if match]
     devices = [device for device in map(device_of, names) if device]
     ours = chain.from_iterable(group for group, _ in GROUPS.values())
@@ -133,7 +134,3 @@ def _check_names(names: tuple[str, ...], known: list[str], source: str) -> None:
             mass = "'mass_<name>_mm'" if name.startswith("mass_") else None
             wanted = mass or wanted_column(name) or nearest(name, known)
             raise InputError(f"{source}, header", f"column '{name}'", wanted)
-
-
-def _shown(names: tuple[str, ...]) -> str:
-    return "in s, beside " + ", ".join(names[:6])

@@ -6,7 +6,7 @@ no commands: whoever looks on cannot move anything.
 """
 
 from collections.abc import Mapping
-from types import TracebackType
+from contextlib import AbstractContextManager
 from typing import Any
 
 from equipoise.io.formats.optional_libraries import log_library
@@ -19,7 +19,7 @@ PORT = 8765  # the protocol's customary port
 ADDRESS = f"ws://{LOOPBACK}:{PORT}"
 
 
-class LiveView:
+class LiveView(AbstractContextManager["LiveView"]):
     """A server of the rows that it is given."""
 
     def __init__(self, zero_ns: int, port: int | None = None) -> None:
@@ -56,15 +56,6 @@ class LiveView:
         """End all connections."""
         self._server.stop()
 
-    def __enter__(self) -> "LiveView":
-        """Return the view; it is closed at the end."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_raised: object) -> None:
         """Close."""
         self.close()

@@ -9,7 +9,7 @@ garbled file is read as far as it is sound, and that is noted.
 import json
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -17,9 +17,9 @@ from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.table import Table
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
 from equipoise.io.formats.log_table import LogChannel, log_map, log_table
-from equipoise.io.formats.log_topics import LATEST, chosen
+from equipoise.io.formats.log_topics import FRAME_TRANSFORM, LATEST, chosen
 from equipoise.io.mcap.foreign_mcap import foreign_topics
-from equipoise.io.mcap.foxglove_messages import frame_transform
+from equipoise.io.mcap.foxglove_messages import turned
 from equipoise.io.mcap.live_recording import METADATA, ZERO_KEY, LiveRecording, Opening
 from equipoise.io.mcap.log_messages import (
     CHANNEL_KEY,
@@ -121,7 +121,7 @@ def _values(name: str, keys: tuple[str, ...], data: bytes) -> tuple[float, ...] 
     """Return the numbers of a message; None if it does not hold them."""
     try:
         if name == "attitude":
-            return frame_transform(data)[1]
+            return turned(FRAME_TRANSFORM, data)[1]
         decoded = _json(data)
         return tuple(float(decoded[key]) for key in keys)
     except (KeyError, TypeError, ValueError):
@@ -134,4 +134,4 @@ def _json(data: bytes) -> Any:
         decoded: Any = json.loads(data)
     except ValueError:
         return {}
-    return decoded if isinstance(decoded, dict) else {}
+    return cast("dict[str, Any]", decoded) if isinstance(decoded, dict) else {}
