@@ -33,6 +33,9 @@ MODEL = _of("model", *(
         ("return 0.5 * np.trace(inertia) * EYE", "return np.trace(inertia) * EYE"),
         ("body.mass > 0 and smallest", "body.mass > -1 and smallest"),
     )
+), (
+    "hardware.py", "return self.zero + (-1.0", "return self.zero - (-1.0",
+    "hardware/boards/test_tmcl.py",
 ))  # fmt: skip
 
 MATHS = _of(
@@ -238,8 +241,6 @@ HARDWARE = _of(
     "hardware",
     ("links/frame_transform.py", "return values @ unit.alignment.T",
      "return values @ unit.alignment", "hardware/sensors/test_sensors.py"),
-    ("boards/tmcl_steps.py", "axis.zero + _sign(axis) * displacement",
-     "axis.zero - _sign(axis) * displacement", "hardware/boards/test_tmcl.py"),
     ("boards/grbl.py", "/ way.duration * MINUTE", "/ way.duration / MINUTE",
      "hardware/boards/test_grbl.py"),
     ("sensors/vectornav.py", "(v[3], v[0], v[1], v[2])", "(v[0], v[1], v[2], v[3])",

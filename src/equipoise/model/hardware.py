@@ -40,6 +40,14 @@ class Axis:
     zero: float  # m, the board's position where the displacement is zero
     reversed: bool = False
 
+    def displacement(self, position: float) -> float:
+        """Return the mass's displacement (m) at a position of the board (m)."""
+        return (-1.0 if self.reversed else 1.0) * (position - self.zero)
+
+    def position(self, displacement: float) -> float:
+        """Return the board's position (m) of a displacement (m)."""
+        return self.zero + (-1.0 if self.reversed else 1.0) * displacement
+
 
 @dataclass(frozen=True, slots=True)
 class MotorBoard:

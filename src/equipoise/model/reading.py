@@ -17,7 +17,6 @@ class Reading:
     values: tuple[float, ...]  # 4 or 3 numbers
     stamp: float | None = None  # s, on the device's clock; None: it tells no time
     number: int | None = None  # of the row, as the device counts; None: it does not
-    sd: float | None = None  # rad or rad/s, one sd per axis as the device states it
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,18 +15,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from equipoise.hardware.boards.axis_letters import check_letters
-from equipoise.hardware.boards.grbl_report import (
-    Code,
-    Ok,
-    Report,
-    Setting,
-    Status,
-    Welcome,
-    parsed,
-)
+from equipoise.hardware.boards.grbl_report import Code, Report, Setting, Status, Word, parsed
 from equipoise.hardware.boards.grbl_settings import LETTERS, disagreement
 from equipoise.hardware.boards.grbl_words import alarm_sentence, error_sentence
 from equipoise.hardware.boards.legs import next_leg, time_left
+from equipoise.hardware.transport.conversation import Tally
 from equipoise.hardware.transport.driver_protocol import (
     LEG,
     POLL,
@@ -36,7 +29,6 @@ from equipoise.hardware.transport.driver_protocol import (
     Phase,
 )
 from equipoise.hardware.transport.line_splitter import Lines
-from equipoise.hardware.transport.tally import Tally
 from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import MotorBoard
 from equipoise.model.reading import Counts
@@ -60,7 +52,7 @@ class Grbl(Tally):
         self._board, self._masses = board, tuple(masses)
         self._speed = {mass.name: mass.speed for mass in masses}
         self._lines = Lines()
-        self._zero = {axis.mass: axis.zero for axis in board.axes}
+        self._axes = {axis.mass: axis for axis in board.axes}
         self.state = BoardState("connecting")
         self._begin(0.0)
 
@@ -134,11 +126,11 @@ class Grbl(Tally):
             self._status(report, t)
         elif isinstance(report, Setting):
             self._settings[report.number] = report.value
-        elif isinstance(report, Ok):
-            self._taken(t)
         elif isinstance(report, Code):
             self._trouble(report)
-        elif isinstance(report, Welcome):
+        elif report is Word.OK:
+            self._taken(t)
+        elif report is Word.WELCOME:
             self._welcomed(t)
 
     def _welcomed(self, t: float) -> None:
@@ -177,11 +169,14 @@ class Grbl(Tally):
         if machine is None:
             self.state = replace(self.state, reported=t)
             return
-        columns = {axis.mass: LETTERS.index(axis.letter) for axis in self._board.axes}
+        columns = {mass: LETTERS.index(axis.letter) for mass, axis in self._axes.items()}
         if max(columns.values()) >= len(machine):  # the line lost a part: Grbl tells every axis
             self.count(corrupt=1)
             return
-        position = {name: self._displacement(name, machine[k]) for name, k in columns.items()}
+        position = {
+            mass: self._axes[mass].displacement(in_si(machine[k], MM))
+            for mass, k in columns.items()
+        }
         self.state = replace(self.state, position=position, reported=t)
         self._settle(t)
 
@@ -231,9 +226,10 @@ class Grbl(Tally):
             return b""
         self._todo.pop(0)
         if not self._board.homing:
-            for axis in self._board.axes:
-                sign = -1.0 if axis.reversed else 1.0
-                self._zero[axis.mass] += sign * self.state.position[axis.mass]
+            self._axes = {
+                mass: replace(axis, zero=axis.position(self.state.position[mass]))
+                for mass, axis in self._axes.items()
+            }
             position = dict.fromkeys(self.state.position, 0.0)
             self.state = replace(self.state, position=position)
         self._aim(dict.fromkeys(self.state.position, 0.0))
@@ -256,9 +252,9 @@ class Grbl(Tally):
             self._sent = dict(self.state.goal)
             return b""
         words, square = "", 0.0
-        for axis in self._board.axes:
+        for axis in self._axes.values():
             if axis.mass in way.to:
-                words += f" {axis.letter}{self._position(axis.mass, way.to[axis.mass]):.4f}"
+                words += f" {axis.letter}{axis.position(way.to[axis.mass]) / MM:.4f}"
                 square += ((way.to[axis.mass] - self._sent[axis.mass]) / MM) ** 2
         feed = max(square**0.5 / way.duration * MINUTE, 1.0)
         self._sent = {**self._sent, **way.to}
@@ -297,15 +293,3 @@ class Grbl(Tally):
         self.state = replace(self.state, phase="fault", sentence=sentence, sure=sure)
         if not lost:
             self._urgent = CANCEL
-
-    def _displacement(self, name: str, position_mm: float) -> float:
-        sign = -1.0 if self._reversed(name) else 1.0
-        return sign * (in_si(position_mm, MM) - self._zero[name])
-
-    def _position(self, name: str, displacement: float) -> float:
-        """Return the board's position, mm."""
-        sign = -1.0 if self._reversed(name) else 1.0
-        return (self._zero[name] + sign * displacement) / MM
-
-    def _reversed(self, name: str) -> bool:
-        return next(axis.reversed for axis in self._board.axes if axis.mass == name)

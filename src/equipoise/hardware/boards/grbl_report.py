@@ -10,6 +10,7 @@ A position may be that of the machine (MPos) or of the work (WPos), which is les
 import math
 import re
 from dataclasses import dataclass
+from enum import Enum
 
 WELCOME = re.compile(rb"Grbl \d+\.\d+\S* \[")
 SETTING = re.compile(rb"\$(\d+)=([-+0-9.eE]+)")
@@ -26,14 +27,12 @@ class Status:
     offset: tuple[float, ...] | None  # mm, work's zero in the machine's frame
 
 
-@dataclass(frozen=True, slots=True)
-class Ok:
-    """A line was taken."""
+class Word(Enum):
+    """What is said without a number."""
 
-
-@dataclass(frozen=True, slots=True)
-class Welcome:
-    """It has just begun."""
+    OK = "a line was taken"
+    WELCOME = "it has just begun"
+    REMARK = "a message for people, or an echo"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,22 +51,17 @@ class Setting:
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class Remark:
-    """A message for people, or an echo."""
-
-
-Report = Status | Ok | Welcome | Code | Setting | Remark
+Report = Status | Word | Code | Setting
 
 
 def parsed(line: bytes) -> Report | None:
     """Return what a line says; None for one that is none of Grbl's, or broken."""
     if line == b"ok":
-        return Ok()
+        return Word.OK
     if line.startswith(b"<"):
         return _status(line)
     if WELCOME.match(line):
-        return Welcome()
+        return Word.WELCOME
     code = CODE.fullmatch(line)
     if code:
         return Code(code[1] == b"ALARM", int(code[2]))
@@ -75,7 +69,7 @@ def parsed(line: bytes) -> Report | None:
     if setting:
         value = _number(setting[2])
         return None if value is None else Setting(int(setting[1]), value)
-    return Remark() if line.startswith(b"[") and line.endswith(b"]") else None
+    return Word.REMARK if line.startswith(b"[") and line.endswith(b"]") else None
 
 
 def _status(line: bytes) -> Status | None:

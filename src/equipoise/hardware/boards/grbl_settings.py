@@ -50,8 +50,7 @@ def _of_axis(
 
 def _travel(axis: Axis, mass: SlidingMass, greatest: float) -> str:
     """Grbl's machine space after homing is from minus the travel to zero."""
-    sign = -1.0 if axis.reversed else 1.0
-    ends = sorted((axis.zero + sign * end) / MM for end in mass.travel)
+    ends = sorted(axis.position(end) / MM for end in mass.travel)
     if -greatest * (1 + NEAR) <= ends[0] and ends[1] <= NEAR:
         return ""
     found = f"$13{LETTERS.index(axis.letter)}={greatest:g} mm of travel, {-greatest:g} to 0"

@@ -9,8 +9,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from equipoise.hardware.boards.tmcl_words import Request, packed, refusal, replies_in
+from equipoise.hardware.transport.conversation import Tally
 from equipoise.hardware.transport.driver_protocol import SILENCE
-from equipoise.hardware.transport.tally import Tally
 from equipoise.model.reading import Counts
 
 

@@ -19,7 +19,7 @@ SAME = 0.01  # rad, chosen: attitudes nearer than that are one
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Corners:
-    """Corners of markers, on the board and in the picture."""
+    """Corners of a board's markers or squares, on the board and in one picture."""
 
     board: Floats  # (n, 3) m
     picture: Floats  # (n, 2) px

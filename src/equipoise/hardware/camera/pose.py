@@ -27,8 +27,8 @@ from equipoise.hardware.camera.borders import Offsets, offsets
 from equipoise.hardware.camera.first_pose import SAME, Corners, Place, angle_between, places_of
 from equipoise.hardware.camera.lens import Lens
 from equipoise.hardware.camera.tag_board import Borders
-from equipoise.maths.attitude import exponential, from_matrix, to_matrix
-from equipoise.model.arrays import Bools, Floats, Matrix3, Quaternion, Vector3
+from equipoise.maths.attitude import exponential, to_matrix
+from equipoise.model.arrays import Bools, Floats, Matrix3
 
 FLOOR = 0.03  # px, chosen: no border is told better than that, however well all fit
 CLEARLY = 4.0  # chosen: corners that fit with this times the squares are of the wrong pose
@@ -50,18 +50,11 @@ class Unseen(Enum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pose:
-    """Where the board is."""
+    """How the board is turned."""
 
     turn: Matrix3  # R, board to camera
-    position: Vector3  # m, of the board's origin, camera axes
     covariance: Matrix3  # rad^2, of a small turn in board axes
     rms: float  # px, of what is left of the borders
-    points: int  # of borders that were used
-
-    @property
-    def attitude(self) -> Quaternion:
-        """R as a quaternion, scalar first."""
-        return from_matrix(self.turn)
 
 
 def poses_of(picture: Picture, lens: Lens, corners: Corners, borders: Borders) -> list[Pose]:
@@ -96,7 +89,7 @@ def refined(picture: Picture, lens: Lens, borders: Borders, place: Place) -> Pos
         turn = turn @ to_matrix(exponential(last.step[:3]))
         position = position + last.step[3:6]
         borders = replace(borders, points=borders.points - last.step[6] * borders.outward)
-    return None if last is None else _stated(turn, position, last)
+    return None if last is None else _stated(turn, last)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,8 +119,8 @@ def _used(observed: Offsets) -> Bools:
     return observed.observed & (np.abs(off) <= OUTLYING * max(sd, LEAST_SD))
 
 
-def _stated(turn: Matrix3, position: Vector3, last: Step) -> Pose:
+def _stated(turn: Matrix3, last: Step) -> Pose:
     squares, count = float(last.left @ last.left), len(last.left)
     square = max(squares / (count - UNKNOWNS), FLOOR**2)
     whole = square * floats(np.linalg.inv(last.slopes.T @ last.slopes))
-    return Pose(turn, position, whole[:3, :3], (squares / count) ** 0.5, count)
+    return Pose(turn, whole[:3, :3], (squares / count) ** 0.5)

@@ -4,8 +4,6 @@ Where the board was in the picture before, it is looked for first: a part of the
 in a part of the time. What is not found there is looked for everywhere.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from equipoise.hardware.camera import aruco
@@ -20,14 +18,7 @@ AROUND = 0.15  # of the board's extent, chosen: what it may move from picture to
 MOST_LOST = 0.2  # of the markers, chosen: when more are gone, all of the picture is searched
 
 
-@dataclass(frozen=True, slots=True)
-class Region:
-    """A part of a picture, px."""
-
-    left: int
-    top: int
-    right: int
-    bottom: int
+Region = tuple[slice, slice]  # rows and columns of a picture, px
 
 
 class Sight:
@@ -62,12 +53,11 @@ class Sight:
             if len(found) >= (1 - MOST_LOST) * self._count:
                 return found
         height, width = picture.shape[:2]
-        return self._within(picture, Region(0, 0, width, height))
+        return self._within(picture, (slice(0, height), slice(0, width)))
 
     def _within(self, picture: Picture, region: Region) -> dict[int, Floats]:
-        part = picture[region.top : region.bottom, region.left : region.right]
-        offset = np.array([region.left, region.top])
-        pairs = aruco.found(self._seeker, np.ascontiguousarray(part))
+        offset = np.array([region[1].start, region[0].start])
+        pairs = aruco.found(self._seeker, np.ascontiguousarray(picture[region]))
         ids = [number for number, _ in pairs]
         return {
             number: corners + offset
@@ -95,4 +85,4 @@ def _around(corners: Floats, picture: Picture) -> Region:
     height, width = picture.shape[:2]
     left, top = np.maximum(low - margin, 0).astype(int)
     right, bottom = np.minimum(high + margin + 1, [width, height]).astype(int)
-    return Region(int(left), int(top), int(right), int(bottom))
+    return slice(int(top), int(bottom)), slice(int(left), int(right))

@@ -10,7 +10,7 @@ from equipoise.hardware.links.clock_sync import DeviceClock, learnt, to_bench
 from equipoise.hardware.links.frame_transform import placed
 from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.row_buffer import Row
-from equipoise.hardware.transport.driver_protocol import SensorDriver
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.hardware.transport.reconnecting_port import Connection
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Reading

@@ -11,14 +11,12 @@ mjpg-streamer and cameras with an ESP32 send it, is the time at which the pictur
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from equipoise.hardware.camera.aruco import Picture, decoded
 from equipoise.hardware.camera.eye import eye_of
 from equipoise.hardware.camera.pose import Pose
 from equipoise.hardware.camera.raw_picture import unpacked
 from equipoise.hardware.camera.sight import Sight
-from equipoise.hardware.sensors.conversation import Conversation
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.hardware.transport.mjpeg_stream import Part, Parts
 from equipoise.maths.attitude import from_matrix
 from equipoise.model.hardware import SensorUnit
@@ -28,7 +26,7 @@ BEGIN, END = b"\xff\xd8", b"\xff\xd9"  # of a JPEG picture
 STAMP = "x-timestamp"
 
 
-class Camera(Conversation):
+class Camera(SensorDriver):
     """The conversation with a camera."""
 
     def __init__(self, unit: SensorUnit) -> None:
@@ -75,8 +73,7 @@ class Camera(Conversation):
         if not isinstance(pose, Pose):
             return self.counted(None)
         attitude = from_matrix(self._eye.to_laboratory @ pose.turn)
-        sd = math.sqrt(float(np.trace(pose.covariance)) / 3)
-        return self.counted([Reading("attitude", tuple(map(float, attitude)), stamp, number, sd)])
+        return self.counted([Reading("attitude", tuple(map(float, attitude)), stamp, number)])
 
 
 def request(address: str) -> bytes:

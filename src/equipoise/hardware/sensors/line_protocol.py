@@ -23,8 +23,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 from equipoise.hardware.sensors.columns import SKIPPED, columns_of
-from equipoise.hardware.sensors.conversation import Conversation
 from equipoise.hardware.sensors.settings import Settings
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.reading import Reading
@@ -38,7 +38,7 @@ WHOLE = ("udp:", "udpout:", "ws:", "wss:")  # ports whose messages hold whole li
 Numbers = dict[str, float]
 
 
-class LineProtocol(Conversation):
+class LineProtocol(SensorDriver):
     """The conversation; settings: ``format``, ``columns``, and a line to ``send`` at opening."""
 
     def __init__(self, unit: SensorUnit) -> None:

@@ -20,8 +20,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from equipoise.hardware.sensors.attitudes import unit_row
-from equipoise.hardware.sensors.conversation import Conversation
 from equipoise.hardware.sensors.settings import Settings
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.reading import Reading
@@ -36,7 +36,7 @@ GYRO = 0x38  # bits of HIGHRES_IMU.fields_updated: gyro x, y, z
 UNIT = 1e-3  # chosen: a quaternion of single precision is of length one well within this
 
 
-class Mavlink(Conversation):
+class Mavlink(SensorDriver):
     """The conversation; settings: ``rate_hz``, asked for if given, and ``rate_from``."""
 
     def __init__(self, unit: SensorUnit) -> None:

@@ -17,8 +17,8 @@ from collections.abc import Sequence
 
 from equipoise.hardware.sensors import natnet_packet as natnet
 from equipoise.hardware.sensors.attitudes import unit_row
-from equipoise.hardware.sensors.conversation import Conversation
 from equipoise.hardware.sensors.settings import Settings, check_gives
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.reading import Reading
 
@@ -27,7 +27,7 @@ UNIT = 1e-3  # chosen: a quaternion of single precision is of length one well wi
 UNICAST = "udpout:"
 
 
-class NatNet(Conversation):
+class NatNet(SensorDriver):
     """The conversation; setting: ``body``, a rigid body's streaming id or its name."""
 
     def __init__(self, unit: SensorUnit) -> None:

@@ -6,8 +6,7 @@
 Source: rosbridge v2.0 protocol specification; sensor_msgs/Imu, geometry_msgs/PoseStamped and REP
 145 for what they hold. Quaternions x, y, z, w turn the frame of the message into its world, whose
 Z is up; rates are rad/s about the axes of the message. -1 as the first number of a covariance says
-that a quantity is not there. A covariance of zeros is one that is not known; else the sd is of the
-mean variance of the three axes.
+that a quantity is not there.
 
 An attitude may come as Imu or as PoseStamped, a rate as Imu, from one topic or from two.
 """
@@ -18,8 +17,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 from equipoise.hardware.sensors.attitudes import unit_row
-from equipoise.hardware.sensors.conversation import Conversation
 from equipoise.hardware.sensors.settings import Settings, check_gives
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Reading
 from equipoise.model.units import NS
@@ -36,7 +35,7 @@ class NotThere(Exception):
     """A message in which a quantity is declared not to be."""
 
 
-class RosBridge(Conversation):
+class RosBridge(SensorDriver):
     """The conversation; settings: ``topic_attitude``, ``topic_rate`` and ``type_attitude``."""
 
     def __init__(self, unit: SensorUnit) -> None:
@@ -81,8 +80,8 @@ def _is_published(message: Any) -> bool:
 
 
 def _of_imu(message: Message) -> Reading:
-    sd = _sd(message["orientation_covariance"])
-    return Reading("attitude", _turn(message["orientation"]), _stamp(message), sd=sd)
+    _check_there(message["orientation_covariance"])
+    return Reading("attitude", _turn(message["orientation"]), _stamp(message))
 
 
 def _of_pose(message: Message) -> Reading:
@@ -90,8 +89,8 @@ def _of_pose(message: Message) -> Reading:
 
 
 def _rate(message: Message) -> Reading:
-    sd = _sd(message["angular_velocity_covariance"])
-    return Reading("rate", _numbers(message["angular_velocity"], "xyz"), _stamp(message), sd=sd)
+    _check_there(message["angular_velocity_covariance"])
+    return Reading("rate", _numbers(message["angular_velocity"], "xyz"), _stamp(message))
 
 
 TAKEN = {IMU: _of_imu, POSE: _of_pose}
@@ -125,12 +124,8 @@ def _stamp(message: Message) -> float | None:
     return seconds + nanoseconds * NS or None
 
 
-def _sd(covariance: Sequence[Any]) -> float | None:
-    """Return the sd of one axis; None if it is not known. Raises NotThere for no quantity."""
-    first, second, third = (_number(covariance[k]) for k in (0, 4, 8))
+def _check_there(covariance: Sequence[Any]) -> None:
+    """Raise NotThere for a covariance by which there is no such quantity."""
+    first, _, _ = (_number(covariance[k]) for k in (0, 4, 8))
     if first == NONE:
         raise NotThere
-    variances = (first, second, third)
-    if not all(math.isfinite(each) and each > 0 for each in variances):
-        return None
-    return math.sqrt(sum(variances) / 3)

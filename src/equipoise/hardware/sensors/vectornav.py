@@ -17,8 +17,8 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from equipoise.hardware.sensors.attitudes import from_angles, unit_row
-from equipoise.hardware.sensors.conversation import Conversation
 from equipoise.hardware.sensors.settings import Settings
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Reading
@@ -61,7 +61,7 @@ UNIT = 1e-3  # chosen: a quaternion of six decimals is of length one within this
 KEYS = ("message", "rate_hz")
 
 
-class VectorNav(Conversation):
+class VectorNav(SensorDriver):
     """The conversation; settings: ``message`` such as VNQMR and ``rate_hz``, asked for if given."""
 
     def __init__(self, unit: SensorUnit) -> None:

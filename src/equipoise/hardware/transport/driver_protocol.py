@@ -5,37 +5,16 @@ bench's clock. So each can be tested by the bytes of its manual, and fuzzed. Not
 raises: what cannot be understood is counted.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, Protocol, TypeVar
 
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Counts
 
 Phase = Literal["connecting", "ready", "homing", "moving", "halted", "fault"]
 
 Kind = TypeVar("Kind")
-
-
-class SensorDriver(Protocol):
-    """The conversation with one sensor."""
-
-    def opened(self) -> None:
-        """Begin anew: the port has just been opened, half a message of before is void."""
-        ...
-
-    def feed(self, data: bytes) -> Sequence[Reading]:
-        """Return the rows that are complete with these bytes (for UDP: this datagram)."""
-        ...
-
-    def due(self, t: float) -> bytes:
-        """Return what to send now: a greeting, a request, a heartbeat; asked at every turn."""
-        ...
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)

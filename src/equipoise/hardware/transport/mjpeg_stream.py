@@ -30,7 +30,6 @@ class Parts:
         self._chunks: Chunks | None = None
         self._boundary: bytes | None = None
         self.lost = 0  # parts that could not be understood
-        self.answered = ""  # the server's first line
 
     def cut(self, data: bytes) -> list[Part]:
         """Return the parts that are whole with these bytes."""
@@ -50,9 +49,7 @@ class Parts:
         if not blank:
             self._raw = head[-MOST_HEAD:]
             return b""
-        line, _, names = head.partition(b"\r\n")
-        self.answered = line.decode("latin-1")
-        reported = named(names)
+        reported = named(head.partition(b"\r\n")[2])
         kind = reported.get("content-type", "")
         boundary = kind.partition("boundary=")[2].partition(";")[0].strip().strip('"')
         self._raw = b""
