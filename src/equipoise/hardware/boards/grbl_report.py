@@ -7,10 +7,11 @@ A position may be that of the machine (MPos) or of the work (WPos), which is les
 (WCO) that is told now and then.
 """
 
-import math
 import re
 from dataclasses import dataclass
 from enum import Enum
+
+from equipoise.hardware.transport.finite_numbers import all_finite, finite
 
 WELCOME = re.compile(rb"Grbl \d+\.\d+\S* \[")
 SETTING = re.compile(rb"\$(\d+)=([-+0-9.eE]+)")
@@ -67,7 +68,7 @@ def parsed(line: bytes) -> Report | None:
         return Code(code[1] == b"ALARM", int(code[2]))
     setting = SETTING.fullmatch(line.partition(b" ")[0])
     if setting:
-        value = _number(setting[2])
+        value = finite(setting[2])
         return None if value is None else Setting(int(setting[1]), value)
     return Word.REMARK if line.startswith(b"[") and line.endswith(b"]") else None
 
@@ -83,22 +84,8 @@ def _status(line: bytes) -> Status | None:
     for field in fields:
         key, _, text = field.partition(":")
         if key in ("MPos", "WPos", "WCO"):
-            place = _place(text)
+            place = all_finite(text.split(","))
             if place is None:
                 return None
             places[key] = place
     return Status(state, places.get("MPos"), places.get("WPos"), places.get("WCO"))
-
-
-def _place(text: str) -> tuple[float, ...] | None:
-    values = [_number(part.encode("ascii", "replace")) for part in text.split(",")]
-    found = tuple(value for value in values if value is not None)
-    return found if len(found) == len(values) else None
-
-
-def _number(text: bytes) -> float | None:
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None

@@ -8,7 +8,6 @@ mjpg-streamer and cameras with an ESP32 send it, is the time at which the pictur
 ``camera:`` each datagram is a picture.
 """
 
-import math
 from collections.abc import Sequence
 
 from equipoise.hardware.camera.aruco import Picture, decoded
@@ -17,6 +16,7 @@ from equipoise.hardware.camera.pose import Pose
 from equipoise.hardware.camera.raw_picture import unpacked
 from equipoise.hardware.camera.sight import Sight
 from equipoise.hardware.transport.conversation import SensorDriver
+from equipoise.hardware.transport.finite_numbers import finite
 from equipoise.hardware.transport.mjpeg_stream import Part, Parts
 from equipoise.maths.attitude import from_matrix
 from equipoise.model.hardware import SensorUnit
@@ -65,7 +65,7 @@ class Camera(SensorDriver):
         picture = decoded(body) if whole else None
         if picture is None:
             return self.counted([])
-        return self._observed(picture, stamp_of(part.head.get(STAMP, "")), None)
+        return self._observed(picture, finite(part.head.get(STAMP, "")), None)
 
     def _observed(self, picture: Picture, stamp: float | None, number: int | None) -> list[Reading]:
         size = (self._eye.lens.height, self._eye.lens.width)
@@ -82,12 +82,3 @@ def request(address: str) -> bytes:
         return b""
     host, _, path = address.removeprefix("http://").partition("/")
     return f"GET /{path} HTTP/1.1\r\nHost: {host}\r\nAccept: */*\r\n\r\n".encode()
-
-
-def stamp_of(text: str) -> float | None:
-    """Return the time of a picture, s; None if it is not told."""
-    try:
-        stamp = float(text)
-    except ValueError:
-        return None
-    return stamp if math.isfinite(stamp) else None

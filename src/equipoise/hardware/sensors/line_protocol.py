@@ -17,7 +17,6 @@ message holds whole lines.
 """
 
 import json
-import math
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
@@ -25,6 +24,7 @@ from typing import Any, cast
 from equipoise.hardware.sensors.columns import SKIPPED, columns_of
 from equipoise.hardware.sensors.settings import Settings
 from equipoise.hardware.transport.conversation import SensorDriver
+from equipoise.hardware.transport.finite_numbers import all_finite
 from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.reading import Reading
@@ -132,8 +132,5 @@ def _at(message: Any, path: Sequence[str]) -> Any:
 
 
 def _finite(fields: Mapping[str, Any]) -> Numbers | None:
-    try:
-        found = {name: float(field) for name, field in fields.items()}
-    except (ValueError, OverflowError):
-        return None
-    return found if all(map(math.isfinite, found.values())) else None
+    values = all_finite(fields.values())
+    return None if values is None else dict(zip(fields, values, strict=True))

@@ -12,13 +12,16 @@ transpose of ours. Angles are yaw, pitch, roll in degrees, 3-2-1. Rates are rad/
 The device tells no time here, so rows are stamped as they arrive.
 """
 
-import math
+from binascii import crc_hqx
 from collections.abc import Callable, Sequence
+from functools import reduce
+from operator import xor
 from typing import NamedTuple
 
 from equipoise.hardware.sensors.attitudes import from_angles, unit_row
 from equipoise.hardware.sensors.settings import Settings
 from equipoise.hardware.transport.conversation import SensorDriver
+from equipoise.hardware.transport.finite_numbers import all_finite
 from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Reading
@@ -85,7 +88,7 @@ class VectorNav(SensorDriver):
             return []
         name, *fields = body.split(b",")
         message = MESSAGES.get(name)
-        return self.counted(None if message is None else _readings(message, numbers(fields)))
+        return self.counted(None if message is None else _readings(message, fields))
 
 
 def checked(line: bytes) -> bytes | None:
@@ -103,33 +106,17 @@ def checked(line: bytes) -> bytes | None:
 
 def exclusive_or(body: bytes) -> int:
     """Return the 8-bit checksum."""
-    total = 0
-    for byte in body:
-        total ^= byte
-    return total
+    return reduce(xor, body, 0)
 
 
 def crc16(body: bytes) -> int:
     """Return the 16-bit checksum: CRC-CCITT, polynomial 0x1021, begun at zero."""
-    crc = 0
-    for byte in body:
-        crc ^= byte << 8
-        for _ in range(8):
-            crc = (crc << 1) ^ 0x1021 if crc & 0x8000 else crc << 1
-    return crc & 0xFFFF
+    return crc_hqx(body, 0)
 
 
-def numbers(fields: Sequence[bytes]) -> list[float]:
-    """Return fields as finite numbers; an empty list if one is none."""
-    try:
-        found = [float(field) for field in fields]
-    except ValueError:
-        return []
-    return found if all(map(math.isfinite, found)) else []
-
-
-def _readings(message: Message, values: list[float]) -> list[Reading]:
-    if len(values) != message.width:
+def _readings(message: Message, fields: Sequence[bytes]) -> list[Reading]:
+    values = all_finite(fields)
+    if values is None or len(values) != message.width:
         return []
     found: list[Reading] = []
     wanted: tuple[tuple[Gives, Callable[[Values], tuple[float, ...]] | None], ...] = (

@@ -5,7 +5,7 @@ from typing import Any
 
 from equipoise.io.formats.log_topics import Topic, Values
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.formats.ros_messages import DECODERS, stamp_of, values_of
+from equipoise.io.formats.ros_messages import DECODERS, stamp_of
 from equipoise.io.mcap.foxglove_messages import ROTATION, Turned, turned, turned_json
 from equipoise.io.mcap.mcap_salvage import Salvage
 
@@ -57,7 +57,7 @@ def _decoder(kind: str, encoding: str, source: str) -> Decoder | None:
 
     def decode(data: bytes) -> tuple[int, Values]:
         message = deserialise(data, kind)
-        return stamp_of(message), values_of(kind, message)
+        return stamp_of(message), DECODERS[kind](message)
 
     return decode
 
