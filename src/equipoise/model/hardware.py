@@ -62,7 +62,7 @@ class MotorBoard:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SensorUnit:
-    """A device that sees attitude, rate or both.
+    """A device that measures attitude, rate or both.
 
     With S = ``alignment`` (sensor to body), q the sensor's own attitude and L the turn of its
     laboratory frame to ours (Z up):  w_B = S w_S,  R(q_BN) = L R(q) S^T.

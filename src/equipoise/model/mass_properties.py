@@ -23,7 +23,7 @@ def parallel_axis(mass: float, offset: Vector3) -> Matrix3:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class MassProperties(Plotted):
-    """A rigid body as seen from the point P, in body axes."""
+    """A rigid body, referred to the point P, in body axes."""
 
     mass: float  # kg
     com: Vector3  # m, from P to the centre of mass

@@ -15,7 +15,7 @@ class Reading:
 
     channel: Gives
     values: tuple[float, ...]  # 4 or 3 numbers
-    stamp: float | None = None  # s, on the device's clock; None: it tells no time
+    stamp: float | None = None  # s, on the device's clock; None: it stamps no rows
     number: int | None = None  # of the row, as the device counts; None: it does not
 
 

@@ -60,13 +60,13 @@ class Recording(Plotted):
     field: Samples | None = None  # (n, 3) T, magnetic, body axes, as the magnetometer gave it
     temperature: Samples | None = None  # (n, 1) degC, of the air at the bench or of the platform
     # (n, 1) lengths of the attitude's quaternions as they were found, at the attitude's times; None
-    # when they told no more than rounding. A mean of frames is shorter than one. Not written.
+    # when they differ by no more than rounding. A mean of frames is shorter than one. Not written.
     attitude_norm: Samples | None = None
     source: str = ""  # the file, or the bench
     sha256: str = ""  # of the file's bytes; empty when it never was a file
     notes: tuple[str, ...] = ()  # what reading it had to set right
     gaps: tuple[str, ...] = ()  # where reading it found a sensor silent
-    free_from: float | None = None  # s, when the platform was let go, where the file tells
+    free_from: float | None = None  # s, when the platform was let go, where the file states it
 
     @property
     def span(self) -> tuple[float, float]:

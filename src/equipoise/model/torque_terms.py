@@ -18,8 +18,8 @@ GROUPS: dict[str, tuple[str, ...]] = {
 }
 TERMS: tuple[str, ...] = tuple(term for group in GROUPS.values() for term in group)
 # Of each group the unit, and how large its terms are, SI, one sd, chosen: a few times what benches
-# are reported to have. Where the data do not tell a term apart, it is as large as this at most,
-# with what that does to all else.
+# are reported to have. Where the data do not determine a term, this is its prior, and all else
+# is as uncertain as that makes it.
 SIZES: dict[str, tuple[str, float]] = {
     "viscous": ("N m s", 1e-4),
     "quadratic": ("N m s2", 1e-3),

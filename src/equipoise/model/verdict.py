@@ -76,5 +76,5 @@ class Verdict(Coded):
 
     @property
     def noise_floor(self) -> Vector3 | None:
-        """Return 1.96 sd (m): along an axis, a smaller offset cannot be told from none (95 %)."""
+        """Return 1.96 sd (m): along an axis, a smaller offset is not significant (95 %)."""
         return None if self.sd is None else NORMAL_95 * self.sd

@@ -145,7 +145,7 @@ def test_a_body_is_found_by_its_name():
 def test_a_declaration_that_cannot_be_is_named(settings, said):
     with pytest.raises(InputError, match=said):
         NatNet(unit("natnet", **settings))
-    with pytest.raises(InputError, match="tells no rate"):
+    with pytest.raises(InputError, match="sends no rate"):
         NatNet(replace(unit("natnet"), gives=("attitude", "rate")))
 
 

@@ -1,7 +1,7 @@
 """The keeper of a bench: its ports, its interlocks, and all that they say, turn by turn.
 
-One turn looks at every port, feeds the drivers, asks the interlocks, sends what is due and hands
-on what was heard. It does not wait and knows no clock. Whoever commands can be lost at any moment:
+One turn polls every port, feeds the drivers, evaluates the interlocks, sends what is due and hands
+on what was received. It does not wait and has no clock. The commander can be lost at any moment:
 then ``halt`` is called for it.
 """
 
@@ -26,11 +26,11 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import MM
 
-REMEMBERED = 0.2  # s, chosen: between the two answers from which a mass's speed is told
+REMEMBERED = 0.2  # s, chosen: between the two answers from which a mass's speed is computed
 
 
 class Listener(Protocol):
-    """Who is told all that happens: a recording, a live view."""
+    """Who receives all that happens: a recording, a live view."""
 
     def rows(self, recording: Recording) -> None:
         """Take rows as they arrive."""
@@ -79,11 +79,11 @@ class Keeper:
         return BenchState(self.trip, trouble, links.answered, links.ready, silent is None)
 
     def listen(self, listener: Listener) -> None:
-        """Tell someone all that happens from now on."""
+        """Hand all that happens from now on to a listener."""
         self._listeners.append(listener)
 
     def turn(self, t: float) -> None:
-        """Look at everything once."""
+        """Poll every device and evaluate every interlock once."""
         self.t = t
         for link in self.links.sensors:
             self._sensed(link, t)
@@ -95,7 +95,7 @@ class Keeper:
         self._report(t)
 
     def taken(self) -> Recording:
-        """Return the rows heard since this was last asked."""
+        """Return the rows received since the last call."""
         return self._received.taken()
 
     def begin(self) -> None:
@@ -177,7 +177,7 @@ class Keeper:
         return Observed(t, self._attitudes, self._rates, silent, states, self._before)
 
     def _remember(self, t: float) -> None:
-        """Keep an earlier answer of each board, from which speeds are told."""
+        """Keep an earlier answer of each board, to compute speeds from."""
         for state in self.links.states.values():
             if state.reported is None or not state.sure:
                 continue
@@ -198,14 +198,14 @@ class Keeper:
         self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
 
     def _report(self, t: float) -> None:
-        """Hand on what was heard."""
+        """Hand on what was received."""
         fresh = self._received.fresh()
         if fresh is not None:
             self._hand_on(lambda listener: listener.rows(fresh))
         self._hand_on(lambda listener: listener.turn(t))
 
     def _hand_on(self, report: Callable[[Listener], None]) -> None:
-        """Tell every listener; one that cannot take it any more stops the bench, and only once."""
+        """Report to every listener; one that fails stops the bench, and only once."""
         for listener in list(self._listeners):
             if listener not in self._listeners:  # it failed when the stop for another was noted
                 continue

@@ -137,7 +137,7 @@ class DistantKeeper:
 
     @property
     def now(self) -> float:
-        """The keeper's time as last told, s."""
+        """The keeper's time by the last news, s."""
         return self._news.t
 
     def wait(self) -> None:
@@ -156,7 +156,7 @@ class DistantKeeper:
         return self._news.state
 
     def taken(self) -> Recording:
-        """Return the rows heard since this was last asked."""
+        """Return the rows received since the last call."""
         parts, self._parts = self._parts, []
         return joined([Recording(mass_names=self.testbed.mass_names), *parts])
 
@@ -198,7 +198,7 @@ class DistantKeeper:
         return self._answer()
 
     def _answer(self, patience: float = ANSWER) -> Any:
-        """Wait until the keeper has carried out what it was told; return or raise what it says.
+        """Wait until the keeper has carried out the command; return or raise its answer.
 
         What somebody asked who was interrupted before the answer came is nobody's any more.
         """

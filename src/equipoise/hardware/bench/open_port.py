@@ -18,7 +18,7 @@ from equipoise.model.hardware import Port as Address
 
 
 def open_port(port: Address) -> Port:
-    """Return the port at an address, open. Raises PortLost, or InputError for a strange address."""
+    """Return the port at an address, open. Raises PortLost, or InputError for an unknown scheme."""
     scheme, _, rest = port.address.partition(":")
     opener = OPENERS.get(scheme)
     if opener is None:

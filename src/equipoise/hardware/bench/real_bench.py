@@ -40,7 +40,7 @@ class RealBench:
 
     def __init__(self, keeper: Keeper | DistantKeeper, clock: Clock) -> None:
         self._keeper, self._clock, self.testbed = keeper, clock, keeper.testbed
-        self._reported = keeper.state.trip  # a stop that was told already
+        self._reported = keeper.state.trip  # a stop that was reported already
 
     @property
     def time(self) -> float:
@@ -122,7 +122,7 @@ class RealBench:
         self._turn()
 
     def _turn(self) -> None:
-        """Let the keeper look; raise what stopped it, once."""
+        """Let the keeper take a turn; raise what stopped it, once."""
         self._keeper.turn(self._clock.now)
         trip = self._keeper.state.trip
         if trip is not None and trip is not self._reported:

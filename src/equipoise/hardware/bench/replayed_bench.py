@@ -1,4 +1,4 @@
-"""A recording as a bench: what was seen is seen again, at any speed.
+"""A recording as a bench: what was recorded is read again, at any speed.
 
 The four verbs of ``model.bench``. What a recording cannot do again is to obey: a move is checked
 against the travel, as any bench checks it, and noted; masses then do as they did. Time is the
@@ -20,10 +20,12 @@ Wait = Callable[[float], None]  # s
 
 
 class RecordingEnded(EquipoiseError):
-    """There is nothing more to see."""
+    """There is nothing more to read."""
 
     def __init__(self, source: str, end: float) -> None:
-        super().__init__(f"{source or 'recording'}: it ends at {end:.3f} s; nothing more is seen")
+        super().__init__(
+            f"{source or 'recording'}: it ends at {end:.3f} s; there is nothing more to read"
+        )
         self.end = end
 
 

@@ -39,7 +39,7 @@ RESET, HOLD, RESUME, CANCEL = b"\x18", b"!", b"~", b"\x85"
 BEGIN = 4.0  # s, chosen: an Arduino's loader takes two of them after the port is opened
 TRY = 1.5  # s, chosen: between resets while it has not begun
 LONGEST_HOMING = 60.0  # s, chosen: it answers nothing meanwhile
-THERE = 2e-6  # m, chosen: positions are told to 1 um
+THERE = 2e-6  # m, chosen: positions are reported to 1 um
 SETTLED = 0.3  # s, chosen: standing for so long, it goes nowhere else
 
 
@@ -170,7 +170,7 @@ class Grbl(Tally):
             self.state = replace(self.state, reported=t)
             return
         columns = {mass: LETTERS.index(axis.letter) for mass, axis in self._axes.items()}
-        if max(columns.values()) >= len(machine):  # the line lost a part: Grbl tells every axis
+        if max(columns.values()) >= len(machine):  # the line lost a part: Grbl reports every axis
             self.count(corrupt=1)
             return
         position = {
@@ -194,7 +194,7 @@ class Grbl(Tally):
             if there or t - max(self._still, self._since) > SETTLED:
                 self.state = replace(state, phase="ready", sure=True)
 
-    # --- What it is told ---------------------------------------------------------------------
+    # --- What is sent ------------------------------------------------------------------------
 
     def _next(self, t: float) -> bytes:
         """Return the next line, one at a time."""
@@ -262,7 +262,7 @@ class Grbl(Tally):
         return f"$J=G53 G21 G90{words} F{feed:.2f}\n".encode()
 
     def _stop_again(self, t: float) -> bytes:
-        """Hold a leg, too, that was on its way to the board when it was told to hold."""
+        """Cancel a leg, too, that was on its way to the board when the hold was sent."""
         again = self.state.phase == "halted" and self._said in ("Jog", "Run")
         return CANCEL if again and t - self._still > POLL else b""
 

@@ -4,7 +4,7 @@
     ok   error:9   ALARM:1   $100=80.000   [MSG:...]   Grbl 1.1h ['$' for help]
 
 A position may be that of the machine (MPos) or of the work (WPos), which is less by an offset
-(WCO) that is told now and then.
+(WCO) that the board reports now and then.
 """
 
 import re

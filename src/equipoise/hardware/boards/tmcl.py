@@ -1,15 +1,15 @@
 """Trinamic's stepper modules with TMCL firmware, in binary, over a serial line, USB or TCP.
 
-Everything is a script of requests (``tmcl_talk``). Opened, a module is asked what it is and how it
-is set, is told the speed of each mass, and given a mark: a variable of its working memory, which
-is 0 again after a reset. While masses stand or move, one round of questions follows another:
+Everything is a script of requests (``tmcl_talk``). When the port opens, the driver reads the
+module's version and settings, writes the speed of each mass, and sets a mark: a variable of the
+working memory, which is 0 again after a reset. While masses stand or move, it repeats a round:
 
     targets of masses on their way, where these are, a limit switch ahead of one, the mark
 
-A round counts once its mark is seen, so that no position of a module that began anew is believed,
-nor the end of a search that a reset ended. Masses find their position by the module's own reference
-search; those without switches stand at home when a person says so. Source: TMCM-6110 TMCL Firmware
-Manual V1.31, 4.6 and chapters 5, 6.
+A round counts only with its mark. So the driver accepts no position of a module that has
+restarted, nor the end of a search that a reset broke off. Masses find their position by the
+module's own reference search; those without switches stand at home when a person says so. Source:
+TMCM-6110 TMCL Firmware Manual V1.31, 4.6 and chapters 5, 6.
 """
 
 from collections.abc import Mapping, Sequence
@@ -260,7 +260,7 @@ class Tmcl:
             self._fault("it does not answer: unplugged, without power, or no TMCL", silent=True)
 
     def _fault(self, sentence: str, silent: bool = False) -> None:
-        """Stop, as far as it hears; nothing moves until it has come home."""
+        """Stop, if requests still reach the module; nothing moves until it has homed."""
         self._plan, self._doing, self._mute = [], "", silent
         if self.state.phase != "fault":
             self.state = replace(self.state, phase="fault", sentence=sentence, sure=False)

@@ -2,8 +2,8 @@
 
     microsteps = (zero +- displacement) * steps per metre
 
-A motor is told a target no farther than two legs ahead of where it was last seen, anew in every
-round of questions: TMCL keeps no queue, and a target replaces the one before.
+Every round sends each motor a target at most two legs ahead of its last reported position: TMCL
+keeps no queue, and a target replaces the one before.
 """
 
 from collections.abc import Mapping, Sequence

@@ -1,8 +1,8 @@
 """The lens from pictures of a chessboard with markers (ChArUco), held at many angles.
 
 Z. Zhang (2000), "A flexible new technique for camera calibration", IEEE PAMI 22(11), 1330-1334,
-as OpenCV has it. A lens that the pictures do not tell is refused, with what to do: its numbers
-would look good on the very same pictures, and turn attitudes elsewhere.
+as OpenCV has it. A lens that the pictures do not determine is refused, with what to do: its numbers
+would fit the very same pictures, and turn attitudes elsewhere.
 """
 
 from collections.abc import Sequence
@@ -36,7 +36,7 @@ class Calibration:
 
 
 def lens_from(views: Sequence[Corners], size: tuple[int, int]) -> Calibration:
-    """Return the lens of pictures of a size (width, height, px); InputError if they do not tell."""
+    """Return the lens of pictures of a size (width, height, px); InputError if too few."""
     useful = [view for view in views if len(view.picture) >= CORNERS]
     if len(useful) < VIEWS:
         found = f"the chessboard in {len(useful)} of {len(views)} pictures"

@@ -1,4 +1,4 @@
-"""What a camera that looks at a board must be told, from its settings.
+"""Board, lens and mounting of a camera, from its settings.
 
 dictionary, columns, rows, marker_mm, gap_mm, first_id        the board as printed
 fx_px, fy_px, cx_px, cy_px, width_px, height_px, k1, k2, p1, p2, k3    the lens

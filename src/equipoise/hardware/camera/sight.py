@@ -1,7 +1,7 @@
 """From picture to attitude: markers found, matched with the board, and its pose.
 
-Where the board was in the picture before, it is looked for first: a part of the picture is searched
-in a part of the time. What is not found there is looked for everywhere.
+The search begins where the board was in the previous picture: a part of a picture takes a part of
+the time. If markers are missing there, the whole picture is searched.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ Region = tuple[slice, slice]  # rows and columns of a picture, px
 
 
 class Sight:
-    """Looks at one picture after the other."""
+    """Evaluates one picture after the other."""
 
     def __init__(self, board: TagBoard, lens: Lens, where: str) -> None:
         self._board, self._lens = board, lens
@@ -30,7 +30,7 @@ class Sight:
         self._borders = {number: board.borders(number) for number in board.ids}
         self._before: Pose | None = None
         self._region: Region | None = None
-        self._count = 0  # of markers seen in the picture before
+        self._count = 0  # of markers found in the previous picture
 
     def observe(self, picture: Picture) -> Pose | Unseen:
         """Return the board's pose in a picture."""
@@ -66,7 +66,7 @@ class Sight:
         }
 
     def _matched(self, markers: dict[int, Floats]) -> tuple[Corners, Borders]:
-        """Return what is on the board where the markers were seen."""
+        """Return the corners and borders of the markers that were found."""
         own = np.concatenate([self._board.corners(number) for number in markers])
         each = [self._borders[number] for number in markers]
         borders = Borders(

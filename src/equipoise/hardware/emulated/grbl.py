@@ -46,7 +46,7 @@ class EmulatedGrbl:
         self._count = max(3, *(LETTERS.index(axis.letter) + 1 for axis in board.axes))
         self._settings = _defaults(board, masses, self._count)
         self._input, self._said = b"", b""
-        # Masses stand at home when the power comes on, wherever the board believes that to be.
+        # Masses stand at home when the power comes on, wherever the board counts that to be.
         self._at = self._place({axis.mass: 0.0 for axis in board.axes})
         self._blocks: deque[Block] = deque()
         self._legs: list[Leg] = []
@@ -110,7 +110,7 @@ class EmulatedGrbl:
         if byte == b"\x18":
             self._reset()
         elif byte in at_once:
-            if self._state != "Home":  # it looks at nothing but a reset while it homes
+            if self._state != "Home":  # it takes nothing but a reset while it homes
                 at_once[byte]()
         elif byte in (b"\n", b"\r"):
             line, self._input = self._input, b""

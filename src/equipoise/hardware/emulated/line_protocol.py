@@ -23,7 +23,7 @@ CLOCKS = {"t_s": 1.0, "t_ms": MS, "t_us": US}
 
 
 class EmulatedLineProtocol:
-    """Prints CSV or JSON; hears nothing."""
+    """Prints CSV or JSON; ignores what is sent to it."""
 
     def __init__(self, unit: SensorUnit) -> None:
         self._unit, self._n = unit, 0

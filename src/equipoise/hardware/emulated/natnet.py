@@ -17,7 +17,7 @@ NONE = struct.pack("<ii", 0, 0)  # a section of nothing
 
 
 class EmulatedNatNet:
-    """Answers who it is and what its bodies are called; tells each attitude in a frame."""
+    """Answers who it is and what its bodies are called; sends each attitude in a frame."""
 
     def __init__(self, unit: SensorUnit) -> None:
         self._unit, self._number = unit, 0

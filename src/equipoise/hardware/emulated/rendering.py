@@ -2,7 +2,7 @@
 
 Projection and distortion are written out here, apart from the estimator's, so that no error is
 shared. The board's print is an exact average over each pixel of a texture; a pixel of the picture
-is looked up there:
+is interpolated there:
 
     pixel -> direction (distortion undone by iteration) -> plane of the board -> texture
 
@@ -151,7 +151,7 @@ class Renderer:
 
 
 def project(points: Floats, lens: Lens) -> Floats:
-    """Return where points (n, 3) m in camera axes are seen, px; see ``camera.lens``."""
+    """Return the pixels of points (n, 3) m in camera axes; see ``camera.lens``."""
     x, y = points[:, 0] / points[:, 2], points[:, 1] / points[:, 2]
     bent = bend(x, y, lens)
     return np.column_stack([lens.fx * bent[0] + lens.cx, lens.fy * bent[1] + lens.cy])

@@ -56,7 +56,7 @@ class EmulatedTmcl:
         for axis in board.axes:
             motor = self._motors[int(axis.letter)]
             motor.axis, motor.stored = axis, _set_with_care(axis, by_name[axis.mass])
-            # Masses stand at home when the power comes on, wherever the module believes that to be.
+            # Masses stand at home when the power comes on, wherever the module counts that to be.
             motor.begin = motor.to = axis.zero * axis.steps_per_m
         self._legs: list[Leg] = []
         self._input, self._now = b"", 0.0

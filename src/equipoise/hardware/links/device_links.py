@@ -41,7 +41,7 @@ class Links:
 
     @property
     def reported(self) -> float | None:
-        """When the last of the boards told a position, s; None while one is not sure of its own."""
+        """When a board last reported a position, s; None while one does not know its own."""
         states = self.states.values()
         known = [s.reported for s in states if s.reported is not None and s.sure]
         return max(known) if known and len(known) == len(states) else None
@@ -96,7 +96,7 @@ class Links:
             link.driver.halt(t)
 
     def send(self, t: float) -> None:
-        """Send what boards are to hear."""
+        """Send each board what its driver has to say."""
         for link in self.boards:
             link.send(t)
 

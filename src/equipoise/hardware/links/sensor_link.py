@@ -94,8 +94,8 @@ class SensorLink:
         """Return when rows were taken, s.
 
         By the device's clock, which all rows of the turn have taught first; by the period, counted
-        back from now, where it tells no time. None for one that is older than the row before, as a
-        clock is that was begun late.
+        back from now, where the device stamps no rows. None for a row older than the one before, as
+        from a clock that was begun late.
         """
         if not stamps:
             return []

@@ -1,9 +1,9 @@
-"""A camera that looks at a board of markers on the platform.
+"""A camera that observes a board of markers on the platform.
 
 Settings: see ``hardware.camera.eye``. The sensor's axes are the board's (X to the right and Y up
 as it is printed, Z out of the print); its laboratory has Z up, by ``up_x, up_y, up_z``.
 
-Over ``http:`` it hears pictures in a stream (MJPEG); the head X-Timestamp of a part, as
+Over ``http:`` it receives pictures in a stream (MJPEG); the head X-Timestamp of a part, as
 mjpg-streamer and cameras with an ESP32 send it, is the time at which the picture was taken. Over
 ``camera:`` each datagram is a picture.
 """

@@ -101,7 +101,7 @@ class Mavlink(SensorDriver):
         return self.counted(self._readings(kind, message) if ours else None)
 
     def _of_the_vehicle(self, kind: str, message: Any) -> bool:
-        """Say whether a message is of the first vehicle heard, and of use; note its answers."""
+        """Say whether a message is of use and of the first vehicle received; note its answers."""
         beats = kind == "HEARTBEAT" and message.autopilot != self._dialect.MAV_AUTOPILOT_INVALID
         if self._vehicle is None and (beats or kind in IDS):
             self._vehicle = (message.get_srcSystem(), message.get_srcComponent())

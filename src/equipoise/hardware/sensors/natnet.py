@@ -33,7 +33,7 @@ class NatNet(SensorDriver):
     def __init__(self, unit: SensorUnit) -> None:
         super().__init__()
         settings = Settings(unit, ("body",))
-        check_gives(unit, ["attitude"], '"attitude" alone: NatNet tells no rate')
+        check_gives(unit, ["attitude"], '"attitude" alone: NatNet sends no rate')
         self._requests = unit.port.address.startswith(UNICAST)
         self._name, self._id = _body(unit, settings, self._requests)
         self._next, self._answered = float("-inf"), False

@@ -9,7 +9,7 @@ components to north-east-down ones: a device turned by +psi about down says (0, 
 cos psi/2), and its own matrix, printed in the manual for the way from NED to the sensor, is the
 transpose of ours. Angles are yaw, pitch, roll in degrees, 3-2-1. Rates are rad/s.
 
-The device tells no time here, so rows are stamped as they arrive.
+These messages hold no time, so rows are stamped as they arrive.
 """
 
 from binascii import crc_hqx

@@ -25,7 +25,7 @@ class BoardState:
     sentence: str = ""  # of a fault, for people: what happened and what to do
     position: Mapping[str, float] = field(default_factory=dict[str, float])  # m, displacement
     goal: Mapping[str, float] = field(default_factory=dict[str, float])  # m, where masses are sent
-    reported: float | None = None  # s, when the position was last told; None: never
+    reported: float | None = None  # s, time of the last reported position; None: never
     sure: bool = False  # the position is known: found by switches or by a person, not lost since
 
 

@@ -112,7 +112,7 @@ def http_port(port: Address, rest: str) -> Port:
 
 
 def udp_port(port: Address, rest: str) -> Port:
-    """Return a socket that hears datagrams sent to a port of ours, or to a multicast group."""
+    """Return a socket that receives datagrams sent to a local port or to a multicast group."""
     group, _, number = rest.rpartition(":")
     connection = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     connection.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -128,7 +128,7 @@ def udp_port(port: Address, rest: str) -> Port:
 
 
 def udp_out_port(port: Address, rest: str) -> Port:
-    """Return a socket that sends to another computer and hears what it answers."""
+    """Return a socket that sends to another computer and receives its answers."""
     host, _, number = rest.rpartition(":")
     to = (socket.gethostbyname(host), int(number))
     connection = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

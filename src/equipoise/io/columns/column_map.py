@@ -27,7 +27,7 @@ class Euler:
 
 @dataclass(frozen=True, slots=True)
 class MassColumn:
-    """A mass and the column that tells its displacement."""
+    """A mass and the column of its displacement."""
 
     mass: str
     column: str
@@ -45,7 +45,7 @@ class DeviceColumn:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """How a text is cut into cells. What is None is found out by looking."""
+    """How a text is cut into cells. What is None is detected."""
 
     separator: str | None = None
     decimal: str | None = None
@@ -73,5 +73,5 @@ class ColumnMap:
     mean_of_frames: bool = False  # rows may be means of several quaternions, hence short
     native: bool = False  # our own files keep our own rules: time never goes back, no blank time
     notes: tuple[str, ...] = ()  # what the dialect left aside
-    free_from: float | None = None  # s, when the platform was let go, where the file tells
+    free_from: float | None = None  # s, when the platform was let go, where the file states it
     layout: Layout = Layout()

@@ -1,6 +1,6 @@
 """A column map as a person writes it: TOML, each declaration with its unit.
 
-separator = ";"                     # left out: found by looking
+separator = ";"                     # left out: detected
 decimal = ","
 skip_rows = 2                       # lines before the header
 lab_up = "y"                        # the laboratory axis that points up

@@ -46,6 +46,6 @@ def si_column(device: str) -> str:
 
 
 def wanted_column(name: str) -> str | None:
-    """Return what the column of a device must look like; None if a name means no device's."""
+    """Return the form of a device's column; None if a name means no device's."""
     reported = name.split("_", 1)[0]
     return f"'{reported}_<name>_{UNITS[reported][0]}'" if reported in UNITS else None

@@ -39,7 +39,7 @@ GROUPS = {
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
 OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature)_.*")
-NAMED = 5  # columns that are told by name; chosen: a screen
+NAMED = 5  # columns that a note names; chosen: a screen
 
 
 def is_native(names: tuple[str, ...]) -> bool:

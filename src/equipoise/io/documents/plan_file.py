@@ -220,7 +220,7 @@ def wave_keys(wave: SquareWave, testbed: Testbed) -> dict[str, Any]:
 
 
 def predicted_keys(plan: Plan) -> dict[str, list[float]]:
-    """Return what a plan promises, if all of it is seen."""
+    """Return what a plan promises, if all of it is observable."""
     if plan.com_sd is None or plan.inertia_sd is None:
         return {}
     com = [float(f"{x / UM:.4g}") for x in plan.com_sd]

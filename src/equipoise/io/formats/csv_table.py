@@ -3,7 +3,7 @@
 What we write reads back to the last bit.
 
 Motive writes several header lines (kind, name, identity, rotation or position) above the one with
-X, Y, Z, W; a name that occurs twice there is told apart by what stands above it.
+X, Y, Z, W; a name that occurs twice there is distinguished by what stands above it.
 """
 
 import csv
@@ -18,7 +18,7 @@ from equipoise.io.columns.table import Table
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
-SEPARATORS = (";", "\t")  # looked for before the comma, which may be a decimal comma
+SEPARATORS = (";", "\t")  # sought before the comma, which may be a decimal comma
 HEAD_LINES = 50  # lines; chosen: more than any header has
 SHARE = 0.5  # of a row's filled cells that must be numbers for it to hold data (chosen)
 ABOVE = 3  # filled cells that a line above the header needs to belong to it (chosen)

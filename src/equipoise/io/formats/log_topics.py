@@ -26,7 +26,7 @@ BEST = {
 
 @dataclass(slots=True)
 class Topic:
-    """What one topic told."""
+    """The rows of one topic."""
 
     name: str
     type: str

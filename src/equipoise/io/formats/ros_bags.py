@@ -42,7 +42,7 @@ def read_bag(path: Path, content: bytes) -> tuple[Table, ColumnMap]:
 
 
 def _topics(path: Path) -> list[Topic]:
-    """Return what the topics of known types tell."""
+    """Return the topics of known types."""
     highlevel: Any = log_library("rosbags.highlevel", str(path))
     types: Any = log_library("rosbags.typesys", str(path))
     # Bags of ROS 2 before Iron do not say what their types are; ours have been the same since.

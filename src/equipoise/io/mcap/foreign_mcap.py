@@ -14,7 +14,7 @@ TURNED: dict[str, Callable[[str, bytes], Turned]] = {"protobuf": turned, "json":
 
 
 def foreign_topics(found: Salvage, source: str) -> list[Topic]:
-    """Return what the topics tell whose type is known; messages that make no sense are left out."""
+    """Return the topics of known types; messages that make no sense are left out."""
     topics: dict[int, tuple[Topic, Decoder]] = {}
     for channel in found.channels.values():
         schema = found.schemas.get(channel.schema_id)
@@ -44,7 +44,7 @@ def _type(name: str) -> str:
 
 
 def _decoder(kind: str, encoding: str, source: str) -> Decoder | None:
-    """Return how messages of a type are read; None if it tells nothing we know."""
+    """Return how messages of a type are read; None if the type is unknown."""
     if kind in ROTATION and encoding in TURNED:
         return lambda data: _attitude(TURNED[encoding](kind, data))
     if kind not in DECODERS or encoding not in ("cdr", "ros1"):

@@ -1,8 +1,8 @@
-"""What a bench sees, live: a Foxglove WebSocket server that Foxglove and PlotJuggler connect to.
+"""The rows of a bench, live: a Foxglove WebSocket server that Foxglove and PlotJuggler connect to.
 
 Protocol: Foxglove WebSocket, public (subprotocol ``foxglove.sdk.v1``). Messages are those of the
-file (``log_messages``). It listens on this computer alone unless it is told otherwise, and takes
-no commands: whoever looks on cannot move anything.
+file (``log_messages``). It listens on this computer alone and takes no commands: an observer
+cannot move anything.
 """
 
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""A recording written to MCAP as it arrives, so that a crash or a power cut leaves what was seen.
+"""A recording written to MCAP as it arrives, so that a crash or a power cut leaves all rows so far.
 
 The file is a row of chunks, each with its own checksum; what follows the last whole chunk is lost
 and nothing before it. A chunk is ended, and given to the disk, every half second and with every
@@ -137,7 +137,7 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
     def _guarded(self, work: Any) -> Any:
         """Return what the work gives; a file that failed, then or before, stops the recording.
 
-        The library tells a failed write as an error without a cause, or only on stderr.
+        The library reports a failed write as an error without a cause, or only on stderr.
         """
         done = None
         if self._file.failure is None:

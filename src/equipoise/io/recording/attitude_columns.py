@@ -27,7 +27,7 @@ DIGITS = 12  # decimals up to which a column is taken as rounded (chosen: a doub
 
 
 def lengths(channel: Channel) -> Channel | None:
-    """Return the lengths (n, 1) of quaternions as found, if they tell more than rounding.
+    """Return the lengths (n, 1) of quaternions as found, if they differ by more than rounding.
 
     A component rounded to d decimals is off by 10^-d / 2 at most, a length by 10^-d.
     """

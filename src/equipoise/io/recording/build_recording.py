@@ -51,7 +51,7 @@ class Rows:
         return in_body_axes(channel, columns, self.columns.body), notes
 
 
-@np.errstate(invalid="ignore", over="ignore")  # such a number is told with its row, in words
+@np.errstate(invalid="ignore", over="ignore")  # an error names such a number and its row
 def recording_of(table: Table, columns: ColumnMap) -> Recording:
     """Return what a table holds; InputError if it is too little or makes no sense."""
     source, order = _rows(table, columns)

@@ -63,7 +63,7 @@ class Board(RecordTable):
 
 
 class SensorUnit(RecordTable):
-    """A device that sees attitude, rate or both."""
+    """A device that measures attitude, rate or both."""
 
     name: Name
     driver: str = Field(description="vectornav, lines, mavlink, natnet, rosbridge or camera")
@@ -94,7 +94,7 @@ class Hardware(RecordTable):
     """What is connected, and beyond which limits every motor is stopped."""
 
     rate_limit_deg_s: Annotated[Positive, Holds("limits.rate")] = Field(
-        60.0, description="chosen: far above any free swing"
+        60.0, description="chosen: well above any free swing"
     )
     stale_s: Annotated[Positive, Holds("limits.stale")] = Field(
         0.5, description="chosen: without a row or an answer for so long"

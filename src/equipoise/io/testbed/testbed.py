@@ -76,7 +76,7 @@ class Gyro(RecordTable):
 
 
 class Sensors(Table):
-    """What sees the platform."""
+    """What measures the platform's motion."""
 
     attitude: Attitude | None = None
     gyro: Gyro | None = None
@@ -156,7 +156,7 @@ def _check_field(file: TestbedFile, source: str) -> None:
         wanted = "a table [magnetic_field] with field_uT, in laboratory axes"
         raise InputError(f"{source}: magnetorquer", "magnetorquers but no magnetic field", wanted)
     if file.truth is not None and file.truth.field_uT is not None:
-        wanted = "a table [magnetic_field] with the field as known beforehand"
+        wanted = "a table [magnetic_field] with the nominal field"
         raise InputError(f"{source}: truth.field_uT", "a true field but none that is known", wanted)
 
 
