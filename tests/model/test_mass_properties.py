@@ -32,7 +32,7 @@ def bodies(draw):
 
 
 def cube() -> MassProperties:
-    """6 kg, sides of 1 m, seen from its centre: m a^2 / 6 = 1 kg m^2 about every axis."""
+    """6 kg, sides of 1 m, about its centre: m a^2 / 6 = 1 kg m^2 about every axis."""
     return MassProperties(6.0, np.zeros(3), np.eye(3))
 
 

@@ -30,7 +30,7 @@ class Observability:
 
 @dataclass(frozen=True, slots=True)
 class FilterView:
-    """What a filter sees."""
+    """What a filter can observe."""
 
     name: str
     size: int  # of its state

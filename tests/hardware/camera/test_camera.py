@@ -51,7 +51,7 @@ SETTINGS = {
     "cy_px": 479.5,
     "k1": -0.1,
 }
-DOWN = np.diag([1.0, -1.0, -1.0])  # a board face up below a camera that looks down
+DOWN = np.diag([1.0, -1.0, -1.0])  # a board face up below a camera that points down
 
 
 def unit(address="http://127.0.0.1:81/stream", alignment=None, **more):
@@ -206,7 +206,7 @@ def test_of_two_attitudes_the_better_the_nearer_or_none():
 
 
 def test_a_small_distant_board_never_yields_the_mirrored_pose():
-    """Two markers, seen 30 px high: leans to both sides fit; what is said is right or nothing."""
+    """Two markers, 30 px high: leans to both sides fit; what is said is right or nothing."""
     lens = Lens(1200, 1200, 319.5, 239.5, 640, 480)
     eye = replace(check.EYE, board=TagBoard("4X4_50", 2, 1, 0.040, 0.010), lens=lens)
     renderer, rng, said = (

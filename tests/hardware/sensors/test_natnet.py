@@ -76,7 +76,7 @@ def test_a_frame_by_hand_is_understood(sizes):
 def test_a_turn_about_the_vertical_by_hand():
     """Y is up in Motive, as set by default, so a quarter turn about y is one about our z.
 
-    Motive's x is ours, and its z our -y: a body that looked along x looks along -z there, so along
+    Motive's x is ours, and its z our -y: a body that pointed along x points along -z there, so along
     our y.
     """
     device = unit("natnet", "y_up")

@@ -1,8 +1,8 @@
 """An emulated Grbl 1.1h: settings, status, jogs, homing, holds, alarms, a planner with a delay.
 
-Written from the wiki's "Interface", "Jogging" and "Configuration", apart from the driver. Ways are
-straight and of constant speed; a block that is queued behind another begins when that ends. Only
-jogs and homing move: other G-code is answered with ok or an error and does nothing.
+Written from the wiki's "Interface", "Jogging" and "Configuration", independently of the driver.
+Ways are straight and of constant speed; a block that is queued behind another begins when that
+ends. Only jogs and homing move: other G-code is answered with ok or an error and does nothing.
 """
 
 import re

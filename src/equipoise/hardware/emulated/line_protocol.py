@@ -1,7 +1,8 @@
 """An emulated sketch on a microcontroller: a line for each row, in the columns that were declared.
 
-Written from the format's description, apart from the driver. Rows in which a column has no value,
-because attitude and gyro have different rates, are not printed: a sketch prints what is fresh.
+Written from the format's description, independently of the driver. Rows in which a column has no
+value, because attitude and gyro have different rates, are not printed: a sketch prints what is
+fresh.
 """
 
 import json

@@ -1,7 +1,7 @@
 """An emulated flight controller: heartbeats, attitude and its IMU by MAVLink 2.
 
-Written from the message set, apart from the driver. As on many vehicles the attitude is stamped in
-time since boot, the IMU in Unix time.
+Written from the message set, independently of the driver. As on many vehicles the attitude is
+stamped in time since boot, the IMU in Unix time.
 """
 
 from collections.abc import Sequence

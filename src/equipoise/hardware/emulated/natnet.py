@@ -1,6 +1,6 @@
 """An emulated Motive: frames of NatNet 4.1 with two rigid bodies, of which one stands still.
 
-Written from the SDK's samples, apart from the driver.
+Written from the SDK's samples, independently of the driver.
 """
 
 import struct

@@ -1,6 +1,6 @@
 """Pictures of a board of markers, as a camera would take them.
 
-Projection and distortion are written out here, apart from the estimator's, so that no error is
+Projection and distortion do not use the estimator's code, so that no error is
 shared. The board's print is an exact average over each pixel of a texture; a pixel of the picture
 is interpolated there:
 
@@ -47,7 +47,7 @@ class Sheet:
 
 
 class Renderer:
-    """Draws one sheet as one camera sees it."""
+    """Draws one sheet in the view of one camera."""
 
     def __init__(self, sheet: Sheet, lens: Lens, appearance: Appearance, seed: int = 0) -> None:
         self._sheet, self._lens, self._measurement = sheet, lens, appearance

@@ -1,6 +1,6 @@
 """An emulated rosbridge server: publishes what was subscribed to, as Imu or PoseStamped.
 
-Written from the protocol's specification, apart from the driver.
+Written from the protocol's specification, independently of the driver.
 """
 
 import json

@@ -1,6 +1,6 @@
 """An emulated VN-100: one message of attitude and rate for each row, and register writes.
 
-Written from the manual, apart from the driver.
+Written from the manual, independently of the driver.
 """
 
 from collections.abc import Mapping, Sequence
