@@ -86,7 +86,7 @@ def made(make: Callable[[str], bytes], name: str) -> Callable[[], bytes]:
 
 
 def answered(kind: str) -> Callable[[bytes], None]:
-    """Return what a driver of a board does with bytes, while it is commanded to home, go and halt."""
+    """Return what a board's driver does with bytes, while it is commanded to home, go and halt."""
 
     def take(content: bytes) -> None:
         driver = BOARDS[kind](board_of(kind), BED.masses)

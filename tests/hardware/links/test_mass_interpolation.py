@@ -65,7 +65,7 @@ def truth(t):
 
 @pytest.mark.parametrize("seed", range(8))
 def test_answers_that_jitter_show_the_moves_there_were(seed):
-    """Asked each 50 ms, answered up to 20 ms late, now and then two at once; three masses, two moves.
+    """Asked each 50 ms, answered up to 20 ms late, at times two at once; three masses, two moves.
 
     Each mass that moved has stood three times. Rows are wrong by no more than the lateness and the
     time between answers can make them: 70 ms at a start or an arrival, 20 ms on the way.

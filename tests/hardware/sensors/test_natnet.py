@@ -76,8 +76,8 @@ def test_a_frame_by_hand_is_understood(sizes):
 def test_a_turn_about_the_vertical_by_hand():
     """Y is up in Motive, as set by default, so a quarter turn about y is one about our z.
 
-    Motive's x is ours, and its z our -y: a body that pointed along x points along -z there, so along
-    our y.
+    Motive's x is ours, and its z our -y: a body that pointed along x points along -z there, so
+    along our y.
     """
     device = unit("natnet", "y_up")
     (row,) = NatNet(device).feed(datagram(1, [body(1, TURN)]))
