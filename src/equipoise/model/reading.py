@@ -1,4 +1,4 @@
-"""What a device said: one row of a sensor, and how well it speaks."""
+"""What a device sent: one row of a sensor, and counts of its messages."""
 
 from dataclasses import dataclass
 

@@ -104,7 +104,7 @@ class Keeper:
         self._received.taken()
 
     def health(self) -> list[Health]:
-        """Return how well each device speaks."""
+        """Return how well each device answers."""
         return self.links.health
 
     def home(self) -> None:
@@ -138,7 +138,7 @@ class Keeper:
         self.links.halt(self.t)
 
     def close(self) -> None:
-        """Stop every mass, note how well each device spoke, and close every port."""
+        """Stop every mass, note how well each device answered, and close every port."""
         self.links.halt(self.t)
         self.links.send(self.t)
         for each in self.links.health:

@@ -1,6 +1,6 @@
 """The keeper in a process of its own, so that motors stop whatever becomes of who commands.
 
-The two speak through a pipe. When it breaks, because the commander has ended, been killed or
+The two communicate through a pipe. When it breaks, because the commander has ended, been killed or
 crashed, the keeper halts every mass, closes the record and ends. Ctrl-C reaches the commander
 alone. The keeper never waits for the commander: what it has to say waits in a queue.
 
@@ -178,7 +178,7 @@ class DistantKeeper:
         self._request("halt", why)
 
     def health(self) -> list[Health]:
-        """Return how well each device speaks."""
+        """Return how well each device answers."""
         return self._request("health")
 
     def close(self) -> None:

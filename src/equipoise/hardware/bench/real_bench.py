@@ -101,7 +101,7 @@ class RealBench:
         self._turn()
 
     def health(self) -> list[Health]:
-        """Return how well each device speaks; nothing where the keeper has ended."""
+        """Return how well each device answers; nothing where the keeper has ended."""
         try:
             return self._keeper.health()
         except BenchStopped:

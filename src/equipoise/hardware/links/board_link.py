@@ -14,7 +14,7 @@ class BoardLink:
 
     @property
     def health(self) -> Health:
-        """How well it speaks."""
+        """How well it answers."""
         return Health(f"board {self.board.name}", self.driver.counts)
 
     def turn(self, t: float) -> None:

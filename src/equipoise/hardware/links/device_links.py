@@ -71,7 +71,7 @@ class Links:
 
     @property
     def health(self) -> list[Health]:
-        """How well each device speaks."""
+        """How well each device answers."""
         return [*(link.health for link in self.boards), *(link.health for link in self.sensors)]
 
     def silent(self, t: float) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""How well a bench's devices speak: what arrived, what was wrong with it, how clocks stand."""
+"""How well a bench's devices answer: what arrived, its defects, offset and drift of clocks."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

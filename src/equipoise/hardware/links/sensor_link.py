@@ -42,7 +42,7 @@ class SensorLink:
 
     @property
     def health(self) -> Health:
-        """How well it speaks."""
+        """How well it answers."""
         name = f"sensor {self.unit.name}"
         return Health(name, self.driver.counts, self.arrivals, dict(self.clocks))
 

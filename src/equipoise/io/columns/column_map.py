@@ -26,21 +26,12 @@ class Euler:
 
 
 @dataclass(frozen=True, slots=True)
-class MassColumn:
-    """A mass and the column of its displacement."""
+class NamedColumn:
+    """A mass or a device, as a recording names it ('x1', 'wheel:x'), and what it reported."""
 
-    mass: str
+    name: str
     column: str
-    factor: float  # to m
-
-
-@dataclass(frozen=True, slots=True)
-class DeviceColumn:
-    """A device, as a recording names it ('wheel:x'), and the column of what it reported."""
-
-    device: str
-    column: str
-    factor: float  # to rad/s, rad, A m^2 or N m, see ``model.devices``
+    factor: float  # to SI: m, or rad/s, rad, A m^2 or N m, see ``model.devices``
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,10 +52,10 @@ class ColumnMap:
     quaternion: Columns | None = None  # w, x, y, z
     euler: Euler | None = None
     rate: Columns | None = None
-    masses: tuple[MassColumn, ...] = ()
+    masses: tuple[NamedColumn, ...] = ()
     momentum: Columns | None = None
     torque: Columns | None = None
-    devices: tuple[DeviceColumn, ...] = ()
+    devices: tuple[NamedColumn, ...] = ()
     field: Columns | None = None
     temperature: Columns | None = None  # degC
     lab_up: str = "z"  # the laboratory axis of the table that points up

@@ -41,10 +41,9 @@ from equipoise.io.columns.axis_permutation import axes_matrix
 from equipoise.io.columns.column_map import (
     ColumnMap,
     Columns,
-    DeviceColumn,
     Euler,
     Layout,
-    MassColumn,
+    NamedColumn,
 )
 from equipoise.io.toml.key_types import Table
 from equipoise.io.toml.read_toml import read_toml
@@ -147,7 +146,7 @@ def read_column_map(path: str | Path) -> ColumnMap:
         euler=euler,
         rate=_triad(table.rate, "rate", f"{source}: rate"),
         masses=tuple(
-            MassColumn(m.name, m.column, factor(m.unit, "length", f"{source}: mass[{i}]"))
+            NamedColumn(m.name, m.column, factor(m.unit, "length", f"{source}: mass[{i}]"))
             for i, m in enumerate(table.mass, 1)
         ),
         momentum=_triad(table.momentum, "momentum", f"{source}: momentum"),
@@ -185,9 +184,9 @@ def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:
     return Columns(tuple(table.columns), factor(table.unit, kind, where), axes)
 
 
-def _device(table: DeviceTable, where: str) -> DeviceColumn:
+def _device(table: DeviceTable, where: str) -> NamedColumn:
     unit = factor(table.unit, QUANTITY[table.reports], where)
-    return DeviceColumn(f"{table.reports}:{table.name}", table.column, unit)
+    return NamedColumn(f"{table.reports}:{table.name}", table.column, unit)
 
 
 def _axes(axes: list[Axis], where: str) -> tuple[str, str, str]:

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Columns, MassColumn
+from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.device_columns import column_of, device_of, wanted_column
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.errors import InputError, nearest
@@ -63,7 +63,7 @@ def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
     return ColumnMap(
         name="native",
         time=(Columns((TIME,)),),
-        masses=tuple(MassColumn(match[1], match[0], MM) for match in masses),
+        masses=tuple(NamedColumn(match[1], match[0], MM) for match in masses),
         devices=tuple(devices),
         native=True,
         notes=_left_aside(names, known),

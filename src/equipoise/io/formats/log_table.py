@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
+from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.device_columns import si_column
 from equipoise.io.columns.native_columns import ATTITUDE, MOMENTUM, RATE, TEMPERATURE, TIME, TORQUE
 from equipoise.io.columns.table import Table
@@ -83,9 +83,9 @@ def log_map(
     here = {channel.name: channel for channel in channels if len(channel.ns)}
     known = {each: Columns(channel.columns) for each, channel in here.items()}
     groups: dict[str, Any] = {each: known.get(each) for each in GROUPS}
-    for each, column in (("masses", MassColumn), ("devices", DeviceColumn)):
+    for each in ("masses", "devices"):
         named = zip(here[each].names, here[each].columns, strict=True) if each in here else ()
-        groups[each] = tuple(column(label, its, 1.0) for label, its in named)
+        groups[each] = tuple(NamedColumn(label, column, 1.0) for label, column in named)
     return ColumnMap(
         name=name,
         time=(Columns((TIME,)),),

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
+from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.table import Table
 from equipoise.io.recording.attitude_columns import euler_angles, lengths, quaternions
 from equipoise.io.recording.channels import Channel, in_body_axes, read_channel, read_time
@@ -65,8 +65,8 @@ def recording_of(table: Table, columns: ColumnMap) -> Recording:
     notes = (of_attitude, of_rate, *(of_channel for _, of_channel in others.values()))
     return Recording(
         **samples,
-        mass_names=tuple(mass.mass for mass in columns.masses) if found["masses"] else (),
-        device_names=tuple(each.device for each in columns.devices) if found["devices"] else (),
+        mass_names=tuple(mass.name for mass in columns.masses) if found["masses"] else (),
+        device_names=tuple(each.name for each in columns.devices) if found["devices"] else (),
         source=table.source,
         free_from=columns.free_from,
         notes=(*table.notes, *columns.notes, *order, *chain.from_iterable(notes)),
@@ -98,7 +98,7 @@ def _attitude(source: Rows) -> tuple[Channel | None, Channel | None, Notes]:
     return mended, None if angles else lengths(raw), (*notes, *reported)
 
 
-def _together(columns: tuple[MassColumn | DeviceColumn, ...]) -> Columns | None:
+def _together(columns: tuple[NamedColumn, ...]) -> Columns | None:
     """Return the columns of all masses, or of all devices, as one group."""
     if not columns:
         return None
