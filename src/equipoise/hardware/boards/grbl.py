@@ -19,17 +19,16 @@ from equipoise.hardware.boards.grbl_report import Code, Report, Setting, Status,
 from equipoise.hardware.boards.grbl_settings import LETTERS, disagreement
 from equipoise.hardware.boards.grbl_words import alarm_sentence, error_sentence
 from equipoise.hardware.boards.legs import next_leg, time_left
-from equipoise.hardware.transport.conversation import Tally
 from equipoise.hardware.transport.driver_protocol import (
     LEG,
     POLL,
     POLL_MOVING,
     SILENCE,
+    BoardDriver,
     BoardState,
     Phase,
 )
 from equipoise.hardware.transport.line_splitter import Lines
-from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import MotorBoard
 from equipoise.model.reading import Counts
 from equipoise.model.testbed import SlidingMass
@@ -43,17 +42,16 @@ THERE = 2e-6  # m, chosen: positions are reported to 1 um
 SETTLED = 0.3  # s, chosen: standing for so long, it goes nowhere else
 
 
-class Grbl(Tally):
+class Grbl(BoardDriver):
     """The conversation with one board."""
 
     def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
-        super().__init__()
+        super().__init__(board)
         check_letters(board, LETTERS, "Grbl names its axes")
-        self._board, self._masses = board, tuple(masses)
+        self._masses = tuple(masses)
         self._speed = {mass.name: mass.speed for mass in masses}
         self._lines = Lines()
         self._axes = {axis.mass: axis for axis in board.axes}
-        self.state = BoardState("connecting")
         self._begin(0.0)
 
     def _begin(self, t: float) -> None:
@@ -101,13 +99,6 @@ class Grbl(Tally):
         self.state = BoardState("homing", reported=self.state.reported)
         self._todo = ["settings", "home" if self._board.homing else "unlock", "zero"]
         self._awaited, self._sent, self._since = "", {}, t
-
-    def go(self, goals: Mapping[str, float], t: float) -> None:
-        """Send masses on their way to displacements (m); BenchStopped while they may not move."""
-        if self.state.phase not in ("ready", "moving") or not self.state.sure:
-            why = self.state.sentence or f"it is {self.state.phase}, its position not known"
-            raise BenchStopped(f"board {self._board.name}: {why}")
-        self._aim({**self.state.goal, **goals})
 
     def halt(self, t: float) -> None:
         """Stop at once, slowing down in order; a homing is broken off by a reset."""
@@ -232,10 +223,10 @@ class Grbl(Tally):
             }
             position = dict.fromkeys(self.state.position, 0.0)
             self.state = replace(self.state, position=position)
-        self._aim(dict.fromkeys(self.state.position, 0.0))
+        self._aim(dict.fromkeys(self.state.position, 0.0), t)
         return b""
 
-    def _aim(self, goal: Mapping[str, float]) -> None:
+    def _aim(self, goal: Mapping[str, float], t: float) -> None:
         """Take up a goal; legs are sent from where the last ones end."""
         if self.state.phase == "ready" or not self._sent:
             self._sent = dict(self.state.position)

@@ -22,10 +22,14 @@ from equipoise.hardware.boards.tmcl_settings import disagreement, guards, speed_
 from equipoise.hardware.boards.tmcl_steps import Steps
 from equipoise.hardware.boards.tmcl_talk import Talk
 from equipoise.hardware.boards.tmcl_words import Request
-from equipoise.hardware.transport.driver_protocol import POLL, POLL_MOVING, BoardState, Phase
-from equipoise.model.errors import BenchStopped
+from equipoise.hardware.transport.driver_protocol import (
+    POLL,
+    POLL_MOVING,
+    BoardDriver,
+    BoardState,
+    Phase,
+)
 from equipoise.model.hardware import MotorBoard
-from equipoise.model.reading import Counts
 from equipoise.model.testbed import SlidingMass
 
 MOTORS = "012345"
@@ -36,17 +40,17 @@ ABSENT = "it does not answer: unplugged, without power, or just reset; its posit
 ANEW = "it began anew: its power failed or somebody reset it; its position is lost"
 
 
-class Tmcl:
+class Tmcl(BoardDriver):
     """The conversation with one module."""
 
     def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
+        super().__init__(board)
         check_letters(board, MOTORS, "a Trinamic module numbers its motors")
-        self._board, self._masses = board, {mass.name: mass for mass in masses}
-        self._steps, self._talk = Steps(board, masses), Talk()
+        self._masses = {mass.name: mass for mass in masses}
+        self._steps, self._talk = Steps(board, masses), Talk(self)
         self._scripts = Scripts(board, self._steps)
         self._names = [axis.mass for axis in board.axes]
         self._guards: dict[str, Mapping[int, int]] = {}
-        self.state = BoardState("connecting")
         self._begin(0.0)
 
     def _begin(self, t: float) -> None:
@@ -60,11 +64,6 @@ class Tmcl:
         self._turn = 0  # whose limit switch is asked for
         self._still = self._since = self._next = t  # s
         self._mute = False  # it was silent; nothing is said until somebody wants it
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._talk.counts
 
     def opened(self, t: float) -> None:
         """Begin anew."""
@@ -102,13 +101,6 @@ class Tmcl:
         self.state = BoardState("homing", position=self.state.position, reported=counts)
         find = ["search", "searched"] if self._board.homing else ["place"]
         self._plan = ["version", "stop", "stopped", "settings", "mark", *find]
-
-    def go(self, goals: Mapping[str, float], t: float) -> None:
-        """Send masses on their way to displacements (m); BenchStopped while they may not move."""
-        if self.state.phase not in ("ready", "moving") or not self.state.sure:
-            why = self.state.sentence or f"it is {self.state.phase}, its position not known"
-            raise BenchStopped(f"board {self._board.name}: {why}")
-        self._aim({**self.state.goal, **goals}, t)
 
     def halt(self, t: float) -> None:
         """Stop every mass, slowing down in order; a reference search is broken off."""

@@ -24,15 +24,16 @@ class Answer:
     t: float  # s
 
 
-class Talk(Tally):
-    """Says one script of requests after the other."""
+class Talk:
+    """Says one script of requests after the other; ``tally`` counts the replies."""
 
-    def __init__(self) -> None:
+    def __init__(self, tally: Tally) -> None:
+        self._tally = tally
         self.begin()
 
     def begin(self) -> None:
         """Forget everything: the port has just been opened."""
-        self.counts = Counts()
+        self._tally.counts = Counts()
         self.answers: dict[Request, Answer] = {}  # of this script
         self._script: deque[Request] = deque()
         self._pending: Request | None = None
@@ -80,13 +81,13 @@ class Talk(Tally):
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
         replies, breaks, self._rest = replies_in(self._rest + data)
-        self.count(corrupt=breaks)
+        self._tally.count(corrupt=breaks)
         for reply in replies:
             pending = self._pending
             if pending is None or reply.command != pending.command:
-                self.count(foreign=1)
+                self._tally.count(foreign=1)
                 continue
-            self.count(good=1)
+            self._tally.count(good=1)
             self._pending = None
             if not self._void:
                 self.answers[pending] = Answer(reply.status, reply.value, reply.done, t)
@@ -96,7 +97,7 @@ class Talk(Tally):
         """Return the next request once the one before is answered."""
         if self._pending is not None or not self._script:
             return b""
-        self.count(corrupt=bool(self._rest))
+        self._tally.count(corrupt=bool(self._rest))
         self._rest = b""  # what is left over now belongs to no answer
         self._pending, self._requested, self._void = self._script.popleft(), t, False
         return packed(self._pending)

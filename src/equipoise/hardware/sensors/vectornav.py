@@ -15,7 +15,6 @@ These messages hold no time, so rows are stamped as they arrive.
 from binascii import crc_hqx
 from collections.abc import Callable, Sequence
 from functools import reduce
-from operator import xor
 from typing import NamedTuple
 
 from equipoise.hardware.sensors.attitudes import from_angles, unit_row
@@ -106,7 +105,7 @@ def checked(line: bytes) -> bytes | None:
 
 def exclusive_or(body: bytes) -> int:
     """Return the 8-bit checksum."""
-    return reduce(xor, body, 0)
+    return reduce(lambda a, b: a ^ b, body, 0)
 
 
 def crc16(body: bytes) -> int:
