@@ -1,8 +1,7 @@
 """A recording as a bench: what was recorded is read again, at any speed.
 
 The four verbs of ``model.bench``. What a recording cannot do again is to obey: a move is checked
-against the travel, as any bench checks it, and noted; masses then do as they did. Time is the
-recording's.
+against the travel, as any bench checks it; masses then do as they did. Time is the recording's.
 """
 
 import math
@@ -14,7 +13,6 @@ from equipoise.model.bench_requests import check_duration, checked_inputs, check
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording, rows_between
 from equipoise.model.testbed import Testbed
-from equipoise.model.units import MM
 
 Wait = Callable[[float], None]  # s
 
@@ -26,7 +24,6 @@ class RecordingEnded(EquipoiseError):
         super().__init__(
             f"{source or 'recording'}: it ends at {end:.3f} s; there is nothing more to read"
         )
-        self.end = end
 
 
 class ReplayedBench:
@@ -37,17 +34,11 @@ class ReplayedBench:
         self.testbed, self._recording, self._wait = testbed, recording, wait
         self._time, self._end = recording.span
         self._observed = -math.inf  # s, up to which rows have been handed out
-        self._notes: list[str] = []
 
     @property
     def time(self) -> float:
         """Time of the recording, s."""
         return self._time
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What was asked for and could not be done again."""
-        return tuple(self._notes)
 
     def read(self, duration: float) -> Recording:
         """Return the rows of the next ``duration`` seconds; RecordingEnded when none are left."""
@@ -64,22 +55,13 @@ class ReplayedBench:
         """Check displacements (m) against the travel; masses do as was recorded."""
         here = np.array([self._displacement(name) for name in self.testbed.mass_names])
         checked_targets(self.testbed.masses, here, targets)
-        reported = ", ".join(
-            f"{name} to {requested / MM:.3g} mm" for name, requested in targets.items()
-        )
-        self._note(f"asked to move {reported}; masses do as was recorded")
 
     def drive(self, inputs: Mapping[str, float]) -> None:
-        """Note what devices were asked for; they do as was recorded."""
+        """Check inputs by name and number; devices do as was recorded."""
         checked_inputs(self.testbed.devices, inputs)
-        self._note(f"asked to drive {', '.join(inputs)}; devices do as was recorded")
 
     def stop(self) -> None:
-        """Note it: what was recorded cannot be stopped."""
-        self._note("asked to stop; what was recorded goes on")
-
-    def _note(self, what: str) -> None:
-        self._notes.append(f"{self._time:.3f} s: {what}.")
+        """Do nothing: what was recorded cannot be stopped."""
 
     def _displacement(self, name: str) -> float:
         """Return where a mass is now, m; at home if that was not recorded."""

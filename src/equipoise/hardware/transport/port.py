@@ -23,7 +23,6 @@ class PortLost(EquipoiseError):
 
     def __init__(self, address: str, why: object) -> None:
         super().__init__(f"{address}: {why}")
-        self.address = address
 
 
 class Port(Protocol):
