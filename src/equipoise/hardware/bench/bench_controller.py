@@ -170,13 +170,13 @@ class Keeper:
             code = Interlock.SENSOR_SILENT if silent else Interlock.SENSOR_BACK
             self._warn(Reason(code, (silent or self._silent,)))
             self._silent = silent
-        self._remember(t)
+        self._remember()
 
     def _observed(self, t: float) -> Observed:
         silent, states = self.links.silent(t), self.links.states
         return Observed(t, self._attitudes, self._rates, silent, states, self._before)
 
-    def _remember(self, t: float) -> None:
+    def _remember(self) -> None:
         """Keep an earlier answer of each board, to compute speeds from."""
         for state in self.links.states.values():
             if state.reported is None or not state.sure:

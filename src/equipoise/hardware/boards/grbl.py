@@ -73,7 +73,7 @@ class Grbl(BoardDriver):
         self.state = BoardState("connecting")
         self._urgent = RESET
 
-    def closed(self, t: float, why: str) -> None:
+    def closed(self, why: str) -> None:
         """Note that the port is gone."""
         self._fault(f"its port is gone ({why}): unplugged, or without power", lost=True)
 

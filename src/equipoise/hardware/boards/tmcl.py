@@ -72,7 +72,7 @@ class Tmcl(BoardDriver):
         self.state = BoardState("connecting")
         self._plan = ["version", "settings", "mark"]
 
-    def closed(self, t: float, why: str) -> None:
+    def closed(self, why: str) -> None:
         """Note that the port is gone."""
         self._fault(f"its port is gone ({why}): unplugged, or without power", silent=True)
 

@@ -25,7 +25,7 @@ class BoardLink:
         for data in turn.data:
             self.driver.feed(data, t)
         if turn.lost:
-            self.driver.closed(t, turn.lost)
+            self.driver.closed(turn.lost)
 
     def send(self, t: float) -> None:
         """Send what the driver has to say."""
@@ -33,4 +33,4 @@ class BoardLink:
             return
         lost = self.connection.send(self.driver.due(t), t).lost
         if lost:
-            self.driver.closed(t, lost)
+            self.driver.closed(lost)

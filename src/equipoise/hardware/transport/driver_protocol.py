@@ -47,7 +47,7 @@ class BoardDriver(Tally):
         """Begin anew: the port has just been opened. What was sure of the position is lost."""
 
     @abstractmethod
-    def closed(self, t: float, why: str) -> None:
+    def closed(self, why: str) -> None:
         """Note that the port is gone: a fault."""
 
     @abstractmethod

@@ -44,7 +44,7 @@ def read_mcap(content: bytes, source: str) -> tuple[Table, ColumnMap]:
         topics = foreign_topics(found, source)
         channels, notices = chosen(topics, source)
         return log_table(source, channels, None, (*notes, *notices)), log_map("mcap", channels)
-    ours = _our_channels(found, source)
+    ours = _our_channels(found)
     known = log_map("mcap", ours, ours=True)
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
     events = [each for each in found.messages if each.channel_id in ids]
@@ -89,7 +89,7 @@ def time_zero(found: Salvage) -> int | None:
     return min((m.log_time for m in found.messages), default=0) if ours else None
 
 
-def _our_channels(found: Salvage, source: str) -> list[LogChannel]:
+def _our_channels(found: Salvage) -> list[LogChannel]:
     """Return the channels that we wrote, each of all its topics' messages."""
     by_topic: dict[str, Any] = {each.topic: each for each in found.channels.values()}
     rows: dict[int, list[Any]] = {}
