@@ -17,7 +17,7 @@ from dataclasses import replace
 from equipoise.hardware.boards.axis_letters import check_letters
 from equipoise.hardware.boards.grbl_report import Code, Report, Setting, Status, Word, parsed
 from equipoise.hardware.boards.grbl_settings import LETTERS, disagreement
-from equipoise.hardware.boards.grbl_words import alarm_sentence, error_sentence
+from equipoise.hardware.boards.grbl_words import sentence_of
 from equipoise.hardware.boards.legs import next_leg, time_left
 from equipoise.hardware.transport.driver_protocol import (
     LEG,
@@ -133,11 +133,9 @@ class Grbl(BoardDriver):
             self._fault("it began anew: its power failed or somebody reset it", lost=True)
 
     def _trouble(self, code: Code) -> None:
-        if code.alarm:
-            self._fault(alarm_sentence(code.number), lost=True)
-        elif self._awaited:
-            what, self._awaited = self._awaited, ""
-            self._fault(error_sentence(code.number), lost=what != "leg")
+        if code.alarm or self._awaited:
+            lost = code.alarm or self._awaited != "leg"
+            self._fault(sentence_of(code.alarm, code.number), lost)
 
     def _taken(self, t: float) -> None:
         """Note that the line under way was taken."""

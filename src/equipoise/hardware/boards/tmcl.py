@@ -58,9 +58,8 @@ class Tmcl(BoardDriver):
         self._doing = ""  # what the script under way is: a step of the plan, halt or round
         self._at: dict[str, int] = {}  # microsteps
         self._sent: dict[str, int] = {}  # microsteps, targets
-        self._requested: dict[
-            str, Request
-        ] = {}  # the limit switch asked for in this round, by mass
+        # The limit switch asked for in this round, by mass.
+        self._requested: dict[str, Request] = {}
         self._turn = 0  # whose limit switch is asked for
         self._still = self._since = self._next = t  # s
         self._mute = False  # it was silent; nothing is said until somebody wants it

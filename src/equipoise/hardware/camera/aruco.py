@@ -19,9 +19,8 @@ from equipoise.model.errors import InputError, nearest
 
 Picture = NDArray[np.uint8]
 PREFIX = "DICT_"
-THRESHOLD = (
-    23  # px, window of the adaptive threshold, chosen: one size, for markers of 20 to 200 px
-)
+# px, window of the adaptive threshold, chosen: one size, for markers of 20 to 200 px.
+THRESHOLD = 23
 
 
 def opencv(where: str) -> Any:

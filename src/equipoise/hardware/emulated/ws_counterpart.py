@@ -62,14 +62,10 @@ class WsCounterpart:
                     self._hang_up()
                     self._listener = Listener(self._server.accept()[0])
                 elif ready and self._listener is not None:
-                    self._receive(self._listener)
-
-    def _receive(self, listener: "Listener") -> None:
-        received = listener.received()
-        if received is None:
-            self._hang_up()
-        else:
-            self._received += received
+                    received = self._listener.received()
+                    self._received += received or []
+                    if received is None:
+                        self._hang_up()
 
     def _hang_up(self) -> None:
         """Close the listener's line; done by the thread that polls it, or after its end."""

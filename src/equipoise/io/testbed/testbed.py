@@ -6,14 +6,7 @@ from typing import Annotated, Any, cast
 
 from pydantic import Field
 
-from equipoise.io.testbed.devices import (
-    ControlMomentGyro,
-    JetPair,
-    MagneticField,
-    Magnetorquer,
-    ReactionWheel,
-    check_device_names,
-)
+from equipoise.io.testbed import devices
 from equipoise.io.testbed.hardware import Hardware, check_moved_masses
 from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mass, up_of
 from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
@@ -96,11 +89,11 @@ class TestbedFile(RecordTable):
     name: Annotated[str, Field(min_length=1)]
     platform: Annotated[Platform, Holds(ITSELF)]
     sliding_mass: Annotated[list[SlidingMass], Holds("masses")] = Field([])
-    reaction_wheel: Annotated[list[ReactionWheel], Holds("wheels")] = Field([])
-    control_moment_gyro: Annotated[list[ControlMomentGyro], Holds("cmgs")] = Field([])
-    magnetorquer: Annotated[list[Magnetorquer], Holds("magnetorquers")] = Field([])
-    jet_pair: Annotated[list[JetPair], Holds("jets")] = Field([])
-    magnetic_field: MagneticField | None = None
+    reaction_wheel: Annotated[list[devices.ReactionWheel], Holds("wheels")] = Field([])
+    control_moment_gyro: Annotated[list[devices.ControlMomentGyro], Holds("cmgs")] = Field([])
+    magnetorquer: Annotated[list[devices.Magnetorquer], Holds("magnetorquers")] = Field([])
+    jet_pair: Annotated[list[devices.JetPair], Holds("jets")] = Field([])
+    magnetic_field: devices.MagneticField | None = None
     weight: Annotated[list[Weight], Holds("weights")] = Field([])
     weight_grid: Annotated[list[WeightGrid], Holds("grids")] = Field([])
     sensor: Annotated[Sensors, Holds(ITSELF)] = Sensors()
@@ -139,7 +132,7 @@ def _check(file: TestbedFile, source: str) -> None:
     check_names(file.sliding_mass, f"{source}: sliding_mass")
     check_total_mass(file.platform, file.sliding_mass, source)
     kinds = ("reaction_wheel", "control_moment_gyro", "magnetorquer", "jet_pair")
-    check_device_names({kind: getattr(file, kind) for kind in kinds}, source)
+    devices.check_device_names({kind: getattr(file, kind) for kind in kinds}, source)
     check_weights(file.weight, file.weight_grid, source)
     _check_field(file, source)
     _check_assumed(file, source)
