@@ -36,7 +36,7 @@ class Calibration:
 
 
 def lens_from(views: Sequence[Corners], size: tuple[int, int]) -> Calibration:
-    """Return the lens of pictures of a size (width, height, px); InputError if too few."""
+    """Return the lens of pictures of a size (width, height, px); InputError if they are poor."""
     useful = [view for view in views if len(view.picture) >= CORNERS]
     if len(useful) < VIEWS:
         found = f"the chessboard in {len(useful)} of {len(views)} pictures"
