@@ -50,8 +50,6 @@ class Plan:
 
     testbed: str  # name
     manoeuvre: Manoeuvre
-    inertia_sd: Vector6 | None = (
-        None  # kg m^2, xx yy zz xy xz yz; None: not all of it is observable
-    )
+    inertia_sd: Vector6 | None = None  # kg m^2, xx yy zz xy xz yz; None: part is unobservable
     com_sd: Vector3 | None = None  # m
     source: str = ""  # the file
