@@ -1,4 +1,4 @@
-"""What a bench may be asked: the same on simulated, replayed and real benches.
+"""Checks of requests to a bench, the same for simulated, replayed and real ones.
 
 A target is refused, never clipped; nothing moves unless all of them can be.
 """

@@ -1,4 +1,4 @@
-"""What a balancing law asks for until its next step."""
+"""What a balancing law commands until its next step."""
 
 from dataclasses import dataclass
 

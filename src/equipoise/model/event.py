@@ -1,4 +1,4 @@
-"""Something that happened to the platform while it was watched: a touch, a part that shifted."""
+"""An event in a recording: an impulse on the platform, or a step of its centre of mass."""
 
 from dataclasses import dataclass
 from typing import Literal

@@ -1,4 +1,4 @@
-"""Something that a record holds, or that is wrong with it."""
+"""A finding: a fact about a recording, or a problem of it."""
 
 from dataclasses import dataclass
 from typing import Literal

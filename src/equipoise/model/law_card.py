@@ -1,4 +1,4 @@
-"""What to expect of a balancing law, and which devices it needs."""
+"""The properties of a balancing law, and the devices that it needs."""
 
 from dataclasses import dataclass
 from typing import Literal

@@ -1,4 +1,4 @@
-"""The keeper of a bench: its ports, its interlocks, and all that they say, turn by turn.
+"""The keeper of a bench: polls its ports, evaluates its interlocks and reports, turn by turn.
 
 One turn polls every port, feeds the drivers, evaluates the interlocks, sends what is due and hands
 on what was received. It does not wait and has no clock. The commander can be lost at any moment:

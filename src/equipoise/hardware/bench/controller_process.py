@@ -1,4 +1,4 @@
-"""The keeper in a process of its own, so that motors stop whatever becomes of who commands.
+"""The keeper in its own process, so that motors stop whatever happens to the commander.
 
 The two communicate through a pipe. When it breaks, because the commander has ended, been killed or
 crashed, the keeper halts every mass, closes the record and ends. Ctrl-C reaches the commander

@@ -1,4 +1,4 @@
-"""When every motor is stopped: one place, asked at every turn, whoever commands.
+"""The interlocks that stop every motor, evaluated at every turn, whoever commands.
 
     tilt, rate      the median of the last three rows is beyond its limit
     silence         a sensor has given no row, or a board no answer, for too long

@@ -1,4 +1,4 @@
-"""The lines that Grbl 1.1 says, as records. Source: Grbl 1.1 wiki, "Interface".
+"""The lines that Grbl 1.1 sends, as records. Source: Grbl 1.1 wiki, "Interface".
 
     <Idle|MPos:1.000,2.000,3.000|FS:0,0|WCO:0.000,0.000,0.000>
     ok   error:9   ALARM:1   $100=80.000   [MSG:...]   Grbl 1.1h ['$' for help]

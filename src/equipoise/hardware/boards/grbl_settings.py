@@ -1,4 +1,4 @@
-"""Whether a Grbl board is set as the testbed file says; mm and mm/min, as the board has them.
+"""Comparison of a Grbl board's settings with the testbed file; mm and mm/min, as on the board.
 
     $100..  steps per mm     $110..  greatest speed, mm/min     $130..  greatest travel, mm
     $13  reports in inches   $20  soft limits   $22  homing

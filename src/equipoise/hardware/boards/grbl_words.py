@@ -1,4 +1,4 @@
-"""What Grbl's numbers mean, for people.
+"""Grbl's codes of errors and alarms in words.
 
 Source: Grbl 1.1 wiki, "Interface", codes of errors and alarms; the words are ours.
 """

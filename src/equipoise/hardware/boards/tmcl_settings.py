@@ -1,4 +1,4 @@
-"""Whether a TMCL module is set as the testbed file says, and the units of its speeds.
+"""Comparison of a TMCL module's settings with the testbed file, and the units of its speeds.
 
     speed, microsteps/s                  acceleration, microsteps/s^2
     v                                    a                              with a TMC5xxx or TMC4361

@@ -1,4 +1,4 @@
-"""Where masses are in a module's microsteps, and how far ahead they are sent.
+"""Displacements of masses in a module's microsteps, and the targets that it is sent.
 
     microsteps = (zero +- displacement) * steps per metre
 

@@ -1,4 +1,4 @@
-"""A conversation in TMCL: one request at a time, and what was answered.
+"""Requests and replies in TMCL: one request at a time.
 
 A reply does not say which motor it is about. So nothing is asked while an answer is due, and
 nothing is asked again: an answer that comes late would be taken for that of the next motor.

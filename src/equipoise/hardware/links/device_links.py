@@ -1,4 +1,4 @@
-"""The devices of a bench, each with its port, and what all of them say together."""
+"""The devices of a bench, each with its port, and their combined state."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

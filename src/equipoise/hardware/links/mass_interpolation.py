@@ -1,4 +1,4 @@
-"""Where masses were between two answers of their board.
+"""Positions of masses between two answers of their board.
 
 A mass goes at its own speed or stands. Straight lines from answer to answer would show it creeping
 where it starts and where it arrives, and the detection of moves in a recording would miss it.

@@ -1,4 +1,4 @@
-"""Recording files, both ways, ours and other programs'; ``recording_formats`` lists the kinds."""
+"""Recording files, both ways, ours and other programs'; ``format_registry`` lists the kinds."""
 
 import hashlib
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Testbed files: TOML to the noun, the noun to TOML, and a file with other drives of its masses."""
+"""Testbed files: TOML to a Testbed and back, and a file's text with other drives of its masses."""
 
 from pathlib import Path
 from typing import Any, cast
