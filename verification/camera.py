@@ -71,7 +71,7 @@ def observed(measurement: Appearance, count: int, seed: int) -> Observed:
         assert picture is not None
         pose = sight.observe(picture)
         if isinstance(pose, Pose):
-            off = difference(pose.attitude, from_matrix(turn))
+            off = difference(from_matrix(pose.turn), from_matrix(turn))
             errors.append(float(np.degrees(np.linalg.norm(off))))
             nees.append(float(off @ np.linalg.solve(pose.covariance, off)))
     return Observed(np.array(errors), np.array(nees), count)

@@ -13,9 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from equipoise.io.mcap.mcap_recording import events_of
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.model.recording import Samples
+from tests.support.recorded_events import events_of
 from verification.recording_child import RATE, rates, turns
 from verification.result import Result, Row, Spread, at_most, in_turn
 

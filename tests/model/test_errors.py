@@ -1,4 +1,4 @@
-"""Errors say the same in whatever process they are told."""
+"""Errors say the same in whatever process they are printed."""
 
 import pickle
 

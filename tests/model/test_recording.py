@@ -156,7 +156,7 @@ def of_devices(*names: str) -> Recording:
 
 
 def test_device_columns_come_in_the_order_of_the_devices():
-    """A wheel and a jet of one name are told apart."""
+    """A wheel and a jet of one name are distinguished."""
     there = arranged_devices(of_devices("jet:x", "gimbal:a", "wheel:x", "wheel:y"), DEVICES)
     assert there.device_names == ("wheel:x", "wheel:y", "gimbal:a", "jet:x")
     np.testing.assert_array_equal(there.devices.values, [[3, 4, 2, 1], [3, 4, 2, 1]])

@@ -30,7 +30,7 @@ class Wire:
         self.outlying = OUTLYING_SIDES[kind](self.board, BED.masses)
         self.t, self.turn, self.sent, self.legs = 0.0, turn, b"", []
         self.cut = False  # what the board says does not arrive
-        self.reported = []  # s, positions, which have to go: every state that tells of another time
+        self.reported = []  # s, positions, which have to go: every state of another time
         self.driver.opened(0.0)
 
     def run(self, seconds, listen=True, until=""):

@@ -1,4 +1,4 @@
-"""Drivers as fuzz targets: each hears any bytes, at any point of a conversation."""
+"""Drivers as fuzz targets: each receives any bytes, at any point of a conversation."""
 
 import contextlib
 import functools
@@ -43,7 +43,7 @@ def received(name: str) -> Callable[[bytes], None]:
 
 
 def reported(name: str) -> bytes:
-    """Return three rows of each channel as a sensor's far side tells them."""
+    """Return three rows of each channel as a sensor's emulated counterpart sends them."""
     t = np.arange(3) * 0.025
     q = np.stack([np.cos(t), np.sin(t), 0 * t, 0 * t], axis=1)
     rows = Recording(Samples(t, q), Samples(t, np.stack([t, 1 - t, t / 7], axis=1)))
@@ -86,7 +86,7 @@ def made(make: Callable[[str], bytes], name: str) -> Callable[[], bytes]:
 
 
 def answered(kind: str) -> Callable[[bytes], None]:
-    """Return what a driver of a board does with bytes, while it is told to home, go and halt."""
+    """Return what a board's driver does with bytes, while it is commanded to home, go and halt."""
 
     def take(content: bytes) -> None:
         driver = BOARDS[kind](board_of(kind), BED.masses)

@@ -34,7 +34,7 @@ def over_tcp(bed):
 
 
 class FaultyMotors:
-    """Stands between an emulated board and the platform: what a motor does, not what it was told.
+    """Stands between an emulated board and the platform: what a motor does, not what was commanded.
 
     ``done`` is the share of each way that a mass named in it really goes: 0 for one that is stuck.
     """

@@ -13,7 +13,6 @@ from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.documents.camera_file import read_camera_keys
 from equipoise.io.documents.manual_session import Piles, read_session
 from equipoise.io.documents.plan_file import read_plan
-from equipoise.io.mcap.mcap_recording import events_of, stored_testbed
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.mcap.protobuf_fields import fields
 from equipoise.io.recording.recording_file import read_recording, write_recording
@@ -130,9 +129,8 @@ def mcap(path: Path) -> None:
     """All that is in a record, and what is left of it."""
     content = path.read_bytes()
     assert salvaged(content, "fuzz").lost_bytes <= len(content)
-    for read in (events_of, stored_testbed, recording):
-        with contextlib.suppress(InputError):
-            read(path)
+    with contextlib.suppress(InputError):
+        recording(path)
 
 
 def message(content: bytes) -> None:

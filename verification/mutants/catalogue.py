@@ -32,8 +32,10 @@ MODEL = _of("model", *(
         ("self.inertia_P - parallel_axis", "self.inertia_P + parallel_axis"),
         ("return 0.5 * np.trace(inertia) * EYE", "return np.trace(inertia) * EYE"),
         ("body.mass > 0 and smallest", "body.mass > -1 and smallest"),
-        ("from_centre(body.mass, body.com - new_P", "from_centre(body.mass, body.com + new_P"),
     )
+), (
+    "hardware.py", "return self.zero + (-1.0", "return self.zero - (-1.0",
+    "hardware/boards/test_tmcl.py",
 ))  # fmt: skip
 
 MATHS = _of(
@@ -239,8 +241,6 @@ HARDWARE = _of(
     "hardware",
     ("links/frame_transform.py", "return values @ unit.alignment.T",
      "return values @ unit.alignment", "hardware/sensors/test_sensors.py"),
-    ("boards/tmcl_steps.py", "axis.zero + _sign(axis) * displacement",
-     "axis.zero - _sign(axis) * displacement", "hardware/boards/test_tmcl.py"),
     ("boards/grbl.py", "/ way.duration * MINUTE", "/ way.duration / MINUTE",
      "hardware/boards/test_grbl.py"),
     ("sensors/vectornav.py", "(v[3], v[0], v[1], v[2])", "(v[0], v[1], v[2], v[3])",

@@ -13,7 +13,7 @@ class Bench(Protocol):
 
     @property
     def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
+        """The nominal properties of the bench."""
         ...
 
     @property

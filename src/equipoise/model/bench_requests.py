@@ -1,4 +1,4 @@
-"""What a bench may be asked: the same on simulated, replayed and real benches.
+"""Checks of requests to a bench, the same for simulated, replayed and real ones.
 
 A target is refused, never clipped; nothing moves unless all of them can be.
 """
@@ -47,7 +47,7 @@ def checked_targets(
 def _by_index(
     verb: str, kind: str, names: Sequence[str], requested: Mapping[str, float], number: str
 ) -> dict[int, float]:
-    """Return what is asked of each by its index; InputError for a strange name or no number."""
+    """Return what is asked of each by its index; InputError for an unknown name or no number."""
     for name, value in requested.items():
         if name not in names:
             known = nearest(name, names) if names else f"no {kind}: this testbed has none"
@@ -58,7 +58,7 @@ def _by_index(
 
 
 def in_steps(mass: SlidingMass, requested: float) -> float:
-    """Return the displacement (m) that a motor of this resolution is told to go to."""
+    """Return the displacement (m) to command a motor of this resolution."""
     return (
         requested if mass.resolution == 0 else round(requested / mass.resolution) * mass.resolution
     )

@@ -1,4 +1,4 @@
-"""What a balancing law asks for until its next step."""
+"""What a balancing law commands until its next step."""
 
 from dataclasses import dataclass
 
@@ -27,16 +27,15 @@ class Command:
     """What is wanted of the devices, all in body axes; who has which device is not a law's matter.
 
     What cannot be delivered is limited by whoever carries it out, and the next Sample says what
-    was: a law that integrates must look there (anti-windup).
+    was: a law that integrates must use that (anti-windup).
     """
 
     shift: Vector3 | None = None  # m, by the masses, counted from home; None: they stay
     torque: Vector3 | None = None  # N m on the platform, by wheels or gyros; None: none
     magnetic: Vector3 | None = None  # N m on the platform, by magnetorquers; None: none
     impulse: Vector3 | None = None  # N m s on the platform, by jets; None: none
-    measurement: Measurement | None = (
-        None  # the next step is given the Estimate of this look, not a Sample
-    )
+    # With a measurement the next step is given its Estimate, not a Sample.
+    measurement: Measurement | None = None
     finished: tuple[Reason, ...] = ()  # why the law has done its work; empty: it has not
     following: Following | None = None  # with ``finished``: what masses can follow from now on
     note: tuple[Reason, ...] = ()  # what people should know of this step

@@ -1,4 +1,4 @@
-"""What can be wrong with a simulated bench beyond noise: its surroundings, camera, gyro and log."""
+"""Defects of a simulated bench beyond noise: surroundings, camera, gyro and log."""
 
 from dataclasses import dataclass, field
 

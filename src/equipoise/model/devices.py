@@ -1,4 +1,4 @@
-"""Devices that turn a platform without moving its centre of mass, as known beforehand.
+"""Devices that turn a platform without moving its centre of mass, as the testbed states them.
 
 Each is driven by one number and reports one number (``Recording.devices``):
 
@@ -85,7 +85,7 @@ class JetPair:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MagneticField:
-    """The field in the laboratory, uniform, as known beforehand; of a Helmholtz cage, say."""
+    """The nominal field in the laboratory, uniform; of a Helmholtz cage, say."""
 
     field_N: Vector3  # T, laboratory axes
     noise: float | None = None  # T, one sd per axis of a magnetometer's row; None: there is none

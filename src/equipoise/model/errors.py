@@ -1,4 +1,4 @@
-"""What can be wrong with a use of the package, as exceptions that a person can act on.
+"""Errors of use, as exceptions that a person can act on.
 
 Poor data is not an error but an outcome (see ``outcome``); these are for wrong use and bad input.
 """

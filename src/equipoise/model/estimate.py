@@ -1,4 +1,4 @@
-"""An estimate: named values with their covariance, and a plain statement of what was not seen."""
+"""An estimate: named values with their covariance, and the directions that are unobservable."""
 
 import math
 from collections.abc import Container, Mapping
@@ -81,7 +81,7 @@ class Residual:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:
-    """What was believed of some parameters along the record."""
+    """The estimates of some parameters along the record."""
 
     names: tuple[str, ...]
     t: Series1  # s

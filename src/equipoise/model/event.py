@@ -1,4 +1,4 @@
-"""Something that happened to the platform while it was watched: a touch, a part that shifted."""
+"""An event in a recording: an impulse on the platform, or a step of its centre of mass."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -19,5 +19,6 @@ class Event:
     size: Vector3  # in UNITS; laboratory axes for an impulse, body axes otherwise
     covariance: Matrix3
     surprise: float  # chi-square of three degrees of freedom that it explains
-    unclear: bool = False  # the other kind explains it about as well; of com only the spread tells
+    # The other kind explains it about as well; of a step of com only the covariance shows that.
+    unclear: bool = False
     azimuth: float | None = None  # rad about the body's up axis, of the place pushed from below

@@ -1,15 +1,15 @@
-"""Something that a record holds, or that is wrong with it."""
+"""A finding: a fact about a recording, or a problem of it."""
 
 from dataclasses import dataclass
 from typing import Literal
 
-from equipoise.model.reasons.reason import Code, Reason, sentence_of
+from equipoise.model.reasons.reason import Coded, Reason
 
 Kind = Literal["content", "motion", "problem", "mended"]
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Coded):
     """What was found, the main thing first, and when it holds.
 
     ``content`` is what was recorded, ``motion`` what the platform did, ``problem`` what an
@@ -20,13 +20,3 @@ class Finding:
     reasons: tuple[Reason, ...]
     span: tuple[float, float] | None = None  # s; None: the record as a whole
     label: str = ""  # a word for its mark in a figure, if it has one
-
-    @property
-    def code(self) -> Code:
-        """The main thing."""
-        return self.reasons[0].code
-
-    @property
-    def sentence(self) -> str:
-        """All of it for a person."""
-        return sentence_of(self.reasons)

@@ -1,4 +1,4 @@
-"""What a law found that masses can follow once it has ended: sag that bends, warmth that drifts."""
+"""Sag and drift that a law found, for masses to follow after it has ended."""
 
 from dataclasses import dataclass
 

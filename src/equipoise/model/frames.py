@@ -1,4 +1,4 @@
-"""Frames, points and letters, said once.
+"""Frames, points and symbols.
 
 N   laboratory frame, Z up, origin at the centre of rotation P.
 B   body frame, fixed to the platform, same origin.

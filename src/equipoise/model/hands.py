@@ -13,7 +13,7 @@ class Hands(Protocol):
 
     @property
     def testbed(self) -> Testbed:
-        """What is known of it beforehand, without any weights."""
+        """The nominal properties of the bench, without any weights."""
         ...
 
     @property
@@ -29,7 +29,7 @@ class Hands(Protocol):
         ...
 
     def place(self, wanted: Ints) -> Ints:
-        """Load it as wanted (``model.weights``), and return how it is loaded really, as told.
+        """Load it as wanted (``model.weights``), and return how it is really loaded, as reported.
 
         Raises MoveRefused, and nothing moves, when no pile or no stock allows it.
         """

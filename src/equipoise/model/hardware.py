@@ -40,6 +40,14 @@ class Axis:
     zero: float  # m, the board's position where the displacement is zero
     reversed: bool = False
 
+    def displacement(self, position: float) -> float:
+        """Return the mass's displacement (m) at a position of the board (m)."""
+        return (-1.0 if self.reversed else 1.0) * (position - self.zero)
+
+    def position(self, displacement: float) -> float:
+        """Return the board's position (m) of a displacement (m)."""
+        return self.zero + (-1.0 if self.reversed else 1.0) * displacement
+
 
 @dataclass(frozen=True, slots=True)
 class MotorBoard:
@@ -54,7 +62,7 @@ class MotorBoard:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SensorUnit:
-    """A device that sees attitude, rate or both.
+    """A device that measures attitude, rate or both.
 
     With S = ``alignment`` (sensor to body), q the sensor's own attitude and L the turn of its
     laboratory frame to ours (Z up):  w_B = S w_S,  R(q_BN) = L R(q) S^T.

@@ -1,4 +1,4 @@
-"""What to expect of a balancing law, and which devices it needs."""
+"""The properties of a balancing law, and the devices that it needs."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -26,4 +26,4 @@ class LawCard:
     leaves: str  # what it does not remove, and what it cannot see
     stable: str  # where it is stable: sampling, rate limits, size of the offset
     period: float  # s, between steps
-    follows: bool = False  # it tells what masses can follow when it has ended
+    follows: bool = False  # it states what masses can follow when it has ended

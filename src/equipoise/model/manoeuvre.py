@@ -1,7 +1,7 @@
 """A manoeuvre: how a platform is let go, and what masses and devices do while it swings.
 
 The start is what a person's hand can do: hold the platform with one side low, and let go with a
-push. Its heading is the person's choice; it tells nothing.
+push. Its heading is the person's choice and has no effect.
 
     input of a device = amplitude   in the first half of each period
                       = -amplitude  in the second
@@ -50,6 +50,6 @@ class Plan:
 
     testbed: str  # name
     manoeuvre: Manoeuvre
-    inertia_sd: Vector6 | None = None  # kg m^2, xx yy zz xy xz yz; None: not all of it is seen
+    inertia_sd: Vector6 | None = None  # kg m^2, xx yy zz xy xz yz; None: part is unobservable
     com_sd: Vector3 | None = None  # m
     source: str = ""  # the file

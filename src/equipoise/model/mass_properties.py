@@ -1,4 +1,4 @@
-"""Mass, centre of mass and inertia of a rigid body; shift, combine, what is physically possible.
+"""Mass, centre of mass and inertia of a rigid body; what is physically possible.
 
     J_P = J_C + m (|r|^2 E - r r^T)                                             (parallel axes)
     Sigma = 1/2 tr(J) E - J  >  0     (second moments of mass: J > 0 and the triangle inequality)
@@ -23,7 +23,7 @@ def parallel_axis(mass: float, offset: Vector3) -> Matrix3:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class MassProperties(Plotted):
-    """A rigid body as seen from the point P, in body axes."""
+    """A rigid body, referred to the point P, in body axes."""
 
     mass: float  # kg
     com: Vector3  # m, from P to the centre of mass
@@ -43,18 +43,6 @@ class MassProperties(Plotted):
 def from_centre(mass: float, com: Vector3, inertia_C: Matrix3) -> MassProperties:
     """Return the properties of a body whose inertia is given about its centre of mass."""
     return MassProperties(mass, com, inertia_C + parallel_axis(mass, com))
-
-
-def shift(body: MassProperties, new_P: Vector3) -> MassProperties:
-    """Return the same body seen from another point, given from the old one (m)."""
-    return from_centre(body.mass, body.com - new_P, body.inertia_C)
-
-
-def combine(first: MassProperties, second: MassProperties) -> MassProperties:
-    """Return the two bodies as one; both must be seen from the same point in the same axes."""
-    mass = first.mass + second.mass
-    com = (first.first_moment + second.first_moment) / mass
-    return MassProperties(mass, com, first.inertia_P + second.inertia_P)
 
 
 def second_moments(inertia: Matrix3) -> Matrix3:

@@ -1,4 +1,4 @@
-"""What to expect of a method of estimation, and on which records its intervals are measured."""
+"""The properties of a method of estimation, and the records on which its coverage is measured."""
 
 from dataclasses import dataclass
 from typing import Literal

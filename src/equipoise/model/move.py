@@ -9,7 +9,7 @@ from equipoise.model.reasons.step_reasons import MoveReason
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Move:
-    """A prediction that the next look tests."""
+    """A prediction that the next measurement tests."""
 
     targets: Mapping[str, float]  # m, displacement from home by mass
     travel: float  # m, the sum over the masses

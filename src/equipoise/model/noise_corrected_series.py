@@ -1,4 +1,4 @@
-"""A series along a record, and its size with the noise taken off."""
+"""A series along a record, and its rms corrected for noise."""
 
 from dataclasses import dataclass
 

@@ -13,8 +13,8 @@ class Observability:
 
     names: tuple[str, ...]
     units: tuple[str, ...]  # SI
-    sd: Floats  # Cramer-Rao bound, SI; infinite: not seen
-    before: Floats  # sd that the testbed states beforehand, SI; infinite: none
+    sd: Floats  # Cramer-Rao bound, SI; infinite: unobservable
+    before: Floats  # prior sd of the testbed, SI; infinite: none
     hidden: Bools
     held: Bools  # not sought
     unobservable: tuple[Reason, ...]  # directions
@@ -30,11 +30,11 @@ class Observability:
 
 @dataclass(frozen=True, slots=True)
 class FilterView:
-    """What a filter sees."""
+    """What a filter can observe."""
 
     name: str
     size: int  # of its state
     measures: str  # "gyro" or "camera"
     possible: int  # rank with sensors of no noise
     rank: int | None  # with the testbed's; None: the recording has no such rows
-    unobservable: tuple[Reason, ...]  # directions that are not seen, at ``rank`` if there is one
+    unobservable: tuple[Reason, ...]  # at ``rank`` if there is one

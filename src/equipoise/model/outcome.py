@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
-from equipoise.model.reasons.reason import Number, Reason, one_reason, sentence_of
+from equipoise.model.reasons.reason import Number, Reason, Reasoned, one_reason
 
 
 class Trust(StrEnum):
@@ -96,7 +96,7 @@ def trust_of(reasons: Iterable[Reason]) -> Trust:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class Outcome(Reasoned):
     """Why an estimate came out as it did, the main reason first."""
 
     reasons: tuple[Reason, ...]
@@ -120,11 +120,6 @@ class Outcome:
     def warns(self) -> bool:
         """Whether intervals, or numbers as well, are not to be relied on."""
         return self.trust in (Trust.NOT_TRUSTWORTHY, Trust.NOT_USABLE)
-
-    @property
-    def sentence(self) -> str:
-        """All reasons for a person."""
-        return sentence_of(self.reasons)
 
 
 def outcome(code: Why, *parameters: str, **numbers: Number) -> Outcome:

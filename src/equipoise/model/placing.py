@@ -14,7 +14,7 @@ class Placing:
     before: Ints  # (places, kinds) counts
     after: Ints
     predicted_com: Vector3  # m, afterwards
-    predicted_covariance: Matrix3  # m^2, of what is believed and of masses and places
+    predicted_covariance: Matrix3  # m^2, of the estimate and of masses and places
 
     @property
     def handled(self) -> int:

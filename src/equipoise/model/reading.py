@@ -1,4 +1,4 @@
-"""What a device said: one row of a sensor, and how well it speaks."""
+"""What a device sent: one row of a sensor, and counts of its messages."""
 
 from dataclasses import dataclass
 
@@ -15,9 +15,8 @@ class Reading:
 
     channel: Gives
     values: tuple[float, ...]  # 4 or 3 numbers
-    stamp: float | None = None  # s, on the device's clock; None: it tells no time
+    stamp: float | None = None  # s, on the device's clock; None: it stamps no rows
     number: int | None = None  # of the row, as the device counts; None: it does not
-    sd: float | None = None  # rad or rad/s, one sd per axis as the device states it
 
 
 @dataclass(frozen=True, slots=True)

@@ -60,13 +60,13 @@ class Recording(Plotted):
     field: Samples | None = None  # (n, 3) T, magnetic, body axes, as the magnetometer gave it
     temperature: Samples | None = None  # (n, 1) degC, of the air at the bench or of the platform
     # (n, 1) lengths of the attitude's quaternions as they were found, at the attitude's times; None
-    # when they told no more than rounding. A mean of frames is shorter than one. Not written.
+    # when they differ by no more than rounding. A mean of frames is shorter than one. Not written.
     attitude_norm: Samples | None = None
     source: str = ""  # the file, or the bench
     sha256: str = ""  # of the file's bytes; empty when it never was a file
     notes: tuple[str, ...] = ()  # what reading it had to set right
     gaps: tuple[str, ...] = ()  # where reading it found a sensor silent
-    free_from: float | None = None  # s, when the platform was let go, where the file tells
+    free_from: float | None = None  # s, when the platform was let go, where the file states it
 
     @property
     def span(self) -> tuple[float, float]:
@@ -76,6 +76,7 @@ class Recording(Plotted):
 
 
 CHANNELS = ("attitude", "rate", "masses", "momentum", "torque", "devices", "field", "temperature")
+INPUTS = ("masses", "momentum", "torque", "devices")  # straight lines between their rows
 
 
 def window(recording: Recording, start: float, end: float) -> Recording:
@@ -94,18 +95,11 @@ def window(recording: Recording, start: float, end: float) -> Recording:
         last = int(np.searchsorted(channel.t, end, side="left")) + 1
         return Samples(channel.t[first:last], channel.values[first:last])
 
-    return replace(
-        recording,
-        attitude=sensor(recording.attitude),
-        attitude_norm=sensor(recording.attitude_norm),
-        rate=sensor(recording.rate),
-        masses=known(recording.masses),
-        momentum=known(recording.momentum),
-        torque=known(recording.torque),
-        devices=known(recording.devices),
-        field=sensor(recording.field),
-        temperature=sensor(recording.temperature),
-    )
+    parts = {
+        name: (known if name in INPUTS else sensor)(getattr(recording, name))
+        for name in (*CHANNELS, "attitude_norm")
+    }
+    return replace(recording, **parts)
 
 
 def rows_between(recording: Recording, since: float, until: float) -> Recording:

@@ -1,4 +1,4 @@
-"""Names and units of what may be wrong with how sensors see the platform.
+"""Names and units of the errors of sensors.
 
 Each is one coefficient that a fit may seek beside the torques (``sensors.camera`` and
 ``sensors.gyro`` have the equations). Groups are what a person asks for by name.

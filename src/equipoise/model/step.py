@@ -7,7 +7,7 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.following import Following
 from equipoise.model.move import Move
 from equipoise.model.placing import Placing
-from equipoise.model.reasons.reason import Code, Reason, sentence_of
+from equipoise.model.reasons.reason import Coded, Reason
 from equipoise.model.recording import Recording
 from equipoise.model.verdict import Verdict
 
@@ -15,7 +15,7 @@ Kind = Literal["measurement", "estimate", "move", "place", "control", "verify", 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Step:
+class Step(Coded):
     """What was done, when on the bench's clock, and what came of it."""
 
     kind: Kind
@@ -28,13 +28,3 @@ class Step:
     # what masses can follow from now on
     following: Following | None = field(default=None, repr=False)
     placing: Placing | None = field(default=None, repr=False)  # of weights, by hand
-
-    @property
-    def code(self) -> Code:
-        """The main thing to know."""
-        return self.reasons[0].code
-
-    @property
-    def sentence(self) -> str:
-        """What came of it, for a person."""
-        return sentence_of(self.reasons)

@@ -1,4 +1,4 @@
-"""The testbed: what is known of a platform, its masses, its sensors and its bearing beforehand.
+"""The testbed: the nominal properties of a platform, its masses, its sensors and its bearing.
 
 ``Truth`` is read by the simulator alone.
 """
@@ -41,8 +41,8 @@ class DriveDoubt:
 class SlidingMass:
     """A mass on a rail. Its displacement is zero at home and counts along ``axis``, as commanded.
 
-    Told to go d, it changes the first moment by ``mass * gain * d * axis``. What a balance feels
-    is that product alone: a gain stands for wrong steps and for a wrong weight alike.
+    Commanded to go d, it changes the first moment by ``mass * gain * d * axis``. A balance depends
+    on that product alone: a gain stands for wrong steps and for a wrong weight alike.
     """
 
     name: str
@@ -86,7 +86,7 @@ class Gyro:
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A mass that does not do as it is told: it goes ``gain`` times the distance from home."""
+    """A mass that does not follow its commands: it goes ``gain`` times the distance from home."""
 
     mass: str
     gain: float  # -, 0: stuck at home, 1: sound
@@ -97,7 +97,7 @@ class Fault:
 class TrueDrive:
     """What a mass's drive really is, all its life; None: as the testbed states it.
 
-    Not told as a difference, so that it stays true when a calibration mends what is stated.
+    Not stated as a difference, so that it stays true when a calibration corrects the testbed.
     """
 
     mass: str

@@ -17,23 +17,16 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "drift": ("drift_x", "drift_y", "drift_z"),
 }
 TERMS: tuple[str, ...] = tuple(term for group in GROUPS.values() for term in group)
-UNITS: dict[str, str] = {
-    "viscous": "N m s",
-    "quadratic": "N m s2",
-    "constant": "N m",
-    "swirl": "N m",
-    "sag": "m",
-    "drift": "m/s",
-}
-# SI, one sd, chosen: a few times what benches are reported to have. Where the data do not tell a
-# term apart, it is as large as this at most, with what that does to all else.
-TYPICAL: dict[str, float] = {
-    "viscous": 1e-4,
-    "quadratic": 1e-3,
-    "constant": 1e-5,
-    "swirl": 1e-5,
-    "sag": 3e-5,
-    "drift": 5e-9,
+# Of each group the unit, and how large its terms are, SI, one sd, chosen: a few times what benches
+# are reported to have. Where the data do not determine a term, this is its prior, and all else
+# is as uncertain as that makes it.
+SIZES: dict[str, tuple[str, float]] = {
+    "viscous": ("N m s", 1e-4),
+    "quadratic": ("N m s2", 1e-3),
+    "constant": ("N m", 1e-5),
+    "swirl": ("N m", 1e-5),
+    "sag": ("m", 3e-5),
+    "drift": ("m/s", 5e-9),
 }
 
 
@@ -55,9 +48,9 @@ def among(names: Iterable[str]) -> tuple[str, ...]:
 
 def typical(term: str) -> float:
     """Return how large a term's coefficient is on benches, one sd, SI."""
-    return TYPICAL[term.split("_")[0]]
+    return SIZES[term.split("_")[0]][1]
 
 
 def unit_of(term: str) -> str:
     """Return the SI unit of a term's coefficient."""
-    return UNITS[term.split("_")[0]]
+    return SIZES[term.split("_")[0]][0]

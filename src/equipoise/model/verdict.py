@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import NORMAL_95
-from equipoise.model.reasons.reason import Code, Reason, sentence_of
+from equipoise.model.reasons.reason import Coded, Reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
 
 
@@ -57,7 +57,7 @@ def outcome_of(reasons: Iterable[Reason]) -> VerdictOutcome:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Verdict:
+class Verdict(Coded):
     """What a claim came to, why, the main reason first, and the numbers behind it."""
 
     reasons: tuple[Reason, ...]
@@ -75,16 +75,6 @@ class Verdict:
         return self.outcome is VerdictOutcome.PASSED
 
     @property
-    def code(self) -> Code:
-        """The main reason."""
-        return self.reasons[0].code
-
-    @property
-    def sentence(self) -> str:
-        """All reasons for a person."""
-        return sentence_of(self.reasons)
-
-    @property
     def noise_floor(self) -> Vector3 | None:
-        """Return 1.96 sd (m): along an axis, a smaller offset cannot be told from none (95 %)."""
+        """Return 1.96 sd (m): along an axis, a smaller offset is not significant (95 %)."""
         return None if self.sd is None else NORMAL_95 * self.sd

@@ -15,8 +15,8 @@ from websockets.sync.client import connect
 
 from equipoise.app.cli import BY_HAND
 from equipoise.io.mcap.foxglove_server import ADDRESS
-from equipoise.io.mcap.mcap_recording import events_of
 from equipoise.io.recording.recording_file import read_recording
+from tests.support.recorded_events import events_of
 
 pytest.importorskip("pty", reason="no pseudo terminals, no SIGINT")
 from tests.support.pseudo_terminal import AtTerminal, screen, stripped

@@ -295,7 +295,7 @@ def test_who_homes_holds_the_platform_as_at_first():
         found.wait(1.0)
         held = found.emulated.leaning
         assert held < 0.5 * swung
-        while not found.keeper.ready:
+        while not found.keeper.links.ready:
             found.wait(0.5)
         found.bench.watch()
         assert found.bench.read(1.0).masses.values[-1] == pytest.approx(np.zeros(3), abs=2e-6)

@@ -7,7 +7,7 @@ from mcap.reader import make_reader
 from equipoise.app.arguments.recording_window import WHOLE, Reading
 from equipoise.app.arguments.resolve import fitting_recording_of
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
-from equipoise.io.mcap.mcap_recording import stored_testbed
+from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording, Samples, rows_between
@@ -59,7 +59,8 @@ def test_a_live_record_is_given_an_index_and_keeps_every_message(equipoise, tmp_
     assert (reported.code, "It has no index; the new file has one" in reported.out) == (0, True)
     assert chunks_and_messages("live.mcap") == (0, chunks_and_messages("indexed.mcap")[1])
     assert chunks_and_messages("indexed.mcap")[0] > 0
-    assert stored_testbed("indexed.mcap") == "name = 'x'"
+    (attachment,) = salvaged((tmp_path / "indexed.mcap").read_bytes(), "").attachments
+    assert (attachment.name, attachment.data) == ("testbed.toml", b"name = 'x'")
     again = equipoise("repair", "indexed.mcap", "--out", "twice.mcap")
     assert "indexed.mcap is whole" in again.out
     assert not (tmp_path / "twice.mcap").exists()

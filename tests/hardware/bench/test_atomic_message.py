@@ -23,16 +23,16 @@ def test_the_block_ends_first():
 
 
 def test_it_does_what_it_did_before():
-    """Whoever had taken Ctrl-C over has it again, and is told once."""
+    """Whoever had taken Ctrl-C over has it again, and receives it once."""
     reported = []
-    before = signal.signal(signal.SIGINT, lambda *_: reported.append("told"))
+    before = signal.signal(signal.SIGINT, lambda *_: reported.append("received"))
     try:
         with whole_message():
             signal.raise_signal(signal.SIGINT)
             assert reported == []
-        assert reported == ["told"]
+        assert reported == ["received"]
         signal.raise_signal(signal.SIGINT)
-        assert reported == ["told"] * 2
+        assert reported == ["received"] * 2
     finally:
         signal.signal(signal.SIGINT, before)
 
@@ -45,7 +45,7 @@ def test_an_error_of_the_block_comes_out_and_the_handler_is_back():
 
 
 def test_other_threads_are_let_alone():
-    """Python tells the main thread alone of a signal."""
+    """Python delivers a signal to the main thread only."""
     done = []
 
     def work():

@@ -212,7 +212,7 @@ def test_a_board_that_was_unplugged_must_home_again(kind):
     wire = Wire(kind).at_home()
     wire.driver.go({"x": 14 * MM}, wire.t)
     wire.run(0.4)
-    wire.driver.closed(wire.t, "gone")
+    wire.driver.closed("gone")
     state = wire.driver.state
     assert (state.phase, state.sure) == ("fault", False)
     assert "its port is gone (gone)" in state.sentence

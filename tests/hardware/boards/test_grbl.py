@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from equipoise.hardware.boards.grbl_report import Code, Ok, Setting, Status, Welcome, parsed
+from equipoise.hardware.boards.grbl_report import Code, Setting, Status, Word, parsed
 from equipoise.hardware.boards.grbl_settings import disagreement
 from equipoise.model.units import MM
 from tests.support.board_wire import BED, Wire, board_of
@@ -20,11 +20,11 @@ def test_the_documented_lines_are_understood():
     assert parsed(b"<Hold:1|WPos:-5.529,0.560,7.000|WCO:1.000,0.000,-2.000>") == Status(
         "Hold", None, (-5.529, 0.56, 7.0), (1.0, 0.0, -2.0)
     )
-    assert parsed(b"ok") == Ok()
+    assert parsed(b"ok") is Word.OK
     assert parsed(b"error:9") == Code(False, 9)
     assert parsed(b"ALARM:1") == Code(True, 1)
     assert parsed(b"$110=500.000 (x max rate, mm/min)") == Setting(110, 500.0)
-    assert parsed(b"Grbl 1.1h ['$' for help]") == Welcome()
+    assert parsed(b"Grbl 1.1h ['$' for help]") is Word.WELCOME
     for broken in (b"<Idle|MPos:0.0,nan,0.0>", b"<Idle|MPos", b"rror:9", b"$1x=3", b"\xff\xfe"):
         assert parsed(broken) is None
 

@@ -14,6 +14,7 @@ from equipoise.hardware.boards.tmcl_settings import disagreement, guards, questi
 from equipoise.hardware.boards.tmcl_talk import Answer, Talk
 from equipoise.hardware.boards.tmcl_words import Reply, Request, packed, replies_in
 from equipoise.hardware.emulated.tmcl import EmulatedTmcl
+from equipoise.hardware.transport.conversation import Tally
 from equipoise.model.units import MM
 from tests.support import thorough
 from tests.support.board_wire import BED, TURN, Wire, board_of
@@ -94,7 +95,8 @@ def test_an_answer_is_found_behind_any_number_of_broken_bytes():
 
 
 def test_one_question_at_a_time_and_an_answer_to_another_is_foreign():
-    talk = Talk()
+    tally = Tally()
+    talk = Talk(tally)
     talk.say([Request(6, 1, 0), Request(6, 1, 1)])
     assert talk.due(0.0) == hexed("01 06 01 00 00 00 00 00 08")
     assert talk.due(0.1) == b""
@@ -105,11 +107,11 @@ def test_one_question_at_a_time_and_an_answer_to_another_is_foreign():
     talk.feed(POSITION + POSITION, 0.3)
     assert talk.answers[Request(6, 1, 0)] == Answer(100, 711, True, 0.2)
     assert talk.over
-    assert (talk.counts.good, talk.counts.foreign, talk.counts.corrupt) == (2, 2, 0)
+    assert (tally.counts.good, tally.counts.foreign, tally.counts.corrupt) == (2, 2, 0)
 
 
 def test_what_is_pending_when_another_script_begins_is_not_taken_for_its_answer():
-    talk = Talk()
+    talk = Talk(Tally())
     talk.say([Request(6, 1, 0)])
     talk.due(0.0)
     talk.say([Request(6, 1, 0)])

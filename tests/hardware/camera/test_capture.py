@@ -44,7 +44,7 @@ def until_lost(port, pause):
 
 
 def test_only_the_newest_picture_waits(video):
-    """Nobody looks until the video is over: one picture is left, and its number tells how many."""
+    """Nobody reads until the video is over: one picture is left, numbered by their count."""
     port = CapturePort("camera:0", video, None)
     port._thread.join(10.0)
     found, why = until_lost(port, 0.0)

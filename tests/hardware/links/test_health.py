@@ -1,4 +1,4 @@
-"""What is told of devices: every count in words, and the clock as it is."""
+"""What is reported of devices: every count in words, and the clock as it is."""
 
 import pytest
 
@@ -9,7 +9,7 @@ from equipoise.model.reading import Counts
 
 
 def clock(drift, offset, jumps=0):
-    """Return a clock that has heard a row a second for 20 s, none of them late."""
+    """Return a clock that has received a row a second for 20 s, none of them late."""
     reported = DeviceClock()
     for k in range(21):
         reported = learnt(reported, float(k), offset + k * (1 + drift))

@@ -57,7 +57,7 @@ def test_which_masses_have_still_to_go():
 
 
 def truth(t):
-    """Return where masses are: told at 0.5 s to go to GOALS, and home again at 2 s."""
+    """Return where masses are: commanded at 0.5 s to go to GOALS, and home again at 2 s."""
     out = np.clip((t - 0.52) * 8e-3, 0, np.abs(GOALS)) * np.sign(GOALS)
     back = np.clip((t - 2.02) * 8e-3, 0, np.abs(GOALS)) * np.sign(GOALS)
     return out - back
@@ -65,7 +65,7 @@ def truth(t):
 
 @pytest.mark.parametrize("seed", range(8))
 def test_answers_that_jitter_show_the_moves_there_were(seed):
-    """Asked each 50 ms, heard up to 20 ms late, now and then two at once; three masses, two moves.
+    """Asked each 50 ms, answered up to 20 ms late, at times two at once; three masses, two moves.
 
     Each mass that moved has stood three times. Rows are wrong by no more than the lateness and the
     time between answers can make them: 70 ms at a start or an arrival, 20 ms on the way.

@@ -81,7 +81,7 @@ def test_what_is_no_row_is_counted():
 
 
 def test_a_line_whose_beginning_was_missed_is_no_row():
-    """After opening "345,..." may have been "12345,...": nothing in it could tell."""
+    """After opening "345,..." may have been "12345,...": nothing in it shows which."""
     driver = LineProtocol(unit("lines", columns=ROW, send="start"))
     driver.opened()
     assert driver.due(0.0) == b"start\n"

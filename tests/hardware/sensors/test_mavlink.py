@@ -124,7 +124,7 @@ def test_it_sends_heartbeats_and_requests_until_it_is_answered():
     (beat,) = common.MAVLink(None).parse_buffer(first)
     assert (beat.get_type(), beat.type, beat.autopilot) == ("HEARTBEAT", 6, 8)
     assert driver.due(0.99) == b""
-    assert outlying.take(first, 0.0) == b""  # no vehicle was heard, so nothing is asked for
+    assert outlying.take(first, 0.0) == b""  # no vehicle yet, so nothing is asked for
     driver.feed(frame(0, 50, struct.pack("<IBBBBB", 0, 2, 12, 0, 4, 3)))
     answer = outlying.take(driver.due(1.0), 1.0)
     assert outlying.requested == {31: 20000.0, 105: 20000.0}

@@ -70,14 +70,14 @@ def test_a_frame_by_hand_is_understood(sizes):
     driver = NatNet(unit("natnet"))
     (row,) = driver.feed(datagram(42, [body(2, (1, 0, 0, 0)), body(1, TURN)], 12.5, sizes))
     assert row.values == pytest.approx((HALF, 0, HALF, 0), abs=1e-7)
-    assert (row.channel, row.number, row.stamp, row.sd) == ("attitude", 42, 12.5, None)
+    assert (row.channel, row.number, row.stamp) == ("attitude", 42, 12.5)
 
 
 def test_a_turn_about_the_vertical_by_hand():
     """Y is up in Motive, as set by default, so a quarter turn about y is one about our z.
 
-    Motive's x is ours, and its z our -y: a body that looked along x looks along -z there, so along
-    our y.
+    Motive's x is ours, and its z our -y: a body that pointed along x points along -z there, so
+    along our y.
     """
     device = unit("natnet", "y_up")
     (row,) = NatNet(device).feed(datagram(1, [body(1, TURN)]))
@@ -145,7 +145,7 @@ def test_a_body_is_found_by_its_name():
 def test_a_declaration_that_cannot_be_is_named(settings, said):
     with pytest.raises(InputError, match=said):
         NatNet(unit("natnet", **settings))
-    with pytest.raises(InputError, match="tells no rate"):
+    with pytest.raises(InputError, match="sends no rate"):
         NatNet(replace(unit("natnet"), gives=("attitude", "rate")))
 
 

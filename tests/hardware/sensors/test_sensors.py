@@ -151,7 +151,7 @@ def test_rows_that_come_twice_late_or_frozen_are_not_kept():
 
 
 def clock_after(drift, offset, seconds, seed=0):
-    """Return a clock that has heard 50 rows a second, 5 ms late on average."""
+    """Return a clock that has received 50 rows a second, 5 ms late on average."""
     rng = np.random.default_rng(seed)
     clock = DeviceClock()
     for stamp in np.arange(0.0, seconds, 0.02):
@@ -178,7 +178,7 @@ def test_a_clock_that_jumps_is_begun_anew():
 
 @pytest.mark.parametrize("jump", [-0.3, 0.3, 2.0])
 def test_a_small_jump_of_the_clock_costs_no_time(jump):
-    """Stamps are ahead or behind by so much from then on; rows are told when they came, or so."""
+    """Stamps are ahead or behind by so much from then on; rows are stamped near their arrival."""
     clock, rng = clock_after(0.0, 12.0, 20.0), np.random.default_rng(1)
     for stamp in np.arange(20.0, 40.0, 0.02):
         arrival = 12.0 + stamp + rng.exponential(5e-3)
@@ -239,7 +239,7 @@ def test_unstamped_rows_that_arrive_at_once_are_spaced_by_a_period():
 
 
 def test_rows_that_come_at_once_and_bear_their_time_keep_it():
-    """All of them teach the clock first: the quickest, here the last, tells when others were."""
+    """All of them teach the clock first: the quickest, here the last, dates the others."""
     columns = ("t_ms", "gx_rad_s", "gy_rad_s", "gz_rad_s")
     turns = [[b"%d,%d,1,2\n" % (ms, ms) for ms in range(first, first + 100, 20)]
              for first in (5000, 5100, 5200)]  # fmt: skip

@@ -49,7 +49,7 @@ def near_speaks_first(outlying):
 
 
 def test_bytes_arrive_unchanged_both_ways(wire):
-    """All 256 values: a terminal that turned returns into line feeds would be seen."""
+    """All 256 values: a terminal that turned returns into line feeds would fail."""
     near, outlying = wire
     message = bytes(range(256))
     if near_speaks_first(outlying):

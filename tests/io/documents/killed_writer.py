@@ -21,7 +21,7 @@ from equipoise.model.verdict import VerdictOutcome
 
 
 def run(made_at="2026-03-01T12:00:00+01:00", **more) -> LoggedRun:
-    """Return a run with numbers, one of them not seen."""
+    """Return a run with numbers, one of them unobservable."""
     home = (
         Parameter("com_x", "m", 1.25e-6, 1e-7),
         Parameter("com_z", "m", -1e-4, float("inf"), observable=False),

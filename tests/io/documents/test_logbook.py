@@ -90,7 +90,7 @@ def test_an_invalid_entry_is_reported_and_the_others_are_listed(tmp_path, conten
     put(tmp_path, "one", run())
     put(tmp_path, "two", run())
     (tmp_path / "two" / RUN).write_text(content)
-    for _ in range(2):  # it is told each time
+    for _ in range(2):  # it is reported each time
         with open_logbook(tmp_path) as book:
             assert [entry.name for entry in book.runs()] == ["one"]
             assert len(book.unread) == 1

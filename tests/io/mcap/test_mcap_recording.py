@@ -19,13 +19,13 @@ from hypothesis import strategies as st
 from mcap.writer import Writer
 
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
-from equipoise.io.mcap.mcap_recording import events_of
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.mcap.protobuf_fields import double, fields, whole
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.model.errors import InputError
 from equipoise.model.recording import CHANNELS, Recording, Samples
 from tests.support import thorough
+from tests.support.recorded_events import events_of
 
 EXAMPLES = int(os.environ.get("EQUIPOISE_FUZZ", thorough.count(300, 90)))
 

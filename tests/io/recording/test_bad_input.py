@@ -135,7 +135,7 @@ def test_a_mass_that_the_testbed_lacks_names_the_nearest(tmp_path) -> None:
 
 
 def test_a_device_that_the_testbed_lacks_names_the_nearest(tmp_path) -> None:
-    """With a testbed at hand, the recording may tell of its devices alone, and of their kinds."""
+    """With a testbed at hand, the recording may name its devices only, and their kinds."""
     text = 'name = "t"\n[platform]\nmass_kg = 9\ninertia_kg_m2 = [[1,0,0],[0,1,0],[0,0,1]]\n'
     coil = '[[magnetorquer]]\nname = "x"\naxis = [1, 0, 0]\nmax_dipole_A_m2 = 1\n'
     path = tmp_path / "run.csv"

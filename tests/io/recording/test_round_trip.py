@@ -37,7 +37,7 @@ def times(rng: np.random.Generator, n: int) -> np.ndarray:
 def channels(draw: st.DrawFn) -> dict[str, Any]:
     """Draw what makes a recording: any channels, at least one sensor, each at its own times.
 
-    The recording itself is made in the test: the run-time checks of its types look at a random
+    The recording itself is made in the test: the run-time checks of its types test a random
     item of a tuple, and strategies may not use ``random``.
     """
     rng = np.random.default_rng(draw(st.integers(0, 2**32)))

@@ -156,7 +156,7 @@ def test_toml_cut_short_is_named() -> None:
     [(None, "no such file"), (b"", "empty"), (b" \n", "empty"), (b"\x00\x01\x02", "binary")],
 )
 def test_a_file_that_is_no_text_is_named(tmp_path, content, found) -> None:
-    """Missing, empty and binary files are told apart."""
+    """Missing, empty and binary files are distinguished."""
     path = tmp_path / "my.toml"
     if content is not None:
         path.write_bytes(content)

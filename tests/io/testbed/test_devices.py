@@ -345,7 +345,7 @@ def test_devices_written_and_read_again_are_the_same(text: str) -> None:
 
 
 def test_a_missing_magnetometer_stays_missing() -> None:
-    """So does a true field that is not told."""
+    """So does a true field without a nominal one."""
     again = parse_testbed(text_of_testbed(devices(BARE + "[truth]\n")), "t")
     assert again.magnetic_field is not None
     assert again.magnetic_field.noise is None

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.io.testbed.presets import preset_text
-from equipoise.io.testbed.testbed_edit import with_drives
-from equipoise.io.testbed.testbed_file import parse_testbed
+from equipoise.io.testbed.testbed_file import parse_testbed, with_drives
 
 TEXT = preset_text("sputnix")
 

@@ -53,7 +53,7 @@ def checked_bench(
         recording = bench.read(streamed)
         yield from _streams(keeper, recording, streamed)
         yield from _frames(recording, testbed)
-        if keeper.ready:
+        if keeper.links.ready:
             for mass in testbed.masses:
                 yield from _moved(bench, keeper, mass, agreed)
     except EquipoiseError as error:
@@ -113,9 +113,9 @@ def _moved(
     for goal in (way, 0.0):
         bench.move({mass.name: goal})
         latest = bench.time + A_LITTLE / mass.speed + ARRIVE
-        while not keeper.ready and bench.time < latest:
+        while not keeper.links.ready and bench.time < latest:
             bench.read(MEASUREMENT)
-        at = keeper.positions[mass.name]
+        at = keeper.links.positions[mass.name]
         if abs(at - goal) > A_LITTLE / 2:
             found = f"sent to {goal / MM:g} mm, its board says {at / MM:.2f} mm"
             raise BenchStopped(f"mass {mass.name}: {found}")

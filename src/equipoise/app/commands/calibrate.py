@@ -98,7 +98,7 @@ def _write(found: "Calibrated", name: str, path: Path, quiet: bool) -> None:
     from equipoise.app.views.calibration_views import remarks_of
     from equipoise.estimation.calibration.calibration import calibrated
     from equipoise.io.files.atomic_file import write_whole
-    from equipoise.io.testbed.testbed_edit import with_drives
+    from equipoise.io.testbed.testbed_file import with_drives
 
     text, drives = testbed_text_of(name), calibrated(found.testbed, found.estimate)
     write_whole(path, with_drives(text, drives, remarks_of(found), name))

@@ -106,9 +106,9 @@ def watched_camera(unit: SensorUnit, duration: float, reported: OnProgress) -> T
     except KeyboardInterrupt:
         pass
     finally:
-        link.close()
-    if not t and link.why:
-        raise InputError(unit.port.address, link.why, "a camera that can be reached")
+        link.connection.close()
+    if not t and link.connection.why:
+        raise InputError(unit.port.address, link.connection.why, "a camera that can be reached")
     counts, missing = driver.counts, link.arrivals.missing
     return Track(t, attitudes, [], counts.foreign, 0, counts.corrupt + missing)
 

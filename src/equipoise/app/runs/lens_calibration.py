@@ -4,7 +4,8 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from equipoise.hardware.camera.aruco import Charuco, Picture, charuco_points
-from equipoise.hardware.camera.calibration import Calibration, View, lens_from
+from equipoise.hardware.camera.calibration import Calibration, lens_from
+from equipoise.hardware.camera.first_pose import Corners
 from equipoise.hardware.camera.pictures import SUFFIXES, picture_at
 from equipoise.model.errors import InputError
 from equipoise.model.units import MM
@@ -33,7 +34,7 @@ def lens_from_files(
             yield picture
             reported((k + 1) / len(paths))
 
-    views = [View(*points) for points in charuco_points(board, pictures())]
+    views = [Corners(*points) for points in charuco_points(board, pictures())]
     return lens_from(views, sizes[0])
 
 

@@ -12,7 +12,7 @@ from equipoise.app.runs.balancing import Balancing, Goal
 from equipoise.app.runs.recorded_operator import FiledHands
 from equipoise.app.text.com_estimate import ComEstimate
 from equipoise.io.documents.manual_session import Piles, Round, Session
-from equipoise.io.toml.write_toml import numbers
+from equipoise.io.toml.write_toml import as_written
 from equipoise.model.arrays import Ints
 from equipoise.model.errors import InputError
 from equipoise.model.hands import Awaited
@@ -121,7 +121,7 @@ def summary(
 
 def begun(testbed: str, bed: Testbed, goal: Goal, rounds: int) -> Filed:
     """Return a new session."""
-    target, tolerance = numbers(goal.target, UM), numbers(goal.tolerance, UM)
+    target, tolerance = as_written(goal.target, UM), as_written(goal.tolerance, UM)
     session = Session(testbed=testbed, target_um=target, tolerance_um=tolerance,
                       max_rounds=rounds, round=[])  # fmt: skip
     return Filed(session, bed, (), ())

@@ -1,6 +1,6 @@
 """Ctrl-C, held back while a message is read from a pipe or written to it.
 
-A message that is cut in two can never be told from the next one again.
+After a message that is cut in two, the next one has no beginning that can be found.
 """
 
 import signal

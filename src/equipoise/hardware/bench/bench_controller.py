@@ -1,11 +1,12 @@
-"""The keeper of a bench: its ports, its interlocks, and all that they say, turn by turn.
+"""The keeper of a bench: polls its ports, evaluates its interlocks and reports, turn by turn.
 
-One turn looks at every port, feeds the drivers, asks the interlocks, sends what is due and hands
-on what was heard. It does not wait and knows no clock. Whoever commands can be lost at any moment:
+One turn polls every port, feeds the drivers, evaluates the interlocks, sends what is due and hands
+on what was received. It does not wait and has no clock. The commander can be lost at any moment:
 then ``halt`` is called for it.
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -25,11 +26,11 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import MM
 
-REMEMBERED = 0.2  # s, chosen: between the two answers from which a mass's speed is told
+REMEMBERED = 0.2  # s, chosen: between the two answers from which a mass's speed is computed
 
 
 class Listener(Protocol):
-    """Who is told all that happens: a recording, a live view."""
+    """Who receives all that happens: a recording, a live view."""
 
     def rows(self, recording: Recording) -> None:
         """Take rows as they arrive."""
@@ -44,11 +45,22 @@ class Listener(Protocol):
         ...
 
 
+@dataclass(frozen=True, slots=True)
+class BenchState:
+    """What whoever commands knows of a bench now."""
+
+    trip: Reason | None = None  # why every motor is stopped; None: none is
+    trouble: Reason | None = None  # what keeps masses from being moved now; None if nothing does
+    answered: bool = False  # every board has said how it is
+    ready: bool = False  # every board stands and knows where
+    fresh: bool = False  # every sensor gives rows
+
+
 class Keeper:
     """See above; ``hardware`` is the testbed's own."""
 
     def __init__(self, testbed: Testbed, hardware: Hardware, links: Links) -> None:
-        self._testbed, self.links = testbed, links
+        self.testbed, self.links = testbed, links
         self._limits = hardware.limits
         self._listeners: list[Listener] = []
         self._attitudes: list[tuple[float, Floats]] = []
@@ -57,24 +69,21 @@ class Keeper:
         self._silent = ""
         self._received = RowBuffer(testbed.masses)
         self.t = 0.0
-        self._trip: Reason | None = None
+        self.trip: Reason | None = None
 
     @property
-    def testbed(self) -> Testbed:
-        """What is known of the bench beforehand."""
-        return self._testbed
-
-    @property
-    def trip(self) -> Reason | None:
-        """Why every motor is stopped; None: none is."""
-        return self._trip
+    def state(self) -> BenchState:
+        """What is to be known of it now."""
+        links, silent = self.links, silence(self._observed(self.t), self._limits)
+        trouble = links.unreachable or silent or links.unsure
+        return BenchState(self.trip, trouble, links.answered, links.ready, silent is None)
 
     def listen(self, listener: Listener) -> None:
-        """Tell someone all that happens from now on."""
+        """Hand all that happens from now on to a listener."""
         self._listeners.append(listener)
 
     def turn(self, t: float) -> None:
-        """Look at everything once."""
+        """Poll every device and evaluate every interlock once."""
         self.t = t
         for link in self.links.sensors:
             self._sensed(link, t)
@@ -86,7 +95,7 @@ class Keeper:
         self._report(t)
 
     def taken(self) -> Recording:
-        """Return the rows heard since this was last asked."""
+        """Return the rows received since the last call."""
         return self._received.taken()
 
     def begin(self) -> None:
@@ -94,41 +103,15 @@ class Keeper:
         self._note("start", "the platform is free from here on", {})
         self._received.taken()
 
-    @property
-    def positions(self) -> dict[str, float]:
-        """Where the boards say that masses are, m."""
-        return self.links.positions
-
-    @property
-    def ready(self) -> bool:
-        """Say whether every board stands and knows where."""
-        return self.links.ready
-
-    @property
-    def answered(self) -> bool:
-        """Say whether every board has said how it is."""
-        return self.links.answered
-
-    @property
-    def fresh(self) -> bool:
-        """Say whether every sensor gives rows."""
-        return silence(self._observed(self.t), self._limits) is None
-
-    @property
-    def trouble(self) -> Reason | None:
-        """What keeps masses from being moved now; None if nothing does."""
-        silent = silence(self._observed(self.t), self._limits)
-        return self.links.unreachable or silent or self.links.unsure
-
     def health(self) -> list[Health]:
-        """Return how well each device speaks."""
+        """Return how well each device answers."""
         return self.links.health
 
     def home(self) -> None:
         """Let every board find its position; ends a stop whose cause is gone."""
-        self._trip, self._before = None, {}
+        self.trip, self._before = None, {}
         self._note("command", "home", {})
-        if self._trip is None:  # to note it may have filled the disk
+        if self.trip is None:  # to note it may have filled the disk
             self.links.home(self.t)
 
     def go(self, targets: Mapping[str, float]) -> None:
@@ -137,10 +120,10 @@ class Keeper:
         Raises InputError or MoveRefused for a target that cannot be, BenchStopped while masses
         may not move.
         """
-        here = np.array([self.positions.get(name, 0.0) for name in self._testbed.mass_names])
-        goals = checked_targets(self._testbed.masses, here, targets)
+        here = np.array([self.links.positions.get(name, 0.0) for name in self.testbed.mass_names])
+        goals = checked_targets(self.testbed.masses, here, targets)
         self._able()
-        by_name = {self._testbed.masses[i].name: goal for i, goal in goals.items()}
+        by_name = {self.testbed.masses[i].name: goal for i, goal in goals.items()}
         reported = ", ".join(f"{name} to {goal / MM:.3f} mm" for name, goal in by_name.items())
         self._note("command", f"go: {reported}", by_name)
         self._able()  # to note it may have filled the disk
@@ -155,7 +138,7 @@ class Keeper:
         self.links.halt(self.t)
 
     def close(self) -> None:
-        """Stop every mass, note how well each device spoke, and close every port."""
+        """Stop every mass, note how well each device answered, and close every port."""
         self.links.halt(self.t)
         self.links.send(self.t)
         for each in self.links.health:
@@ -164,7 +147,7 @@ class Keeper:
 
     def _able(self) -> None:
         """Raise BenchStopped while masses may not move."""
-        why = self._trip or self.trouble
+        why = self.trip or self.state.trouble
         if why is not None:
             raise BenchStopped(f"nothing was moved: {why.sentence}", why)
 
@@ -178,8 +161,8 @@ class Keeper:
     def _guard(self, t: float) -> None:
         """Ask the interlocks; note a sensor that falls silent or comes back while masses stand."""
         observed = self._observed(t)
-        found = tripped(observed, self._testbed, self._limits)
-        if found is not None and (self._trip is None or self._trip.code is not found.code):
+        found = tripped(observed, self.testbed, self._limits)
+        if found is not None and (self.trip is None or self.trip.code is not found.code):
             self._stop(found)
         quiet = silence(observed, self._limits)
         silent = "" if quiet is None else quiet.parameters[0]
@@ -187,14 +170,14 @@ class Keeper:
             code = Interlock.SENSOR_SILENT if silent else Interlock.SENSOR_BACK
             self._warn(Reason(code, (silent or self._silent,)))
             self._silent = silent
-        self._remember(t)
+        self._remember()
 
     def _observed(self, t: float) -> Observed:
         silent, states = self.links.silent(t), self.links.states
         return Observed(t, self._attitudes, self._rates, silent, states, self._before)
 
-    def _remember(self, t: float) -> None:
-        """Keep an earlier answer of each board, from which speeds are told."""
+    def _remember(self) -> None:
+        """Keep an earlier answer of each board, to compute speeds from."""
         for state in self.links.states.values():
             if state.reported is None or not state.sure:
                 continue
@@ -204,7 +187,7 @@ class Keeper:
 
     def _stop(self, trip: Reason) -> None:
         self.links.halt(self.t)
-        self._trip = trip
+        self.trip = trip
         self._warn(trip)
 
     def _warn(self, why: Reason) -> None:
@@ -215,14 +198,14 @@ class Keeper:
         self._hand_on(lambda listener: listener.event(self.t, kind, sentence, data))
 
     def _report(self, t: float) -> None:
-        """Hand on what was heard."""
+        """Hand on what was received."""
         fresh = self._received.fresh()
         if fresh is not None:
             self._hand_on(lambda listener: listener.rows(fresh))
         self._hand_on(lambda listener: listener.turn(t))
 
     def _hand_on(self, report: Callable[[Listener], None]) -> None:
-        """Tell every listener; one that cannot take it any more stops the bench, and only once."""
+        """Report to every listener; one that fails stops the bench, and only once."""
         for listener in list(self._listeners):
             if listener not in self._listeners:  # it failed when the stop for another was noted
                 continue

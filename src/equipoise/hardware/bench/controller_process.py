@@ -1,6 +1,6 @@
-"""The keeper in a process of its own, so that motors stop whatever becomes of who commands.
+"""The keeper in its own process, so that motors stop whatever happens to the commander.
 
-The two speak through a pipe. When it breaks, because the commander has ended, been killed or
+The two communicate through a pipe. When it breaks, because the commander has ended, been killed or
 crashed, the keeper halts every mass, closes the record and ends. Ctrl-C reaches the commander
 alone. The keeper never waits for the commander: what it has to say waits in a queue.
 
@@ -20,7 +20,7 @@ from multiprocessing.connection import Connection as Pipe
 from typing import Any, Protocol
 
 from equipoise.hardware.bench.atomic_message import whole_message
-from equipoise.hardware.bench.bench_controller import Keeper
+from equipoise.hardware.bench.bench_controller import BenchState, Keeper
 from equipoise.hardware.bench.wall_clock import WallClock
 from equipoise.hardware.links.health import Health
 from equipoise.model.errors import BenchStopped, EquipoiseError
@@ -40,11 +40,7 @@ class News:
     """What a commander knows of its keeper."""
 
     t: float  # s, on the keeper's clock
-    trip: Reason | None
-    trouble: Reason | None
-    answered: bool
-    ready: bool
-    fresh: bool
+    state: BenchState
     rows: Recording | None  # since the last news
 
 
@@ -88,10 +84,10 @@ def _serve(pipe: Pipe, keeper: Keeper, box: "queue.SimpleQueue[tuple[str, Any] |
         except (EOFError, OSError):
             return
         news = _news(keeper, clock.now)
-        state = (news.trip, news.trouble, news.answered, news.ready, news.fresh)
-        if answers or news.rows is not None or state != before or news.t - reported > BEAT:
+        changed = answers or news.rows is not None or news.state != before
+        if changed or news.t - reported > BEAT:
             box.put(("news", news))
-            reported, before = news.t, state
+            reported, before = news.t, news.state
         for answer in answers:  # after the news, so that a command's effect is known with it
             box.put(answer)
         clock.wait()
@@ -99,9 +95,8 @@ def _serve(pipe: Pipe, keeper: Keeper, box: "queue.SimpleQueue[tuple[str, Any] |
 
 def _news(keeper: Keeper, t: float) -> News:
     rows = keeper.taken()
-    state = (keeper.trip, keeper.trouble, keeper.answered, keeper.ready, keeper.fresh)
     any_rows = any(c is not None for c in (rows.attitude, rows.rate, rows.masses))
-    return News(t, *state, rows if any_rows else None)
+    return News(t, keeper.state, rows if any_rows else None)
 
 
 def _carried_out(keeper: Keeper, verb: str, *what: Any) -> Any:
@@ -135,14 +130,14 @@ class DistantKeeper:
         self._process.start()
         outlying.close()
         self.testbed = testbed
-        self._news = News(0.0, None, None, False, False, False, None)
+        self._news = News(0.0, BenchState(), None)
         self._parts: list[Recording] = []
         self._requested = 0  # commands so far
         self._answer(BEGIN)
 
     @property
     def now(self) -> float:
-        """The keeper's time as last told, s."""
+        """The keeper's time by the last news, s."""
         return self._news.t
 
     def wait(self) -> None:
@@ -156,32 +151,12 @@ class DistantKeeper:
             self._taken_in()
 
     @property
-    def trip(self) -> Reason | None:
-        """Why every motor is stopped; None: none is."""
-        return self._news.trip
-
-    @property
-    def trouble(self) -> Reason | None:
-        """What keeps masses from being moved now; None if nothing does."""
-        return self._news.trouble
-
-    @property
-    def answered(self) -> bool:
-        """Say whether every board has said how it is."""
-        return self._news.answered
-
-    @property
-    def ready(self) -> bool:
-        """Say whether every board stands and knows where."""
-        return self._news.ready
-
-    @property
-    def fresh(self) -> bool:
-        """Say whether every sensor gives rows."""
-        return self._news.fresh
+    def state(self) -> BenchState:
+        """What is known of the bench by the last news."""
+        return self._news.state
 
     def taken(self) -> Recording:
-        """Return the rows heard since this was last asked."""
+        """Return the rows received since the last call."""
         parts, self._parts = self._parts, []
         return joined([Recording(mass_names=self.testbed.mass_names), *parts])
 
@@ -203,7 +178,7 @@ class DistantKeeper:
         self._request("halt", why)
 
     def health(self) -> list[Health]:
-        """Return how well each device speaks."""
+        """Return how well each device answers."""
         return self._request("health")
 
     def close(self) -> None:
@@ -223,7 +198,7 @@ class DistantKeeper:
         return self._answer()
 
     def _answer(self, patience: float = ANSWER) -> Any:
-        """Wait until the keeper has carried out what it was told; return or raise what it says.
+        """Wait until the keeper has carried out the command; return or raise its answer.
 
         What somebody asked who was interrupted before the answer came is nobody's any more.
         """

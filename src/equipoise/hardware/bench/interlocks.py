@@ -1,4 +1,4 @@
-"""When every motor is stopped: one place, asked at every turn, whoever commands.
+"""The interlocks that stop every motor, evaluated at every turn, whoever commands.
 
     tilt, rate      the median of the last three rows is beyond its limit
     silence         a sensor has given no row, or a board no answer, for too long
@@ -30,13 +30,13 @@ from equipoise.model.testbed import SlidingMass, Testbed
 
 TENTHS = 1  # decimals of a silence, chosen: what says more often says nothing more
 LAST = 3  # rows whose median counts, chosen: one bad row is no reason to stop
-HASTE = 1.5  # of a mass's speed, chosen: beyond it, it does not do as it is told
-WAY = 1e-3  # m, chosen: a way on which a speed can be told from two answers of a board
+HASTE = 1.5  # of a mass's speed, chosen: beyond it, it does not follow its commands
+WAY = 1e-3  # m, chosen: a way long enough to compute a speed from two answers of a board
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Observed:
-    """What is looked at."""
+    """What the interlocks evaluate."""
 
     t: float  # s, now
     attitudes: Sequence[tuple[float, Floats]] = ()  # the last rows: s, quaternion
@@ -63,7 +63,7 @@ def tripped(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reaso
     return (
         _fault(observed)
         or (_leaning(observed, testbed) or _turning(observed, limits) if observed.able else None)
-        or _silence(observed, limits)
+        or (silence(observed, limits) if observed.moving else None)
         or _masses(observed, testbed, limits)
     )
 
@@ -111,10 +111,6 @@ def _turning(observed: Observed, limits: SafetyLimits) -> Reason | None:
     return Reason(Interlock.RATE, (), {"rate": rate, "limit": limits.rate})
 
 
-def _silence(observed: Observed, limits: SafetyLimits) -> Reason | None:
-    return silence(observed, limits) if observed.moving else None
-
-
 def _masses(observed: Observed, testbed: Testbed, limits: SafetyLimits) -> Reason | None:
     for state in observed.boards.values():
         if not state.sure or state.phase == "homing":
@@ -139,7 +135,7 @@ def _outside(mass: SlidingMass, at: float, limits: SafetyLimits) -> Reason | Non
 
 
 def _hasty(observed: Observed, mass: SlidingMass, at: float, state: BoardState) -> Reason | None:
-    """Two answers may be read late by different times; so a way that is short tells nothing."""
+    """Two answers may be read late by different times; so a short way determines no speed."""
     t, where = observed.before.get(mass.name, (0.0, at))
     if state.reported is None or abs(at - where) < WAY or state.reported <= t:
         return None

@@ -5,12 +5,12 @@ from collections.abc import Callable
 from equipoise.hardware.transport.port import (
     Port,
     PortLost,
+    SerialPort,
+    WebSocketPort,
     http_port,
-    serial_port,
     tcp_port,
     udp_out_port,
     udp_port,
-    websocket_port,
     why,
 )
 from equipoise.model.errors import InputError
@@ -18,7 +18,7 @@ from equipoise.model.hardware import Port as Address
 
 
 def open_port(port: Address) -> Port:
-    """Return the port at an address, open. Raises PortLost, or InputError for a strange address."""
+    """Return the port at an address, open. Raises PortLost, or InputError for an unknown scheme."""
     scheme, _, rest = port.address.partition(":")
     opener = OPENERS.get(scheme)
     if opener is None:
@@ -36,12 +36,12 @@ def _camera(port: Address, rest: str) -> Port:
 
 
 OPENERS: dict[str, Callable[[Address, str], Port]] = {
-    "serial": serial_port,
+    "serial": SerialPort,
     "tcp": tcp_port,
     "udp": udp_port,
     "udpout": udp_out_port,
-    "ws": websocket_port,
-    "wss": websocket_port,
+    "ws": WebSocketPort,
+    "wss": WebSocketPort,
     "http": http_port,
     "camera": _camera,
 }

@@ -41,7 +41,7 @@ def _held(address: str) -> Generator[None]:
             by = file.read().strip() or "another process"
             raise BenchTaken(
                 f"{address} is commanded by {by}; wait for it to end, or stop it; "
-                "any number of programs may look on meanwhile"
+                "any number of programs may observe meanwhile"
             )
         file.truncate(0)
         file.write(f"process {os.getpid()}")
@@ -53,7 +53,7 @@ if os.name == "nt":  # pragma: no cover
     import msvcrt
 
     def _lock(file: IO[str]) -> bool:
-        """Lock one byte far behind the text, so that the text can be read by others."""
+        """Lock one byte well behind the text, so that others can read the text."""
         try:
             file.seek(1 << 20)
             msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)

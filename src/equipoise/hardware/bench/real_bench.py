@@ -9,13 +9,14 @@ work, and masses stay until ``home``.
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
+from equipoise.hardware.bench.bench_controller import Keeper
+from equipoise.hardware.bench.controller_process import DistantKeeper
 from equipoise.hardware.links.health import Health
 from equipoise.model.bench_requests import check_duration, checked_inputs
 from equipoise.model.errors import BenchStopped, DriveRefused
 from equipoise.model.reasons.interlocks import Interlock
 from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Recording, join
-from equipoise.model.testbed import Testbed
 
 PATIENCE = 30.0  # s, chosen: for a sensor to come back, or a board to be ready
 HOMING = 120.0  # s, chosen: for every mass to find its switch and go home
@@ -34,79 +35,12 @@ class Clock(Protocol):
         ...
 
 
-class Kept(Protocol):
-    """A keeper, here or in another process; see ``hardware.keeper.Keeper``."""
-
-    @property
-    def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
-        ...
-
-    @property
-    def trip(self) -> Reason | None:
-        """Why every motor is stopped; None: none is."""
-        ...
-
-    @property
-    def trouble(self) -> Reason | None:
-        """What keeps masses from being moved now; None if nothing does."""
-        ...
-
-    @property
-    def answered(self) -> bool:
-        """Say whether every board has said how it is."""
-        ...
-
-    @property
-    def ready(self) -> bool:
-        """Say whether every board stands and knows where."""
-        ...
-
-    @property
-    def fresh(self) -> bool:
-        """Say whether every sensor gives rows."""
-        ...
-
-    def turn(self, t: float) -> None:
-        """Look at everything once."""
-        ...
-
-    def taken(self) -> Recording:
-        """Return the rows heard since this was last asked."""
-        ...
-
-    def begin(self) -> None:
-        """Note that the platform is free from now on, and forget the rows before."""
-        ...
-
-    def go(self, targets: Mapping[str, float]) -> None:
-        """Send masses to displacements (m): all or none."""
-        ...
-
-    def home(self) -> None:
-        """Let every board find its position."""
-        ...
-
-    def halt(self, why: Reason | None = None) -> None:
-        """Stop every mass; with a reason, masses stay until ``home``."""
-        ...
-
-    def health(self) -> list[Health]:
-        """Return how well each device speaks."""
-        ...
-
-
 class RealBench:
-    """Devices behind a keeper, and a clock."""
+    """Devices behind a keeper, here or in another process, and a clock."""
 
-    def __init__(self, keeper: Kept, clock: Clock) -> None:
-        self._keeper, self._clock = keeper, clock
-        self._reported = keeper.trip  # a stop that was told already
-
-    @property
-    def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
-        return self._keeper.testbed
+    def __init__(self, keeper: Keeper | DistantKeeper, clock: Clock) -> None:
+        self._keeper, self._clock, self.testbed = keeper, clock, keeper.testbed
+        self._reported = keeper.state.trip  # a stop that was reported already
 
     @property
     def time(self) -> float:
@@ -119,14 +53,14 @@ class RealBench:
         Raises BenchStopped if that does not come about.
         """
         keeper = self._keeper
-        self._until(lambda: keeper.answered, PATIENCE, Interlock.NOT_ANSWERING)
-        if not keeper.ready:
+        self._until(lambda: keeper.state.answered, PATIENCE, Interlock.NOT_ANSWERING)
+        if not keeper.state.ready:
             keeper.home()
-        self._until(lambda: keeper.ready, HOMING, Interlock.NOT_HOME)
+        self._until(lambda: keeper.state.ready, HOMING, Interlock.NOT_HOME)
 
     def watch(self) -> None:
         """Wait until every sensor gives rows, and begin there; masses may be anywhere."""
-        self._until(lambda: self._keeper.fresh, PATIENCE, Interlock.NOT_STREAMING)
+        self._until(lambda: self._keeper.state.fresh, PATIENCE, Interlock.NOT_STREAMING)
         self._keeper.begin()
 
     def read(self, duration: float) -> Recording:
@@ -149,8 +83,8 @@ class RealBench:
         """Set masses on their way to displacements from home (m)."""
         keeper = self._keeper
         self._turn()
-        if keeper.trip is None and not keeper.fresh:
-            self._until(lambda: keeper.fresh, PATIENCE, Interlock.NOT_MOVABLE)
+        if keeper.state.trip is None and not keeper.state.fresh:
+            self._until(lambda: keeper.state.fresh, PATIENCE, Interlock.NOT_MOVABLE)
         keeper.go(targets)
         self._turn()
 
@@ -167,7 +101,7 @@ class RealBench:
         self._turn()
 
     def health(self) -> list[Health]:
-        """Return how well each device speaks; nothing where the keeper has ended."""
+        """Return how well each device answers; nothing where the keeper has ended."""
         try:
             return self._keeper.health()
         except BenchStopped:
@@ -178,7 +112,7 @@ class RealBench:
         end = self.time + patience
         while not done():
             if self.time > end:
-                cause = self._keeper.trouble
+                cause = self._keeper.state.trouble
                 why = "no reason is known" if cause is None else cause.sentence
                 self._keeper.halt(Reason(otherwise, (why,), {"seconds": patience}))
             self._wait()
@@ -188,9 +122,9 @@ class RealBench:
         self._turn()
 
     def _turn(self) -> None:
-        """Let the keeper look; raise what stopped it, once."""
+        """Let the keeper take a turn; raise what stopped it, once."""
         self._keeper.turn(self._clock.now)
-        trip = self._keeper.trip
+        trip = self._keeper.state.trip
         if trip is not None and trip is not self._reported:
             self._reported = trip
             raise BenchStopped(f"every mass was stopped: {trip.sentence}", trip)

@@ -1,8 +1,7 @@
-"""A recording as a bench: what was seen is seen again, at any speed.
+"""A recording as a bench: what was recorded is read again, at any speed.
 
 The four verbs of ``model.bench``. What a recording cannot do again is to obey: a move is checked
-against the travel, as any bench checks it, and noted; masses then do as they did. Time is the
-recording's.
+against the travel, as any bench checks it; masses then do as they did. Time is the recording's.
 """
 
 import math
@@ -14,17 +13,17 @@ from equipoise.model.bench_requests import check_duration, checked_inputs, check
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording, rows_between
 from equipoise.model.testbed import Testbed
-from equipoise.model.units import MM
 
 Wait = Callable[[float], None]  # s
 
 
 class RecordingEnded(EquipoiseError):
-    """There is nothing more to see."""
+    """There is nothing more to read."""
 
     def __init__(self, source: str, end: float) -> None:
-        super().__init__(f"{source or 'recording'}: it ends at {end:.3f} s; nothing more is seen")
-        self.end = end
+        super().__init__(
+            f"{source or 'recording'}: it ends at {end:.3f} s; there is nothing more to read"
+        )
 
 
 class ReplayedBench:
@@ -32,25 +31,14 @@ class ReplayedBench:
 
     def __init__(self, testbed: Testbed, recording: Recording, wait: Wait | None = None) -> None:
         """Begin at the first row; ``wait`` is asked to let each reading's time pass, None: no."""
-        self._testbed, self._recording, self._wait = testbed, recording, wait
+        self.testbed, self._recording, self._wait = testbed, recording, wait
         self._time, self._end = recording.span
         self._observed = -math.inf  # s, up to which rows have been handed out
-        self._notes: list[str] = []
-
-    @property
-    def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
-        return self._testbed
 
     @property
     def time(self) -> float:
         """Time of the recording, s."""
         return self._time
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What was asked for and could not be done again."""
-        return tuple(self._notes)
 
     def read(self, duration: float) -> Recording:
         """Return the rows of the next ``duration`` seconds; RecordingEnded when none are left."""
@@ -65,24 +53,15 @@ class ReplayedBench:
 
     def move(self, targets: Mapping[str, float]) -> None:
         """Check displacements (m) against the travel; masses do as was recorded."""
-        here = np.array([self._displacement(name) for name in self._testbed.mass_names])
-        checked_targets(self._testbed.masses, here, targets)
-        reported = ", ".join(
-            f"{name} to {requested / MM:.3g} mm" for name, requested in targets.items()
-        )
-        self._note(f"asked to move {reported}; masses do as was recorded")
+        here = np.array([self._displacement(name) for name in self.testbed.mass_names])
+        checked_targets(self.testbed.masses, here, targets)
 
     def drive(self, inputs: Mapping[str, float]) -> None:
-        """Note what devices were asked for; they do as was recorded."""
-        checked_inputs(self._testbed.devices, inputs)
-        self._note(f"asked to drive {', '.join(inputs)}; devices do as was recorded")
+        """Check inputs by name and number; devices do as was recorded."""
+        checked_inputs(self.testbed.devices, inputs)
 
     def stop(self) -> None:
-        """Note it: what was recorded cannot be stopped."""
-        self._note("asked to stop; what was recorded goes on")
-
-    def _note(self, what: str) -> None:
-        self._notes.append(f"{self._time:.3f} s: {what}.")
+        """Do nothing: what was recorded cannot be stopped."""
 
     def _displacement(self, name: str) -> float:
         """Return where a mass is now, m; at home if that was not recorded."""

@@ -1,4 +1,4 @@
-"""The clock on the wall as a bench's clock: seconds since it was made, and a short wait."""
+"""Real time as a bench's clock: seconds since its creation, and a short wait."""
 
 import time
 

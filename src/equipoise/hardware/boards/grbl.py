@@ -15,28 +15,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from equipoise.hardware.boards.axis_letters import check_letters
-from equipoise.hardware.boards.grbl_report import (
-    Code,
-    Ok,
-    Report,
-    Setting,
-    Status,
-    Welcome,
-    parsed,
-)
+from equipoise.hardware.boards.grbl_report import Code, Report, Setting, Status, Word, parsed
 from equipoise.hardware.boards.grbl_settings import LETTERS, disagreement
-from equipoise.hardware.boards.grbl_words import alarm_sentence, error_sentence
+from equipoise.hardware.boards.grbl_words import sentence_of
 from equipoise.hardware.boards.legs import next_leg, time_left
 from equipoise.hardware.transport.driver_protocol import (
     LEG,
     POLL,
     POLL_MOVING,
     SILENCE,
+    BoardDriver,
     BoardState,
     Phase,
 )
 from equipoise.hardware.transport.line_splitter import Lines
-from equipoise.model.errors import BenchStopped
 from equipoise.model.hardware import MotorBoard
 from equipoise.model.reading import Counts
 from equipoise.model.testbed import SlidingMass
@@ -46,21 +38,20 @@ RESET, HOLD, RESUME, CANCEL = b"\x18", b"!", b"~", b"\x85"
 BEGIN = 4.0  # s, chosen: an Arduino's loader takes two of them after the port is opened
 TRY = 1.5  # s, chosen: between resets while it has not begun
 LONGEST_HOMING = 60.0  # s, chosen: it answers nothing meanwhile
-THERE = 2e-6  # m, chosen: positions are told to 1 um
+THERE = 2e-6  # m, chosen: positions are reported to 1 um
 SETTLED = 0.3  # s, chosen: standing for so long, it goes nowhere else
 
 
-class Grbl:
+class Grbl(BoardDriver):
     """The conversation with one board."""
 
     def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
+        super().__init__(board)
         check_letters(board, LETTERS, "Grbl names its axes")
-        self._board, self._masses = board, tuple(masses)
+        self._masses = tuple(masses)
         self._speed = {mass.name: mass.speed for mass in masses}
         self._lines = Lines()
-        self._counts: Counts = Counts()
-        self._zero = {axis.mass: axis.zero for axis in board.axes}
-        self._state = BoardState("connecting")
+        self._axes = {axis.mass: axis for axis in board.axes}
         self._begin(0.0)
 
     def _begin(self, t: float) -> None:
@@ -74,25 +65,15 @@ class Grbl:
         self._still = t  # s, since when it says that it stands
         self._said = ""  # its last state
 
-    @property
-    def state(self) -> BoardState:
-        """What is known of it now."""
-        return self._state
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._counts
-
     def opened(self, t: float) -> None:
         """Begin anew, with a reset."""
         self._lines.cleared()
-        self._counts = Counts()
+        self.counts = Counts()
         self._begin(t)
-        self._state = BoardState("connecting")
+        self.state = BoardState("connecting")
         self._urgent = RESET
 
-    def closed(self, t: float, why: str) -> None:
+    def closed(self, why: str) -> None:
         """Note that the port is gone."""
         self._fault(f"its port is gone ({why}): unplugged, or without power", lost=True)
 
@@ -100,42 +81,33 @@ class Grbl:
         """Take in what has arrived."""
         for line in self._lines.cut(data):
             report = parsed(line)
-            if report is None:
-                self._counts = replace(self._counts, corrupt=self._counts.corrupt + 1)
-            else:
-                self._counts = replace(self._counts, good=self._counts.good + 1)
+            self.count(good=report is not None, corrupt=report is None)
+            if report is not None:
                 self._received(report, t)
 
     def due(self, t: float) -> bytes:
         """Return what to send now."""
         self._watch(t)
         said, self._urgent = self._urgent, b""
-        if self._state.phase != "connecting" and t - self._requested >= self._pause - 1e-9:
+        if self.state.phase != "connecting" and t - self._requested >= self._pause - 1e-9:
             self._requested = t
             said += b"?"
         return said + self._next(t)
 
     def home(self, t: float) -> None:
         """Find the position, then go to displacement zero."""
-        self._state = BoardState("homing", reported=self._state.reported)
+        self.state = BoardState("homing", reported=self.state.reported)
         self._todo = ["settings", "home" if self._board.homing else "unlock", "zero"]
         self._awaited, self._sent, self._since = "", {}, t
 
-    def go(self, goals: Mapping[str, float], t: float) -> None:
-        """Send masses on their way to displacements (m); BenchStopped while they may not move."""
-        if self._state.phase not in ("ready", "moving") or not self._state.sure:
-            why = self._state.sentence or f"it is {self._state.phase}, its position not known"
-            raise BenchStopped(f"board {self._board.name}: {why}")
-        self._aim({**self._state.goal, **goals})
-
     def halt(self, t: float) -> None:
         """Stop at once, slowing down in order; a homing is broken off by a reset."""
-        if self._state.phase == "homing":
+        if self.state.phase == "homing":
             self._urgent = RESET
             self._fault("homing was broken off", lost=True)
-        elif self._state.phase == "moving":
+        elif self.state.phase == "moving":
             self._urgent = HOLD + CANCEL
-            self._state = replace(self._state, phase="halted")
+            self.state = replace(self.state, phase="halted")
             self._still = t
 
     # --- What it says ------------------------------------------------------------------------
@@ -145,27 +117,25 @@ class Grbl:
             self._status(report, t)
         elif isinstance(report, Setting):
             self._settings[report.number] = report.value
-        elif isinstance(report, Ok):
-            self._taken(t)
         elif isinstance(report, Code):
             self._trouble(report)
-        elif isinstance(report, Welcome):
+        elif report is Word.OK:
+            self._taken(t)
+        elif report is Word.WELCOME:
             self._welcomed(t)
 
     def _welcomed(self, t: float) -> None:
-        nothing_lost = self._state.phase in ("halted", "ready") and not self._state.sure
-        if self._state.phase == "connecting" or nothing_lost:  # opening a port may reset it twice
+        nothing_lost = self.state.phase in ("halted", "ready") and not self.state.sure
+        if self.state.phase == "connecting" or nothing_lost:  # opening a port may reset it twice
             self._todo, self._awaited, self._since = ["settings"], "", t
-            self._state = replace(self._state, phase="halted", reported=t)
-        elif self._state.phase != "fault":
+            self.state = replace(self.state, phase="halted", reported=t)
+        elif self.state.phase != "fault":
             self._fault("it began anew: its power failed or somebody reset it", lost=True)
 
     def _trouble(self, code: Code) -> None:
-        if code.alarm:
-            self._fault(alarm_sentence(code.number), lost=True)
-        elif self._awaited:
-            what, self._awaited = self._awaited, ""
-            self._fault(error_sentence(code.number), lost=what != "leg")
+        if code.alarm or self._awaited:
+            lost = code.alarm or self._awaited != "leg"
+            self._fault(sentence_of(code.alarm, code.number), lost)
 
     def _taken(self, t: float) -> None:
         """Note that the line under way was taken."""
@@ -174,8 +144,8 @@ class Grbl:
             wrong = disagreement(self._board, self._masses, self._settings)
             if wrong:
                 self._fault(f"{wrong}; mend one of the two", lost=True)
-            elif self._state.phase == "halted":
-                self._state = replace(self._state, phase="ready")
+            elif self.state.phase == "halted":
+                self.state = replace(self.state, phase="ready")
         self._since = t
 
     def _status(self, status: Status, t: float) -> None:
@@ -186,35 +156,38 @@ class Grbl:
         if status.state != self._said:
             self._said, self._still = status.state, t
         if machine is None:
-            self._state = replace(self._state, reported=t)
+            self.state = replace(self.state, reported=t)
             return
-        columns = {axis.mass: LETTERS.index(axis.letter) for axis in self._board.axes}
-        if max(columns.values()) >= len(machine):  # the line lost a part: Grbl tells every axis
-            self._counts = replace(self._counts, corrupt=self._counts.corrupt + 1)
+        columns = {mass: LETTERS.index(axis.letter) for mass, axis in self._axes.items()}
+        if max(columns.values()) >= len(machine):  # the line lost a part: Grbl reports every axis
+            self.count(corrupt=1)
             return
-        position = {name: self._displacement(name, machine[k]) for name, k in columns.items()}
-        self._state = replace(self._state, position=position, reported=t)
+        position = {
+            mass: self._axes[mass].displacement(in_si(machine[k], MM))
+            for mass, k in columns.items()
+        }
+        self.state = replace(self.state, position=position, reported=t)
         self._settle(t)
 
     def _settle(self, t: float) -> None:
         """Let a way or a halt end when the board stands."""
-        state = self._state
+        state = self.state
         if self._said == "Hold" and state.phase in ("halted", "ready"):
             self._urgent = RESUME  # what it held was a jog, which is thrown away
         if self._awaited or self._said != "Idle" or self._todo:
             return
         if state.phase == "halted" and t - self._still >= POLL and self._settings:
-            self._state = replace(state, phase="ready", goal=dict(state.position))
+            self.state = replace(state, phase="ready", goal=dict(state.position))
         elif state.phase in ("moving", "homing") and state.goal and self._sent == state.goal:
             there = max(abs(state.position[k] - v) for k, v in state.goal.items()) <= THERE
             if there or t - max(self._still, self._since) > SETTLED:
-                self._state = replace(state, phase="ready", sure=True)
+                self.state = replace(state, phase="ready", sure=True)
 
-    # --- What it is told ---------------------------------------------------------------------
+    # --- What is sent ------------------------------------------------------------------------
 
     def _next(self, t: float) -> bytes:
         """Return the next line, one at a time."""
-        phase = self._state.phase
+        phase = self.state.phase
         if self._awaited or phase in ("connecting", "fault"):
             return b""
         if self._todo:
@@ -236,40 +209,41 @@ class Grbl:
 
     def _found(self, t: float) -> bytes:
         """Begin the way to displacement zero once the board says where it is after homing."""
-        if self._said not in ("Idle", "Alarm") or (self._state.reported or 0.0) <= self._since:
+        if self._said not in ("Idle", "Alarm") or (self.state.reported or 0.0) <= self._since:
             return b""
-        if not self._state.position or self._said == "Alarm":
+        if not self.state.position or self._said == "Alarm":
             return b""
         self._todo.pop(0)
         if not self._board.homing:
-            for axis in self._board.axes:
-                sign = -1.0 if axis.reversed else 1.0
-                self._zero[axis.mass] += sign * self._state.position[axis.mass]
-            position = dict.fromkeys(self._state.position, 0.0)
-            self._state = replace(self._state, position=position)
-        self._aim(dict.fromkeys(self._state.position, 0.0))
+            self._axes = {
+                mass: replace(axis, zero=axis.position(self.state.position[mass]))
+                for mass, axis in self._axes.items()
+            }
+            position = dict.fromkeys(self.state.position, 0.0)
+            self.state = replace(self.state, position=position)
+        self._aim(dict.fromkeys(self.state.position, 0.0), t)
         return b""
 
-    def _aim(self, goal: Mapping[str, float]) -> None:
+    def _aim(self, goal: Mapping[str, float], t: float) -> None:
         """Take up a goal; legs are sent from where the last ones end."""
-        if self._state.phase == "ready" or not self._sent:
-            self._sent = dict(self._state.position)
-        phase: Phase = "homing" if self._state.phase == "homing" else "moving"
+        if self.state.phase == "ready" or not self._sent:
+            self._sent = dict(self.state.position)
+        phase: Phase = "homing" if self.state.phase == "homing" else "moving"
         whole = {name: goal.get(name, at) for name, at in self._sent.items()}
-        self._state = replace(self._state, phase=phase, goal=whole)
+        self.state = replace(self.state, phase=phase, goal=whole)
 
     def _leg(self, t: float) -> bytes:
         """Return the next leg when little is left of those before."""
-        if time_left(self._state.position, self._sent, self._speed) > LEG:
+        if time_left(self.state.position, self._sent, self._speed) > LEG:
             return b""
-        way = next_leg(self._sent, self._state.goal, self._speed)
+        way = next_leg(self._sent, self.state.goal, self._speed)
         if way is None:
-            self._sent = dict(self._state.goal)
+            self._sent = dict(self.state.goal)
             return b""
         words, square = "", 0.0
-        for axis in self._board.axes:
+        for axis in self._axes.values():
             if axis.mass in way.to:
-                words += f" {axis.letter}{self._position(axis.mass, way.to[axis.mass]):.4f}"
+                words += f" {axis.letter}{axis.position(way.to[axis.mass]) / MM:.4f}"
                 square += ((way.to[axis.mass] - self._sent[axis.mass]) / MM) ** 2
         feed = max(square**0.5 / way.duration * MINUTE, 1.0)
         self._sent = {**self._sent, **way.to}
@@ -277,46 +251,34 @@ class Grbl:
         return f"$J=G53 G21 G90{words} F{feed:.2f}\n".encode()
 
     def _stop_again(self, t: float) -> bytes:
-        """Hold a leg, too, that was on its way to the board when it was told to hold."""
-        again = self._state.phase == "halted" and self._said in ("Jog", "Run")
+        """Cancel a leg, too, that was on its way to the board when the hold was sent."""
+        again = self.state.phase == "halted" and self._said in ("Jog", "Run")
         return CANCEL if again and t - self._still > POLL else b""
 
     # --- Time and trouble --------------------------------------------------------------------
 
     @property
     def _pause(self) -> float:
-        return POLL_MOVING if self._state.phase in ("moving", "homing", "halted") else POLL
+        return POLL_MOVING if self.state.phase in ("moving", "homing", "halted") else POLL
 
     def _watch(self, t: float) -> None:
         """Notice a board that says nothing."""
-        if self._state.phase == "connecting":
+        if self.state.phase == "connecting":
             if t - self._since > BEGIN:
                 self._fault("it does not answer: unplugged, without power, or no Grbl", lost=True)
             elif t - self._tried > TRY:
                 self._tried, self._urgent = t, RESET
             return
-        if self._state.phase == "fault":
+        if self.state.phase == "fault":
             return
         patience = LONGEST_HOMING if self._awaited == "home" else SILENCE
-        received = max(self._state.reported or 0.0, self._since)
+        received = max(self.state.reported or 0.0, self._since)
         if t - received > patience:
             self._fault("it does not answer: unplugged, or without power", lost=True)
 
     def _fault(self, sentence: str, lost: bool) -> None:
         self._todo, self._awaited = [], ""
-        sure = self._state.sure and not lost
-        self._state = replace(self._state, phase="fault", sentence=sentence, sure=sure)
+        sure = self.state.sure and not lost
+        self.state = replace(self.state, phase="fault", sentence=sentence, sure=sure)
         if not lost:
             self._urgent = CANCEL
-
-    def _displacement(self, name: str, position_mm: float) -> float:
-        sign = -1.0 if self._reversed(name) else 1.0
-        return sign * (in_si(position_mm, MM) - self._zero[name])
-
-    def _position(self, name: str, displacement: float) -> float:
-        """Return the board's position, mm."""
-        sign = -1.0 if self._reversed(name) else 1.0
-        return (self._zero[name] + sign * displacement) / MM
-
-    def _reversed(self, name: str) -> bool:
-        return next(axis.reversed for axis in self._board.axes if axis.mass == name)

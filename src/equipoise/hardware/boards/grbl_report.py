@@ -1,15 +1,17 @@
-"""The lines that Grbl 1.1 says, as records. Source: Grbl 1.1 wiki, "Interface".
+"""The lines that Grbl 1.1 sends, as records. Source: Grbl 1.1 wiki, "Interface".
 
     <Idle|MPos:1.000,2.000,3.000|FS:0,0|WCO:0.000,0.000,0.000>
     ok   error:9   ALARM:1   $100=80.000   [MSG:...]   Grbl 1.1h ['$' for help]
 
 A position may be that of the machine (MPos) or of the work (WPos), which is less by an offset
-(WCO) that is told now and then.
+(WCO) that the board reports now and then.
 """
 
-import math
 import re
 from dataclasses import dataclass
+from enum import Enum
+
+from equipoise.hardware.transport.finite_numbers import all_finite, finite
 
 WELCOME = re.compile(rb"Grbl \d+\.\d+\S* \[")
 SETTING = re.compile(rb"\$(\d+)=([-+0-9.eE]+)")
@@ -26,14 +28,12 @@ class Status:
     offset: tuple[float, ...] | None  # mm, work's zero in the machine's frame
 
 
-@dataclass(frozen=True, slots=True)
-class Ok:
-    """A line was taken."""
+class Word(Enum):
+    """What is said without a number."""
 
-
-@dataclass(frozen=True, slots=True)
-class Welcome:
-    """It has just begun."""
+    OK = "a line was taken"
+    WELCOME = "it has just begun"
+    REMARK = "a message for people, or an echo"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,30 +52,25 @@ class Setting:
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class Remark:
-    """A message for people, or an echo."""
-
-
-Report = Status | Ok | Welcome | Code | Setting | Remark
+Report = Status | Word | Code | Setting
 
 
 def parsed(line: bytes) -> Report | None:
     """Return what a line says; None for one that is none of Grbl's, or broken."""
     if line == b"ok":
-        return Ok()
+        return Word.OK
     if line.startswith(b"<"):
         return _status(line)
     if WELCOME.match(line):
-        return Welcome()
+        return Word.WELCOME
     code = CODE.fullmatch(line)
     if code:
         return Code(code[1] == b"ALARM", int(code[2]))
     setting = SETTING.fullmatch(line.partition(b" ")[0])
     if setting:
-        value = _number(setting[2])
+        value = finite(setting[2])
         return None if value is None else Setting(int(setting[1]), value)
-    return Remark() if line.startswith(b"[") and line.endswith(b"]") else None
+    return Word.REMARK if line.startswith(b"[") and line.endswith(b"]") else None
 
 
 def _status(line: bytes) -> Status | None:
@@ -89,22 +84,8 @@ def _status(line: bytes) -> Status | None:
     for field in fields:
         key, _, text = field.partition(":")
         if key in ("MPos", "WPos", "WCO"):
-            place = _place(text)
+            place = all_finite(text.split(","))
             if place is None:
                 return None
             places[key] = place
     return Status(state, places.get("MPos"), places.get("WPos"), places.get("WCO"))
-
-
-def _place(text: str) -> tuple[float, ...] | None:
-    values = [_number(part.encode("ascii", "replace")) for part in text.split(",")]
-    found = tuple(value for value in values if value is not None)
-    return found if len(found) == len(values) else None
-
-
-def _number(text: bytes) -> float | None:
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None

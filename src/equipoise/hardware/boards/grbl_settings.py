@@ -1,4 +1,4 @@
-"""Whether a Grbl board is set as the testbed file says; mm and mm/min, as the board has them.
+"""Comparison of a Grbl board's settings with the testbed file; mm and mm/min, as on the board.
 
     $100..  steps per mm     $110..  greatest speed, mm/min     $130..  greatest travel, mm
     $13  reports in inches   $20  soft limits   $22  homing
@@ -50,8 +50,7 @@ def _of_axis(
 
 def _travel(axis: Axis, mass: SlidingMass, greatest: float) -> str:
     """Grbl's machine space after homing is from minus the travel to zero."""
-    sign = -1.0 if axis.reversed else 1.0
-    ends = sorted((axis.zero + sign * end) / MM for end in mass.travel)
+    ends = sorted(axis.position(end) / MM for end in mass.travel)
     if -greatest * (1 + NEAR) <= ends[0] and ends[1] <= NEAR:
         return ""
     found = f"$13{LETTERS.index(axis.letter)}={greatest:g} mm of travel, {-greatest:g} to 0"

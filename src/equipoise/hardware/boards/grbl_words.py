@@ -1,4 +1,4 @@
-"""What Grbl's numbers mean, for people.
+"""Grbl's codes of errors and alarms in words.
 
 Source: Grbl 1.1 wiki, "Interface", codes of errors and alarms; the words are ours.
 """
@@ -56,11 +56,8 @@ ALARMS = {
 }
 
 
-def error_sentence(code: int) -> str:
-    """Return an error in words."""
+def sentence_of(alarm: bool, code: int) -> str:
+    """Return an alarm or an error in words."""
+    if alarm:
+        return f"{ALARMS.get(code, 'it stopped with an alarm')} (ALARM:{code})"
     return f"{ERRORS.get(code, 'it refused a command')} (error:{code})"
-
-
-def alarm_sentence(code: int) -> str:
-    """Return an alarm in words."""
-    return f"{ALARMS.get(code, 'it stopped with an alarm')} (ALARM:{code})"

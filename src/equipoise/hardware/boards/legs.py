@@ -1,8 +1,8 @@
-"""Long ways cut into legs, so that a board never knows more of a way than two legs.
+"""Long moves cut into legs, so that a board never holds more than two legs of one.
 
 Each mass goes at its own speed until it is there, as on a simulated bench: a leg ends when the
-first mass arrives, or after ``LEG``. A mass that crept along for as long as the slowest needs would
-not be seen to move by what looks for moves in a recording.
+first mass arrives, or after ``LEG``. If a mass crept along for as long as the slowest needs, the
+detection of moves in a recording would miss it.
 """
 
 from collections.abc import Mapping

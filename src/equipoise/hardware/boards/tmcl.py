@@ -1,15 +1,15 @@
 """Trinamic's stepper modules with TMCL firmware, in binary, over a serial line, USB or TCP.
 
-Everything is a script of requests (``tmcl_talk``). Opened, a module is asked what it is and how it
-is set, is told the speed of each mass, and given a mark: a variable of its working memory, which
-is 0 again after a reset. While masses stand or move, one round of questions follows another:
+Everything is a script of requests (``tmcl_talk``). When the port opens, the driver reads the
+module's version and settings, writes the speed of each mass, and sets a mark: a variable of the
+working memory, which is 0 again after a reset. While masses stand or move, it repeats a round:
 
     targets of masses on their way, where these are, a limit switch ahead of one, the mark
 
-A round counts once its mark is seen, so that no position of a module that began anew is believed,
-nor the end of a search that a reset ended. Masses find their position by the module's own reference
-search; those without switches stand at home when a person says so. Source: TMCM-6110 TMCL Firmware
-Manual V1.31, 4.6 and chapters 5, 6.
+A round counts only with its mark. So the driver accepts no position of a module that has
+restarted, nor the end of a search that a reset broke off. Masses find their position by the
+module's own reference search; those without switches stand at home when a person says so. Source:
+TMCM-6110 TMCL Firmware Manual V1.31, 4.6 and chapters 5, 6.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,10 +22,14 @@ from equipoise.hardware.boards.tmcl_settings import disagreement, guards, speed_
 from equipoise.hardware.boards.tmcl_steps import Steps
 from equipoise.hardware.boards.tmcl_talk import Talk
 from equipoise.hardware.boards.tmcl_words import Request
-from equipoise.hardware.transport.driver_protocol import POLL, POLL_MOVING, BoardState, Phase
-from equipoise.model.errors import BenchStopped
+from equipoise.hardware.transport.driver_protocol import (
+    POLL,
+    POLL_MOVING,
+    BoardDriver,
+    BoardState,
+    Phase,
+)
 from equipoise.model.hardware import MotorBoard
-from equipoise.model.reading import Counts
 from equipoise.model.testbed import SlidingMass
 
 MOTORS = "012345"
@@ -36,17 +40,17 @@ ABSENT = "it does not answer: unplugged, without power, or just reset; its posit
 ANEW = "it began anew: its power failed or somebody reset it; its position is lost"
 
 
-class Tmcl:
+class Tmcl(BoardDriver):
     """The conversation with one module."""
 
     def __init__(self, board: MotorBoard, masses: Sequence[SlidingMass]) -> None:
+        super().__init__(board)
         check_letters(board, MOTORS, "a Trinamic module numbers its motors")
-        self._board, self._masses = board, {mass.name: mass for mass in masses}
-        self._steps, self._talk = Steps(board, masses), Talk()
+        self._masses = {mass.name: mass for mass in masses}
+        self._steps, self._talk = Steps(board, masses), Talk(self)
         self._scripts = Scripts(board, self._steps)
         self._names = [axis.mass for axis in board.axes]
         self._guards: dict[str, Mapping[int, int]] = {}
-        self._state = BoardState("connecting")
         self._begin(0.0)
 
     def _begin(self, t: float) -> None:
@@ -54,31 +58,20 @@ class Tmcl:
         self._doing = ""  # what the script under way is: a step of the plan, halt or round
         self._at: dict[str, int] = {}  # microsteps
         self._sent: dict[str, int] = {}  # microsteps, targets
-        self._requested: dict[
-            str, Request
-        ] = {}  # the limit switch asked for in this round, by mass
+        # The limit switch asked for in this round, by mass.
+        self._requested: dict[str, Request] = {}
         self._turn = 0  # whose limit switch is asked for
         self._still = self._since = self._next = t  # s
         self._mute = False  # it was silent; nothing is said until somebody wants it
-
-    @property
-    def state(self) -> BoardState:
-        """What is known of it now."""
-        return self._state
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._talk.counts
 
     def opened(self, t: float) -> None:
         """Begin anew."""
         self._talk.begin()
         self._begin(t)
-        self._state = BoardState("connecting")
+        self.state = BoardState("connecting")
         self._plan = ["version", "settings", "mark"]
 
-    def closed(self, t: float, why: str) -> None:
+    def closed(self, why: str) -> None:
         """Note that the port is gone."""
         self._fault(f"its port is gone ({why}): unplugged, or without power", silent=True)
 
@@ -101,26 +94,19 @@ class Tmcl:
         """Find the position, then go to displacement zero."""
         if self._mute:
             self._talk.give_up()
-        counts = self._state.reported
+        counts = self.state.reported
         self._begin(t)
         self._talk.say([])
-        self._state = BoardState("homing", position=self._state.position, reported=counts)
+        self.state = BoardState("homing", position=self.state.position, reported=counts)
         find = ["search", "searched"] if self._board.homing else ["place"]
         self._plan = ["version", "stop", "stopped", "settings", "mark", *find]
 
-    def go(self, goals: Mapping[str, float], t: float) -> None:
-        """Send masses on their way to displacements (m); BenchStopped while they may not move."""
-        if self._state.phase not in ("ready", "moving") or not self._state.sure:
-            why = self._state.sentence or f"it is {self._state.phase}, its position not known"
-            raise BenchStopped(f"board {self._board.name}: {why}")
-        self._aim({**self._state.goal, **goals}, t)
-
     def halt(self, t: float) -> None:
         """Stop every mass, slowing down in order; a reference search is broken off."""
-        if self._state.phase == "homing":
+        if self.state.phase == "homing":
             self._fault("homing was broken off")
-        elif self._state.phase == "moving":
-            self._state = replace(self._state, phase="halted")
+        elif self.state.phase == "moving":
+            self.state = replace(self.state, phase="halted")
             self._say("halt", self._scripts.each(w.MST), t)
 
     # --- Scripts -----------------------------------------------------------------------------
@@ -132,18 +118,18 @@ class Tmcl:
         self._say(doing, script, t)
 
     def _say(self, doing: str, script: Sequence[Request], t: float) -> None:
-        quick = self._state.phase in ("moving", "homing", "halted")
+        quick = self.state.phase in ("moving", "homing", "halted")
         self._doing, self._next = doing, t + (POLL_MOVING if quick else POLL)
         self._talk.say(script)
 
     def _round(self) -> Sequence[Request]:
         """Return a round of questions, with the targets of masses on their way before them."""
-        if self._state.phase in ("ready", "fault"):
+        if self.state.phase in ("ready", "fault"):
             return [*self._scripts.each(w.GAP, w.AT), OBSERVED]
-        if self._state.phase == "halted" or not self._state.goal:
+        if self.state.phase == "halted" or not self.state.goal:
             return [*self._scripts.each(w.GAP, w.SPEED), *self._scripts.each(w.GAP, w.AT), OBSERVED]
         going = self._going
-        targets = {k: self._steps.target(k, self._at[k], self._state.goal[k]) for k in going}
+        targets = {k: self._steps.target(k, self._at[k], self.state.goal[k]) for k in going}
         commands = [
             Request(w.MVP, w.ABSOLUTE, self._steps.motor(k), target)
             for k, target in targets.items()
@@ -166,7 +152,7 @@ class Tmcl:
 
     @property
     def _going(self) -> Sequence[str]:
-        goal = self._state.goal
+        goal = self.state.goal
         return [k for k in self._names if self._at[k] != self._steps.steps(k, goal[k])]
 
     # --- What was answered -------------------------------------------------------------------
@@ -174,15 +160,15 @@ class Tmcl:
     def _done(self, step: str, t: float) -> None:
         """Draw the conclusion from a script that was answered."""
         refused = self._talk.refused
-        if self._state.phase != "fault" and refused and step != "settings":
+        if self.state.phase != "fault" and refused and step != "settings":
             self._fault(refused)
         elif step == "round":
             self._rounded(t)
         elif step in self._plan and self._concluded(step, t):
             self._plan.remove(step)
             self._since, self._next = t, t
-            if not self._plan and self._state.phase == "connecting":
-                self._state = replace(self._state, phase="halted")
+            if not self._plan and self.state.phase == "connecting":
+                self.state = replace(self.state, phase="halted")
 
     def _concluded(self, step: str, t: float) -> bool:
         """Say whether a step of the plan is done, and need not be said again."""
@@ -213,7 +199,7 @@ class Tmcl:
     def _rounded(self, t: float) -> None:
         """Take over the positions of a round."""
         if self._talk.value(OBSERVED) != MARK:
-            if self._state.phase != "fault":
+            if self.state.phase != "fault":
                 self._fault(ANEW)
             return
         commands = {
@@ -224,34 +210,34 @@ class Tmcl:
             self._still = t
         self._at = at
         position = {k: self._steps.displacement(k, value) for k, value in at.items()}
-        self._state = replace(
-            self._state, position=position, reported=self._talk.middle(w.GAP, w.AT, t)
+        self.state = replace(
+            self.state, position=position, reported=self._talk.middle(w.GAP, w.AT, t)
         )
         self._settle(t)
 
     def _settle(self, t: float) -> None:
         """Let a way or a halt end when masses stand; a way that meets a switch is a fault."""
-        state = self._state
+        state = self.state
         hit = [name for name, q in self._requested.items() if self._talk.value(q)]
         if state.phase in ("moving", "homing") and state.goal:
             if hit:
                 self._fault(f"a limit switch was hit (mass {hit[0]}); the position is likely lost")
             elif not self._going or t - self._still > SETTLED:
-                self._state = replace(state, phase="ready", sure=True)
+                self.state = replace(state, phase="ready", sure=True)
         elif state.phase == "homing":
             self._aim(dict.fromkeys(self._names, 0.0), t)
         elif state.phase == "halted":
             speeds = [self._talk.value(q) for q in self._scripts.each(w.GAP, w.SPEED)]
             if speeds and not any(speeds):
-                self._state = replace(state, phase="ready", goal=dict(state.position))
+                self.state = replace(state, phase="ready", goal=dict(state.position))
 
     def _aim(self, goal: Mapping[str, float], t: float) -> None:
         """Take up a goal."""
-        if self._state.phase != "moving":
+        if self.state.phase != "moving":
             self._sent, self._requested = dict(self._at), {}
-        phase: Phase = "homing" if self._state.phase == "homing" else "moving"
-        whole = {name: goal.get(name, self._state.position[name]) for name in self._names}
-        self._state = replace(self._state, phase=phase, goal=whole)
+        phase: Phase = "homing" if self.state.phase == "homing" else "moving"
+        whole = {name: goal.get(name, self.state.position[name]) for name in self._names}
+        self.state = replace(self.state, phase=phase, goal=whole)
         self._still = self._next = t
 
     # --- Trouble -----------------------------------------------------------------------------
@@ -259,16 +245,16 @@ class Tmcl:
     def _unanswered(self, t: float) -> None:
         self._talk.give_up()
         self._doing = ""
-        if self._state.phase != "connecting":
+        if self.state.phase != "connecting":
             self._fault(ABSENT, silent=True)
         elif self._plan[0] != "version" or t - self._since > BEGIN:
             self._fault("it does not answer: unplugged, without power, or no TMCL", silent=True)
 
     def _fault(self, sentence: str, silent: bool = False) -> None:
-        """Stop, as far as it hears; nothing moves until it has come home."""
+        """Stop, if requests still reach the module; nothing moves until it has homed."""
         self._plan, self._doing, self._mute = [], "", silent
-        if self._state.phase != "fault":
-            self._state = replace(self._state, phase="fault", sentence=sentence, sure=False)
+        if self.state.phase != "fault":
+            self.state = replace(self.state, phase="fault", sentence=sentence, sure=False)
         if silent:
             self._talk.give_up()
         else:

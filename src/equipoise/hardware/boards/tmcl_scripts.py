@@ -1,4 +1,4 @@
-"""What a TMCL module is told and asked in each step: when it is opened, and to find its position.
+"""The scripts of requests for a TMCL module: at connection, and for finding its position.
 
 The mark is a variable of its working memory: after a reset it is 0 again. Source: TMCM-6110 TMCL
 Firmware Manual V1.31, 4.6.13 "RFS", chapter 6 "Global parameters", bank 2.

@@ -1,4 +1,4 @@
-"""Whether a TMCL module is set as the testbed file says, and the units of its speeds.
+"""Comparison of a TMCL module's settings with the testbed file, and the units of its speeds.
 
     speed, microsteps/s                  acceleration, microsteps/s^2
     v                                    a                              with a TMC5xxx or TMC4361
@@ -12,22 +12,9 @@ V1.01, 8.1; TMCM-3212 TMCL Firmware Manual V1.07, 6.5.
 
 from collections.abc import Mapping, Sequence
 
+from equipoise.hardware.boards import tmcl_words as w
 from equipoise.hardware.boards.tmcl_talk import Answer
-from equipoise.hardware.boards.tmcl_words import (
-    AT,
-    GAP,
-    LEFT,
-    LEFT_OFF,
-    MICROSTEPS,
-    MOST_ACCELERATION,
-    PULSE_DIVISOR,
-    RAMP_DIVISOR,
-    RIGHT,
-    RIGHT_OFF,
-    UNITS,
-    Request,
-    refusal,
-)
+from equipoise.hardware.boards.tmcl_words import Request, refusal
 from equipoise.model.hardware import Axis, MotorBoard
 from equipoise.model.testbed import SlidingMass
 
@@ -35,8 +22,8 @@ CLOCK = 16e6  # Hz
 GREATEST, MOST_DIVISOR = 2047, 13  # of a TMC429: speed and the powers of two that divide it
 NEAR = 0.01  # relative, chosen: of a speed, as a TMC429 has steps of it
 SLOWING = 0.1  # s, chosen: a mass that takes longer to stop is beyond its leg when it must halt
-WANTED = (AT, MICROSTEPS, MOST_ACCELERATION, RIGHT_OFF, LEFT_OFF)
-ONLY_SOME = (PULSE_DIVISOR, RAMP_DIVISOR, UNITS)
+WANTED = (w.AT, w.MICROSTEPS, w.MOST_ACCELERATION, w.RIGHT_OFF, w.LEFT_OFF)
+ONLY_SOME = (w.PULSE_DIVISOR, w.RAMP_DIVISOR, w.UNITS)
 
 Answers = Mapping[Request, Answer]
 
@@ -44,7 +31,7 @@ Answers = Mapping[Request, Answer]
 def questions(board: MotorBoard) -> Sequence[Request]:
     """Return what is asked before anything moves."""
     return [
-        Request(GAP, type_, int(axis.letter))
+        Request(w.GAP, type_, int(axis.letter))
         for axis in board.axes
         for type_ in (*WANTED, *ONLY_SOME)
     ]
@@ -64,7 +51,7 @@ def speed_value(axis: Axis, mass: SlidingMass, answers: Answers) -> int:
 
 def guards(axis: Axis, answers: Answers) -> Mapping[int, int]:
     """Return the limit switches that stop a motor, by the sign of the way that they end."""
-    switches = {1: (RIGHT, RIGHT_OFF), -1: (LEFT, LEFT_OFF)}
+    switches = {1: (w.RIGHT, w.RIGHT_OFF), -1: (w.LEFT, w.LEFT_OFF)}
     return {
         sign: switch
         for sign, (switch, off) in switches.items()
@@ -74,14 +61,14 @@ def guards(axis: Axis, answers: Answers) -> Mapping[int, int]:
 
 def _of_axis(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
     for type_ in WANTED:
-        request = Request(GAP, type_, int(axis.letter))
+        request = Request(w.GAP, type_, int(axis.letter))
         answer = answers[request]
         if not answer.done:
             what = refusal(request, answer.status)
             return f"it is no stepper module, or has no motor {axis.letter}: {what}"
-    if _reported(axis, UNITS, answers) == 0:
+    if _reported(axis, w.UNITS, answers) == 0:
         return f"motor {axis.letter} counts in units of its own (255 is 0); wanted pps (255 is 1)"
-    for type_ in (PULSE_DIVISOR, RAMP_DIVISOR):
+    for type_ in (w.PULSE_DIVISOR, w.RAMP_DIVISOR):
         divisor = _reported(axis, type_, answers)
         if divisor is not None and not 0 <= divisor <= MOST_DIVISOR:
             return (
@@ -93,7 +80,7 @@ def _of_axis(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
 def _speed(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
     unit, value = _speed_unit(axis, answers), speed_value(axis, mass, answers)
     wanted = mass.speed * axis.steps_per_m
-    divisor = _reported(axis, PULSE_DIVISOR, answers)
+    divisor = _reported(axis, w.PULSE_DIVISOR, answers)
     if divisor is None or (value <= GREATEST and abs(value * unit - wanted) <= NEAR * wanted):
         return ""
     change = "less" if value > GREATEST else "more"
@@ -104,7 +91,7 @@ def _speed(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
 
 
 def _slowing(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
-    acceleration = (_reported(axis, MOST_ACCELERATION, answers) or 0) * _steepness(axis, answers)
+    acceleration = (_reported(axis, w.MOST_ACCELERATION, answers) or 0) * _steepness(axis, answers)
     least = mass.speed * axis.steps_per_m / SLOWING
     if acceleration >= least * (1 - NEAR):
         return ""
@@ -113,16 +100,17 @@ def _slowing(axis: Axis, mass: SlidingMass, answers: Answers) -> str:
 
 
 def _speed_unit(axis: Axis, answers: Answers) -> float:
-    divisor = _reported(axis, PULSE_DIVISOR, answers)
+    divisor = _reported(axis, w.PULSE_DIVISOR, answers)
     return 1.0 if divisor is None else CLOCK / (2.0**divisor * 2048 * 32)
 
 
 def _steepness(axis: Axis, answers: Answers) -> float:
     """Return the unit of acceleration, microsteps/s^2."""
-    pulse, ramp = _reported(axis, PULSE_DIVISOR, answers), _reported(axis, RAMP_DIVISOR, answers)
+    pulse = _reported(axis, w.PULSE_DIVISOR, answers)
+    ramp = _reported(axis, w.RAMP_DIVISOR, answers)
     return 1.0 if pulse is None or ramp is None else CLOCK**2 / 2.0 ** (pulse + ramp + 29)
 
 
 def _reported(axis: Axis, type_: int, answers: Answers) -> int | None:
-    answer = answers[Request(GAP, type_, int(axis.letter))]
+    answer = answers[Request(w.GAP, type_, int(axis.letter))]
     return answer.value if answer.done else None

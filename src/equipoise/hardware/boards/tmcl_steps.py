@@ -1,9 +1,9 @@
-"""Where masses are in a module's microsteps, and how far ahead they are sent.
+"""Displacements of masses in a module's microsteps, and the targets that it is sent.
 
     microsteps = (zero +- displacement) * steps per metre
 
-A motor is told a target no farther than two legs ahead of where it was last seen, anew in every
-round of questions: TMCL keeps no queue, and a target replaces the one before.
+Every round sends each motor a target at most two legs ahead of its last reported position: TMCL
+keeps no queue, and a target replaces the one before.
 """
 
 from collections.abc import Mapping, Sequence
@@ -27,19 +27,15 @@ class Steps:
     def steps(self, name: str, displacement: float) -> int:
         """Return the module's position of a displacement (m)."""
         axis = self.axes[name]
-        return round((axis.zero + _sign(axis) * displacement) * axis.steps_per_m)
+        return round(axis.position(displacement) * axis.steps_per_m)
 
     def displacement(self, name: str, steps: int) -> float:
         """Return the displacement (m) of a module's position."""
         axis = self.axes[name]
-        return _sign(axis) * (steps / axis.steps_per_m - axis.zero)
+        return axis.displacement(steps / axis.steps_per_m)
 
     def target(self, name: str, at: int, goal: float) -> int:
         """Return the position to send a mass to, on its way from ``at`` to a goal (m)."""
         end = self.steps(name, goal)
         most = int(2 * LEG * self._speed[name] * self.axes[name].steps_per_m)
         return max(at - most, min(at + most, end))
-
-
-def _sign(axis: Axis) -> float:
-    return -1.0 if axis.reversed else 1.0

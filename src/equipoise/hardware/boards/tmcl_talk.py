@@ -1,4 +1,4 @@
-"""A conversation in TMCL: one request at a time, and what was answered.
+"""Requests and replies in TMCL: one request at a time.
 
 A reply does not say which motor it is about. So nothing is asked while an answer is due, and
 nothing is asked again: an answer that comes late would be taken for that of the next motor.
@@ -6,9 +6,10 @@ nothing is asked again: an answer that comes late would be taken for that of the
 
 from collections import deque
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from equipoise.hardware.boards.tmcl_words import Request, packed, refusal, replies_in
+from equipoise.hardware.transport.conversation import Tally
 from equipoise.hardware.transport.driver_protocol import SILENCE
 from equipoise.model.reading import Counts
 
@@ -24,14 +25,15 @@ class Answer:
 
 
 class Talk:
-    """Says one script of requests after the other."""
+    """Says one script of requests after the other; ``tally`` counts the replies."""
 
-    def __init__(self) -> None:
+    def __init__(self, tally: Tally) -> None:
+        self._tally = tally
         self.begin()
 
     def begin(self) -> None:
         """Forget everything: the port has just been opened."""
-        self.counts = Counts()
+        self._tally.counts = Counts()
         self.answers: dict[Request, Answer] = {}  # of this script
         self._script: deque[Request] = deque()
         self._pending: Request | None = None
@@ -79,13 +81,13 @@ class Talk:
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
         replies, breaks, self._rest = replies_in(self._rest + data)
-        self._count(corrupt=breaks)
+        self._tally.count(corrupt=breaks)
         for reply in replies:
             pending = self._pending
             if pending is None or reply.command != pending.command:
-                self._count(foreign=1)
+                self._tally.count(foreign=1)
                 continue
-            self._count(good=1)
+            self._tally.count(good=1)
             self._pending = None
             if not self._void:
                 self.answers[pending] = Answer(reply.status, reply.value, reply.done, t)
@@ -95,13 +97,7 @@ class Talk:
         """Return the next request once the one before is answered."""
         if self._pending is not None or not self._script:
             return b""
-        self._count(corrupt=bool(self._rest))
+        self._tally.count(corrupt=bool(self._rest))
         self._rest = b""  # what is left over now belongs to no answer
         self._pending, self._requested, self._void = self._script.popleft(), t, False
         return packed(self._pending)
-
-    def _count(self, good: int = 0, corrupt: int = 0, foreign: int = 0) -> None:
-        c = self.counts
-        self.counts = replace(
-            c, good=c.good + good, corrupt=c.corrupt + corrupt, foreign=c.foreign + foreign
-        )

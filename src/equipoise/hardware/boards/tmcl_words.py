@@ -4,7 +4,7 @@
     reply     host    module   status   command        value, 4 bytes  checksum
 
 A value is signed, its highest byte first; a checksum is the sum of the eight bytes before it,
-modulo 256. A reply tells neither type nor motor: so only one request may be under way. Module and
+modulo 256. A reply names neither type nor motor: so only one request may be under way. Module and
 host have the addresses that they have when they are new. Source: TMCM-6110 TMCL Firmware Manual
 V1.31, 4.1 "Binary Command Format", 4.2 "Reply Format", 4.5; the sentences are ours.
 """
@@ -39,7 +39,7 @@ REFUSALS = {
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What a module is told or asked."""
+    """A command or a query to a module."""
 
     command: int
     type: int
@@ -57,7 +57,7 @@ class Reply:
 
     @property
     def done(self) -> bool:
-        """Say whether it did as it was told."""
+        """Say whether the module carried out the request."""
         return self.status in DONE
 
 

@@ -19,9 +19,8 @@ from equipoise.model.errors import InputError, nearest
 
 Picture = NDArray[np.uint8]
 PREFIX = "DICT_"
-THRESHOLD = (
-    23  # px, window of the adaptive threshold, chosen: one size, for markers of 20 to 200 px
-)
+# px, window of the adaptive threshold, chosen: one size, for markers of 20 to 200 px.
+THRESHOLD = 23
 
 
 def opencv(where: str) -> Any:
@@ -49,7 +48,9 @@ def detector(markers: Any) -> Any:
     aruco = opencv("camera").aruco
     how = aruco.DetectorParameters()
     how.adaptiveThreshWinSizeMin = how.adaptiveThreshWinSizeMax = THRESHOLD
-    how.cornerRefinementMethod = aruco.CORNER_REFINE_NONE  # borders tell more, see ``borders``
+    how.cornerRefinementMethod = (
+        aruco.CORNER_REFINE_NONE
+    )  # borders determine a pose better, see ``borders``
     return aruco.ArucoDetector(markers, how)
 
 
@@ -130,7 +131,7 @@ class Charuco:
 def charuco_points(
     charuco: Charuco, pictures: Iterable[Picture]
 ) -> Iterator[tuple[Floats, Floats]]:
-    """Return the chessboard's corners seen in each picture: (n, 3) m on the board, (n, 2) px."""
+    """Return the chessboard's corners in each picture: (n, 3) m on the board, (n, 2) px."""
     board = charuco.board("calibrate-camera")
     seeker = opencv("camera").aruco.CharucoDetector(board)
     corners = floats(board.getChessboardCorners()).reshape(-1, 3)

@@ -1,8 +1,8 @@
 """The lens from pictures of a chessboard with markers (ChArUco), held at many angles.
 
 Z. Zhang (2000), "A flexible new technique for camera calibration", IEEE PAMI 22(11), 1330-1334,
-as OpenCV has it. A lens that the pictures do not tell is refused, with what to do: its numbers
-would look good on the very same pictures, and turn attitudes elsewhere.
+as OpenCV has it. A lens that the pictures do not determine is refused, with what to do: its numbers
+would fit the very same pictures, and turn attitudes elsewhere.
 """
 
 from collections.abc import Sequence
@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.hardware.camera.aruco import calibrated, opencv
+from equipoise.hardware.camera.first_pose import Corners
 from equipoise.hardware.camera.lens import Lens
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
@@ -25,14 +26,6 @@ HOW = "the board tilted by 20 to 40 deg each way"
 MOST_RMS = 1.0  # px, chosen: more is a blurred picture, a bent board or another one
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class View:
-    """Corners of the chessboard seen in one picture."""
-
-    board: Floats  # (n, 3) m
-    picture: Floats  # (n, 2) px
-
-
 @dataclass(frozen=True, slots=True)
 class Calibration:
     """A lens, and from what it is known."""
@@ -42,8 +35,8 @@ class Calibration:
     focal_sd: float  # px, one sd of fx and fy, the greater
 
 
-def lens_from(views: Sequence[View], size: tuple[int, int]) -> Calibration:
-    """Return the lens of pictures of a size (width, height, px); InputError if they do not tell."""
+def lens_from(views: Sequence[Corners], size: tuple[int, int]) -> Calibration:
+    """Return the lens of pictures of a size (width, height, px); InputError if they are poor."""
     useful = [view for view in views if len(view.picture) >= CORNERS]
     if len(useful) < VIEWS:
         found = f"the chessboard in {len(useful)} of {len(views)} pictures"
@@ -74,7 +67,7 @@ def _checked(found: Calibration) -> Calibration:
     return found
 
 
-def _check_leaning(views: Sequence[View]) -> None:
+def _check_leaning(views: Sequence[Corners]) -> None:
     """Raise InputError if the board hardly leans.
 
     Pictures of a board face on fit any focal length, and the wrong one that a fit ends at has a
@@ -86,7 +79,7 @@ def _check_leaning(views: Sequence[View]) -> None:
         raise InputError("pictures", found, f"at least {LEANT}: {HOW}")
 
 
-def depth(view: View) -> float:
+def depth(view: Corners) -> float:
     """Return by what part of its distance the far side of a board is farther than the near one.
 
     The third row of the homography, board to picture, is the depth of a point up to scale,

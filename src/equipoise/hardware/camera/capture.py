@@ -4,7 +4,7 @@
     camera:0@1280x960     asked for pictures of that size
 
 A thread of its own opens the camera and reads it, so that nobody waits for a picture. A picture
-that comes before the last one was taken away replaces it; numbers tell how many were lost so.
+that comes before the last one was taken away replaces it; numbers show how many were lost so.
 """
 
 import threading
@@ -24,7 +24,7 @@ class CapturePort:
 
     def __init__(self, address: str, source: int | str, size: tuple[int, int] | None) -> None:
         self._address, self._cv2 = address, opencv(address)
-        logging = self._cv2.utils.logging  # that a camera is missing is told by us, once
+        logging = self._cv2.utils.logging  # we report a missing camera ourselves, once
         logging.setLogLevel(logging.LOG_LEVEL_ERROR)
         self._newest: RawPicture | None = None
         self._why, self._ended = "", threading.Event()

@@ -1,9 +1,9 @@
-"""What a camera that looks at a board must be told, from its settings.
+"""Board, lens and mounting of a camera, from its settings.
 
 dictionary, columns, rows, marker_mm, gap_mm, first_id        the board as printed
 fx_px, fy_px, cx_px, cy_px, width_px, height_px, k1, k2, p1, p2, k3    the lens
 up_x, up_y, up_z      which way is up, in the camera's axes: X to the right in the picture,
-Y down, Z along the sight; without them it looks straight down
+Y down, Z along the sight; without them it points straight down
 """
 
 from collections.abc import Mapping

@@ -1,6 +1,6 @@
-"""The poses that fit the corners of markers seen in a picture: the first look.
+"""The poses that fit the corners of markers in a picture: where the refinement begins.
 
-A plane seen from afar fits two poses (T. Collins & A. Bartoli, 2014, "Infinitesimal plane-based
+A distant plane fits two poses (T. Collins & A. Bartoli, 2014, "Infinitesimal plane-based
 pose estimation", IJCV 109, 252-286). Both are returned, and each is refined to the least squares
 of its corners (K. Levenberg, D. Marquardt), as OpenCV has it.
 """
@@ -19,7 +19,7 @@ SAME = 0.01  # rad, chosen: attitudes nearer than that are one
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Corners:
-    """Corners of markers, on the board and in the picture."""
+    """Corners of a board's markers or squares, on the board and in one picture."""
 
     board: Floats  # (n, 3) m
     picture: Floats  # (n, 2) px
@@ -69,6 +69,6 @@ def _place(corners: Corners, lens: Lens, vector: Vector3, position: Vector3) -> 
 
 
 def _possible(place: Place) -> bool:
-    """Say whether a pose is finite and before the camera, its print to be seen."""
+    """Say whether a pose is finite and before the camera, its print facing it."""
     reported = np.isfinite(place.turn).all() and np.isfinite(place.position).all()
     return bool(reported and place.position[2] > 0 and place.turn[:, 2] @ place.position < 0)

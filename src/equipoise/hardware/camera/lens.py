@@ -26,7 +26,7 @@ class Lens:
     width: int  # px
     height: int  # px
     distortion: tuple[float, ...] = (0.0,) * 5  # k1, k2, p1, p2, k3
-    rms: float | None = None  # px, with which its calibration fitted; None: not told
+    rms: float | None = None  # px, residual of its calibration; None: not stated
 
     @property
     def matrix(self) -> Matrix3:

@@ -21,7 +21,7 @@ class Taken:
 
 
 def pictures_of(source: Path, rate: float | None) -> Iterator[Taken]:
-    """Return the pictures of a folder or a video, at a rate (Hz) if one is told.
+    """Return the pictures of a folder or a video, at a rate (Hz) if one is given.
 
     InputError for what is neither, and for a folder without a rate.
     """
@@ -61,7 +61,7 @@ def _of_video(path: Path, rate: float | None) -> Iterator[Taken]:
         count = max(float(video.get(cv2.CAP_PROP_FRAME_COUNT)), 1.0)
         reported = float(video.get(cv2.CAP_PROP_FPS))
         if rate is None and not reported > 0:
-            raise InputError(str(path), "a video that tells no rate", "--rate-hz")
+            raise InputError(str(path), "a video that states no rate", "--rate-hz")
         for k, picture in enumerate(_frames(video)):
             grey = cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
             yield Taken(k / (rate or reported), grey, min((k + 1) / count, 1.0))

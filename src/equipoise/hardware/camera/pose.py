@@ -1,7 +1,7 @@
 """The attitude of a board of markers in one picture.
 
-The first look at the corners (``first_pose``) gives one or two poses; then the borders of all
-markers seen are brought to coincide with the picture's (``borders``):
+The corners (``first_pose``) give one or two poses; then the borders of all markers in the picture
+are brought to coincide with its edges (``borders``):
 
     minimise  S = sum_k o_k(theta, t, s)^2,   theta, t, s <- theta, t, s - (J^T J)^-1 J^T o
     C = sigma^2 (J^T J)^-1,   sigma^2 = max( S / (n - 7), FLOOR^2 )
@@ -10,8 +10,8 @@ R turns board components into camera components; theta is a small turn in board 
 t is the position of the board's origin; s is by how much ink is missing on each side of a marker
 (a printer's, or a camera's that shows white too wide). The covariance stated is theta's block.
 
-Two poses that both come through count as told apart if one fits clearly worse; else the picture
-before decides, or nothing is said.
+Of two poses that both converge, one is discarded if it fits clearly worse; else the previous
+picture decides, or the attitude is ambiguous.
 
 What it cannot see: a lens calibrated wrongly, a board that is not flat or not of the size stated.
 """
@@ -27,17 +27,17 @@ from equipoise.hardware.camera.borders import Offsets, offsets
 from equipoise.hardware.camera.first_pose import SAME, Corners, Place, angle_between, places_of
 from equipoise.hardware.camera.lens import Lens
 from equipoise.hardware.camera.tag_board import Borders
-from equipoise.maths.attitude import exponential, from_matrix, to_matrix
-from equipoise.model.arrays import Bools, Floats, Matrix3, Quaternion, Vector3
+from equipoise.maths.attitude import exponential, to_matrix
+from equipoise.model.arrays import Bools, Floats, Matrix3
 
-FLOOR = 0.03  # px, chosen: no border is told better than that, however well all fit
+FLOOR = 0.03  # px, chosen: no border is located better than that, however well all fit
 CLEARLY = 4.0  # chosen: corners that fit with this times the squares are of the wrong pose
-WORSE = 1.5  # chosen: the same of borders, which are seen better
+WORSE = 1.5  # chosen: the same of borders, which are located better
 NEAR = 0.1  # rad, chosen: a platform turns less from picture to picture
-OUTLYING = 4.0  # sd, chosen: beyond it something else than a border was seen
-LEAST_SD = 0.05  # px, chosen: for that, borders count as told no better
+OUTLYING = 4.0  # sd, chosen: beyond it something else than a border was found
+LEAST_SD = 0.05  # px, chosen: borders count as located no better
 ROUNDS = 4  # chosen: two to come near, one to leave outliers out, one to be exact
-ENOUGH = 24  # points, chosen: borders of three sides; their 7 unknowns are then told well
+ENOUGH = 24  # points, chosen: borders of three sides; they then determine the 7 unknowns well
 UNKNOWNS = 7
 
 
@@ -50,18 +50,11 @@ class Unseen(Enum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pose:
-    """Where the board is."""
+    """How the board is turned."""
 
     turn: Matrix3  # R, board to camera
-    position: Vector3  # m, of the board's origin, camera axes
     covariance: Matrix3  # rad^2, of a small turn in board axes
     rms: float  # px, of what is left of the borders
-    points: int  # of borders that were used
-
-    @property
-    def attitude(self) -> Quaternion:
-        """R as a quaternion, scalar first."""
-        return from_matrix(self.turn)
 
 
 def poses_of(picture: Picture, lens: Lens, corners: Corners, borders: Borders) -> list[Pose]:
@@ -87,7 +80,7 @@ def chosen(poses: Sequence[Pose], before: Matrix3 | None) -> Pose | Unseen:
 
 
 def refined(picture: Picture, lens: Lens, borders: Borders, place: Place) -> Pose | None:
-    """Return the pose at which borders coincide; None if too few are there to be seen."""
+    """Return the pose at which borders coincide; None if too few are visible."""
     turn, position, last = place.turn, place.position, None
     for _ in range(ROUNDS):
         last = _step(offsets(picture, lens, borders, turn, position))
@@ -96,7 +89,7 @@ def refined(picture: Picture, lens: Lens, borders: Borders, place: Place) -> Pos
         turn = turn @ to_matrix(exponential(last.step[:3]))
         position = position + last.step[3:6]
         borders = replace(borders, points=borders.points - last.step[6] * borders.outward)
-    return None if last is None else _stated(turn, position, last)
+    return None if last is None else _stated(turn, last)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,8 +119,8 @@ def _used(observed: Offsets) -> Bools:
     return observed.observed & (np.abs(off) <= OUTLYING * max(sd, LEAST_SD))
 
 
-def _stated(turn: Matrix3, position: Vector3, last: Step) -> Pose:
+def _stated(turn: Matrix3, last: Step) -> Pose:
     squares, count = float(last.left @ last.left), len(last.left)
     square = max(squares / (count - UNKNOWNS), FLOOR**2)
     whole = square * floats(np.linalg.inv(last.slopes.T @ last.slopes))
-    return Pose(turn, position, whole[:3, :3], (squares / count) ** 0.5, count)
+    return Pose(turn, whole[:3, :3], (squares / count) ** 0.5)

@@ -1,10 +1,8 @@
 """From picture to attitude: markers found, matched with the board, and its pose.
 
-Where the board was in the picture before, it is looked for first: a part of the picture is searched
-in a part of the time. What is not found there is looked for everywhere.
+The search begins where the board was in the previous picture: a part of a picture takes a part of
+the time. If markers are missing there, the whole picture is searched.
 """
-
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,18 +18,11 @@ AROUND = 0.15  # of the board's extent, chosen: what it may move from picture to
 MOST_LOST = 0.2  # of the markers, chosen: when more are gone, all of the picture is searched
 
 
-@dataclass(frozen=True, slots=True)
-class Region:
-    """A part of a picture, px."""
-
-    left: int
-    top: int
-    right: int
-    bottom: int
+Region = tuple[slice, slice]  # rows and columns of a picture, px
 
 
 class Sight:
-    """Looks at one picture after the other."""
+    """Evaluates one picture after the other."""
 
     def __init__(self, board: TagBoard, lens: Lens, where: str) -> None:
         self._board, self._lens = board, lens
@@ -39,7 +30,7 @@ class Sight:
         self._borders = {number: board.borders(number) for number in board.ids}
         self._before: Pose | None = None
         self._region: Region | None = None
-        self._count = 0  # of markers seen in the picture before
+        self._count = 0  # of markers found in the previous picture
 
     def observe(self, picture: Picture) -> Pose | Unseen:
         """Return the board's pose in a picture."""
@@ -62,12 +53,11 @@ class Sight:
             if len(found) >= (1 - MOST_LOST) * self._count:
                 return found
         height, width = picture.shape[:2]
-        return self._within(picture, Region(0, 0, width, height))
+        return self._within(picture, (slice(0, height), slice(0, width)))
 
     def _within(self, picture: Picture, region: Region) -> dict[int, Floats]:
-        part = picture[region.top : region.bottom, region.left : region.right]
-        offset = np.array([region.left, region.top])
-        pairs = aruco.found(self._seeker, np.ascontiguousarray(part))
+        offset = np.array([region[1].start, region[0].start])
+        pairs = aruco.found(self._seeker, np.ascontiguousarray(picture[region]))
         ids = [number for number, _ in pairs]
         return {
             number: corners + offset
@@ -76,7 +66,7 @@ class Sight:
         }
 
     def _matched(self, markers: dict[int, Floats]) -> tuple[Corners, Borders]:
-        """Return what is on the board where the markers were seen."""
+        """Return the corners and borders of the markers that were found."""
         own = np.concatenate([self._board.corners(number) for number in markers])
         each = [self._borders[number] for number in markers]
         borders = Borders(
@@ -95,4 +85,4 @@ def _around(corners: Floats, picture: Picture) -> Region:
     height, width = picture.shape[:2]
     left, top = np.maximum(low - margin, 0).astype(int)
     right, bottom = np.minimum(high + margin + 1, [width, height]).astype(int)
-    return Region(int(left), int(top), int(right), int(bottom))
+    return slice(int(top), int(bottom)), slice(int(left), int(right))

@@ -1,7 +1,7 @@
 """A board of square markers in rows and columns.
 
 Its frame: origin in the middle of the board, X to the right and Y up as it is printed, Z out of
-the print towards who looks at it. Markers count from the upper left, row by row; the corners of
+the print towards the viewer. Markers count from the upper left, row by row; the corners of
 one go round as its picture is read: upper left, upper right, lower right, lower left.
 """
 
@@ -15,7 +15,7 @@ from equipoise.model.errors import InputError
 from equipoise.model.units import MM
 
 POINTS, MARGIN = 8, 0.12  # on each side of a marker, chosen: and off its corners, which blur rounds
-LEAST = 2  # markers, chosen: one alone is seen alike from two sides too easily
+LEAST = 2  # markers, chosen: the pose of a single one is too often ambiguous
 
 
 @dataclass(frozen=True, slots=True)

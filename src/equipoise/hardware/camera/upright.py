@@ -12,7 +12,7 @@ import numpy as np
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.errors import InputError
 
-DOWN = (0.0, 0.0, -1.0)  # up, of a camera that looks straight down
+DOWN = (0.0, 0.0, -1.0)  # up, of a camera that points straight down
 LENGTH = 0.01  # chosen: of a direction written to two digits
 STEEP = 0.9  # chosen: of the right's part along up, beyond which the picture's top is taken
 

@@ -1,1 +1,1 @@
-"""Counterparts of devices that speak the real protocols, for tests and rehearsals."""
+"""Counterparts of devices with the real protocols, for tests and rehearsals."""

@@ -1,4 +1,4 @@
-"""An emulated camera over a board of markers: draws what it sees and serves it as MJPEG.
+"""An emulated camera over a board of markers: draws its view and serves it as MJPEG.
 
 The board's origin stands before the camera, at ``DISTANCE`` along the sight, and turns there.
 """

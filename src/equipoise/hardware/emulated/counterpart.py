@@ -1,4 +1,4 @@
-"""Far sides of ports on this computer: where an emulated device is reached.
+"""The other ends of ports on this computer: where an emulated device is reached.
 
 A serial line becomes a pseudo terminal, a network bridge or a camera's server a TCP port of the
 loopback, a UDP device sends to a port of the loopback, a WebSocket has a server there. What nobody
@@ -158,7 +158,7 @@ class UdpCounterpart:
         """Return what has been sent to the device."""
         try:
             data, sender = self._socket.recvfrom(CHUNK)
-        except OSError:  # nothing, or nobody hears us yet
+        except OSError:  # nothing, or nobody listens yet
             return b""
         if self._answers:
             self._to = sender

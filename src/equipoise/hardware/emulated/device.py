@@ -31,7 +31,7 @@ class EmulatedSensor(Protocol):
         ...
 
     def messages(self, rows: Recording) -> Sequence[bytes]:
-        """Return the messages for the rows seen since the last call, in order of time.
+        """Return the messages for the rows since the last call, in order of time.
 
         Attitude and rate are those of the body; the unit's alignment and laboratory frame are
         undone here.

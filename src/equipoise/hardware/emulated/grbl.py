@@ -1,8 +1,8 @@
 """An emulated Grbl 1.1h: settings, status, jogs, homing, holds, alarms, a planner with a delay.
 
-Written from the wiki's "Interface", "Jogging" and "Configuration", apart from the driver. Ways are
-straight and of constant speed; a block that is queued behind another begins when that ends. Only
-jogs and homing move: other G-code is answered with ok or an error and does nothing.
+Written from the wiki's "Interface", "Jogging" and "Configuration", independently of the driver.
+Ways are straight and of constant speed; a block that is queued behind another begins when that
+ends. Only jogs and homing move: other G-code is answered with ok or an error and does nothing.
 """
 
 import re
@@ -17,7 +17,6 @@ from equipoise.model.testbed import SlidingMass
 from equipoise.model.units import MINUTE, MM
 
 LETTERS = "XYZABC"
-BLOCKS = 15  # of the planner
 LINE = 80  # characters that a line may have
 DELAY = 0.02  # s, chosen: from a command to the first step, as a planner needs
 HOMING = 3.0  # s, chosen: for all axes to find their switches
@@ -47,7 +46,7 @@ class EmulatedGrbl:
         self._count = max(3, *(LETTERS.index(axis.letter) + 1 for axis in board.axes))
         self._settings = _defaults(board, masses, self._count)
         self._input, self._said = b"", b""
-        # Masses stand at home when the power comes on, wherever the board believes that to be.
+        # Masses stand at home when the power comes on, wherever the board counts that to be.
         self._at = self._place({axis.mass: 0.0 for axis in board.axes})
         self._blocks: deque[Block] = deque()
         self._legs: list[Leg] = []
@@ -111,7 +110,7 @@ class EmulatedGrbl:
         if byte == b"\x18":
             self._reset()
         elif byte in at_once:
-            if self._state != "Home":  # it looks at nothing but a reset while it homes
+            if self._state != "Home":  # it takes nothing but a reset while it homes
                 at_once[byte]()
         elif byte in (b"\n", b"\r"):
             line, self._input = self._input, b""

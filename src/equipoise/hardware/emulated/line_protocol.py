@@ -1,7 +1,8 @@
 """An emulated sketch on a microcontroller: a line for each row, in the columns that were declared.
 
-Written from the format's description, apart from the driver. Rows in which a column has no value,
-because attitude and gyro have different rates, are not printed: a sketch prints what is fresh.
+Written from the format's description, independently of the driver. Rows in which a column has no
+value, because attitude and gyro have different rates, are not printed: a sketch prints what is
+fresh.
 """
 
 import json
@@ -11,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.hardware.links.frame_transform import as_sensed
+from equipoise.hardware.emulated.sensed_rows import sensed_rows
 from equipoise.maths.attitude import to_euler321
 from equipoise.model.arrays import Floats
-from equipoise.model.hardware import SensorUnit
+from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.recording import Recording
 from equipoise.model.units import MS, US
 
@@ -23,7 +24,7 @@ CLOCKS = {"t_s": 1.0, "t_ms": MS, "t_us": US}
 
 
 class EmulatedLineProtocol:
-    """Prints CSV or JSON; hears nothing."""
+    """Prints CSV or JSON; ignores what is sent to it."""
 
     def __init__(self, unit: SensorUnit) -> None:
         self._unit, self._n = unit, 0
@@ -36,18 +37,8 @@ class EmulatedLineProtocol:
 
     def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the lines, in order of time."""
-        message: dict[float, dict[str, float]] = {}
-        for channel, samples in (("attitude", rows.attitude), ("rate", rows.rate)):
-            if samples is None or channel not in self._unit.gives:
-                continue
-            sensed = as_sensed(self._unit, channel, samples.values)
-            for t, row in zip(samples.t, sensed, strict=True):
-                message.setdefault(float(t), {}).update(
-                    _angular(row) if channel == "attitude" else _turning(row)
-                )
-        return [
-            self._line(t, values) for t, values in sorted(message.items()) if self._full(values)
-        ]
+        printed = [(t, _printed(parts)) for t, parts in sensed_rows(self._unit, rows)]
+        return [self._line(t, values) for t, values in printed if self._full(values)]
 
     def _full(self, values: Mapping[str, float]) -> bool:
         names = {_name_and_path(column)[0] for column in self._columns}
@@ -62,6 +53,12 @@ class EmulatedLineProtocol:
         if self._unit.settings.get("format", "csv") == "json":
             return json.dumps(_nested(named)).encode() + b"\r\n"
         return b",".join(b"%.12g" % value for _, value in named) + b"\r\n"
+
+
+def _printed(parts: Mapping[Gives, Floats]) -> dict[str, float]:
+    """Return all that can be printed of attitude, rate or both."""
+    turn = _angular(parts["attitude"]) if "attitude" in parts else {}
+    return turn | (_turning(parts["rate"]) if "rate" in parts else {})
 
 
 def _angular(q: Floats) -> dict[str, float]:

@@ -1,13 +1,13 @@
 """An emulated flight controller: heartbeats, attitude and its IMU by MAVLink 2.
 
-Written from the message set, apart from the driver. As on many vehicles the attitude is stamped in
-time since boot, the IMU in Unix time.
+Written from the message set, independently of the driver. As on many vehicles the attitude is
+stamped in time since boot, the IMU in Unix time.
 """
 
 from collections.abc import Sequence
 from typing import Any
 
-from equipoise.hardware.links.frame_transform import as_sensed
+from equipoise.hardware.emulated.sensed_rows import sensed_rows
 from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
@@ -47,17 +47,12 @@ class EmulatedMavlink:
 
     def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the messages, in order of time."""
-        messages: list[tuple[float, Any]] = []
-        if rows.attitude is not None and "attitude" in self._unit.gives:
-            sensed = as_sensed(self._unit, "attitude", rows.attitude.values)
-            messages += [
-                (t, self._attitude(t, q)) for t, q in zip(rows.attitude.t, sensed, strict=True)
-            ]
-        if rows.rate is not None and "rate" in self._unit.gives:
-            sensed = as_sensed(self._unit, "rate", rows.rate.values)
-            messages += [(t, self._imu(t, w)) for t, w in zip(rows.rate.t, sensed, strict=True)]
-        messages.sort(key=lambda each: each[0])
-        return [self._beats(t) + self._packed(message) for t, message in messages]
+        made = {"attitude": self._attitude, "rate": self._imu}
+        return [
+            self._beats(t) + self._packed(made[channel](t, row))
+            for t, parts in sensed_rows(self._unit, rows)
+            for channel, row in parts.items()
+        ]
 
     def _beats(self, t: float) -> bytes:
         """Return a heartbeat when it is time for one: a quadrotor with PX4."""

@@ -1,12 +1,12 @@
 """An emulated Motive: frames of NatNet 4.1 with two rigid bodies, of which one stands still.
 
-Written from the SDK's samples, apart from the driver.
+Written from the SDK's samples, independently of the driver.
 """
 
 import struct
 from collections.abc import Sequence
 
-from equipoise.hardware.links.frame_transform import as_sensed
+from equipoise.hardware.emulated.sensed_rows import sensed_rows
 from equipoise.model.arrays import Floats
 from equipoise.model.hardware import SensorUnit
 from equipoise.model.recording import Recording
@@ -17,7 +17,7 @@ NONE = struct.pack("<ii", 0, 0)  # a section of nothing
 
 
 class EmulatedNatNet:
-    """Answers who it is and what its bodies are called; tells each attitude in a frame."""
+    """Answers who it is and what its bodies are called; sends each attitude in a frame."""
 
     def __init__(self, unit: SensorUnit) -> None:
         self._unit, self._number = unit, 0
@@ -38,10 +38,8 @@ class EmulatedNatNet:
 
     def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return a frame for each row, in order of time."""
-        if rows.attitude is None:
-            return []
-        sensed = as_sensed(self._unit, "attitude", rows.attitude.values)
-        return [self._frame(float(t), q) for t, q in zip(rows.attitude.t, sensed, strict=True)]
+        found = sensed_rows(self._unit, rows)
+        return [self._frame(t, parts["attitude"]) for t, parts in found if "attitude" in parts]
 
     def _frame(self, t: float, q: Floats) -> bytes:
         self._number += 1

@@ -1,4 +1,4 @@
-"""What an emulated device sends, kept for a listener on this computer who may be slow."""
+"""The send buffer of an emulated device, for a listener on this computer that may be slow."""
 
 LOOPBACK = "127.0.0.1"
 CHUNK = 65536  # bytes, taken at once

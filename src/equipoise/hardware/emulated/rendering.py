@@ -1,8 +1,8 @@
 """Pictures of a board of markers, as a camera would take them.
 
-Projection and distortion are written out here, apart from the estimator's, so that no error is
+Projection and distortion do not use the estimator's code, so that no error is
 shared. The board's print is an exact average over each pixel of a texture; a pixel of the picture
-is looked up there:
+is interpolated there:
 
     pixel -> direction (distortion undone by iteration) -> plane of the board -> texture
 
@@ -47,7 +47,7 @@ class Sheet:
 
 
 class Renderer:
-    """Draws one sheet as one camera sees it."""
+    """Draws one sheet in the view of one camera."""
 
     def __init__(self, sheet: Sheet, lens: Lens, appearance: Appearance, seed: int = 0) -> None:
         self._sheet, self._lens, self._measurement = sheet, lens, appearance
@@ -151,7 +151,7 @@ class Renderer:
 
 
 def project(points: Floats, lens: Lens) -> Floats:
-    """Return where points (n, 3) m in camera axes are seen, px; see ``camera.lens``."""
+    """Return the pixels of points (n, 3) m in camera axes; see ``camera.lens``."""
     x, y = points[:, 0] / points[:, 2], points[:, 1] / points[:, 2]
     bent = bend(x, y, lens)
     return np.column_stack([lens.fx * bent[0] + lens.cx, lens.fy * bent[1] + lens.cy])

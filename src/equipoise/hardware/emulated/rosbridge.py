@@ -1,15 +1,15 @@
 """An emulated rosbridge server: publishes what was subscribed to, as Imu or PoseStamped.
 
-Written from the protocol's specification, apart from the driver.
+Written from the protocol's specification, independently of the driver.
 """
 
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from equipoise.hardware.links.frame_transform import as_sensed
+from equipoise.hardware.emulated.sensed_rows import sensed_rows
 from equipoise.model.arrays import Floats
-from equipoise.model.hardware import SensorUnit
+from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.recording import Recording
 from equipoise.model.units import NS
 
@@ -17,7 +17,7 @@ EPOCH = 1_700_000_000  # s, chosen: ROS time when the bench began
 KNOWN = [1e-4, 0.0, 0.0, 0.0, 1e-4, 0.0, 0.0, 0.0, 1e-4]  # rad^2, chosen
 NONE = [-1.0] + [0.0] * 8
 
-Rows = Mapping[str, Floats]  # of each channel at one time
+Rows = Mapping[Gives, Floats]  # of each channel at one time
 
 
 class EmulatedRosBridge:
@@ -41,21 +41,17 @@ class EmulatedRosBridge:
 
     def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the messages, in order of time."""
-        found: dict[float, dict[str, Floats]] = {}
-        for channel, samples in (("attitude", rows.attitude), ("rate", rows.rate)):
-            if samples is None or channel not in self._unit.gives:
-                continue
-            sensed = as_sensed(self._unit, channel, samples.values)
-            for t, row in zip(samples.t, sensed, strict=True):
-                found.setdefault(float(t), {})[channel] = row
-        return [message for t in sorted(found) for message in self._at(t, found[t])]
+        found = sensed_rows(self._unit, rows)
+        return [message for t, parts in found for message in self._at(t, parts)]
 
     def _at(self, t: float, row: Rows) -> list[bytes]:
         """Return a message for each topic that has something to say now."""
         said: list[bytes] = []
         for topic, kind in self._types.items():
             settings = self._unit.settings
-            parts = {name: row[name] for name in row if settings.get(f"topic_{name}") == topic}
+            parts: dict[Gives, Floats] = {
+                name: row[name] for name in row if settings.get(f"topic_{name}") == topic
+            }
             if parts:
                 message = _header(t) | (_imu(parts) if kind.endswith("Imu") else _pose(parts))
                 published = {"op": "publish", "topic": topic, "msg": message}

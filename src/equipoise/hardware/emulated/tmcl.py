@@ -1,10 +1,10 @@
 """An emulated six-axis Trinamic module (TMCM-6212, speeds in microsteps/s) with TMCL in binary.
 
 Written from the firmware manuals' chapters on the binary format, the commands and the axis
-parameters, apart from the driver. Ways are straight and of constant speed, without ramps; but a
-motor that is stopped goes as far as its ramp would take it. It boots at once, which is harder to
-notice than a boot that takes a while. While it has not answered it does not listen: of two requests
-sent at once the second is lost.
+parameters, independently of the driver. Ways are straight and of constant speed, without ramps; but
+a motor that is stopped goes as far as its ramp would take it. The module boots at once, which is
+harder to notice than a slow boot. It receives nothing until it has answered: of two requests sent
+at once the second is lost.
 """
 
 import struct
@@ -56,7 +56,7 @@ class EmulatedTmcl:
         for axis in board.axes:
             motor = self._motors[int(axis.letter)]
             motor.axis, motor.stored = axis, _set_with_care(axis, by_name[axis.mass])
-            # Masses stand at home when the power comes on, wherever the module believes that to be.
+            # Masses stand at home when the power comes on, wherever the module counts that to be.
             motor.begin = motor.to = axis.zero * axis.steps_per_m
         self._legs: list[Leg] = []
         self._input, self._now = b"", 0.0

@@ -1,13 +1,16 @@
 """An emulated VN-100: one message of attitude and rate for each row, and register writes.
 
-Written from the manual, apart from the driver.
+Written from the manual, independently of the driver.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import reduce
 
-from equipoise.hardware.links.frame_transform import as_sensed
-from equipoise.model.hardware import SensorUnit
+import numpy as np
+
+from equipoise.hardware.emulated.sensed_rows import sensed_rows
+from equipoise.model.arrays import Floats
+from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.recording import Recording
 
 BAD_CHECKSUM = b"VNERR,03"
@@ -33,25 +36,22 @@ class EmulatedVectorNav:
 
     def messages(self, rows: Recording) -> Sequence[bytes]:
         """Return the messages, in order of time."""
-        said: dict[float, dict[str, bytes]] = {}
-        for channel, samples in (("attitude", rows.attitude), ("rate", rows.rate)):
-            if samples is None or channel not in self._unit.gives:
-                continue
-            sensed = as_sensed(self._unit, channel, samples.values)
-            for t, row in zip(samples.t, sensed, strict=True):
-                # Vector first; seven digits, so that the wire adds no noise of its own.
-                values = [*row[1:], row[0]] if channel == "attitude" else row
-                said.setdefault(float(t), {})[channel] = b",".join(b"%+.7f" % v for v in values)
-        return [_reported(parts) for _, parts in sorted(said.items())]
+        return [_reported(parts) for _, parts in sensed_rows(self._unit, rows)]
 
 
-def _reported(parts: dict[str, bytes]) -> bytes:
-    if len(parts) == 2:
-        still = b"+00.0000,+00.0000,+00.0000,+00.000,+00.000,-09.807"  # field and acceleration
-        return message(b"VNQMR," + parts["attitude"] + b"," + still + b"," + parts["rate"])
-    if "attitude" in parts:
-        return message(b"VNQTN," + parts["attitude"])
-    return message(b"VNGYR," + parts["rate"])
+def _reported(parts: Mapping[Gives, Floats]) -> bytes:
+    if "attitude" not in parts:
+        return message(b"VNGYR," + _digits(parts["rate"]))
+    turn = _digits(np.roll(parts["attitude"], -1))  # vector first
+    if "rate" not in parts:
+        return message(b"VNQTN," + turn)
+    still = b"+00.0000,+00.0000,+00.0000,+00.000,+00.000,-09.807"  # field and acceleration
+    return message(b"VNQMR," + turn + b"," + still + b"," + _digits(parts["rate"]))
+
+
+def _digits(values: Floats) -> bytes:
+    """Return numbers with seven digits, so that the wire adds no noise of its own."""
+    return b",".join(b"%+.7f" % value for value in values)
 
 
 def _answer(line: bytes) -> bytes:

@@ -1,7 +1,7 @@
 """The emulated counterpart of a WebSocket: a server of the loopback, for one listener at a time.
 
 A listener waits for the answer to its handshake, and may do so in the very thread that runs the
-emulated devices. So a thread of its own hears; what is sent goes out at once, in the caller's.
+emulated devices. So a thread of its own receives; what is sent goes out at once, in the caller's.
 """
 
 import select
@@ -13,7 +13,7 @@ from typing import Any
 from equipoise.hardware.emulated.outbox import CHUNK, FULL, LOOPBACK, Outbox
 from equipoise.hardware.transport.optional_libraries import needed
 
-POLL = 0.05  # s, chosen: between looks whether it has been closed
+POLL = 0.05  # s, chosen: between checks whether it has been closed
 
 
 class WsCounterpart:
@@ -23,7 +23,7 @@ class WsCounterpart:
         needed("websockets", "hardware", "emulated WebSocket")
         self._server = socket.create_server((LOOPBACK, 0))
         self.address = f"ws://{LOOPBACK}:{self._server.getsockname()[1]}{path}"
-        self._lock = threading.Lock()  # held for no longer than a look
+        self._lock = threading.Lock()  # held for no longer than a check
         self._listener: Listener | None = None
         self._received: list[bytes] = []
         self._open = True
@@ -62,17 +62,13 @@ class WsCounterpart:
                     self._hang_up()
                     self._listener = Listener(self._server.accept()[0])
                 elif ready and self._listener is not None:
-                    self._receive(self._listener)
-
-    def _receive(self, listener: "Listener") -> None:
-        received = listener.received()
-        if received is None:
-            self._hang_up()
-        else:
-            self._received += received
+                    received = self._listener.received()
+                    self._received += received or []
+                    if received is None:
+                        self._hang_up()
 
     def _hang_up(self) -> None:
-        """Close the listener's line; done by the thread that looks at it, or after its end."""
+        """Close the listener's line; done by the thread that polls it, or after its end."""
         if self._listener is not None:
             self._listener.line.close()
         self._listener = None
@@ -113,7 +109,7 @@ class Listener:
         return None if self._protocol.close_expected() else [each for each in found if each]
 
     def flush(self) -> None:
-        """Send what there is to send; a line that is closed is noticed when it is heard."""
+        """Send what there is to send; a closed line is noticed when it is read."""
         self._outbox.add(b"".join(self._protocol.data_to_send()))
         with suppress(OSError):  # it would have to wait, or is closed
             while self._outbox.waiting:

@@ -1,7 +1,7 @@
-"""How a sensor's rows arrive: what comes twice, late, not at all, or never changes.
+"""Statistics of a sensor's rows: duplicate, late, missing and frozen ones.
 
-A row that the device has stamped or numbered before is not kept. A sensor with noise never says
-exactly the same for long: rows that do are frozen, and count as none.
+A row that the device has stamped or numbered before is not kept. A sensor with noise never repeats
+its values for long: rows that do are frozen, and count as none.
 """
 
 from dataclasses import dataclass, field, replace

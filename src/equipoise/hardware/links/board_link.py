@@ -10,36 +10,27 @@ class BoardLink:
     """Carries bytes between a board's driver and its port."""
 
     def __init__(self, board: MotorBoard, driver: BoardDriver, connection: Connection) -> None:
-        self.board, self.driver, self._connection = board, driver, connection
-
-    @property
-    def why(self) -> str:
-        """Why the port is closed; empty while it is open."""
-        return self._connection.why
+        self.board, self.driver, self.connection = board, driver, connection
 
     @property
     def health(self) -> Health:
-        """How well it speaks."""
+        """How well it answers."""
         return Health(f"board {self.board.name}", self.driver.counts)
 
     def turn(self, t: float) -> None:
         """Feed the driver what has arrived."""
-        turn = self._connection.turn(t)
+        turn = self.connection.turn(t)
         if turn.opened:
             self.driver.opened(t)
         for data in turn.data:
             self.driver.feed(data, t)
         if turn.lost:
-            self.driver.closed(t, turn.lost)
+            self.driver.closed(turn.lost)
 
     def send(self, t: float) -> None:
         """Send what the driver has to say."""
-        if self._connection.why:
+        if self.connection.why:
             return
-        lost = self._connection.send(self.driver.due(t), t).lost
+        lost = self.connection.send(self.driver.due(t), t).lost
         if lost:
-            self.driver.closed(t, lost)
-
-    def close(self) -> None:
-        """Close the port."""
-        self._connection.close()
+            self.driver.closed(lost)

@@ -1,4 +1,4 @@
-"""The devices of a bench, each with its port, and what all of them say together."""
+"""The devices of a bench, each with its port, and their combined state."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -41,7 +41,7 @@ class Links:
 
     @property
     def reported(self) -> float | None:
-        """When the last of the boards told a position, s; None while one is not sure of its own."""
+        """When a board last reported a position, s; None while one does not know its own."""
         states = self.states.values()
         known = [s.reported for s in states if s.reported is not None and s.sure]
         return max(known) if known and len(known) == len(states) else None
@@ -55,8 +55,8 @@ class Links:
     @property
     def unreachable(self) -> Reason | None:
         """The first device whose port is closed, and why; None if none is."""
-        links = [(f"sensor {link.unit.name}", link.why) for link in self.sensors]
-        links += [(f"board {link.board.name}", link.why) for link in self.boards]
+        links = [(f"sensor {link.unit.name}", link.connection.why) for link in self.sensors]
+        links += [(f"board {link.board.name}", link.connection.why) for link in self.boards]
         closed = (Reason(Interlock.UNREACHABLE, (name, why)) for name, why in links if why)
         return next(closed, None)
 
@@ -71,7 +71,7 @@ class Links:
 
     @property
     def health(self) -> list[Health]:
-        """How well each device speaks."""
+        """How well each device answers."""
         return [*(link.health for link in self.boards), *(link.health for link in self.sensors)]
 
     def silent(self, t: float) -> dict[str, float]:
@@ -96,11 +96,11 @@ class Links:
             link.driver.halt(t)
 
     def send(self, t: float) -> None:
-        """Send what boards are to hear."""
+        """Send each board what its driver has to say."""
         for link in self.boards:
             link.send(t)
 
     def close(self) -> None:
         """Close every port."""
         for link in (*self.boards, *self.sensors):
-            link.close()
+            link.connection.close()

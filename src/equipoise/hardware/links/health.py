@@ -1,4 +1,4 @@
-"""How well a bench's devices speak: what arrived, what was wrong with it, how clocks stand."""
+"""How well a bench's devices answer: what arrived, its defects, offset and drift of clocks."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -63,13 +63,8 @@ class Health:
             for channel, clock in self.clocks.items()
         }
         kept = {} if self.arrivals is None else {"rows": self.arrivals.kept}
-        reported = {
-            "messages": self.counts.good,
-            "others": self.counts.foreign,
-            **kept,
-            **self.wrong,
-        }
-        return {"device": self.device, **reported, "clocks": clocks}
+        messages = {"messages": self.counts.good, "others": self.counts.foreign}
+        return {"device": self.device, **messages, **kept, **self.wrong, "clocks": clocks}
 
     def _clock(self, channel: Gives) -> str:
         clock = self.clocks[channel]

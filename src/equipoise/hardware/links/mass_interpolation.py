@@ -1,7 +1,7 @@
-"""Where masses were between two answers of their board.
+"""Positions of masses between two answers of their board.
 
 A mass goes at its own speed or stands. Straight lines from answer to answer would show it creeping
-where it starts and where it arrives, and what looks for moves in a recording would not see it go.
+where it starts and where it arrives, and the detection of moves in a recording would miss it.
 So a row is put in where it started, as long before the answer as the way takes, and where it
 arrived, as long after the answer before.
 
@@ -25,7 +25,7 @@ DIGITS = 1e-6  # m, chosen: the last digit of what a board says
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Answer:
-    """Where masses were (m) at a time (s), and which of them were seen to go and still had to."""
+    """Where masses were (m) at a time (s), and which of them moved and were not there yet."""
 
     t: float
     at: Series1

@@ -1,4 +1,4 @@
-"""What a bench has heard, row by row, and as recordings.
+"""What a bench has received, row by row, and as recordings.
 
 A position is kept where it changes: of masses that stand, the first and the last answer, and one
 a second between; of masses that go, each answer and where they started or stopped (``mass_rows``).

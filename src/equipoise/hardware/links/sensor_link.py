@@ -10,7 +10,7 @@ from equipoise.hardware.links.clock_sync import DeviceClock, learnt, to_bench
 from equipoise.hardware.links.frame_transform import placed
 from equipoise.hardware.links.health import Health
 from equipoise.hardware.links.row_buffer import Row
-from equipoise.hardware.transport.driver_protocol import SensorDriver
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.hardware.transport.reconnecting_port import Connection
 from equipoise.model.hardware import Gives, SensorUnit
 from equipoise.model.reading import Reading
@@ -32,7 +32,7 @@ class SensorLink:
         periods: Mapping[Gives, float],
     ) -> None:
         """Take how far apart rows of each channel are, s, as the testbed states it."""
-        self.unit, self.driver, self._connection = unit, driver, connection
+        self.unit, self.driver, self.connection = unit, driver, connection
         self._periods = periods
         self.clocks: dict[Gives, DeviceClock] = {}  # channels may come in messages of two clocks
         self.arrivals = Arrivals()
@@ -41,13 +41,8 @@ class SensorLink:
         self._since: float | None = None  # s, when it was first waited for
 
     @property
-    def why(self) -> str:
-        """Why the port is closed; empty while it is open."""
-        return self._connection.why
-
-    @property
     def health(self) -> Health:
-        """How well it speaks."""
+        """How well it answers."""
         name = f"sensor {self.unit.name}"
         return Health(name, self.driver.counts, self.arrivals, dict(self.clocks))
 
@@ -60,19 +55,15 @@ class SensorLink:
         """Return the rows that have arrived."""
         if self._since is None:
             self._since = t
-        turn = self._connection.turn(t)
+        turn = self.connection.turn(t)
         if turn.opened:
             self.driver.opened()
         rows = self._rows(turn.data, t)
         if rows:
             self._came = t
-        if not self._connection.why:
-            self._connection.send(self.driver.due(t), t)
+        if not self.connection.why:
+            self.connection.send(self.driver.due(t), t)
         return rows
-
-    def close(self) -> None:
-        """Close the port."""
-        self._connection.close()
 
     def _rows(self, turn: Sequence[bytes], t: float) -> list[Row]:
         """Return the rows of all that came in a turn, those of a channel later and later."""
@@ -103,8 +94,8 @@ class SensorLink:
         """Return when rows were taken, s.
 
         By the device's clock, which all rows of the turn have taught first; by the period, counted
-        back from now, where it tells no time. None for one that is older than the row before, as a
-        clock is that was begun late.
+        back from now, where the device stamps no rows. None for a row older than the one before, as
+        from a clock that was begun late.
         """
         if not stamps:
             return []

@@ -1,4 +1,4 @@
-"""Attitudes as devices print them, to unit quaternions, scalar first."""
+"""Attitudes as devices send them, to unit quaternions, scalar first."""
 
 import math
 from collections.abc import Sequence

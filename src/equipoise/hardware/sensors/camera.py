@@ -1,66 +1,53 @@
-"""A camera that looks at a board of markers on the platform.
+"""A camera that observes a board of markers on the platform.
 
 Settings: see ``hardware.camera.eye``. The sensor's axes are the board's (X to the right and Y up
 as it is printed, Z out of the print); its laboratory has Z up, by ``up_x, up_y, up_z``.
 
-Over ``http:`` it hears pictures in a stream (MJPEG); the head X-Timestamp of a part, as
+Over ``http:`` it receives pictures in a stream (MJPEG); the head X-Timestamp of a part, as
 mjpg-streamer and cameras with an ESP32 send it, is the time at which the picture was taken. Over
 ``camera:`` each datagram is a picture.
 """
 
-import math
 from collections.abc import Sequence
-from dataclasses import replace
-
-import numpy as np
 
 from equipoise.hardware.camera.aruco import Picture, decoded
 from equipoise.hardware.camera.eye import eye_of
 from equipoise.hardware.camera.pose import Pose
 from equipoise.hardware.camera.raw_picture import unpacked
 from equipoise.hardware.camera.sight import Sight
+from equipoise.hardware.transport.conversation import SensorDriver
+from equipoise.hardware.transport.finite_numbers import finite
 from equipoise.hardware.transport.mjpeg_stream import Part, Parts
 from equipoise.maths.attitude import from_matrix
 from equipoise.model.hardware import SensorUnit
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Reading
 
 BEGIN, END = b"\xff\xd8", b"\xff\xd9"  # of a JPEG picture
 STAMP = "x-timestamp"
 
 
-class Camera:
+class Camera(SensorDriver):
     """The conversation with a camera."""
 
     def __init__(self, unit: SensorUnit) -> None:
         self._where = f"hardware.sensor {unit.name}: settings"
         self._eye = eye_of(unit.settings, self._where)
-        self._request = request(unit.port.address)
-        self._parts, self._counts = Parts(), Counts()
-        self._sight = self._anew()
-        self._greet = False
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._counts
+        super().__init__(request(unit.port.address))
+        self._parts, self._sight = Parts(), self._anew()
 
     def opened(self) -> None:
         """Begin anew."""
+        super().opened()
         self._parts.cleared()
-        self._counts, self._sight, self._greet = Counts(), self._anew(), True
-
-    def due(self, t: float) -> bytes:
-        """Return the request for the stream, once."""
-        greet, self._greet = self._greet, False
-        return self._request if greet else b""
+        self._sight = self._anew()
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows of the pictures that are whole with these bytes."""
-        if not self._request:
+        if not self._greeting:
             return self._raw(data)
         lost = self._parts.lost
         readings = [r for part in self._parts.cut(data) for r in self._part(part)]
-        self._count(corrupt=self._parts.lost - lost)
+        self.count(corrupt=self._parts.lost - lost)
         return readings
 
     def _anew(self) -> Sight:
@@ -69,8 +56,7 @@ class Camera:
     def _raw(self, data: bytes) -> list[Reading]:
         picture = unpacked(data)
         if picture is None:
-            self._count(corrupt=1)
-            return []
+            return self.counted([])
         return self._observed(picture.grey, picture.t, picture.number)
 
     def _part(self, part: Part) -> list[Reading]:
@@ -78,26 +64,16 @@ class Camera:
         whole = body.startswith(BEGIN) and body.endswith(END)
         picture = decoded(body) if whole else None
         if picture is None:
-            self._count(corrupt=1)
-            return []
-        return self._observed(picture, stamp_of(part.head.get(STAMP, "")), None)
+            return self.counted([])
+        return self._observed(picture, finite(part.head.get(STAMP, "")), None)
 
     def _observed(self, picture: Picture, stamp: float | None, number: int | None) -> list[Reading]:
         size = (self._eye.lens.height, self._eye.lens.width)
         pose = self._sight.observe(picture) if picture.shape == size else None
         if not isinstance(pose, Pose):
-            self._count(foreign=1)
-            return []
-        self._count(good=1)
+            return self.counted(None)
         attitude = from_matrix(self._eye.to_laboratory @ pose.turn)
-        sd = math.sqrt(float(np.trace(pose.covariance)) / 3)
-        return [Reading("attitude", tuple(map(float, attitude)), stamp, number, sd)]
-
-    def _count(self, good: int = 0, corrupt: int = 0, foreign: int = 0) -> None:
-        now = self._counts
-        self._counts = replace(
-            now, good=now.good + good, corrupt=now.corrupt + corrupt, foreign=now.foreign + foreign
-        )
+        return self.counted([Reading("attitude", tuple(map(float, attitude)), stamp, number)])
 
 
 def request(address: str) -> bytes:
@@ -106,12 +82,3 @@ def request(address: str) -> bytes:
         return b""
     host, _, path = address.removeprefix("http://").partition("/")
     return f"GET /{path} HTTP/1.1\r\nHost: {host}\r\nAccept: */*\r\n\r\n".encode()
-
-
-def stamp_of(text: str) -> float | None:
-    """Return the time of a picture, s; None if it is not told."""
-    try:
-        stamp = float(text)
-    except ValueError:
-        return None
-    return stamp if math.isfinite(stamp) else None

@@ -44,7 +44,7 @@ class Columns:
     rate: tuple[str, ...]
 
     def readings(self, row: Mapping[str, float]) -> list[Reading]:
-        """Return what a row of finite numbers tells; empty if its quaternion is none."""
+        """Return the readings of a row of finite numbers; none if its quaternion is no unit one."""
         stamp = row[self.time] * TIMES[self.time] if self.time else None
         number = int(row[self.number]) if self.number else None
         found: list[Reading] = []

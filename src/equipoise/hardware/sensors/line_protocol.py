@@ -17,17 +17,17 @@ message holds whole lines.
 """
 
 import json
-import math
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 from equipoise.hardware.sensors.columns import SKIPPED, columns_of
 from equipoise.hardware.sensors.settings import Settings
-from equipoise.hardware.sensors.tally import Tally
+from equipoise.hardware.transport.conversation import SensorDriver
+from equipoise.hardware.transport.finite_numbers import all_finite
 from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.hardware import SensorUnit
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Reading
 
 KEYS = ("format", "columns", "send")
 FORMATS = ("csv", "json")
@@ -38,11 +38,13 @@ WHOLE = ("udp:", "udpout:", "ws:", "wss:")  # ports whose messages hold whole li
 Numbers = dict[str, float]
 
 
-class LineProtocol:
+class LineProtocol(SensorDriver):
     """The conversation; settings: ``format``, ``columns``, and a line to ``send`` at opening."""
 
     def __init__(self, unit: SensorUnit) -> None:
         settings = Settings(unit, KEYS)
+        greeting = settings.text("send").encode()
+        super().__init__(greeting + b"\n" if greeting else b"")
         form = settings.text("format", "csv", FORMATS)
         declared = [_declared(column) for column in settings.names("columns")]
         self._columns = columns_of(unit, settings, [name for name, _ in declared])
@@ -50,26 +52,14 @@ class LineProtocol:
             if form == "csv" and name != key:
                 raise settings.wrong(f"column '{key}'", 'format = "json" for keys')
         self._read = _Json(declared) if form == "json" else _Csv([name for name, _ in declared])
-        self._lines, self._tally = Lines(), Tally()
+        self._lines, self._begun = Lines(), False
         self._whole = unit.port.address.startswith(WHOLE)
-        self._greeting = settings.text("send").encode()
-        self._greet = self._begun = False
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._tally.counts
 
     def opened(self) -> None:
         """Begin anew."""
+        super().opened()
         self._lines.cleared()
-        self._tally.cleared()
-        self._greet, self._begun = bool(self._greeting), not self._whole
-
-    def due(self, t: float) -> bytes:
-        """Return the greeting, once."""
-        greet, self._greet = self._greet, False
-        return self._greeting + b"\n" if greet else b""
+        self._begun = not self._whole
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows that are complete with these bytes."""
@@ -79,20 +69,14 @@ class LineProtocol:
         dropped = self._lines.dropped
         lines = self._lines.cut(data + b"\n" if self._whole else data)
         if self._lines.dropped > dropped:  # one that was too long to be any
-            self._tally.corrupt()
+            self.count(corrupt=1)
         return [reading for line in lines for reading in self._line(line)]
 
     def _line(self, line: bytes) -> list[Reading]:
         row = self._read(line)
         if row == {}:
-            self._tally.foreign()
-            return []
-        readings = [] if row is None else self._columns.readings(row)
-        if readings:
-            self._tally.good()
-        else:
-            self._tally.corrupt()
-        return readings
+            return self.counted(None)
+        return self.counted([] if row is None else self._columns.readings(row))
 
 
 class _Csv:
@@ -148,8 +132,5 @@ def _at(message: Any, path: Sequence[str]) -> Any:
 
 
 def _finite(fields: Mapping[str, Any]) -> Numbers | None:
-    try:
-        found = {name: float(field) for name, field in fields.items()}
-    except (ValueError, OverflowError):
-        return None
-    return found if all(map(math.isfinite, found.values())) else None
+    values = all_finite(fields.values())
+    return None if values is None else dict(zip(fields, values, strict=True))

@@ -21,10 +21,10 @@ from typing import Any
 
 from equipoise.hardware.sensors.attitudes import unit_row
 from equipoise.hardware.sensors.settings import Settings
-from equipoise.hardware.sensors.tally import Tally
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.hardware.transport.optional_libraries import needed
 from equipoise.model.hardware import SensorUnit
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Reading
 from equipoise.model.units import MS, US
 
 KEYS = ("rate_hz", "rate_from")
@@ -36,10 +36,11 @@ GYRO = 0x38  # bits of HIGHRES_IMU.fields_updated: gyro x, y, z
 UNIT = 1e-3  # chosen: a quaternion of single precision is of length one well within this
 
 
-class Mavlink:
+class Mavlink(SensorDriver):
     """The conversation; settings: ``rate_hz``, asked for if given, and ``rate_from``."""
 
     def __init__(self, unit: SensorUnit) -> None:
+        super().__init__()
         settings = Settings(unit, KEYS)
         where = f"hardware.sensor {unit.name}"
         self._dialect = needed("pymavlink.dialects.v20.common", "mavlink", where)
@@ -47,17 +48,11 @@ class Mavlink:
         self._rate = settings.text("rate_from", IMU, (ATTITUDE, IMU))
         sources = {"attitude": ATTITUDE, "rate": self._rate}
         self._wanted = sorted({IDS[sources[channel]] for channel in unit.gives})
-        self._tally = Tally()
         self.opened()
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._tally.counts
 
     def opened(self) -> None:
         """Begin anew."""
-        self._tally.cleared()
+        super().opened()
         self._received = self._dialect.MAVLink(None)
         self._received.robust_parsing = True
         self._said = self._dialect.MAVLink(None, STATION, PLANNER)
@@ -101,19 +96,12 @@ class Mavlink:
     def _message(self, message: Any) -> list[Reading]:
         kind: str = message.get_type()
         if kind == "BAD_DATA":
-            self._tally.corrupt()
-            return []
-        readings = self._readings(kind, message) if self._of_the_vehicle(kind, message) else None
-        if readings is None:
-            self._tally.foreign()
-        elif readings:
-            self._tally.good()
-        else:
-            self._tally.corrupt()
-        return readings or []
+            return self.counted([])
+        ours = self._of_the_vehicle(kind, message)
+        return self.counted(self._readings(kind, message) if ours else None)
 
     def _of_the_vehicle(self, kind: str, message: Any) -> bool:
-        """Say whether a message is of the first vehicle heard, and of use; note its answers."""
+        """Say whether a message is of use and of the first vehicle received; note its answers."""
         beats = kind == "HEARTBEAT" and message.autopilot != self._dialect.MAV_AUTOPILOT_INVALID
         if self._vehicle is None and (beats or kind in IDS):
             self._vehicle = (message.get_srcSystem(), message.get_srcComponent())

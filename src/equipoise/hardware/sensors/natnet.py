@@ -18,34 +18,29 @@ from collections.abc import Sequence
 from equipoise.hardware.sensors import natnet_packet as natnet
 from equipoise.hardware.sensors.attitudes import unit_row
 from equipoise.hardware.sensors.settings import Settings, check_gives
-from equipoise.hardware.sensors.tally import Tally
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.model.hardware import SensorUnit
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Reading
 
 BEAT = 1.0  # s, chosen: between signs of life; Motive forgets who has been silent for long
 UNIT = 1e-3  # chosen: a quaternion of single precision is of length one well within this
 UNICAST = "udpout:"
 
 
-class NatNet:
+class NatNet(SensorDriver):
     """The conversation; setting: ``body``, a rigid body's streaming id or its name."""
 
     def __init__(self, unit: SensorUnit) -> None:
+        super().__init__()
         settings = Settings(unit, ("body",))
-        check_gives(unit, ["attitude"], '"attitude" alone: NatNet tells no rate')
+        check_gives(unit, ["attitude"], '"attitude" alone: NatNet sends no rate')
         self._requests = unit.port.address.startswith(UNICAST)
         self._name, self._id = _body(unit, settings, self._requests)
-        self._tally = Tally()
         self._next, self._answered = float("-inf"), False
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._tally.counts
 
     def opened(self) -> None:
         """Begin anew; a body may have another id by now."""
-        self._tally.cleared()
+        super().opened()
         self._next, self._answered = float("-inf"), False
         if self._name:
             self._id = None
@@ -70,13 +65,9 @@ class NatNet:
             kind, payload = natnet.opened(data)
             readings = self._readings(kind, payload)
         except natnet.BrokenPacket:
-            self._tally.corrupt()
-            return []
-        if readings is None:
-            self._tally.foreign()
-            return []
-        self._tally.good()
-        return readings
+            return self.counted([])
+        self.count(good=readings is not None, foreign=readings is None)
+        return readings or []
 
     def _readings(self, kind: int, payload: bytes) -> list[Reading] | None:
         """Return the row of a frame; None if a packet is of no use."""

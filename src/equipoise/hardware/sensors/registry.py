@@ -8,7 +8,7 @@ from equipoise.hardware.sensors.mavlink import Mavlink
 from equipoise.hardware.sensors.natnet import NatNet
 from equipoise.hardware.sensors.rosbridge import RosBridge
 from equipoise.hardware.sensors.vectornav import VectorNav
-from equipoise.hardware.transport.driver_protocol import SensorDriver
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.model.hardware import SensorUnit
 
 DRIVERS: dict[str, Callable[[SensorUnit], SensorDriver]] = {

@@ -6,8 +6,7 @@
 Source: rosbridge v2.0 protocol specification; sensor_msgs/Imu, geometry_msgs/PoseStamped and REP
 145 for what they hold. Quaternions x, y, z, w turn the frame of the message into its world, whose
 Z is up; rates are rad/s about the axes of the message. -1 as the first number of a covariance says
-that a quantity is not there. A covariance of zeros is one that is not known; else the sd is of the
-mean variance of the three axes.
+that a quantity is not there.
 
 An attitude may come as Imu or as PoseStamped, a rate as Imu, from one topic or from two.
 """
@@ -19,9 +18,9 @@ from typing import Any, cast
 
 from equipoise.hardware.sensors.attitudes import unit_row
 from equipoise.hardware.sensors.settings import Settings, check_gives
-from equipoise.hardware.sensors.tally import Tally
+from equipoise.hardware.transport.conversation import SensorDriver
 from equipoise.model.hardware import Gives, SensorUnit
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Reading
 from equipoise.model.units import NS
 
 IMU, POSE = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PoseStamped"
@@ -36,7 +35,7 @@ class NotThere(Exception):
     """A message in which a quantity is declared not to be."""
 
 
-class RosBridge:
+class RosBridge(SensorDriver):
     """The conversation; settings: ``topic_attitude``, ``topic_rate`` and ``type_attitude``."""
 
     def __init__(self, unit: SensorUnit) -> None:
@@ -51,26 +50,9 @@ class RosBridge:
         self._types = {"attitude": settings.text("type_attitude", IMU, (IMU, POSE)), "rate": IMU}
         if len(set(self._topics.values())) < len(self._topics) and self._types["attitude"] == POSE:
             raise settings.wrong(f"one topic of {POSE} for both", f"{IMU}, or two topics")
-        self._tally, self._greet = Tally(), True
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._tally.counts
-
-    def opened(self) -> None:
-        """Begin anew."""
-        self._tally.cleared()
-        self._greet = True
-
-    def due(self, t: float) -> bytes:
-        """Return the subscriptions, once, a line each."""
-        greet, self._greet = self._greet, False
-        if not greet:
-            return b""
         types = {topic: self._types[channel] for channel, topic in self._topics.items()}
         requested = ({"op": "subscribe", "topic": t, "type": kind} for t, kind in types.items())
-        return b"".join(json.dumps(each).encode() + b"\n" for each in requested)
+        super().__init__(b"".join(json.dumps(each).encode() + b"\n" for each in requested))
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows of a message."""
@@ -78,13 +60,8 @@ class RosBridge:
             message = json.loads(data)
             readings = self._published(cast("Message", message)) if _is_published(message) else []
         except (ValueError, TypeError, LookupError, OverflowError, RecursionError):
-            self._tally.corrupt()
-            return []
-        if readings:
-            self._tally.good()
-        else:
-            self._tally.foreign()
-        return readings
+            return self.counted([])
+        return self.counted(readings or None)
 
     def _published(self, message: Message) -> list[Reading]:
         """Return the rows of a topic; raises for one that is not what it should be."""
@@ -103,8 +80,8 @@ def _is_published(message: Any) -> bool:
 
 
 def _of_imu(message: Message) -> Reading:
-    sd = _sd(message["orientation_covariance"])
-    return Reading("attitude", _turn(message["orientation"]), _stamp(message), sd=sd)
+    _check_there(message["orientation_covariance"])
+    return Reading("attitude", _turn(message["orientation"]), _stamp(message))
 
 
 def _of_pose(message: Message) -> Reading:
@@ -112,8 +89,8 @@ def _of_pose(message: Message) -> Reading:
 
 
 def _rate(message: Message) -> Reading:
-    sd = _sd(message["angular_velocity_covariance"])
-    return Reading("rate", _numbers(message["angular_velocity"], "xyz"), _stamp(message), sd=sd)
+    _check_there(message["angular_velocity_covariance"])
+    return Reading("rate", _numbers(message["angular_velocity"], "xyz"), _stamp(message))
 
 
 TAKEN = {IMU: _of_imu, POSE: _of_pose}
@@ -147,12 +124,8 @@ def _stamp(message: Message) -> float | None:
     return seconds + nanoseconds * NS or None
 
 
-def _sd(covariance: Sequence[Any]) -> float | None:
-    """Return the sd of one axis; None if it is not known. Raises NotThere for no quantity."""
-    first, second, third = (_number(covariance[k]) for k in (0, 4, 8))
+def _check_there(covariance: Sequence[Any]) -> None:
+    """Raise NotThere for a covariance by which there is no such quantity."""
+    first, _, _ = (_number(covariance[k]) for k in (0, 4, 8))
     if first == NONE:
         raise NotThere
-    variances = (first, second, third)
-    if not all(math.isfinite(each) and each > 0 for each in variances):
-        return None
-    return math.sqrt(sum(variances) / 3)

@@ -1,4 +1,4 @@
-"""A sensor's own settings, each of the kind that its driver wants; else an InputError says so."""
+"""A sensor's own settings, each checked for the type that its driver needs."""
 
 from collections.abc import Iterable, Sequence
 

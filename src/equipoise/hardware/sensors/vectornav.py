@@ -9,19 +9,21 @@ components to north-east-down ones: a device turned by +psi about down says (0, 
 cos psi/2), and its own matrix, printed in the manual for the way from NED to the sensor, is the
 transpose of ours. Angles are yaw, pitch, roll in degrees, 3-2-1. Rates are rad/s.
 
-The device tells no time here, so rows are stamped as they arrive.
+These messages hold no time, so rows are stamped as they arrive.
 """
 
-import math
+from binascii import crc_hqx
 from collections.abc import Callable, Sequence
+from functools import reduce
 from typing import NamedTuple
 
 from equipoise.hardware.sensors.attitudes import from_angles, unit_row
 from equipoise.hardware.sensors.settings import Settings
-from equipoise.hardware.sensors.tally import Tally
+from equipoise.hardware.transport.conversation import SensorDriver
+from equipoise.hardware.transport.finite_numbers import all_finite
 from equipoise.hardware.transport.line_splitter import Lines
 from equipoise.model.hardware import Gives, SensorUnit
-from equipoise.model.reading import Counts, Reading
+from equipoise.model.reading import Reading
 
 Values = Sequence[float]
 
@@ -61,29 +63,18 @@ UNIT = 1e-3  # chosen: a quaternion of six decimals is of length one within this
 KEYS = ("message", "rate_hz")
 
 
-class VectorNav:
+class VectorNav(SensorDriver):
     """The conversation; settings: ``message`` such as VNQMR and ``rate_hz``, asked for if given."""
 
     def __init__(self, unit: SensorUnit) -> None:
-        self._lines, self._tally = Lines(), Tally()
-        self._greeting = _greeting(unit)
-        self._greet = self._first = False
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        return self._tally.counts
+        super().__init__(_greeting(unit))
+        self._lines, self._first = Lines(), False
 
     def opened(self) -> None:
         """Begin anew."""
+        super().opened()
         self._lines.cleared()
-        self._tally.cleared()
-        self._greet, self._first = True, True
-
-    def due(self, t: float) -> bytes:
-        """Return what asks for messages, once."""
-        greet, self._greet = self._greet, False
-        return self._greeting if greet else b""
+        self._first = True
 
     def feed(self, data: bytes) -> Sequence[Reading]:
         """Return the rows that are complete with these bytes."""
@@ -92,20 +83,11 @@ class VectorNav:
     def _line(self, line: bytes) -> list[Reading]:
         body, first, self._first = checked(line), self._first, False
         if body is None:
-            if not first:  # the port may have been opened in the middle of a line
-                self._tally.corrupt()
+            self.count(corrupt=not first)  # the port may have been opened in the middle of a line
             return []
         name, *fields = body.split(b",")
         message = MESSAGES.get(name)
-        if message is None:
-            self._tally.foreign()
-            return []
-        readings = _readings(message, numbers(fields))
-        if readings:
-            self._tally.good()
-        else:
-            self._tally.corrupt()
-        return readings
+        return self.counted(None if message is None else _readings(message, fields))
 
 
 def checked(line: bytes) -> bytes | None:
@@ -123,33 +105,17 @@ def checked(line: bytes) -> bytes | None:
 
 def exclusive_or(body: bytes) -> int:
     """Return the 8-bit checksum."""
-    total = 0
-    for byte in body:
-        total ^= byte
-    return total
+    return reduce(lambda a, b: a ^ b, body, 0)
 
 
 def crc16(body: bytes) -> int:
     """Return the 16-bit checksum: CRC-CCITT, polynomial 0x1021, begun at zero."""
-    crc = 0
-    for byte in body:
-        crc ^= byte << 8
-        for _ in range(8):
-            crc = (crc << 1) ^ 0x1021 if crc & 0x8000 else crc << 1
-    return crc & 0xFFFF
+    return crc_hqx(body, 0)
 
 
-def numbers(fields: Sequence[bytes]) -> list[float]:
-    """Return fields as finite numbers; an empty list if one is none."""
-    try:
-        found = [float(field) for field in fields]
-    except ValueError:
-        return []
-    return found if all(map(math.isfinite, found)) else []
-
-
-def _readings(message: Message, values: list[float]) -> list[Reading]:
-    if len(values) != message.width:
+def _readings(message: Message, fields: Sequence[bytes]) -> list[Reading]:
+    values = all_finite(fields)
+    if values is None or len(values) != message.width:
         return []
     found: list[Reading] = []
     wanted: tuple[tuple[Gives, Callable[[Values], tuple[float, ...]] | None], ...] = (

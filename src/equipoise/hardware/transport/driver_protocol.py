@@ -5,37 +5,18 @@ bench's clock. So each can be tested by the bytes of its manual, and fuzzed. Not
 raises: what cannot be understood is counted.
 """
 
-from collections.abc import Mapping, Sequence
+from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, Protocol, TypeVar
+from typing import Literal, TypeVar
 
-from equipoise.model.errors import InputError, nearest
-from equipoise.model.reading import Counts, Reading
+from equipoise.hardware.transport.conversation import Tally
+from equipoise.model.errors import BenchStopped, InputError, nearest
+from equipoise.model.hardware import MotorBoard
 
 Phase = Literal["connecting", "ready", "homing", "moving", "halted", "fault"]
 
 Kind = TypeVar("Kind")
-
-
-class SensorDriver(Protocol):
-    """The conversation with one sensor."""
-
-    def opened(self) -> None:
-        """Begin anew: the port has just been opened, half a message of before is void."""
-        ...
-
-    def feed(self, data: bytes) -> Sequence[Reading]:
-        """Return the rows that are complete with these bytes (for UDP: this datagram)."""
-        ...
-
-    def due(self, t: float) -> bytes:
-        """Return what to send now: a greeting, a request, a heartbeat; asked at every turn."""
-        ...
-
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,57 +27,61 @@ class BoardState:
     sentence: str = ""  # of a fault, for people: what happened and what to do
     position: Mapping[str, float] = field(default_factory=dict[str, float])  # m, displacement
     goal: Mapping[str, float] = field(default_factory=dict[str, float])  # m, where masses are sent
-    reported: float | None = None  # s, when the position was last told; None: never
+    reported: float | None = None  # s, time of the last reported position; None: never
     sure: bool = False  # the position is known: found by switches or by a person, not lost since
 
 
-class BoardDriver(Protocol):
-    """The conversation with one motor board.
+class BoardDriver(Tally):
+    """The conversation with one motor board; ``state`` is what is known of it now.
 
     Long ways are sent in legs of at most ``LEG`` each, at most two ahead, so that a board whose
     computer has died stands still within twice that.
     """
 
-    @property
-    def state(self) -> BoardState:
-        """What is known of it now."""
-        ...
+    def __init__(self, board: MotorBoard) -> None:
+        super().__init__()
+        self._board, self.state = board, BoardState("connecting")
 
-    @property
-    def counts(self) -> Counts:
-        """How much was understood since the port was opened."""
-        ...
-
+    @abstractmethod
     def opened(self, t: float) -> None:
         """Begin anew: the port has just been opened. What was sure of the position is lost."""
-        ...
 
-    def closed(self, t: float, why: str) -> None:
+    @abstractmethod
+    def closed(self, why: str) -> None:
         """Note that the port is gone: a fault."""
-        ...
 
+    @abstractmethod
     def feed(self, data: bytes, t: float) -> None:
         """Take in what has arrived."""
-        ...
 
+    @abstractmethod
     def due(self, t: float) -> bytes:
         """Return what to send now; asked at every turn, some hundred times a second."""
-        ...
 
+    @abstractmethod
     def home(self, t: float) -> None:
         """Find the position, then go to displacement zero; ends a fault whose cause is gone.
 
         Without switches: masses stand at home now, a person says so.
         """
-        ...
 
     def go(self, goals: Mapping[str, float], t: float) -> None:
-        """Send masses on their way to displacements (m), checked before; others go on."""
-        ...
+        """Send masses on their way to displacements (m), checked before; others go on.
 
+        Raises BenchStopped while they may not move.
+        """
+        if self.state.phase not in ("ready", "moving") or not self.state.sure:
+            why = self.state.sentence or f"it is {self.state.phase}, its position not known"
+            raise BenchStopped(f"board {self._board.name}: {why}")
+        self._aim({**self.state.goal, **goals}, t)
+
+    @abstractmethod
     def halt(self, t: float) -> None:
         """Stop every mass at once, slowing down in order; the position stays known."""
-        ...
+
+    @abstractmethod
+    def _aim(self, goal: Mapping[str, float], t: float) -> None:
+        """Take up a goal of all masses (m)."""
 
 
 LEG = 0.25  # s, chosen: what a board does without its computer is over within twice that

@@ -28,15 +28,14 @@ class Parts:
         """Begin anew: an answer of the server is awaited."""
         self._raw = self._plain = b""
         self._chunks: Chunks | None = None
-        self._boundary: bytes | None = None
+        self._boundary = b""  # empty: the answer's head has not come yet
         self.lost = 0  # parts that could not be understood
-        self.answered = ""  # the server's first line
 
     def cut(self, data: bytes) -> list[Part]:
         """Return the parts that are whole with these bytes."""
-        if self._boundary is None:
+        if not self._boundary:
             data = self._greeted(data)
-        if self._boundary is None:
+        if not self._boundary:
             return []
         self._plain += data if self._chunks is None else self._chunks.cut(data)
         found: list[Part] = []
@@ -50,9 +49,7 @@ class Parts:
         if not blank:
             self._raw = head[-MOST_HEAD:]
             return b""
-        line, _, names = head.partition(b"\r\n")
-        self.answered = line.decode("latin-1")
-        reported = named(names)
+        reported = named(head.partition(b"\r\n")[2])
         kind = reported.get("content-type", "")
         boundary = kind.partition("boundary=")[2].partition(";")[0].strip().strip('"')
         self._raw = b""
@@ -64,7 +61,6 @@ class Parts:
 
     def _next(self) -> Part | None:
         """Take the next whole part away."""
-        assert self._boundary is not None
         start = self._plain.find(self._boundary)
         if start < 0:
             self._plain = self._plain[-len(self._boundary) :]
@@ -87,11 +83,9 @@ class Parts:
 
     def _ends(self, body: int) -> int:
         """Return where the next boundary is; -1: not there yet."""
-        assert self._boundary is not None
         return self._plain.find(b"\r\n" + self._boundary, body)
 
     def _skipped(self) -> Part | None:
-        assert self._boundary is not None
         self.lost += 1
         self._plain = self._plain[len(self._boundary) :]
         return self._next()

@@ -23,7 +23,6 @@ class PortLost(EquipoiseError):
 
     def __init__(self, address: str, why: object) -> None:
         super().__init__(f"{address}: {why}")
-        self.address = address
 
 
 class Port(Protocol):
@@ -112,7 +111,7 @@ def http_port(port: Address, rest: str) -> Port:
 
 
 def udp_port(port: Address, rest: str) -> Port:
-    """Return a socket that hears datagrams sent to a port of ours, or to a multicast group."""
+    """Return a socket that receives datagrams sent to a local port or to a multicast group."""
     group, _, number = rest.rpartition(":")
     connection = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     connection.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -128,7 +127,7 @@ def udp_port(port: Address, rest: str) -> Port:
 
 
 def udp_out_port(port: Address, rest: str) -> Port:
-    """Return a socket that sends to another computer and hears what it answers."""
+    """Return a socket that sends to another computer and receives its answers."""
     host, _, number = rest.rpartition(":")
     to = (socket.gethostbyname(host), int(number))
     connection = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -149,11 +148,11 @@ def _is_group(host: str) -> bool:
 class SerialPort:
     """A serial line, held by this process alone."""
 
-    def __init__(self, address: str, path: str, baud: int) -> None:
-        serialx = needed("serialx", "hardware", address)
+    def __init__(self, port: Address, path: str) -> None:
+        serialx, address = needed("serialx", "hardware", port.address), port.address
         self._address, self._lost = address, (OSError, serialx.SerialException)
         try:
-            self._line = serialx.serial_for_url(path, baudrate=baud, timeout=0, exclusive=True)
+            self._line = serialx.serial_for_url(path, baudrate=port.baud, timeout=0, exclusive=True)
             self._line.open()
             self._line.reset_read_buffer()  # what the system kept from before is no news
         except self._lost as error:
@@ -183,15 +182,11 @@ class SerialPort:
             self._line.close()
 
 
-def serial_port(port: Address, rest: str) -> Port:
-    """Return a serial line."""
-    return SerialPort(port.address, rest, port.baud)
-
-
 class WebSocketPort:
     """Messages of a WebSocket."""
 
-    def __init__(self, address: str) -> None:
+    def __init__(self, port: Address, _rest: str) -> None:
+        address = port.address
         needed("websockets", "hardware", address)
         from websockets.exceptions import WebSocketException
         from websockets.sync.client import connect
@@ -229,8 +224,3 @@ class WebSocketPort:
         """Close it."""
         with suppress(*self._lost):
             self._held.close()
-
-
-def websocket_port(port: Address, _rest: str) -> Port:
-    """Return the connection to a WebSocket's server."""
-    return WebSocketPort(port.address)

@@ -13,7 +13,7 @@ Opener = Callable[[Address], Port]
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """What one look at a port brought."""
+    """What one poll of a port returned."""
 
     data: tuple[bytes, ...] = ()
     opened: bool = False  # just now

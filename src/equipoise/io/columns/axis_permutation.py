@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from equipoise.model.arrays import Matrix3, Quaternion
+from equipoise.model.arrays import Matrix3
 
 HALF = math.sqrt(0.5)
 # The shortest turn of the laboratory that brings the named axis up to Z; for -z, about x.
@@ -16,11 +16,6 @@ TO_Z_UP: dict[str, tuple[float, float, float, float]] = {
     "-x": (HALF, 0.0, HALF, 0.0),
     "-z": (0.0, 1.0, 0.0, 0.0),
 }
-
-
-def to_z_up(lab_up: str) -> Quaternion:
-    """Return the turn of the laboratory frame after which ``lab_up`` is Z."""
-    return np.array(TO_Z_UP[lab_up])
 
 
 def axes_matrix(axes: tuple[str, str, str]) -> Matrix3:

@@ -6,8 +6,6 @@ A dialect makes such a map from a header; a person writes one as a small TOML fi
 
 from dataclasses import dataclass
 
-AXES = ("x", "y", "z", "-x", "-y", "-z")
-
 
 @dataclass(frozen=True, slots=True)
 class Columns:
@@ -28,26 +26,17 @@ class Euler:
 
 
 @dataclass(frozen=True, slots=True)
-class MassColumn:
-    """A mass and the column that tells its displacement."""
+class NamedColumn:
+    """A mass or a device, as a recording names it ('x1', 'wheel:x'), and what it reported."""
 
-    mass: str
+    name: str
     column: str
-    factor: float  # to m
-
-
-@dataclass(frozen=True, slots=True)
-class DeviceColumn:
-    """A device, as a recording names it ('wheel:x'), and the column of what it reported."""
-
-    device: str
-    column: str
-    factor: float  # to rad/s, rad, A m^2 or N m, see ``model.devices``
+    factor: float  # to SI: m, or rad/s, rad, A m^2 or N m, see ``model.devices``
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """How a text is cut into cells. What is None is found out by looking."""
+    """How a text is cut into cells. What is None is detected."""
 
     separator: str | None = None
     decimal: str | None = None
@@ -63,10 +52,10 @@ class ColumnMap:
     quaternion: Columns | None = None  # w, x, y, z
     euler: Euler | None = None
     rate: Columns | None = None
-    masses: tuple[MassColumn, ...] = ()
+    masses: tuple[NamedColumn, ...] = ()
     momentum: Columns | None = None
     torque: Columns | None = None
-    devices: tuple[DeviceColumn, ...] = ()
+    devices: tuple[NamedColumn, ...] = ()
     field: Columns | None = None
     temperature: Columns | None = None  # degC
     lab_up: str = "z"  # the laboratory axis of the table that points up
@@ -75,5 +64,5 @@ class ColumnMap:
     mean_of_frames: bool = False  # rows may be means of several quaternions, hence short
     native: bool = False  # our own files keep our own rules: time never goes back, no blank time
     notes: tuple[str, ...] = ()  # what the dialect left aside
-    free_from: float | None = None  # s, when the platform was let go, where the file tells
+    free_from: float | None = None  # s, when the platform was let go, where the file states it
     layout: Layout = Layout()

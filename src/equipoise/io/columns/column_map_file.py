@@ -1,6 +1,6 @@
 """A column map as a person writes it: TOML, each declaration with its unit.
 
-separator = ";"                     # left out: found by looking
+separator = ";"                     # left out: detected
 decimal = ","
 skip_rows = 2                       # lines before the header
 lab_up = "y"                        # the laboratory axis that points up
@@ -41,10 +41,9 @@ from equipoise.io.columns.axis_permutation import axes_matrix
 from equipoise.io.columns.column_map import (
     ColumnMap,
     Columns,
-    DeviceColumn,
     Euler,
     Layout,
-    MassColumn,
+    NamedColumn,
 )
 from equipoise.io.toml.key_types import Table
 from equipoise.io.toml.read_toml import read_toml
@@ -137,6 +136,7 @@ def read_column_map(path: str | Path) -> ColumnMap:
     source = str(path)
     if table.attitude is None and table.rate is None:
         raise InputError(source, "neither [attitude] nor [rate]", "at least one of them")
+    separator = "\t" if table.separator == "tab" else table.separator
     quaternion, euler = _attitude(table.attitude, f"{source}: attitude")
     body = _axes(table.body, f"{source}: body") or ("x", "y", "z")
     return ColumnMap(
@@ -145,7 +145,10 @@ def read_column_map(path: str | Path) -> ColumnMap:
         quaternion=quaternion,
         euler=euler,
         rate=_triad(table.rate, "rate", f"{source}: rate"),
-        masses=tuple(_mass(m, f"{source}: mass[{i + 1}]") for i, m in enumerate(table.mass)),
+        masses=tuple(
+            NamedColumn(m.name, m.column, factor(m.unit, "length", f"{source}: mass[{i}]"))
+            for i, m in enumerate(table.mass, 1)
+        ),
         momentum=_triad(table.momentum, "momentum", f"{source}: momentum"),
         torque=_triad(table.torque, "torque", f"{source}: torque"),
         devices=tuple(_device(d, f"{source}: device[{i + 1}]") for i, d in enumerate(table.device)),
@@ -155,13 +158,8 @@ def read_column_map(path: str | Path) -> ColumnMap:
         body=body,
         inverse=table.attitude is not None and table.attitude.turns == "laboratory to body",
         mean_of_frames=table.mean_of_frames,
-        layout=_layout(table),
+        layout=Layout(separator, table.decimal, table.skip_rows),
     )
-
-
-def _layout(table: MapFile) -> Layout:
-    separator = "\t" if table.separator == "tab" else table.separator
-    return Layout(separator, table.decimal, table.skip_rows)
 
 
 def _attitude(table: AttitudeTable | None, where: str) -> tuple[Columns | None, Euler | None]:
@@ -186,13 +184,9 @@ def _triad(table: TriadTable | None, kind: str, where: str) -> Columns | None:
     return Columns(tuple(table.columns), factor(table.unit, kind, where), axes)
 
 
-def _mass(table: MassTable, where: str) -> MassColumn:
-    return MassColumn(table.name, table.column, factor(table.unit, "length", where))
-
-
-def _device(table: DeviceTable, where: str) -> DeviceColumn:
+def _device(table: DeviceTable, where: str) -> NamedColumn:
     unit = factor(table.unit, QUANTITY[table.reports], where)
-    return DeviceColumn(f"{table.reports}:{table.name}", table.column, unit)
+    return NamedColumn(f"{table.reports}:{table.name}", table.column, unit)
 
 
 def _axes(axes: list[Axis], where: str) -> tuple[str, str, str]:

@@ -5,7 +5,7 @@ wheel_<name>_rad_s  gimbal_<name>_deg  dipole_<name>_A_m2  jet_<name>_N_m
 
 import re
 
-from equipoise.io.columns.column_map import DeviceColumn
+from equipoise.io.columns.column_map import NamedColumn
 from equipoise.model.errors import InputError
 from equipoise.model.units import DEG
 
@@ -20,23 +20,23 @@ COLUMN = re.compile(r"(wheel)_(.+)_rad_s|(gimbal)_(.+)_deg|(dipole)_(.+)_A_m2|(j
 DEVICE = re.compile(f"({'|'.join(UNITS)}):(.+)")
 
 
-def device_of(column: str) -> DeviceColumn | None:
+def device_of(column: str) -> NamedColumn | None:
     """Return the device of a native column; None if it is no device's."""
     match = COLUMN.fullmatch(column)
     if match is None:
         return None
     reported, name = (part for part in match.groups() if part is not None)
-    return DeviceColumn(f"{reported}:{name}", column, UNITS[reported][1])
+    return NamedColumn(f"{reported}:{name}", column, UNITS[reported][1])
 
 
-def column_of(device: str) -> DeviceColumn:
+def column_of(device: str) -> NamedColumn:
     """Return the native column of a device, as a recording names it."""
     match = DEVICE.fullmatch(device)
     if match is None:
         wanted = "its name after " + ", ".join(f"'{reported}:'" for reported in UNITS)
         raise InputError("recording: device_names", f"'{device}'", wanted)
     unit, factor = UNITS[match[1]]
-    return DeviceColumn(device, f"{match[1]}_{match[2]}_{unit}", factor)
+    return NamedColumn(device, f"{match[1]}_{match[2]}_{unit}", factor)
 
 
 def si_column(device: str) -> str:
@@ -46,6 +46,6 @@ def si_column(device: str) -> str:
 
 
 def wanted_column(name: str) -> str | None:
-    """Return what the column of a device must look like; None if a name means no device's."""
+    """Return the form of a device's column; None if a name means no device's."""
     reported = name.split("_", 1)[0]
     return f"'{reported}_<name>_{UNITS[reported][0]}'" if reported in UNITS else None

@@ -9,10 +9,11 @@ One table for all channels; a cell is blank where its channel has no row at that
 
 import re
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Columns, MassColumn
+from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.device_columns import column_of, device_of, wanted_column
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.errors import InputError, nearest
@@ -26,11 +27,19 @@ MOMENTUM = ("h_x_N_m_s", "h_y_N_m_s", "h_z_N_m_s")
 TORQUE = ("torque_x_N_m", "torque_y_N_m", "torque_z_N_m")
 FIELD = ("field_x_uT", "field_y_uT", "field_z_uT")
 TEMPERATURE = ("temperature_degC",)
-GROUPS = (ATTITUDE, RATE, MOMENTUM, TORQUE, FIELD, TEMPERATURE)
+# Of a column map: the columns, and what one of their unit is in SI.
+GROUPS = {
+    "quaternion": (ATTITUDE, 1.0),
+    "rate": (RATE, 1.0),
+    "momentum": (MOMENTUM, 1.0),
+    "torque": (TORQUE, 1.0),
+    "field": (FIELD, UT),
+    "temperature": (TEMPERATURE, 1.0),
+}
 MASS = re.compile(r"mass_(.+)_mm")
 # A name that means to be one of ours.
 OURS = re.compile(r"(time|q|omega|mass|h|torque|wheel|gimbal|dipole|jet|field|temperature)_.*")
-NAMED = 5  # columns that are told by name; chosen: a screen
+NAMED = 5  # columns that a note names; chosen: a screen
 
 
 def is_native(names: tuple[str, ...]) -> bool:
@@ -41,24 +50,24 @@ def is_native(names: tuple[str, ...]) -> bool:
 def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
     """Return what a native header's columns mean; InputError for a name that is nearly ours."""
     if TIME not in names:
-        raise InputError(f"{source}, header", f"no column '{TIME}'", f"'{TIME}', {_shown(names)}")
+        wanted = f"'{TIME}', in s, beside {', '.join(names[:6])}"
+        raise InputError(f"{source}, header", f"no column '{TIME}'", wanted)
     masses = [match for match in map(MASS.fullmatch, names) if match]
     devices = [device for device in map(device_of, names) if device]
-    known = [TIME, *chain(*GROUPS), *(m[0] for m in masses), *(d.column for d in devices)]
+    ours = chain.from_iterable(group for group, _ in GROUPS.values())
+    known = [TIME, *ours, *(m[0] for m in masses), *(d.column for d in devices)]
     _check_names(names, known, source)
+    groups: dict[str, Any] = {
+        channel: _group(names, group, source, unit) for channel, (group, unit) in GROUPS.items()
+    }
     return ColumnMap(
         name="native",
         time=(Columns((TIME,)),),
-        quaternion=_group(names, ATTITUDE, source),
-        rate=_group(names, RATE, source),
-        masses=tuple(MassColumn(match[1], match[0], MM) for match in masses),
-        momentum=_group(names, MOMENTUM, source),
-        torque=_group(names, TORQUE, source),
+        masses=tuple(NamedColumn(match[1], match[0], MM) for match in masses),
         devices=tuple(devices),
-        field=_group(names, FIELD, source, UT),
-        temperature=_group(names, TEMPERATURE, source),
         native=True,
         notes=_left_aside(names, known),
+        **groups,
     )
 
 
@@ -106,7 +115,7 @@ def _spread(channel: Samples, time: Series1, unit: float | Floats) -> Floats:
 
 
 def _group(
-    names: tuple[str, ...], group: tuple[str, ...], source: str, unit: float = 1.0
+    names: tuple[str, ...], group: tuple[str, ...], source: str, unit: float
 ) -> Columns | None:
     """Return the columns of a channel: all of them or none."""
     missing = [name for name in group if name not in names]
@@ -125,7 +134,3 @@ def _check_names(names: tuple[str, ...], known: list[str], source: str) -> None:
             mass = "'mass_<name>_mm'" if name.startswith("mass_") else None
             wanted = mass or wanted_column(name) or nearest(name, known)
             raise InputError(f"{source}, header", f"column '{name}'", wanted)
-
-
-def _shown(names: tuple[str, ...]) -> str:
-    return "in s, beside " + ", ".join(names[:6])

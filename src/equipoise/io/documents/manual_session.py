@@ -1,4 +1,4 @@
-"""The file of a balancing by hand: what was asked, every recording, and what lies where since.
+"""The file of a balancing by hand: the goal, every recording, and the loading after it.
 
 It gets a round with every recording; a person's remarks stay. A person who placed something else
 than was asked for puts it right here, under ``placed``: all that lies on the platform, not what

@@ -10,7 +10,7 @@ from pydantic import Field
 from equipoise.io.files.atomic_file import write_whole
 from equipoise.io.toml.key_types import Name, NotNegative, Positive, Table, Triple
 from equipoise.io.toml.read_toml import parse_toml, read_toml
-from equipoise.io.toml.write_toml import number, numbers, toml_text
+from equipoise.io.toml.write_toml import as_written, number, toml_text
 from equipoise.model.arrays import Vector3
 from equipoise.model.devices import ControlMomentGyro, ReactionWheel
 from equipoise.model.errors import InputError, nearest
@@ -197,22 +197,17 @@ def text_of_plan(plan: Plan, testbed: Testbed) -> str:
         "duration_s": number(m.duration),
         "start": {
             "tilt_deg": number(m.tilt, DEG),
-            "low_side": numbers(np.round(m.low_side, 6) + 0.0),
-            "rate_deg_s": numbers(np.round(m.rate / DEG, 6) + 0.0),
+            "low_side": as_written(np.round(m.low_side, 6) + 0.0),
+            "rate_deg_s": as_written(np.round(m.rate / DEG, 6) + 0.0),
             "tilt_sd_deg": number(m.tilt_sd, DEG),
             "rate_sd_deg_s": number(m.rate_sd, DEG),
         },
-        "standing": {"at_mm": in_mm(m.standing)} if m.standing else {},
-        "move": [{"time_s": number(t), "to_mm": in_mm(goals)} for t, goals in m.moves],
+        "standing": {"at_mm": as_written(m.standing, MM)} if m.standing else {},
+        "move": [{"time_s": number(t), "to_mm": as_written(goals, MM)} for t, goals in m.moves],
         "wave": [wave_keys(wave, testbed) for wave in m.waves],
         "predicted": predicted_keys(plan),
     }
     return HEAD + toml_text({key: value for key, value in keys.items() if value})
-
-
-def in_mm(displacements: Mapping[str, float]) -> dict[str, float]:
-    """Return displacements by mass, mm."""
-    return {name: number(d, MM) for name, d in displacements.items()}
 
 
 def wave_keys(wave: SquareWave, testbed: Testbed) -> dict[str, Any]:
@@ -225,7 +220,7 @@ def wave_keys(wave: SquareWave, testbed: Testbed) -> dict[str, Any]:
 
 
 def predicted_keys(plan: Plan) -> dict[str, list[float]]:
-    """Return what a plan promises, if all of it is seen."""
+    """Return what a plan promises, if all of it is observable."""
     if plan.com_sd is None or plan.inertia_sd is None:
         return {}
     com = [float(f"{x / UM:.4g}") for x in plan.com_sd]

@@ -33,7 +33,7 @@ def write_folder(path: str | Path, files: Mapping[str, str | bytes]) -> list[Pat
     check_folder(path)
     folder = Path(path)
     staging = folder / f".{uuid4().hex[:8]}"
-    made = _missing(folder)
+    made = [p for p in (folder, *folder.parents) if not p.exists()]  # deepest first
     try:
         staging.mkdir(parents=True)
         for name, content in files.items():
@@ -49,8 +49,3 @@ def write_folder(path: str | Path, files: Mapping[str, str | bytes]) -> list[Pat
         for parent in made:  # goes only while it is empty
             with contextlib.suppress(OSError):
                 parent.rmdir()
-
-
-def _missing(folder: Path) -> list[Path]:
-    """Return the folders that have to be made, deepest first."""
-    return [p for p in (folder, *folder.parents) if not p.exists()]

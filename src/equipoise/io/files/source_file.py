@@ -6,7 +6,7 @@ from equipoise.model.errors import InputError
 
 TEXT_CONTROL = frozenset(b"\t\n\r\f")
 MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
-SAMPLE = 4096  # bytes looked at to tell text from binary; chosen: several lines of any table
+SAMPLE = 4096  # bytes examined to distinguish text from binary; chosen: several lines of any table
 
 
 def read_bytes(path: str | Path, wanted: str) -> bytes:

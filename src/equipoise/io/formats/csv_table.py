@@ -3,7 +3,7 @@
 What we write reads back to the last bit.
 
 Motive writes several header lines (kind, name, identity, rotation or position) above the one with
-X, Y, Z, W; a name that occurs twice there is told apart by what stands above it.
+X, Y, Z, W; a name that occurs twice there is distinguished by what stands above it.
 """
 
 import csv
@@ -18,7 +18,7 @@ from equipoise.io.columns.table import Table
 from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 
-SEPARATORS = (";", "\t")  # looked for before the comma, which may be a decimal comma
+SEPARATORS = (";", "\t")  # sought before the comma, which may be a decimal comma
 HEAD_LINES = 50  # lines; chosen: more than any header has
 SHARE = 0.5  # of a row's filled cells that must be numbers for it to hold data (chosen)
 ABOVE = 3  # filled cells that a line above the header needs to belong to it (chosen)
@@ -31,7 +31,8 @@ def cut(text: str, source: str, layout: Layout) -> Table:
     rows, lines = _rows(text, source, separator)
     if not rows:
         raise InputError(source, "nothing but blank lines", "a header and rows of numbers")
-    head = _header_row(rows) if layout.skip_rows is None else _row_after(lines, layout.skip_rows)
+    skipped = layout.skip_rows
+    head = _header_row(rows) if skipped is None else sum(line <= skipped for line in lines)
     if head >= len(rows):
         raise InputError(source, f"only {len(rows)} rows", "a header and rows of numbers")
     names = _column_names(rows, head)
@@ -97,11 +98,6 @@ def _rows(text: str, source: str, separator: str) -> tuple[list[list[str]], list
         where = f"{source}, line {reader.line_num}"
         raise InputError(where, str(error), "a row of separated cells") from error
     return rows, lines
-
-
-def _row_after(lines: list[int], skipped: int) -> int:
-    """Return the first row after a number of lines."""
-    return sum(line <= skipped for line in lines)
 
 
 def _even(

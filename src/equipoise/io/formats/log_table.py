@@ -11,10 +11,11 @@ so that a column map can name them, and what tables need set right is set right 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
+from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.device_columns import si_column
 from equipoise.io.columns.native_columns import ATTITUDE, MOMENTUM, RATE, TEMPERATURE, TIME, TORQUE
 from equipoise.io.columns.table import Table
@@ -81,26 +82,19 @@ def log_map(
     """Return what the columns of such a table mean; ``ours``: we wrote it, nothing is doubted."""
     here = {channel.name: channel for channel in channels if len(channel.ns)}
     known = {each: Columns(channel.columns) for each, channel in here.items()}
-    masses, devices = here.get("masses"), here.get("devices")
+    groups: dict[str, Any] = {each: known.get(each) for each in GROUPS}
+    for each in ("masses", "devices"):
+        named = zip(here[each].names, here[each].columns, strict=True) if each in here else ()
+        groups[each] = tuple(NamedColumn(label, column, 1.0) for label, column in named)
     return ColumnMap(
         name=name,
         time=(Columns((TIME,)),),
         quaternion=known.get("attitude"),
-        rate=known.get("rate"),
-        masses=() if masses is None else tuple(
-            MassColumn(n, c, 1.0) for n, c in zip(masses.names, masses.columns, strict=True)
-        ),
-        momentum=known.get("momentum"),
-        torque=known.get("torque"),
-        devices=() if devices is None else tuple(
-            DeviceColumn(n, c, 1.0) for n, c in zip(devices.names, devices.columns, strict=True)
-        ),
-        field=known.get("field"),
-        temperature=known.get("temperature"),
         lab_up=lab_up,
         body=body,
         native=ours,
-    )  # fmt: skip
+        **groups,
+    )
 
 
 def _tidy(channel: LogChannel) -> tuple[LogChannel, tuple[str, ...]]:

@@ -26,7 +26,7 @@ BEST = {
 
 @dataclass(slots=True)
 class Topic:
-    """What one topic told."""
+    """The rows of one topic."""
 
     name: str
     type: str
@@ -46,18 +46,14 @@ class Topic:
 
 def chosen(topics: Sequence[Topic], source: str) -> tuple[list[LogChannel], tuple[str, ...]]:
     """Return the channels of the topics that are taken, and what was taken and left aside."""
-    taken = {channel: _best(channel, topics, source) for channel in BEST}
+    found = {channel: _best(channel, topics, source) for channel in BEST}
+    taken = {channel: topic for channel, topic in found.items() if topic is not None}
     channels = [
         LogChannel(channel, np.array(topic.ns[channel]), np.array(topic.rows[channel], float))
         for channel, topic in taken.items()
-        if topic is not None
     ]
-    notes = [
-        f"{channel}: taken from topic '{topic.name}' ({topic.type})."
-        for channel, topic in taken.items()
-        if topic is not None
-    ]
-    used = [topic.name for topic in taken.values() if topic is not None]
+    notes = [f"{c}: taken from topic '{topic.name}' ({topic.type})." for c, topic in taken.items()]
+    used = [topic.name for topic in taken.values()]
     left = ", ".join(f"'{topic.name}'" for topic in topics if topic.name not in used and topic.rows)
     return channels, (*notes, *([f"Topics left aside: {left}."] if left else []))
 

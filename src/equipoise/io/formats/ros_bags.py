@@ -14,7 +14,7 @@ from equipoise.io.columns.table import Table
 from equipoise.io.formats.log_table import log_map, log_table
 from equipoise.io.formats.log_topics import Topic, chosen
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.formats.ros_messages import DECODERS, stamp_of, values_of
+from equipoise.io.formats.ros_messages import DECODERS, stamp_of
 from equipoise.model.errors import EquipoiseError, InputError
 
 ROS_1, ROS_2 = b"#ROSBAG V2.0", b"SQLite format 3\x00"
@@ -42,7 +42,7 @@ def read_bag(path: Path, content: bytes) -> tuple[Table, ColumnMap]:
 
 
 def _topics(path: Path) -> list[Topic]:
-    """Return what the topics of known types tell."""
+    """Return the topics of known types."""
     highlevel: Any = log_library("rosbags.highlevel", str(path))
     types: Any = log_library("rosbags.typesys", str(path))
     # Bags of ROS 2 before Iron do not say what their types are; ours have been the same since.
@@ -53,5 +53,5 @@ def _topics(path: Path) -> list[Topic]:
         for connection, logged, raw in reader.messages(connections=known) if known else ():
             message = reader.deserialize(raw, connection.msgtype)
             topic = topics.setdefault(connection.topic, Topic(connection.topic, connection.msgtype))
-            topic.add(stamp_of(message) or logged, values_of(connection.msgtype, message))
+            topic.add(stamp_of(message) or logged, DECODERS[connection.msgtype](message))
     return list(topics.values())

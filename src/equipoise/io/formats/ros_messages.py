@@ -14,11 +14,6 @@ from equipoise.io.formats.log_topics import IMU, ODOMETRY, POSE, TURN, Values
 NONE = -1.0  # REP 145: not known
 
 
-def values_of(kind: str, message: Any) -> Values:
-    """Return what a message of a known type tells."""
-    return DECODERS[kind](message)
-
-
 def stamp_of(message: Any) -> int:
     """Return the time that a message bears, ns."""
     stamp = message.header.stamp

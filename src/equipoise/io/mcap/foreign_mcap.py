@@ -3,29 +3,18 @@
 from collections.abc import Callable
 from typing import Any
 
-from equipoise.io.formats.log_topics import FRAME_TRANSFORM, POSE_IN_FRAME, Topic, Values
+from equipoise.io.formats.log_topics import Topic, Values
 from equipoise.io.formats.optional_libraries import log_library
-from equipoise.io.formats.ros_messages import DECODERS, stamp_of, values_of
-from equipoise.io.mcap.foxglove_messages import (
-    Turned,
-    frame_transform,
-    frame_transform_json,
-    pose_in_frame,
-    pose_in_frame_json,
-)
+from equipoise.io.formats.ros_messages import DECODERS, stamp_of
+from equipoise.io.mcap.foxglove_messages import ROTATION, Turned, turned, turned_json
 from equipoise.io.mcap.mcap_salvage import Salvage
 
 Decoder = Callable[[bytes], tuple[int, Values]]
-TURNS: dict[tuple[str, str], Callable[[bytes], Turned]] = {
-    (FRAME_TRANSFORM, "protobuf"): frame_transform,
-    (FRAME_TRANSFORM, "json"): frame_transform_json,
-    (POSE_IN_FRAME, "protobuf"): pose_in_frame,
-    (POSE_IN_FRAME, "json"): pose_in_frame_json,
-}
+TURNED: dict[str, Callable[[str, bytes], Turned]] = {"protobuf": turned, "json": turned_json}
 
 
 def foreign_topics(found: Salvage, source: str) -> list[Topic]:
-    """Return what the topics tell whose type is known; messages that make no sense are left out."""
+    """Return the topics of known types; messages that make no sense are left out."""
     topics: dict[int, tuple[Topic, Decoder]] = {}
     for channel in found.channels.values():
         schema = found.schemas.get(channel.schema_id)
@@ -55,10 +44,9 @@ def _type(name: str) -> str:
 
 
 def _decoder(kind: str, encoding: str, source: str) -> Decoder | None:
-    """Return how messages of a type are read; None if it tells nothing we know."""
-    turned = TURNS.get((kind, encoding))
-    if turned is not None:
-        return lambda data: _attitude(turned(data))
+    """Return how messages of a type are read; None if the type is unknown."""
+    if kind in ROTATION and encoding in TURNED:
+        return lambda data: _attitude(TURNED[encoding](kind, data))
     if kind not in DECODERS or encoding not in ("cdr", "ros1"):
         return None
     types = log_library("rosbags.typesys", source)
@@ -69,7 +57,7 @@ def _decoder(kind: str, encoding: str, source: str) -> Decoder | None:
 
     def decode(data: bytes) -> tuple[int, Values]:
         message = deserialise(data, kind)
-        return stamp_of(message), values_of(kind, message)
+        return stamp_of(message), DECODERS[kind](message)
 
     return decode
 

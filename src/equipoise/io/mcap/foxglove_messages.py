@@ -6,52 +6,35 @@ w 4; timestamp 1 seconds, 2 nanoseconds. In JSON the timestamp is {"sec", "nsec"
 """
 
 import json
-from collections.abc import Mapping
+from functools import reduce
 from typing import Any
 
 from equipoise.io.formats.clock_units import PER_S
-from equipoise.io.mcap.protobuf_fields import Value, double, fields, message, whole
+from equipoise.io.formats.log_topics import FRAME_TRANSFORM, POSE_IN_FRAME
+from equipoise.io.mcap.protobuf_fields import double, fields, message, whole
 
 Turned = tuple[int, tuple[float, float, float, float]]  # ns, quaternion with the scalar first
 
 
-def frame_transform(data: bytes) -> Turned:
-    """Return stamp and rotation of a foxglove.FrameTransform; ValueError if it is none."""
+# Where the quaternion stands: numbers of fields, and keys of JSON.
+ROTATION: dict[str, tuple[tuple[int, ...], tuple[str, ...]]] = {
+    FRAME_TRANSFORM: ((5,), ("rotation",)),
+    POSE_IN_FRAME: ((3, 2), ("pose", "orientation")),
+}
+
+
+def turned(kind: str, data: bytes) -> Turned:
+    """Return stamp and quaternion of a message in protobuf; ValueError if it is none."""
     found = fields(data)
-    return _stamp(found), _quaternion(message(found, 5))
+    stamp, turn = message(found, 1), reduce(message, ROTATION[kind][0], found)
+    quaternion = double(turn, 4), double(turn, 1), double(turn, 2), double(turn, 3)
+    return whole(stamp, 1) * PER_S + whole(stamp, 2), quaternion
 
 
-def pose_in_frame(data: bytes) -> Turned:
-    """Return stamp and orientation of a foxglove.PoseInFrame; ValueError if it is none."""
-    found = fields(data)
-    return _stamp(found), _quaternion(message(message(found, 3), 2))
-
-
-def frame_transform_json(data: bytes) -> Turned:
-    """Return the same of a FrameTransform as JSON."""
-    message = json.loads(data)
-    return _json_stamp(message), _json_quaternion(message["rotation"])
-
-
-def pose_in_frame_json(data: bytes) -> Turned:
-    """Return the same of a PoseInFrame as JSON."""
-    message = json.loads(data)
-    return _json_stamp(message), _json_quaternion(message["pose"]["orientation"])
-
-
-def _stamp(found: Mapping[int, Value]) -> int:
-    stamp = message(found, 1)
-    return whole(stamp, 1) * PER_S + whole(stamp, 2)
-
-
-def _quaternion(turn: Mapping[int, Value]) -> tuple[float, float, float, float]:
-    return double(turn, 4), double(turn, 1), double(turn, 2), double(turn, 3)
-
-
-def _json_stamp(message: Any) -> int:
-    stamp: Any = message.get("timestamp") or {}
-    return int(stamp.get("sec", 0)) * PER_S + int(stamp.get("nsec", 0))
-
-
-def _json_quaternion(turn: Any) -> tuple[float, float, float, float]:
-    return float(turn["w"]), float(turn["x"]), float(turn["y"]), float(turn["z"])
+def turned_json(kind: str, data: bytes) -> Turned:
+    """Return the same of a message in JSON."""
+    found: Any = json.loads(data)
+    stamp: Any = found.get("timestamp") or {}
+    turn: Any = reduce(lambda part, key: part[key], ROTATION[kind][1], found)
+    quaternion = float(turn["w"]), float(turn["x"]), float(turn["y"]), float(turn["z"])
+    return int(stamp.get("sec", 0)) * PER_S + int(stamp.get("nsec", 0)), quaternion

@@ -1,12 +1,12 @@
-"""What a bench sees, live: a Foxglove WebSocket server that Foxglove and PlotJuggler connect to.
+"""The rows of a bench, live: a Foxglove WebSocket server that Foxglove and PlotJuggler connect to.
 
 Protocol: Foxglove WebSocket, public (subprotocol ``foxglove.sdk.v1``). Messages are those of the
-file (``log_messages``). It listens on this computer alone unless it is told otherwise, and takes
-no commands: whoever looks on cannot move anything.
+file (``log_messages``). It listens on this computer alone and takes no commands: an observer
+cannot move anything.
 """
 
 from collections.abc import Mapping
-from types import TracebackType
+from contextlib import AbstractContextManager
 from typing import Any
 
 from equipoise.io.formats.optional_libraries import log_library
@@ -19,7 +19,7 @@ PORT = 8765  # the protocol's customary port
 ADDRESS = f"ws://{LOOPBACK}:{PORT}"
 
 
-class LiveView:
+class LiveView(AbstractContextManager["LiveView"]):
     """A server of the rows that it is given."""
 
     def __init__(self, zero_ns: int, port: int | None = None) -> None:
@@ -56,15 +56,6 @@ class LiveView:
         """End all connections."""
         self._server.stop()
 
-    def __enter__(self) -> "LiveView":
-        """Return the view; it is closed at the end."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_raised: object) -> None:
         """Close."""
         self.close()

@@ -1,4 +1,4 @@
-"""A recording written to MCAP as it arrives, so that a crash or a power cut leaves what was seen.
+"""A recording written to MCAP as it arrives, so that a crash or a power cut leaves all rows so far.
 
 The file is a row of chunks, each with its own checksum; what follows the last whole chunk is lost
 and nothing before it. A chunk is ended, and given to the disk, every half second and with every
@@ -17,7 +17,6 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime, timedelta
 from importlib.metadata import version
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from equipoise.io.files.append_file import DurableFile
@@ -51,7 +50,7 @@ class Opening:
     drivers: Mapping[str, str] = field(default_factory=dict[str, str])  # a device: its driver
 
 
-class LiveRecording:
+class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
     """A recording that grows; every method raises RecordingStopped once the file takes no more."""
 
     def __init__(self, path: str | Path, opening: Opening, indexed: bool = False) -> None:
@@ -100,22 +99,10 @@ class LiveRecording:
         self._end()
         self._guarded(lambda: None)  # says what failed, the last wait for the disk included
 
-    def __enter__(self) -> "LiveRecording":
-        """Return the recording; it is closed at the end."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         """Close; an error that is on its way is not hidden by another."""
-        try:
+        with contextlib.suppress(*[RecordingStopped] * any(raised)):
             self.close()
-        except RecordingStopped:
-            if error is None:
-                raise
 
     def _open(self, opening: Opening) -> None:
         start = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=opening.zero_ns // 1000)
@@ -150,7 +137,7 @@ class LiveRecording:
     def _guarded(self, work: Any) -> Any:
         """Return what the work gives; a file that failed, then or before, stops the recording.
 
-        The library tells a failed write as an error without a cause, or only on stderr.
+        The library reports a failed write as an error without a cause, or only on stderr.
         """
         done = None
         if self._file.failure is None:

@@ -7,28 +7,20 @@ garbled file is read as far as it is sound, and that is noted.
 """
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.table import Table
-from equipoise.io.files.source_file import read_bytes
 from equipoise.io.formats.clock_units import PER_S, nanoseconds
 from equipoise.io.formats.log_table import LogChannel, log_map, log_table
-from equipoise.io.formats.log_topics import LATEST, chosen
+from equipoise.io.formats.log_topics import FRAME_TRANSFORM, LATEST, chosen
 from equipoise.io.mcap.foreign_mcap import foreign_topics
-from equipoise.io.mcap.foxglove_messages import frame_transform
-from equipoise.io.mcap.live_recording import (
-    METADATA,
-    TESTBED_FILE,
-    ZERO_KEY,
-    LiveRecording,
-    Opening,
-)
+from equipoise.io.mcap.foxglove_messages import turned
+from equipoise.io.mcap.live_recording import METADATA, ZERO_KEY, LiveRecording, Opening
 from equipoise.io.mcap.log_messages import (
     CHANNEL_KEY,
     EVENT_TOPIC,
@@ -40,18 +32,7 @@ from equipoise.io.mcap.log_messages import (
 from equipoise.io.mcap.mcap_salvage import Salvage, salvaged
 from equipoise.model.recording import CHANNELS, Recording, rows_between
 
-WANTED = "a recording (MCAP)"
 SLICE = 2.0  # s to a chunk of a file that is written in one go (chosen: what a broken byte costs)
-
-
-@dataclass(frozen=True, slots=True)
-class LoggedEvent:
-    """What happened while it was recorded: a command, an interlock, a note."""
-
-    t: float  # s
-    kind: str
-    sentence: str
-    data: Mapping[str, Any]
 
 
 def read_mcap(content: bytes, source: str) -> tuple[Table, ColumnMap]:
@@ -63,36 +44,13 @@ def read_mcap(content: bytes, source: str) -> tuple[Table, ColumnMap]:
         topics = foreign_topics(found, source)
         channels, notices = chosen(topics, source)
         return log_table(source, channels, None, (*notes, *notices)), log_map("mcap", channels)
-    ours = _our_channels(found, source)
+    ours = _our_channels(found)
     known = log_map("mcap", ours, ours=True)
-    starts = [event.t for event in _events(found) if event.kind == START]
-    return log_table(source, ours, zero, notes), replace(known, free_from=max(starts, default=None))
-
-
-def events_of(path: str | Path) -> tuple[LoggedEvent, ...]:
-    """Return the events of a recording that we wrote, in order."""
-    return _events(salvaged(read_bytes(path, WANTED), str(path)))
-
-
-def _events(found: Salvage) -> tuple[LoggedEvent, ...]:
-    zero = time_zero(found) or 0
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
-    events: list[LoggedEvent] = []
-    for message in found.messages:
-        decoded: Any = _json(message.data) if message.channel_id in ids else {}
-        data: Any = decoded.get("data")
-        if _is_object(data):
-            t = (message.log_time - zero) / PER_S
-            kind, sentence = str(decoded.get("kind", "")), str(decoded.get("sentence", ""))
-            events.append(LoggedEvent(t, kind, sentence, data))
-    return tuple(events)
-
-
-def stored_testbed(path: str | Path) -> str:
-    """Return the text of the testbed file that a recording holds; empty if it holds none."""
-    found = salvaged(read_bytes(path, WANTED), str(path))
-    texts = [a.data.decode(errors="replace") for a in found.attachments if a.name == TESTBED_FILE]
-    return texts[0] if texts else ""
+    events = [each for each in found.messages if each.channel_id in ids]
+    starts = [e.log_time - zero for e in events if _json(e.data).get("kind") == START]
+    free_from = max(starts) / PER_S if starts else None
+    return log_table(source, ours, zero, notes), replace(known, free_from=free_from)
 
 
 def write_mcap(recording: Recording, path: str | Path) -> None:
@@ -131,7 +89,7 @@ def time_zero(found: Salvage) -> int | None:
     return min((m.log_time for m in found.messages), default=0) if ours else None
 
 
-def _our_channels(found: Salvage, source: str) -> list[LogChannel]:
+def _our_channels(found: Salvage) -> list[LogChannel]:
     """Return the channels that we wrote, each of all its topics' messages."""
     by_topic: dict[str, Any] = {each.topic: each for each in found.channels.values()}
     rows: dict[int, list[Any]] = {}
@@ -163,7 +121,7 @@ def _values(name: str, keys: tuple[str, ...], data: bytes) -> tuple[float, ...] 
     """Return the numbers of a message; None if it does not hold them."""
     try:
         if name == "attitude":
-            return frame_transform(data)[1]
+            return turned(FRAME_TRANSFORM, data)[1]
         decoded = _json(data)
         return tuple(float(decoded[key]) for key in keys)
     except (KeyError, TypeError, ValueError):
@@ -176,8 +134,4 @@ def _json(data: bytes) -> Any:
         decoded: Any = json.loads(data)
     except ValueError:
         return {}
-    return decoded if _is_object(decoded) else {}
-
-
-def _is_object(decoded: Any) -> bool:
-    return isinstance(decoded, dict)
+    return cast("dict[str, Any]", decoded) if isinstance(decoded, dict) else {}

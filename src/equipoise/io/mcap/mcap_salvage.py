@@ -3,7 +3,7 @@
 Format (public: mcap.dev/spec): magic, then records of an opcode (1 byte), a length (8 bytes, least
 first) and content; messages stand in chunks, which have a checksum, and behind each chunk indexes
 say how many messages it holds; at the end a footer, and the magic again. Where a record makes no
-sense, the next that does is looked for: lengths above 4 GiB do not occur, so four zeros after
+sense, the next that does is sought: lengths above 4 GiB do not occur, so four zeros after
 five bytes of which the first is an opcode are a place to try.
 """
 
@@ -154,7 +154,7 @@ class _Reading:
         """Return what a record holds, and whether its own lengths fill it exactly.
 
         A record may have more at its end, of a later version of the format, and there may be
-        records of other kinds; either is believed only if another record follows.
+        records of other kinds; either is accepted only if another record follows.
         """
         kind = KINDS.get(opcode)
         if kind is None:

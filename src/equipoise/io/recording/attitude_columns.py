@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from equipoise.io.columns.axis_permutation import axes_matrix, to_z_up
+from equipoise.io.columns.axis_permutation import TO_Z_UP, axes_matrix
 from equipoise.io.columns.column_map import ColumnMap
 from equipoise.io.columns.table import Table
 from equipoise.io.recording.channels import Channel
@@ -27,7 +27,7 @@ DIGITS = 12  # decimals up to which a column is taken as rounded (chosen: a doub
 
 
 def lengths(channel: Channel) -> Channel | None:
-    """Return the lengths (n, 1) of quaternions as found, if they tell more than rounding.
+    """Return the lengths (n, 1) of quaternions as found, if they differ by more than rounding.
 
     A component rounded to d decimals is off by 10^-d / 2 at most, a length by 10^-d.
     """
@@ -77,7 +77,7 @@ def _in_our_axes(q: Series4, columns: ColumnMap) -> Series4:
     if columns.inverse:
         q = conjugate(q)
     if columns.lab_up != "z":
-        q = multiply(to_z_up(columns.lab_up), q)
+        q = multiply(np.array(TO_Z_UP[columns.lab_up]), q)
     if columns.body != ("x", "y", "z"):
         q = multiply(q, conjugate(from_matrix(axes_matrix(columns.body))))
     return q
@@ -108,14 +108,11 @@ def _norm_note(norm: Series1, channel: Channel, table: Table) -> Notes:
     off = np.abs(norm - 1)
     if off.max() < WORTH_SAYING:
         return ()
+    mostly_short = float(np.quantile(norm, 0.9)) < 1 - WORTH_SAYING
     count, worst = int((off >= WORTH_SAYING).sum()), int(off.argmax())
-    cause = "; most are short, as means of several frames are" if _mostly_short(norm) else ""
+    cause = "; most are short, as means of several frames are" if mostly_short else ""
     return (
         f"attitude: {count} of {len(norm)} quaternions were off unit length (median "
         f"{np.median(norm):.6f}, worst {norm[worst]:.6f} at "
         f"{table.place(int(channel.rows[worst]))}){cause}; normalised.",
     )
-
-
-def _mostly_short(norm: Series1) -> bool:
-    return float(np.quantile(norm, 0.9)) < 1 - WORTH_SAYING

@@ -1,19 +1,22 @@
 """A table of whatever origin and its column map, to a Recording with notes."""
 
 from dataclasses import dataclass
+from itertools import chain
+from typing import Any
 
 import numpy as np
 
-from equipoise.io.columns.column_map import ColumnMap, Columns, DeviceColumn, MassColumn
+from equipoise.io.columns.column_map import ColumnMap, Columns, NamedColumn
 from equipoise.io.columns.table import Table
 from equipoise.io.recording.attitude_columns import euler_angles, lengths, quaternions
 from equipoise.io.recording.channels import Channel, in_body_axes, read_channel, read_time
 from equipoise.io.recording.time_stamps import forward_rows, gap_notes, without_duplicates
 from equipoise.model.arrays import Ints, Series1
 from equipoise.model.errors import InputError
-from equipoise.model.recording import Recording, Samples
+from equipoise.model.recording import CHANNELS, Recording, Samples
 
 Notes = tuple[str, ...]
+SCALARS = ("masses", "devices", "temperature")
 FEWEST = 3  # rows of a sensor: two say nothing of how an angle's rate changes
 EPOCH = 1e6  # s: a clock beyond twelve days counts from a date, not from the run (chosen)
 
@@ -33,48 +36,41 @@ class Rows:
         if channel is None or columns is None:
             return None, ()
         channel, twice = without_duplicates(channel, self.table)
-        if name in ("masses", "devices", "temperature"):
+        if name in SCALARS:
             return channel, twice  # what never changes is a fact, not a dead column
         kept, dead = _without_dead(channel, columns, self.columns.native)
         return kept, (*twice, *dead)
 
-    def vector(self, name: str, columns: Columns | None) -> tuple[Channel | None, Notes]:
-        """Return a channel of vectors in our body axes."""
+    def named(self, name: str) -> tuple[Channel | None, Notes]:
+        """Return a channel by its name, one of vectors in our body axes."""
+        found: Any = getattr(self.columns, name)
+        columns: Columns | None = _together(found) if name in ("masses", "devices") else found
         channel, notes = self.channel(name, columns)
+        if name in SCALARS:
+            return channel, notes
         return in_body_axes(channel, columns, self.columns.body), notes
 
 
-@np.errstate(invalid="ignore", over="ignore")  # such a number is told with its row, in words
+@np.errstate(invalid="ignore", over="ignore")  # an error names such a number and its row
 def recording_of(table: Table, columns: ColumnMap) -> Recording:
     """Return what a table holds; InputError if it is too little or makes no sense."""
     source, order = _rows(table, columns)
     attitude, norm, of_attitude = _attitude(source)
-    rate, of_rate = source.vector("rate", columns.rate)
+    rate, of_rate = source.named("rate")
     _check_enough(table, attitude, rate)
-    masses, of_masses = source.channel("masses", _together(columns.masses))
-    momentum, of_momentum = source.vector("momentum", columns.momentum)
-    torque, of_torque = source.vector("torque", columns.torque)
-    devices, of_devices = source.channel("devices", _together(columns.devices))
-    field, of_field = source.vector("field", columns.field)
-    temperature, of_warmth = source.channel("temperature", columns.temperature)
-    gaps = [note for c in (attitude, rate) if c is not None for note in gap_notes(c)]
-    notes = (*table.notes, *columns.notes, *order, *of_attitude, *of_rate, *of_masses)
+    others = {name: source.named(name) for name in CHANNELS if name not in ("attitude", "rate")}
+    found = {"attitude": attitude, "rate": rate, "attitude_norm": norm}
+    found |= {name: channel for name, (channel, _) in others.items()}
+    samples: dict[str, Any] = {name: _samples(channel) for name, channel in found.items()}
+    notes = (of_attitude, of_rate, *(of_channel for _, of_channel in others.values()))
     return Recording(
-        attitude=_samples(attitude),
-        rate=_samples(rate),
-        mass_names=tuple(mass.mass for mass in columns.masses) if masses else (),
-        masses=_samples(masses),
-        momentum=_samples(momentum),
-        torque=_samples(torque),
-        device_names=tuple(each.device for each in columns.devices) if devices else (),
-        devices=_samples(devices),
-        field=_samples(field),
-        temperature=_samples(temperature),
-        attitude_norm=_samples(norm),
+        **samples,
+        mass_names=tuple(mass.name for mass in columns.masses) if found["masses"] else (),
+        device_names=tuple(each.name for each in columns.devices) if found["devices"] else (),
         source=table.source,
         free_from=columns.free_from,
-        notes=(*notes, *of_momentum, *of_torque, *of_devices, *of_field, *of_warmth),
-        gaps=tuple(gaps),
+        notes=(*table.notes, *columns.notes, *order, *chain.from_iterable(notes)),
+        gaps=tuple(note for c in (attitude, rate) if c is not None for note in gap_notes(c)),
     )
 
 
@@ -102,7 +98,7 @@ def _attitude(source: Rows) -> tuple[Channel | None, Channel | None, Notes]:
     return mended, None if angles else lengths(raw), (*notes, *reported)
 
 
-def _together(columns: tuple[MassColumn | DeviceColumn, ...]) -> Columns | None:
+def _together(columns: tuple[NamedColumn, ...]) -> Columns | None:
     """Return the columns of all masses, or of all devices, as one group."""
     if not columns:
         return None

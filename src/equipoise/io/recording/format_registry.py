@@ -3,7 +3,7 @@
 A file is known by its first bytes; by its suffix only where those say nothing, as in a text.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from equipoise.io.formats.ulog_file import MAGIC as ULOG
 from equipoise.io.formats.ulog_file import read_ulog
 from equipoise.io.mcap.mcap_recording import read_mcap, write_mcap
 from equipoise.io.mcap.mcap_salvage import MAGIC as MCAP
+from equipoise.model.arrays import Series1
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 
@@ -72,20 +73,19 @@ def _read_text(path: Path, content: bytes, layout: Layout) -> tuple[Table, None]
     return cut(text_of(content, path, WANTED), str(path), layout), None
 
 
-def _write_text(recording: Recording, path: Path) -> None:
-    write_whole(path, csv_text(native_columns(recording)))
+def _table(read: Callable[[bytes, str], Table]) -> Read:
+    """Return how a table is read whose columns its header explains."""
+    return lambda path, content, _layout: (read(content, str(path)), None)
 
 
-def _read_parquet(path: Path, content: bytes, _layout: Layout) -> tuple[Table, None]:
-    return read_parquet(content, str(path)), None
+def _log(read: Callable[[bytes, str], tuple[Table, ColumnMap]]) -> Read:
+    """Return how a log is read, which says itself what its columns are."""
+    return lambda path, content, _layout: read(content, str(path))
 
 
-def _write_parquet(recording: Recording, path: Path) -> None:
-    write_whole(path, parquet_bytes(native_columns(recording), str(path)))
-
-
-def _read_mcap(path: Path, content: bytes, _layout: Layout) -> tuple[Table, ColumnMap]:
-    return read_mcap(content, str(path))
+def _columns(made: Callable[[Mapping[str, Series1], str], str | bytes]) -> Write:
+    """Return how a file of the native columns is written."""
+    return lambda recording, path: write_whole(path, made(native_columns(recording), str(path)))
 
 
 def _write_mcap(recording: Recording, path: Path) -> None:
@@ -93,28 +93,14 @@ def _write_mcap(recording: Recording, path: Path) -> None:
         write_mcap(recording, temporary)
 
 
-def _read_mat(path: Path, content: bytes, _layout: Layout) -> tuple[Table, None]:
-    return read_mat(content, str(path)), None
-
-
-def _write_mat(recording: Recording, path: Path) -> None:
-    write_whole(path, mat_bytes(native_columns(recording)))
-
-
-def _read_bag(path: Path, content: bytes, _layout: Layout) -> tuple[Table, ColumnMap]:
-    return read_bag(path, content)
-
-
-def _read_ulog(path: Path, content: bytes, _layout: Layout) -> tuple[Table, ColumnMap]:
-    return read_ulog(content, str(path))
-
-
-BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), _read_bag, None)
+BAG = Format("bag", (".bag", ".db3"), (ROS_1, ROS_2), lambda path, c, _: read_bag(path, c), None)
 FORMATS = (
-    Format("csv", (".csv", ".txt"), (), _read_text, _write_text),
-    Format("parquet", (".parquet",), (PARQUET,), _read_parquet, _write_parquet),
-    Format("mcap", (".mcap",), (MCAP,), _read_mcap, _write_mcap),
-    Format("mat", (".mat",), (MAT, MAGIC_73), _read_mat, _write_mat),
+    Format("csv", (".csv", ".txt"), (), _read_text, _columns(lambda c, _: csv_text(c))),
+    Format("parquet", (".parquet",), (PARQUET,), _table(read_parquet), _columns(parquet_bytes)),
+    Format("mcap", (".mcap",), (MCAP,), _log(read_mcap), _write_mcap),
+    Format(
+        "mat", (".mat",), (MAT, MAGIC_73), _table(read_mat), _columns(lambda c, _: mat_bytes(c))
+    ),
     BAG,
-    Format("ulog", (".ulg", ".ulog"), (ULOG,), _read_ulog, None),
+    Format("ulog", (".ulg", ".ulog"), (ULOG,), _log(read_ulog), None),
 )

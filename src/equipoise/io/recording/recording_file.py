@@ -1,4 +1,4 @@
-"""Recording files, both ways, ours and other programs'; ``recording_formats`` lists the kinds."""
+"""Recording files, both ways, ours and other programs'; ``format_registry`` lists the kinds."""
 
 import hashlib
 from dataclasses import replace
@@ -56,7 +56,7 @@ def check_names(recording: Recording, testbed: Testbed) -> None:
 
 
 def _columns(table: Table, known: ColumnMap | None, dialect: str | ColumnMap | None) -> ColumnMap:
-    """Return what a table's columns mean: as told, as its format knows, or by the header."""
+    """Return what a table's columns mean: as given, as its format states, or by the header."""
     if isinstance(dialect, ColumnMap):
         return dialect
     if known is not None and dialect is not None:

@@ -1,4 +1,4 @@
-"""Time must grow. Rows that break this are refused or left out, and that is said."""
+"""Checks that time grows. Rows that break this are refused, or left out with a note."""
 
 import numpy as np
 

@@ -67,28 +67,24 @@ class ControlMomentGyro(RecordTable):
 class Magnetorquer(RecordTable):
     """A coil or rod."""
 
+    KIND = model.Magnetorquer
+
     name: Name
     axis: Direction
     max_dipole_A_m2: Positive
     lag_ms: NotNegative = Field(0.0, description="first-order, from what is asked to the dipole")
 
-    def record(self, where: str) -> model.Magnetorquer:
-        """Return the magnetorquer."""
-        return record_of(model.Magnetorquer, self, where)
-
 
 class JetPair(RecordTable):
     """On-off jets that give a pure torque about an axis, either way."""
+
+    KIND = model.JetPair
 
     name: Name
     axis: Direction
     torque_N_m: Positive = Field(description="while on")
     min_pulse_ms: NotNegative = 0.0
     lag_ms: NotNegative = Field(0.0, description="first-order, from the valve to the torque")
-
-    def record(self, where: str) -> model.JetPair:
-        """Return the pair."""
-        return record_of(model.JetPair, self, where)
 
 
 class MagneticField(RecordTable):

@@ -33,6 +33,8 @@ ORTHOGONAL = 1e-3  # chosen: a rotation written to three digits
 class Axis(RecordTable):
     """One axis of a motor board and the mass that it moves."""
 
+    KIND = model.Axis
+
     mass: str
     letter: Annotated[str, Field(pattern=r"^([XYZABC]|[0-9])$")] = Field(
         description="the board's name of the axis; of a Trinamic module the motor's number"
@@ -42,10 +44,6 @@ class Axis(RecordTable):
     )
     zero_mm: float = Field(0.0, description="the board's position where the mass is at home")
     reversed: bool = Field(False, description="the board counts against the mass's axis")
-
-    def record(self, where: str) -> model.Axis:
-        """Return the axis."""
-        return record_of(model.Axis, self, where)
 
 
 class Board(RecordTable):
@@ -65,7 +63,7 @@ class Board(RecordTable):
 
 
 class SensorUnit(RecordTable):
-    """A device that sees attitude, rate or both."""
+    """A device that measures attitude, rate or both."""
 
     name: Name
     driver: str = Field(description="vectornav, lines, mavlink, natnet, rosbridge or camera")
@@ -96,7 +94,7 @@ class Hardware(RecordTable):
     """What is connected, and beyond which limits every motor is stopped."""
 
     rate_limit_deg_s: Annotated[Positive, Holds("limits.rate")] = Field(
-        60.0, description="chosen: far above any free swing"
+        60.0, description="chosen: well above any free swing"
     )
     stale_s: Annotated[Positive, Holds("limits.stale")] = Field(
         0.5, description="chosen: without a row or an answer for so long"

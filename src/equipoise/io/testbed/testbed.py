@@ -6,14 +6,7 @@ from typing import Annotated, Any, cast
 
 from pydantic import Field
 
-from equipoise.io.testbed.devices import (
-    ControlMomentGyro,
-    JetPair,
-    MagneticField,
-    Magnetorquer,
-    ReactionWheel,
-    check_device_names,
-)
+from equipoise.io.testbed import devices
 from equipoise.io.testbed.hardware import Hardware, check_moved_masses
 from equipoise.io.testbed.platform import Platform, SlidingMass, check_total_mass, up_of
 from equipoise.io.testbed.truth import Truth, check_true_drives, truth_of
@@ -33,6 +26,8 @@ WRITTEN_AS = {"sensor.gyro.noise_density_deg_s_rthz": "sensor.gyro.noise_deg_s"}
 class Attitude(RecordTable):
     """A camera or motion capture."""
 
+    KIND = model.AttitudeSensor
+
     rate_hz: Positive
     noise_deg: Positive = Field(description="one sd per axis and sample")
     delay_s: NotNegative = 0.0
@@ -43,10 +38,6 @@ class Attitude(RecordTable):
         description="one sd of how far its vertical may lean from gravity's, chosen: levelled by "
         "eye; 0: it does not lean",
     )
-
-    def record(self, where: str) -> model.AttitudeSensor:
-        """Return the sensor."""
-        return record_of(model.AttitudeSensor, self, where)
 
 
 class Gyro(RecordTable):
@@ -78,7 +69,7 @@ class Gyro(RecordTable):
 
 
 class Sensors(Table):
-    """What sees the platform."""
+    """What measures the platform's motion."""
 
     attitude: Attitude | None = None
     gyro: Gyro | None = None
@@ -98,11 +89,11 @@ class TestbedFile(RecordTable):
     name: Annotated[str, Field(min_length=1)]
     platform: Annotated[Platform, Holds(ITSELF)]
     sliding_mass: Annotated[list[SlidingMass], Holds("masses")] = Field([])
-    reaction_wheel: Annotated[list[ReactionWheel], Holds("wheels")] = Field([])
-    control_moment_gyro: Annotated[list[ControlMomentGyro], Holds("cmgs")] = Field([])
-    magnetorquer: Annotated[list[Magnetorquer], Holds("magnetorquers")] = Field([])
-    jet_pair: Annotated[list[JetPair], Holds("jets")] = Field([])
-    magnetic_field: MagneticField | None = None
+    reaction_wheel: Annotated[list[devices.ReactionWheel], Holds("wheels")] = Field([])
+    control_moment_gyro: Annotated[list[devices.ControlMomentGyro], Holds("cmgs")] = Field([])
+    magnetorquer: Annotated[list[devices.Magnetorquer], Holds("magnetorquers")] = Field([])
+    jet_pair: Annotated[list[devices.JetPair], Holds("jets")] = Field([])
+    magnetic_field: devices.MagneticField | None = None
     weight: Annotated[list[Weight], Holds("weights")] = Field([])
     weight_grid: Annotated[list[WeightGrid], Holds("grids")] = Field([])
     sensor: Annotated[Sensors, Holds(ITSELF)] = Sensors()
@@ -141,7 +132,7 @@ def _check(file: TestbedFile, source: str) -> None:
     check_names(file.sliding_mass, f"{source}: sliding_mass")
     check_total_mass(file.platform, file.sliding_mass, source)
     kinds = ("reaction_wheel", "control_moment_gyro", "magnetorquer", "jet_pair")
-    check_device_names({kind: getattr(file, kind) for kind in kinds}, source)
+    devices.check_device_names({kind: getattr(file, kind) for kind in kinds}, source)
     check_weights(file.weight, file.weight_grid, source)
     _check_field(file, source)
     _check_assumed(file, source)
@@ -158,7 +149,7 @@ def _check_field(file: TestbedFile, source: str) -> None:
         wanted = "a table [magnetic_field] with field_uT, in laboratory axes"
         raise InputError(f"{source}: magnetorquer", "magnetorquers but no magnetic field", wanted)
     if file.truth is not None and file.truth.field_uT is not None:
-        wanted = "a table [magnetic_field] with the field as known beforehand"
+        wanted = "a table [magnetic_field] with the nominal field"
         raise InputError(f"{source}: truth.field_uT", "a true field but none that is known", wanted)
 
 

@@ -1,16 +1,21 @@
-"""Testbed files: TOML to the noun, and the noun to TOML."""
+"""Testbed files: TOML to a Testbed and back, and a file's text with other drives of its masses."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
+
+import tomlkit
 
 from equipoise.io.files.atomic_file import write_whole
+from equipoise.io.testbed.platform import SlidingMass
 from equipoise.io.testbed.testbed import TestbedFile
 from equipoise.io.toml.read_toml import parse_toml, read_toml
 from equipoise.io.toml.table_records import keys_written
-from equipoise.io.toml.write_toml import toml_text
+from equipoise.io.toml.write_toml import set_key, toml_text
+from equipoise.model import testbed as model
 from equipoise.model.testbed import Testbed
 
 WANTED = "a testbed file (TOML); `equipoise new` writes one to start from"
+CALIBRATED = ("gain", "axis", "backlash_mm")
 
 
 def read_testbed(path: str | Path) -> Testbed:
@@ -33,6 +38,25 @@ def write_testbed(testbed: Testbed | str, path: str | Path) -> None:
     text = testbed if isinstance(testbed, str) else text_of_testbed(testbed)
     parse_testbed(text, str(path))
     write_whole(path, text)
+
+
+def with_drives(text: str, testbed: Testbed, remarks: dict[str, str], source: str) -> str:
+    """Return the text with gain, axis and backlash of a testbed's masses, each with its remark.
+
+    Comments and all else stay as they are. ``remarks`` are by key and mass: 'gain x1'.
+    """
+    stated, document = parse_testbed(text, source), tomlkit.parse(text)
+    tables = cast("list[Any]", document.get("sliding_mass", []))
+    for table, before, after in zip(tables, stated.masses, testbed.masses, strict=True):
+        for key, value in changes(before, after).items():
+            set_key(table, key, value, remarks.get(f"{key} {after.name}", ""))
+    return tomlkit.dumps(document)
+
+
+def changes(before: model.SlidingMass, after: model.SlidingMass) -> dict[str, Any]:
+    """Return the keys of a mass that a calibration changed, as they are written."""
+    old, new = keys_written(before, SlidingMass), keys_written(after, SlidingMass)
+    return {key: new[key] for key in CALIBRATED if new[key] != old[key]}
 
 
 def json_schema() -> dict[str, Any]:

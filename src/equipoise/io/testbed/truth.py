@@ -42,7 +42,7 @@ SLIP = 0.5  # share of the way that a slipping mass goes if the file does not sa
 
 
 class Fault(RecordTable):
-    """A mass that does not do as it is told."""
+    """A mass that does not follow its commands."""
 
     mass: str
     kind: Literal["stuck", "slip"] = "stuck"
@@ -69,39 +69,33 @@ class Drive(RecordTable):
     Nothing here is relative to what is stated, so that it stays true when that is calibrated.
     """
 
+    KIND = model.TrueDrive
+
     mass: str
     gain: Positive | None = Field(None, description="as the mass's own key")
     axis: Direction | None = Field(None, description="direction of the rail, body axes")
     backlash_mm: NotNegative | None = None
     accuracy_mm: NotNegative | None = Field(None, description="one sd of where it really stops")
 
-    def record(self, where: str) -> model.TrueDrive:
-        """Return the drive."""
-        return record_of(model.TrueDrive, self, where)
-
 
 class Contact(RecordTable):
     """The platform touches something for a moment."""
 
+    KIND = defects.Contact
+
     time_s: Positive
     impulse_N_m_s: Triple = Field(description="about the centre of rotation, laboratory axes")
-
-    def record(self, where: str) -> defects.Contact:
-        """Return the contact."""
-        return record_of(defects.Contact, self, where)
 
 
 class ComStep(RecordTable):
     """A part slips, once."""
 
+    KIND = defects.ComStep
+
     time_s: Positive
     com_um: Annotated[Triple, Holds("shift")] = Field(
         description="by how much the total centre of mass moves, body axes"
     )
-
-    def record(self, where: str) -> defects.ComStep:
-        """Return the slip."""
-        return record_of(defects.ComStep, self, where)
 
 
 class Gap(RecordTable):
@@ -148,19 +142,19 @@ class Truth(RecordTable):
         ZEROS, description="rotation vector from body axes to the gyro's"
     )
     plumb_deg: Annotated[Pair, Holds("camera.plumb")] = Field(
-        [0.0, 0.0], description="attitudes are seen turned by so much about laboratory x and y"
+        [0.0, 0.0], description="measured attitudes are turned by so much about laboratory x and y"
     )
     heading2_cos_deg: Annotated[Triple, Holds("camera.heading_cos")] = Field(
-        ZEROS, description="turn of the seen attitude, times cos(2 heading); body"
+        ZEROS, description="turn of the measured attitude, times cos(2 heading); body"
     )
     heading2_sin_deg: Annotated[Triple, Holds("camera.heading_sin")] = Field(
-        ZEROS, description="turn of the seen attitude, times sin(2 heading); body"
+        ZEROS, description="turn of the measured attitude, times sin(2 heading); body"
     )
     bad_rows_percent: Annotated[float, Field(ge=0, le=100), Holds("camera.bad_share")] = Field(
         0.0, description="share of the camera's rows that are outliers"
     )
     bad_row_deg: Annotated[float, Field(ge=0, le=180), Holds("camera.bad_turn")] = Field(
-        10.0, description="turn of an outlier about any axis, chosen: far outside any noise"
+        10.0, description="turn of an outlier about any axis, chosen: well outside any noise"
     )
     mass_lag_s: NotNegative = Field(0.0, description="masses are so far behind their report")
     field_uT: Annotated[Triple | None, Holds("field_N")] = Field(

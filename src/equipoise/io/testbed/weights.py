@@ -16,15 +16,13 @@ Count = Annotated[int, Field(ge=1)]
 class Weight(RecordTable):
     """A kind of weight in the stock; not part of the platform's mass."""
 
+    KIND = model.Weight
+
     name: Name
     mass_g: Positive
     count: Count = Field(description="how many there are")
     mass_sd_g: NotNegative = Field(0.0, description="one sd of each; 0: weighed well enough")
     height_mm: NotNegative = Field(0.0, description="by which each makes a pile higher")
-
-    def record(self, where: str) -> model.Weight:
-        """Return the kind of weight."""
-        return record_of(model.Weight, self, where)
 
 
 class WeightGrid(RecordTable):

@@ -11,7 +11,7 @@ from pydantic_core import ErrorDetails
 
 from equipoise.io.files.source_file import read_bytes, text_of
 from equipoise.io.toml.key_types import Table, table_in
-from equipoise.io.toml.units import split_unit, spoken
+from equipoise.io.toml.units import SPOKEN, split_unit
 from equipoise.model.errors import InputError
 
 Model = TypeVar("Model", bound=Table)
@@ -107,7 +107,7 @@ def _meant(key: str, known: list[str]) -> str:
 def _in_unit(key: str) -> str:
     """Return ', in mm' and the like."""
     unit = split_unit(key)[1]
-    return f", in {spoken(unit)}" if unit else ""
+    return f", in {SPOKEN[unit]}" if unit else ""
 
 
 def _last_name(place: tuple[int | str, ...]) -> str:

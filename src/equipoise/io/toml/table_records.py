@@ -2,14 +2,14 @@
 
 The end of a key is its unit, the rest is the attribute that it gives: ``travel_mm`` is ``travel``
 in m. ``Holds`` names another attribute. A table says what no single key gives: for the way to the
-record in ``record``, for the way back in ``more_keys``.
+record in ``record``, for the way back in ``more_keys``. Where keys give all of a record, ``KIND``
+names its class.
 """
 
-from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cache, reduce
-from typing import Any, TypeVar, cast, get_args
+from typing import Any, ClassVar, TypeVar, cast, get_args
 
 import numpy as np
 from pydantic.fields import FieldInfo
@@ -26,9 +26,11 @@ Record = TypeVar("Record")
 class RecordTable(Table):
     """A table that stands for a record."""
 
-    @abstractmethod
+    KIND: ClassVar[type[Any]]
+
     def record(self, where: str) -> Any:
         """Return the record in SI; InputError names a key below ``where`` that makes no sense."""
+        return record_of(self.KIND, self, where)
 
     @classmethod
     def more_keys(cls, record: Any) -> Mapping[str, Any]:

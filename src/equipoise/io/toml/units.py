@@ -1,68 +1,50 @@
 """Units as they are written in keys and column names, and how large they are in SI."""
 
+from equipoise.model import units as si
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.units import (
-    CM,
-    DEG,
-    GRAM,
-    MILLI,
-    MINUTE,
-    MM,
-    MN_M,
-    MS,
-    MT,
-    NS,
-    NT,
-    PERCENT,
-    RPM,
-    UM,
-    UN_M,
-    US,
-    UT,
-)
 
 # As written in a column map's ``unit`` or as said of a key: the factor to SI.
 TO_SI = {
     "s": 1.0,
-    "ms": MS,
-    "us": US,
-    "ns": NS,
-    "min": MINUTE,
+    "ms": si.MS,
+    "us": si.US,
+    "ns": si.NS,
+    "min": si.MINUTE,
     "rad": 1.0,
-    "deg": DEG,
+    "deg": si.DEG,
     "rad/s": 1.0,
-    "deg/s": DEG,
-    "mrad/s": MILLI,
-    "rpm": RPM,
+    "deg/s": si.DEG,
+    "mrad/s": si.MILLI,
+    "rpm": si.RPM,
     "m": 1.0,
-    "cm": CM,
-    "mm": MM,
-    "um": UM,
+    "cm": si.CM,
+    "mm": si.MM,
+    "um": si.UM,
     "N m s": 1.0,
-    "mN m s": MN_M,
+    "mN m s": si.MN_M,
     "N m": 1.0,
-    "mN m": MN_M,
-    "uN m": UN_M,
+    "mN m": si.MN_M,
+    "uN m": si.UN_M,
     "A m2": 1.0,
-    "mA m2": MILLI,
+    "mA m2": si.MILLI,
     "T": 1.0,
-    "mT": MT,
-    "uT": UT,
-    "nT": NT,
+    "mT": si.MT,
+    "uT": si.UT,
+    "nT": si.NT,
     "N m s2": 1.0,
     "kg m2": 1.0,
     "kg": 1.0,
-    "g": GRAM,
-    "mg": GRAM * MILLI,
+    "g": si.GRAM,
+    "mg": si.GRAM * si.MILLI,
     "m/s2": 1.0,
     "m/s": 1.0,
-    "cm/s": CM,
-    "mm/s": MM,
-    "um/min": UM / MINUTE,
-    "deg/s per root Hz": DEG,
+    "cm/s": si.CM,
+    "mm/s": si.MM,
+    "um/min": si.UM / si.MINUTE,
+    "deg/s per root Hz": si.DEG,
     "Hz": 1.0,
     "kHz": 1e3,
-    "percent": PERCENT,
+    "percent": si.PERCENT,
 }
 KINDS = {
     "time": ("s", "ms", "us", "ns", "min"),
@@ -74,6 +56,7 @@ KINDS = {
     "dipole": ("A m2", "mA m2"),
     "magnetic": ("T", "mT", "uT", "nT"),
 }
+AS_SAID = ("rpm", "percent", "deg", "rad", "kg", "um", "uT", "mm", "cm", "ms", "mg", "g", "m", "s")
 # As they end a key: how to say them.
 SPOKEN = {
     "deg_s_rthz": "deg/s per root Hz",
@@ -89,23 +72,9 @@ SPOKEN = {
     "m_s": "m/s",
     "A_m2": "A m2",
     "N_m": "N m",
-    "rpm": "rpm",
-    "percent": "percent",
-    "deg": "deg",
-    "rad": "rad",
-    "kg": "kg",
     "hz": "Hz",
     "khz": "kHz",
-    "um": "um",
-    "uT": "uT",
-    "mm": "mm",
-    "cm": "cm",
-    "ms": "ms",
-    "mg": "mg",
-    "g": "g",
-    "m": "m",
-    "s": "s",
-}
+} | {unit: unit for unit in AS_SAID}
 
 
 def factor(unit: str, kind: str, where: str) -> float:
@@ -127,8 +96,3 @@ def key_factor(key: str) -> float:
     """Return what one of a key's unit is in SI; 1 for a key without a unit."""
     unit = split_unit(key)[1]
     return TO_SI[SPOKEN[unit]] if unit else 1.0
-
-
-def spoken(unit: str) -> str:
-    """Return a key's unit as people say it."""
-    return SPOKEN[unit]

@@ -1,6 +1,6 @@
 """Numbers, tables and files as TOML; a person's file keeps its comments and its order."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -15,11 +15,6 @@ DIGITS = 15  # 200.0 mm comes back as 200.0, not 200.00000000000003
 def number(value: float, unit: float = 1.0) -> float:
     """Return a number as it is written, in a unit of so much SI."""
     return float(f"{value / unit:.{DIGITS}g}")
-
-
-def numbers(values: Iterable[float], unit: float = 1.0) -> list[float]:
-    """Return numbers as they are written, in a unit of so much SI."""
-    return [number(v, unit) for v in values]
 
 
 def as_written(value: Any, unit: float = 1.0) -> Any:

@@ -62,6 +62,29 @@ class Reason:
         return self.code.template.format(*self.parameters, **lists, **numbers)
 
 
+class Reasoned:
+    """A record that reasons explain, the main one first."""
+
+    __slots__ = ()
+    reasons: tuple[Reason, ...]
+
+    @property
+    def sentence(self) -> str:
+        """All of it for a person."""
+        return sentence_of(self.reasons)
+
+
+class Coded(Reasoned):
+    """A record whose main reason stands for it."""
+
+    __slots__ = ()
+
+    @property
+    def code(self) -> Code:
+        """The main reason's."""
+        return self.reasons[0].code
+
+
 def one_reason(code: Code, *parameters: str, **numbers: Number) -> tuple[Reason, ...]:
     """Return one reason, as what comes of one; numbers are in SI."""
     return (Reason(code, parameters, numbers),)

@@ -1,4 +1,4 @@
-"""What a verdict rests on; ``model.verdict`` says which of these pass, fail or cannot tell."""
+"""What a verdict rests on; ``model.verdict`` says which of these pass, fail or decide nothing."""
 
 from equipoise.model.reasons.reason import Code
 

@@ -1,0 +1,33 @@
+"""The events of a recording that we wrote, as a test asks for them."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from equipoise.io.formats.clock_units import PER_S
+from equipoise.io.mcap.log_messages import EVENT_TOPIC
+from equipoise.io.mcap.mcap_recording import time_zero
+from equipoise.io.mcap.mcap_salvage import salvaged
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedEvent:
+    """What happened while it was recorded: a command, an interlock, a note."""
+
+    t: float  # s
+    kind: str
+    sentence: str
+    data: Mapping[str, Any]
+
+
+def events_of(path: Path) -> tuple[RecordedEvent, ...]:
+    """Return the events of a file, in order."""
+    found = salvaged(path.read_bytes(), str(path))
+    zero = time_zero(found) or 0
+    ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
+    events = [each for each in found.messages if each.channel_id in ids]
+    return tuple(
+        RecordedEvent((each.log_time - zero) / PER_S, **json.loads(each.data)) for each in events
+    )
