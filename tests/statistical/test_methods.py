@@ -12,9 +12,10 @@ from verification import compared, method_intervals, method_table, real_methods,
 from verification.real_record import RECORD
 
 
+@thorough.whole
 def test_intervals_of_every_method_hold_or_it_says_that_they_do_not():
-    """A record or two of every regime: bands as wide as those make them."""
-    assert method_intervals.measure(range(thorough.count(2, 1))).missed == ()
+    """Two records of every regime: bands as wide as those make them."""
+    assert method_intervals.measure(range(2)).missed == ()
 
 
 def test_what_the_comparison_states_is_the_bound_and_the_truth():
@@ -24,7 +25,7 @@ def test_what_the_comparison_states_is_the_bound_and_the_truth():
 
 def test_a_poor_gyro_biases_what_is_not_corrected():
     """0.05 deg/s/sqrt(Hz): least squares by 2 to 16 %, corrected below 1 %, trajectory 0.3 %."""
-    runs = [method_table.found("noisy", seed) for seed in range(3)]
+    runs = [method_table.found("noisy", seed) for seed in range(thorough.count(3, 1))]
 
     def worst(key):
         return np.abs(method_table.table(runs, key, INERTIA).mean(axis=0)).max()
@@ -36,7 +37,7 @@ def test_a_poor_gyro_biases_what_is_not_corrected():
 
 def test_biases_are_those_published():
     """J known, slow: the simplified model is off by 5 um in z, the momentum integral by none."""
-    runs = [method_table.found("slow", seed) for seed in range(3)]
+    runs = [method_table.found("slow", seed) for seed in range(thorough.count(3, 1))]
     published = [key for condition, key in method_table.PUBLISHED if condition == "slow"]
     assert len(published) == 7
     for name in published:
@@ -44,13 +45,16 @@ def test_biases_are_those_published():
         assert method_table.as_published("slow", name, com)[1], name
 
 
+@thorough.whole
 def test_outliers_dropouts_and_a_gap_cost_less_than_twice():
-    """A record or two, and a limit as wide as chance makes it among so few."""
-    assert robustness.measure(range(thorough.count(2, 1))).missed == ()
+    """Two records, and a limit as wide as chance makes it among so few."""
+    assert robustness.measure(range(2)).missed == ()
 
 
 @pytest.mark.skipif(not RECORD.is_file(), reason="the real recording is not at hand")
-@pytest.mark.parametrize("name", ["trajectory", "smoother", "momentum_corrected", "ekf_9"])
+@pytest.mark.parametrize(
+    "name", thorough.some(["ekf_9", "trajectory", "smoother", "momentum_corrected"], 2)
+)
 def test_a_body_found_on_the_real_record_predicts_its_other_half(name):
     """Nearer than 2 deg rms per axis, of turns by 200 deg/s for half a minute."""
     said, left = real_methods.judged(name)
