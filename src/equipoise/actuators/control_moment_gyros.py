@@ -86,20 +86,6 @@ def singularity_measure(cmgs: Gyros, angles: Floats) -> float:
     return float(max(np.linalg.det(D @ D.T), 0.0)) ** 0.5
 
 
-def measure_slope(cmgs: Gyros, angles: Floats) -> Floats:
-    """Return d(m^2)/dangles (k,), which is smooth where m is 0, unlike the slope of m.
-
-    dA = sum dx_i (d_i' d_i^T + d_i d_i'^T) with A = D D^T and d_i' = -momentum_i s_i; and
-    d(det A) = tr(adj(A) dA).
-    """
-    D = unit_jacobian(cmgs, angles)
-    a, b, c = D @ D.T
-    adjugate = np.array([np.cross(b, c), np.cross(c, a), np.cross(a, b)])
-    momenta = momenta_of(cmgs)
-    bent = -(momenta / momenta.mean())[:, None] * spin_axes(cmgs, angles)
-    return 2.0 * np.sum(bent @ adjugate * D.T, axis=1)
-
-
 def gyros_span(cmgs: Gyros) -> bool:
     """Say whether there are gimbal angles at which the gyros give a torque along every direction.
 

@@ -13,7 +13,6 @@ from equipoise.control.elements.tilt_feedback import (
     followed,
     frequency_for,
     gains_at,
-    left_over,
     owed,
     shift_for,
 )
@@ -155,7 +154,7 @@ def test_the_printed_law_leaves_what_was_published(com_mm, predicted_um, simulat
     rows = run(com, gains, 30.0, bench)
     across = np.hypot(*(com - rows[-2].state.held)[:2])
     assert 1e6 * across == pytest.approx(simulated_um, rel=0.01)
-    predicted = left_over(float(np.hypot(*com[:2])), com[2], gains.spring)
+    predicted = np.hypot(*com[:2]) * abs(com[2]) / (abs(com[2]) + gains.spring)
     assert 1e6 * predicted == pytest.approx(predicted_um, rel=1e-3)
     down = com + np.array([0, 0, -gains.spring])
     n = down / np.linalg.norm(down)

@@ -9,7 +9,7 @@ from equipoise.control.laws import coarse_fine, planar_magnetic, slew_and_measur
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.devices import MagneticField, Magnetorquer
 from equipoise.model.errors import InputError
-from tests.support.plain_loop import Truth, begun, carried_on, close, platform, wheels
+from tests.support.plain_loop import Truth, close, platform, wheels
 
 FIELD = np.array([2e-5, 0, -4.5e-5])
 LOW = np.array([0, 0, -110e-6])  # m, a platform that hangs, as balanced by hand
@@ -62,18 +62,6 @@ def test_planar_feedback_and_swings_reach_the_target(seed):
     assert np.abs(course.com[:2]).max() < planar_magnetic.LEVEL * planar_magnetic.FLOOR
     assert abs(course.com[2]) < 3 * planar_magnetic.ENOUGH
     assert greatest_tilt(course) < 30
-
-
-def test_both_variants_of_the_planar_feedback_are_carried_through():
-    state, params = planar_magnetic.LAW.begin(with_coils(), LEVEL)
-    assert params.variant == "sine"
-    linear = replace(params, variant="linear")
-    state = replace(state, loop=state.loop._replace(variant="linear"))
-    course = begun(with_coils(), truth_of(0, field_N=FIELD))
-    course = carried_on(planar_magnetic.LAW, (state, linear), course, 1500.0)
-    assert course.finished[0].code == "level_at_height"
-    assert course.states[-1].loop.variant == "linear"
-    assert np.abs(course.com[:2]).max() < planar_magnetic.LEVEL * planar_magnetic.FLOOR
 
 
 @pytest.mark.parametrize("seed", [0, 1])

@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from equipoise.estimation.information import fisher_information
+from equipoise.estimation.information.reference_motion import Followed
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.estimate import COM, INERTIA
@@ -16,7 +17,7 @@ from equipoise.model.manoeuvre import Manoeuvre, SquareWave
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Gyro
 from equipoise.planning.manoeuvre.noiseless_record import imagined
-from equipoise.planning.manoeuvre.predicted_information import Known, followed_truth, predicted
+from equipoise.planning.manoeuvre.predicted_information import Known, at_truth, posed, predicted
 
 BODY = (*INERTIA, *COM)
 X = np.array([1.0, 0.0, 0.0])
@@ -119,9 +120,9 @@ def test_the_drift_of_a_rate_from_white_noise_is_known_as_the_rule_says():
 
 def test_it_is_what_observe_says_along_the_same_motion():
     said = predicted(sputnix(), sputnix().body, PAPER, Params())
-    observed = fisher_information.information_along(
-        followed_truth(sputnix(), sputnix().body, PAPER, Params())
-    )
+    body, record = sputnix().body, imagined(sputnix(), sputnix().body, PAPER)
+    fitted = at_truth(posed(record, sputnix(), Params(), None), record, body, PAPER, None)
+    observed = fisher_information.information_along(Followed(fitted, sputnix(), Params(), ()))
     np.testing.assert_array_equal(said.sd, observed.sd)
     assert said.peak_tilt == pytest.approx(observed.tilt[1], rel=1e-3)
 

@@ -208,12 +208,6 @@ def com_map(ledger: Ledger, book: Book, ahead: float = 0.0) -> Floats:
     return G
 
 
-def com_now(ledger: Ledger, book: Book) -> tuple[Vector3, Matrix3]:
-    """Return the centre of mass now (m) with the masses at home, and its covariance (m^2)."""
-    G = com_map(ledger, book)
-    return G @ ledger.x, G @ ledger.P @ G.T
-
-
 def drift_of(ledger: Ledger, book: Book) -> Vector3:
     """Return the drift of the centre of mass, m/s."""
     return (com_map(ledger, book, 1.0) - com_map(ledger, book)) @ ledger.x

@@ -1,10 +1,9 @@
 """Planar feedback: masses integrate the tilt away, coils damp the swing.
 
-With n the vertical in body axes, n_p its part across ``up`` and theta the tilt,
+With n the vertical in body axes and n_p its part across ``up``,
 
-    linear      s' = k_i theta n_p / |n_p|          the angle of tilt
-    sine        s' = k_i n_p                        its sine
-    magnetic    tau = -k_d w                        torque on the platform
+    s'  = k_i n_p                       speed of the shift
+    tau = -k_d w                        torque on the platform, by coils
 
 A centre of mass that hangs by lambda below the pivot leans the platform until n_p = -(r + s)_p /
 lambda. So at rest the masses creep to where it is level, (r + s)_p' = -w_i (r + s)_p with
@@ -30,13 +29,11 @@ Cannot see r along the vertical. Coils give torque across the field only: a swin
 field is not damped, and one about a leaning field in part.
 """
 
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from equipoise.model.arrays import Vector3
-
-Variant = Literal["linear", "sine"]
 
 DAMPING = 0.7  # chosen: of critical, where coils are not saturated
 MARGIN = 0.5  # chosen: fields lean, and A is a running mean
@@ -59,15 +56,14 @@ class Loop(NamedTuple):
     swing: float  # rad/s, w_n
     depth: float  # m, lambda
     calm: float  # rad, the amplitude up to which the integral may have its whole gain
-    variant: Variant
 
 
-def loop_for(plant: Plant, depth: float, variant: Variant) -> Loop:
+def loop_for(plant: Plant, depth: float) -> Loop:
     """Return the gains for a centre of mass ``depth`` (m) below the pivot."""
     w_n = (plant.weight * depth / plant.inertia) ** 0.5
     calm = MARGIN / SEPARATION * plant.coils / (plant.weight * depth)
     k_d = 2 * DAMPING * w_n * plant.inertia
-    return Loop(k_d, SEPARATION * w_n * depth, w_n, depth, calm, variant)
+    return Loop(k_d, SEPARATION * w_n * depth, w_n, depth, calm)
 
 
 def lean(gravity: Vector3, up: Vector3) -> Vector3:
@@ -78,13 +74,7 @@ def lean(gravity: Vector3, up: Vector3) -> Vector3:
 
 def creep(gravity: Vector3, up: Vector3, swing: float, loop: Loop) -> Vector3:
     """Return the speed (m/s) of the shift that the tilt asks for in a swing of some rad."""
-    across = lean(gravity, up)
-    gain = loop.integral * min(1.0, loop.calm / max(swing, 1e-12))
-    if loop.variant == "sine":
-        return gain * across
-    sine = float(np.linalg.norm(across))
-    tilt = float(np.arctan2(sine, -(gravity @ up) / float(np.linalg.norm(gravity))))
-    return gain * tilt / max(sine, 1e-12) * across
+    return loop.integral * min(1.0, loop.calm / max(swing, 1e-12)) * lean(gravity, up)
 
 
 def damping_torque(rate: Vector3, loop: Loop) -> Vector3:

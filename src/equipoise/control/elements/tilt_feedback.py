@@ -119,11 +119,6 @@ def shift_for(gains: Gains, held: Vector3, gravity: Vector3, rate: Vector3) -> V
     return np.cross(gravity, torque) / (gains.mass * float(gravity @ gravity))
 
 
-def left_over(offset: float, height: float, spring: float) -> float:
-    """Return what the law leaves (m) of a sideways offset, without an integral of the tilt."""
-    return offset * abs(height) / (abs(height) + spring)
-
-
 def polynomial(frequency: float, integral: float, swing: float) -> Floats:
     """Return the characteristic polynomial; ``swing`` is w_z^2 (rad^2/s^2), below 0 if upright."""
     w = frequency

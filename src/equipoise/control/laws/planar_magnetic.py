@@ -27,7 +27,6 @@ import numpy as np
 from equipoise.control.elements.planar_feedback import (
     Loop,
     Plant,
-    Variant,
     creep,
     damping_torque,
     lean,
@@ -84,7 +83,6 @@ class Params:
     speed: float  # m/s, of the shift
     held: tuple[str, ...]  # what looks do not estimate
     inertia_sd: float  # -, relative
-    variant: Variant = "sine"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -116,7 +114,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     speed = max([m.mass * m.speed / testbed.body.mass for m in testbed.masses], default=0.0)
     plant = Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
     params = Params(plant, up, target, depth, speed, held(testbed), testbed.inertia_sd)
-    loop = loop_for(plant, depth, params.variant)
+    loop = loop_for(plant, depth)
     if plant.coils == 0 or loop.integral * TEN_DEGREES > FAST * speed:
         raise InputError("planar_magnetic", f"masses that shift by {speed / UM:.3g} um/s and "
                          f"coils that give {plant.coils:.3g} N m", "coils, a known field, and "
@@ -200,7 +198,7 @@ def after_measurement(state: State, estimate: Estimate, params: Params) -> State
     r, sd, _ = combined(measurements, up, params.inertia_sd)
     depth = -float(up @ (r + state.shift))
     last = len(measurements) == MOST or (len(measurements) > 1 and bool(np.all(sd < ENOUGH)))
-    loop = loop_for(params.plant, max(depth, FLOOR), params.variant)
+    loop = loop_for(params.plant, max(depth, FLOOR))
     goal = params.target - r if last else None
     waiting = Waiting(-depth * up - r, loop.swing)
     state = replace(state, measurements=measurements, loop=loop, goal=goal, waiting=waiting)
@@ -223,7 +221,7 @@ def after_calm(state: State, params: Params) -> State:
         aside = params.target - (params.target @ params.up) * params.up
         rise = float(params.up @ (state.goal - state.shift))
         return into(state, "end", state.shift + aside + rise * params.up)
-    loop = loop_for(params.plant, FLOOR, params.variant)
+    loop = loop_for(params.plant, FLOOR)
     r = combined(state.measurements, params.up, params.inertia_sd).com
     return kicked(replace(state, loop=loop, shift=-FLOOR * params.up - r), params)
 

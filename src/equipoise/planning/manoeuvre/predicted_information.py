@@ -18,7 +18,6 @@ import numpy as np
 
 from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.estimation.information.information_matrix import bound_at, ended_at
-from equipoise.estimation.information.reference_motion import Followed
 from equipoise.estimation.output_error.free_vertical import with_free_vertical
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted
@@ -72,15 +71,6 @@ def predicted(
     observed = imagined(testbed, body, manoeuvre)
     problem = posed(observed, testbed, params, known)
     return prediction(at_truth(problem, observed, body, manoeuvre, known), observed, testbed)
-
-
-def followed_truth(
-    testbed: Testbed, body: MassProperties, manoeuvre: Manoeuvre, params: Params
-) -> Followed:
-    """Return the motion as ``fisher.observed_along`` takes it."""
-    observed = imagined(testbed, body, manoeuvre)
-    fitted = at_truth(posed(observed, testbed, params, None), observed, body, manoeuvre, None)
-    return Followed(fitted, testbed, params, ())
 
 
 def posed(observed: Imagined, testbed: Testbed, params: Params, known: Known | None) -> Problem:

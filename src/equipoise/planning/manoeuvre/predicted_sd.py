@@ -59,10 +59,6 @@ class Promise:
         """Return the rms over platforms, SI; infinite: not seen of one of them; 0: held."""
         return np.sqrt(np.mean(self.sds**2, axis=0))
 
-    def sds_of(self, names: tuple[str, ...]) -> Floats:
-        """Return several sd of each platform, SI."""
-        return self.sds[:, [self.names.index(name) for name in names]]
-
     def sd_of(self, names: tuple[str, ...]) -> Floats:
         """Return several sd, SI."""
         return self.sd[[self.names.index(name) for name in names]]
