@@ -7,7 +7,7 @@ import pytest
 
 from equipoise.control.elements import momentum_balance as ml
 from equipoise.control.elements.attitude_pid import at_rest, gains_for, torque, unwound
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.command import Command
 from tests.support.plain_loop import GRAVITY, INERTIA, MASS, Truth, begun, go, platform, sample

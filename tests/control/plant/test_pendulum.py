@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.control.law import Sample
 from equipoise.control.plant import pendulum as h
-from equipoise.control.sample import Sample
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.model.errors import InputError
 from tests.support.simple_loop import GRAVITY, MASS, Loop, Plant, table

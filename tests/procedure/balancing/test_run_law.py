@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.actuators.control_moment_gyros import pyramid
-from equipoise.control.law import Law
-from equipoise.control.sample import Sample
+from equipoise.control.law import Law, Sample
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.command import Command, Measurement
 from equipoise.model.defects import Gap

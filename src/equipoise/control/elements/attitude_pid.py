@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.maths.attitude import conjugate, multiply
 from equipoise.model.arrays import Matrix3, Quaternion, Vector3
 

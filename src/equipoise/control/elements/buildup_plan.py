@@ -17,7 +17,7 @@ import numpy as np
 
 from equipoise.control.elements.momentum_balance import Book, Ledger, entered, opened
 from equipoise.control.elements.slew import Pace, end_of, reference_at, slew, turned
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Quaternion, Vector3
 from equipoise.model.testbed import Testbed

@@ -22,8 +22,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.control.law import Sample
 from equipoise.control.plant.pendulum import Hanging, shift_for
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.estimate import COM, Estimate

@@ -30,7 +30,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.dynamics.regressor import TORQUE, WIDTH, torque_columns
 from equipoise.dynamics.sag_trim import sag_matrix
 from equipoise.maths.attitude import to_matrix

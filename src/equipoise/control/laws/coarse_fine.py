@@ -24,11 +24,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.control.elements.slew import moment_across
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant import move_timing
 from equipoise.control.plant.move_timing import Waiting
 from equipoise.control.plant.swing_estimates import METHOD, Shown, combined, held, shown, shows
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError

@@ -26,9 +26,8 @@ from equipoise.control.elements.slew import (
     reference_at,
     slew,
 )
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant.wheel_capacity import capacity
-from equipoise.control.sample import Sample
 from equipoise.dynamics.sag_trim import trimming_shift
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command

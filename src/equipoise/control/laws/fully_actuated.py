@@ -44,7 +44,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.control.elements.sweep import Sweep, Wanted, wanted
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant.actuator_limits import greatest_slew, limited
 from equipoise.control.plant.offset_bounds import (
     LIKELY,
@@ -57,7 +57,6 @@ from equipoise.control.plant.offset_bounds import (
     within_reach,
 )
 from equipoise.control.plant.wheel_capacity import Capacity, capacity
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError

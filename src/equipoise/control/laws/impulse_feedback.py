@@ -40,10 +40,9 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant.actuator_limits import greatest_shift, limited
 from equipoise.control.plant.pendulum import level_axes
-from equipoise.control.sample import Sample
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.linalg import skew
 from equipoise.model.arrays import Matrix3, Series, Vector3

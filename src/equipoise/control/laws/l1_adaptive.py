@@ -52,7 +52,7 @@ from equipoise.control.elements.height_adjustment import (
 )
 from equipoise.control.elements.l1_norm import l1_norm
 from equipoise.control.elements.loop_stability import radius, steps_late, swing_input, swing_matrix
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant.actuator_limits import limited
 from equipoise.control.plant.pendulum import (
     SPARE,
@@ -65,7 +65,6 @@ from equipoise.control.plant.pendulum import (
     turned,
 )
 from equipoise.control.plant.settling import Bounds, Rest, Sums, at_depth, bounds, is_quiet, settle
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError

@@ -56,9 +56,8 @@ from equipoise.control.elements.slew import (
     slew,
     turned,
 )
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant.wheel_capacity import capacity
-from equipoise.control.sample import Sample
 from equipoise.dynamics.sag_trim import sag_matrix, trimmed_com
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3

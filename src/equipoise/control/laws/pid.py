@@ -54,7 +54,7 @@ from equipoise.control.elements.ziegler_nichols import (
     rule,
     ultimate,
 )
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant.actuator_limits import limited
 from equipoise.control.plant.pendulum import (
     Hanging,
@@ -66,7 +66,6 @@ from equipoise.control.plant.pendulum import (
     turned,
 )
 from equipoise.control.plant.settling import Bounds, Rest, Sums, at_depth, bounds, is_quiet, settle
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError

@@ -33,11 +33,10 @@ from equipoise.control.elements.planar_feedback import (
     loop_for,
 )
 from equipoise.control.elements.slew import moment_across
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant import move_timing
 from equipoise.control.plant.move_timing import Waiting
 from equipoise.control.plant.swing_estimates import METHOD, Shown, combined, held, shown, shows
-from equipoise.control.sample import Sample
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement

@@ -36,12 +36,11 @@ from equipoise.control.elements.slew import (
     slew,
     time_for,
 )
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant.pendulum import hanging
 from equipoise.control.plant.swing_estimates import METHOD as FREE
 from equipoise.control.plant.swing_estimates import of_group, shows
 from equipoise.control.plant.wheel_capacity import capacity
-from equipoise.control.sample import Sample
 from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
 from equipoise.model.arrays import Quaternion, Vector3
 from equipoise.model.command import Command, Measurement

@@ -41,6 +41,7 @@ from equipoise.control.elements.tilt_feedback import (
     shift_for,
     swing_of,
 )
+from equipoise.control.law import Sample
 from equipoise.control.plant.actuator_limits import greatest_shift, greatest_slew, limited
 from equipoise.control.plant.offset_bounds import (
     LIKELY,
@@ -52,7 +53,6 @@ from equipoise.control.plant.offset_bounds import (
     likely_height,
 )
 from equipoise.control.plant.swing_estimates import of_group
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError

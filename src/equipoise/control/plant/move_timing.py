@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Floats, Series, Vector3
 

@@ -24,9 +24,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.control.law import Sample
 from equipoise.control.plant.actuator_limits import filling_time, greatest_shift, greatest_slew
 from equipoise.control.plant.swing_estimates import of_group
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Series, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed

@@ -16,8 +16,7 @@ from equipoise.actuators.control_moment_gyros import gyros_span
 from equipoise.actuators.jets import axes_of
 from equipoise.actuators.reaction_wheels import span, wheels_span
 from equipoise.actuators.stored_momentum import with_known_inputs
-from equipoise.control.law import Law
-from equipoise.control.sample import Sample
+from equipoise.control.law import Law, Sample
 from equipoise.estimation.method_contract import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.output_error import trajectory

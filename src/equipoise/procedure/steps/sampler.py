@@ -6,7 +6,7 @@ import numpy as np
 
 from equipoise.actuators.jets import on_platform
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.estimation.motion.attitude_filter import AttitudeState, followed
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Vector3
