@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.actuators.drive_errors import across, drive_errors, plays, rails_of
+from equipoise.actuators.drive_errors import drive_errors, plays, rails_of
 from equipoise.actuators.lost_motion import directions, play_of
 from equipoise.actuators.mass_errors import mass_errors, unit_of
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import DriveDoubt, SlidingMass
 
@@ -72,7 +73,7 @@ def test_the_error_of_a_stop_passes_over_while_the_mass_is_taken_along():
 
 def test_rails_across_are_square_and_right_handed():
     for axis in ([1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [-0.48, 0.6, 0.64]):
-        v, w = across(np.array(axis))
+        v, w = axes_across(np.array(axis))
         frame = np.array([axis, v, w])
         np.testing.assert_allclose(frame @ frame.T, np.eye(3), atol=1e-12)
         assert np.linalg.det(frame) == pytest.approx(1.0)

@@ -30,7 +30,8 @@ import numpy as np
 
 from equipoise.actuators.lost_motion import Play, directions, play_of
 from equipoise.actuators.stops import MassError
-from equipoise.model.arrays import Series1, Vector3
+from equipoise.maths.axes_across import axes_across
+from equipoise.model.arrays import Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
@@ -53,21 +54,13 @@ def drive_names(mass: str) -> DriveNames:
     return DriveNames(f"{GAIN}_{mass}", sides, f"{BACKLASH}_{mass}", f"{PLAY}_{mass}")
 
 
-def across(axis: Vector3) -> tuple[Vector3, Vector3]:
-    """Return two unit vectors across a rail, v first: near the body axis farthest from it."""
-    outlying = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    square: Vector3 = outlying - float(outlying @ axis) * axis
-    v: Vector3 = square / np.linalg.norm(square)
-    return v, np.cross(axis, v)
-
-
 def rails_of(masses: Sequence[SlidingMass]) -> tuple[SlidingMass, ...]:
     """Return the masses, and behind them the rails across those whose drive is in doubt."""
     beside = [
         replace(mass, name=name, axis=axis, doubt=None)
         for mass in masses
         if mass.doubt is not None
-        for name, axis in zip(drive_names(mass.name).across, across(mass.axis), strict=True)
+        for name, axis in zip(drive_names(mass.name).across, axes_across(mass.axis), strict=True)
     ]
     return (*masses, *beside)
 

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.actuators.reaction_wheels import axes_of
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.devices import JetPair
 
@@ -22,11 +23,6 @@ class Pulses(NamedTuple):
 
     impulses: Floats  # (n,) N m s, about each axis
     left: Vector3  # N m s, of what was wanted, body axes
-
-
-def axes_of(jets: Sequence[JetPair]) -> Floats:
-    """Return the axes, (n, 3)."""
-    return np.array([jet.axis for jet in jets], dtype=np.float64).reshape(-1, 3)
 
 
 def on_platform(jets: Sequence[JetPair], about_axes: Floats) -> Floats:

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from equipoise.actuators.limiting import Delivered, scaled
+from equipoise.actuators.reaction_wheels import axes_of
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.devices import Magnetorquer
 
@@ -22,7 +23,7 @@ FAINT = 1e-6  # -, chosen: of the strongest direction; a weaker one is rounding,
 
 def dipole_of(coils: Sequence[Magnetorquer], dipoles: Floats) -> Floats:
     """Return the sum of dipoles (..., n) A m^2 as a vector (..., 3)."""
-    return dipoles @ np.array([coil.axis for coil in coils], dtype=np.float64).reshape(-1, 3)
+    return dipoles @ axes_of(coils)
 
 
 def magnetic_torque(coils: Sequence[Magnetorquer], dipoles: Floats, field: Floats) -> Floats:

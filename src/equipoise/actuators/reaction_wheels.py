@@ -18,14 +18,14 @@ import numpy as np
 
 from equipoise.actuators.limiting import Delivered, scaled
 from equipoise.model.arrays import Floats, Vector3
-from equipoise.model.devices import ReactionWheel
+from equipoise.model.devices import JetPair, Magnetorquer, ReactionWheel
 
 FLAT = 1e-2  # -, chosen: axes 0.5 deg off a plane are as good as in it
 
 
-def axes_of(wheels: Sequence[ReactionWheel]) -> Floats:
-    """Return the axes, (n, 3)."""
-    return np.array([wheel.axis for wheel in wheels], dtype=np.float64).reshape(-1, 3)
+def axes_of(devices: Sequence[ReactionWheel | Magnetorquer | JetPair]) -> Floats:
+    """Return the axes of devices, (n, 3)."""
+    return np.array([device.axis for device in devices], dtype=np.float64).reshape(-1, 3)
 
 
 def inertias_of(wheels: Sequence[ReactionWheel]) -> Floats:
@@ -41,11 +41,6 @@ def wheel_momentum(wheels: Sequence[ReactionWheel], speeds: Floats) -> Floats:
 def span(axes: Floats) -> bool:
     """Say whether unit vectors (n, 3) span all three directions."""
     return len(axes) >= 3 and bool(np.linalg.svd(axes, compute_uv=False)[2] > FLAT)
-
-
-def wheels_span(wheels: Sequence[ReactionWheel]) -> bool:
-    """Say whether the wheels can give a torque along every direction."""
-    return span(axes_of(wheels))
 
 
 def room(wheels: Sequence[ReactionWheel], speeds: Floats, torques: Floats, period: float) -> Floats:

@@ -42,8 +42,8 @@ import numpy as np
 
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant.actuator_limits import greatest_shift, limited
-from equipoise.control.plant.pendulum import level_axes
 from equipoise.maths.attitude import to_matrix
+from equipoise.maths.axes_across import axes_across
 from equipoise.maths.linalg import skew
 from equipoise.model.arrays import Matrix3, Series, Vector3
 from equipoise.model.command import Command
@@ -133,8 +133,7 @@ class State:
 
 def schedule(up: Vector3, tilt: float) -> Series:
     """Return the verticals, body axes: level, and tilted about both horizontal axes."""
-    first, second = level_axes(up)
-    tilted = [np.cos(tilt) * up + np.sin(tilt) * across for across in (first, second)]
+    tilted = [np.cos(tilt) * up + np.sin(tilt) * across for across in axes_across(up)]
     return np.array([up, *tilted])
 
 

@@ -27,6 +27,7 @@ import numpy as np
 from equipoise.control.law import Sample
 from equipoise.control.plant.actuator_limits import filling_time, greatest_shift, greatest_slew
 from equipoise.control.plant.swing_estimates import of_group
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.arrays import Floats, Series, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
@@ -60,15 +61,6 @@ class Hanging(NamedTuple):
     def frequency(self) -> Floats:
         """The swing's w0 about both axes, rad/s."""
         return np.sqrt(self.gain * self.depth)
-
-
-def level_axes(up: Vector3) -> Series:
-    """Return two body axes that are horizontal when level, as rows; x and y for up = z."""
-    nearest: Vector3 = np.eye(3)[int(np.argmin(np.abs(up) + [0.0, 1e-9, 2e-9]))]
-    first: Vector3 = nearest - up * float(up @ nearest)
-    first = first / float(np.linalg.norm(first))
-    second: Vector3 = np.cross(up, first)
-    return np.vstack([first, second])
 
 
 def tilt_of(plant: Hanging, sample: Sample) -> Floats:
@@ -132,7 +124,7 @@ def hanging(testbed: Testbed) -> Hanging:
     if reach < -lowered or reach == 0:
         wanted = f"masses that shift it by {(depth + height) / UM:.3g} um, whatever the direction"
         raise InputError("balancing law", f"masses that shift it by {reach / UM:.3g} um", wanted)
-    axes = level_axes(up)
+    axes = axes_across(up)
     moments = np.einsum("ij,jk,ik->i", axes, body.inertia_P, axes)
     return Hanging(
         up, axes, body.mass * testbed.gravity / moments, -height - lowered, lowered,

@@ -32,7 +32,7 @@ import numpy as np
 from scipy.linalg import null_space
 
 from equipoise.actuators.mass_allocation import allocate, rails_of
-from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.actuators.sliding_masses import shift_by_travel
 from equipoise.model.arrays import Bools, Floats, Series, Series1, Series3
 from equipoise.model.testbed import Testbed
 
@@ -67,16 +67,11 @@ def at_home(testbed: Testbed, error: Series3, normals: Series, rail_lean: float)
     return Standing(error, still, still, still, lean)
 
 
-def gains(testbed: Testbed) -> Series3:
-    """Return how far each mass shifts the centre of mass, by its travel."""
-    return mass_maps(testbed.masses).first_moment / testbed.body.mass
-
-
 def move(
     testbed: Testbed, now: Standing, found: Series3, normals: Series, rail_lean: float
 ) -> tuple[Standing, Left]:
     """Return platforms after a move that should undo what was ``found`` (m), and what it left."""
-    gain = gains(testbed)
+    gain = shift_by_travel(testbed)
     best = allocated(testbed, now.commanded, found)
     change = best * is_worth_it(testbed, now, found, best, rail_lean)[:, None]
     half = 0.5 * np.array([mass.backlash for mass in testbed.masses])
@@ -97,7 +92,8 @@ def move(
 
 def allocated(testbed: Testbed, reported: Series, found: Series3) -> Series:
     """Return the changes (m) of where masses are told to go that undo what was found best."""
-    rails, wanted = rails_of(testbed.masses, testbed.body.mass), reported @ gains(testbed) - found
+    rails = rails_of(testbed.masses, testbed.body.mass)
+    wanted = reported @ shift_by_travel(testbed) - found
     goals = [allocate(rails, here, shift) for here, shift in zip(reported, wanted, strict=True)]
     return np.array(goals) - reported
 
@@ -106,7 +102,7 @@ def is_worth_it(
     testbed: Testbed, now: Standing, found: Series3, change: Series, rail_lean: float
 ) -> Bools:
     """Say of each platform whether a change (m) is expected to leave less than was found."""
-    gain = gains(testbed)
+    gain = shift_by_travel(testbed)
     size: Series1 = np.sum(gain**2, axis=1)
     accuracy = np.array([mass.accuracy for mass in testbed.masses])
     draws = (change != 0) * (1.0 + (now.slip != 0))

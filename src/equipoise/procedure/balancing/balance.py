@@ -23,6 +23,7 @@ from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
+from equipoise.procedure.steps.plain_steps import measurement_step
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
@@ -77,7 +78,7 @@ def balance(
     if before is not None:
         fresh = join(before, fresh)
     progress = Progress(learn(None, fresh, bench.testbed), still_since=began)
-    yield measurement_step(bench, fresh)
+    yield measurement_step(bench.time, fresh)
     while True:
         why = reason_to_stop(bench, progress, options, began)
         if why is not None:
@@ -102,7 +103,7 @@ def balance(
         knowledge = learn(progress.knowledge, fresh, bench.testbed)
         still = bench.time - MEASUREMENT
         progress = Progress(knowledge, (*progress.moves, move), still, option.brake)
-        yield measurement_step(bench, fresh)
+        yield measurement_step(bench.time, fresh)
 
 
 def reason_to_stop(
@@ -222,13 +223,6 @@ def announced(move: Move) -> tuple[Reason, ...]:
     """Return why masses are moved, and what that should leave."""
     com = axes_of("com", move.predicted_com)
     return one_reason(move.reason, **com, travel=move.travel, duration=move.duration)
-
-
-def measurement_step(bench: Bench, fresh: Recording) -> Step:
-    """Return the step of a look."""
-    start, end = fresh.span
-    reasons = one_reason(StepReason.OBSERVED, duration=end - start)
-    return Step("measurement", bench.time, reasons, recording=fresh)
 
 
 def estimate_step(bench: Bench, progress: Progress) -> Step:

@@ -41,6 +41,7 @@ from equipoise.procedure.balancing.manual_estimate import (
     taught,
 )
 from equipoise.procedure.steps.joint_fit import as_if_stiff
+from equipoise.procedure.steps.plain_steps import measurement_step
 from equipoise.procedure.steps.verify import CONTRADICTION, at, judged, unusable
 
 
@@ -78,13 +79,7 @@ def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
     posterior, loading = first_posterior(testbed), unloaded(testbed.grids, testbed.weights)
     for left in range(options.max_rounds, -1, -1):
         fresh = caught(hands.swing(), testbed)
-        start, end = fresh.span
-        yield Step(
-            "measurement",
-            hands.time,
-            one_reason(StepReason.OBSERVED, duration=end - start),
-            recording=fresh,
-        )
+        yield measurement_step(hands.time, fresh)
         observed = learnt(posterior, fresh, loading, testbed)
         posterior, verdict = observed.posterior, verdict_on(observed, options)
         yield estimate_step(hands, observed, fresh)
@@ -124,11 +119,8 @@ def learnt(posterior: Posterior, fresh: Recording, loading: Ints, testbed: Testb
 
 def verdict_on(observed: Progress, options: HandOptions) -> Verdict:
     """Return the verdict on what is believed after a recording."""
-    com, sd, outcome = (
-        observed.posterior.com,
-        observed.posterior.sd,
-        observed.shown.estimate.outcome,
-    )
+    com, sd = observed.posterior.com, observed.posterior.sd
+    outcome = observed.shown.estimate.outcome
     if not outcome.usable:
         return unusable(outcome, com, sd)
     return judged(com, sd, options.target, options.tolerance)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
+from equipoise.actuators.sliding_masses import displacements_for, shift_by
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.predict_correct import COM
 from equipoise.maths.attitude import to_matrix
@@ -75,7 +75,7 @@ def balance_and_hold(
 def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
     """Return the tracker's belief at the end of what balancing recorded."""
     q, rate = state_now(knowledge, testbed)
-    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, knowledge.displacement)
+    shift = shift_by(testbed, knowledge.displacement)
     t = float(knowledge.fitted.problem.line.t[-1])
     inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
     covariance = knowledge.estimate.covariance_of((*knowledge.standing, *INERTIA))
@@ -87,7 +87,7 @@ def standing(
     state: tracker.State, testbed: Testbed, displacement: Floats
 ) -> tuple[Vector3, Vector3]:
     """Return the centre of mass with the masses as they stand, and its sd (m)."""
-    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, displacement)
+    shift = shift_by(testbed, displacement)
     return state.com + shift, np.sqrt(np.diag(state.covariance)[COM])
 
 
@@ -112,7 +112,7 @@ def correction(
         return None
     masses, total = testbed.masses, testbed.body.mass
     goal = displacements_for(masses, total, displacement, options.target - com)
-    change = com_shift(mass_maps(masses), total, goal - displacement)
+    change = shift_by(testbed, goal - displacement)
     then = np.abs(com + change - options.target) / options.tolerance
     return goal if then.max() < now.max() - GAIN else None
 
@@ -171,7 +171,7 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
         goal = correction(com, displacement, testbed, options)
         if goal is None:
             continue
-        shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - displacement)
+        shift = shift_by(testbed, goal - displacement)
         if pressing(com, options) or timely(state, com, shift, testbed):
             posterior = before_moving(state, testbed, displacement, goal)
             move = planned_move(testbed, displacement, goal, posterior, MoveReason.DRIFT)

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 
 from equipoise.actuators.control_moment_gyros import gyros_span
-from equipoise.actuators.jets import axes_of
-from equipoise.actuators.reaction_wheels import span, wheels_span
+from equipoise.actuators.reaction_wheels import axes_of, span
 from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.control.law import Law, Sample
 from equipoise.estimation.method_contract import Options, estimated
@@ -26,7 +25,6 @@ from equipoise.model.bench import Bench
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
-from equipoise.model.following import Following
 from equipoise.model.law_card import NEEDS, LawCard, Need
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.reasons.step_reasons import StepReason
@@ -38,8 +36,8 @@ from equipoise.model.torque_terms import TERMS, among
 from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
-from equipoise.procedure.balancing.balance import measurement_step
 from equipoise.procedure.steps.joint_fit import as_if_stiff, learn, without
+from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step
 from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
 from equipoise.procedure.steps.tilt_guard import guarded, tilted
 from equipoise.procedure.steps.verification_swing import watched_swing
@@ -71,7 +69,7 @@ def lacking(card: LawCard, testbed: Testbed) -> list[Need]:
     """Return what a law needs and a testbed has not."""
     has: dict[Need, bool] = {
         "masses": bool(testbed.masses),
-        "momentum": wheels_span(testbed.wheels) or gyros_span(testbed.cmgs),
+        "momentum": span(axes_of(testbed.wheels)) or gyros_span(testbed.cmgs),
         "magnetorquers": bool(testbed.magnetorquers) and testbed.magnetic_field is not None,
         "jets": span(axes_of(testbed.jets)),
         "gyro": testbed.gyro is not None,
@@ -113,14 +111,14 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
             why = one_reason(StepReason.TIME_USED_UP)
             break
         if command.measurement is not None:
-            session, recording, estimate = measurement(bench, session, command.measurement)
-            observed = estimate
-            yield measurement_step(bench, recording)
-            yield estimate_step(bench, estimate)
+            session, recording, observed = measurement(bench, session, command.measurement)
+            yield measurement_step(bench.time, recording)
+            yield estimate_step(bench.time, observed)
         else:
             session, observed, recording = control(bench, session, command, law.card.period)
         why = reason_to_stop(bench, recording, end)
-    yield control_step(bench, law.card, began, why, following)
+    ran = one_reason(StepReason.LAW_RAN, law.card.name, duration=bench.time - began)
+    yield Step("control", bench.time, (*ran, *why), following=following)
     if any(reason.code is StepReason.TILTED for reason in why):
         bench.stop()
         yield stop_step(bench)
@@ -226,21 +224,3 @@ def stop_step(bench: Bench) -> Step:
     """Return the stop of a run whose platform tilts too much."""
     verdict = Verdict(one_reason(VerdictReason.TILTED))
     return Step("stop", bench.time, verdict.reasons, verdict=verdict)
-
-
-def control_step(
-    bench: Bench,
-    card: LawCard,
-    began: float,
-    why: tuple[Reason, ...],
-    following: Following | None,
-) -> Step:
-    """Return the step that says how long a law was at work and how it ended."""
-    ran = one_reason(StepReason.LAW_RAN, card.name, duration=bench.time - began)
-    return Step("control", bench.time, (*ran, *why), following=following)
-
-
-def estimate_step(bench: Bench, estimate: Estimate) -> Step:
-    """Return the step of an estimate."""
-    reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
-    return Step("estimate", bench.time, reasons, estimate=estimate)

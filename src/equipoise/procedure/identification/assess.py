@@ -34,13 +34,10 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import among
 from equipoise.model.verdict import Verdict, VerdictOutcome, outcome_of
-from equipoise.procedure.identification.requirement import (
-    Judged,
-    Requirement,
-    judged,
-)
+from equipoise.procedure.identification.requirement import Judged, Requirement, judged
 from equipoise.procedure.identification.swing_metrics import SwingMetrics, swing_metrics
 from equipoise.procedure.steps.clean_record import sound
+from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step
 
 UNKNOWN_COM = 1e-3  # m, chosen: one sd of where a centre of mass may be that is to be proven
 RANGE = np.radians(20.0)
@@ -100,13 +97,11 @@ def assess(
     recording: Recording, testbed: Testbed, options: AssessOptions
 ) -> Generator[Step, None, Assessment]:
     """Yield Steps; the last has the verdict if there is a requirement. Returns the Assessment."""
-    start, end = recording.span
-    reasons = one_reason(StepReason.RECORDING_READ, duration=end - start)
-    yield Step("measurement", end, reasons, recording=recording)
+    end = recording.span[1]
+    yield measurement_step(end, recording, StepReason.RECORDING_READ)
     fit = fit_of(recording, testbed, options)
     estimate = fit[0]
-    reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
-    yield Step("estimate", end, reasons, estimate=estimate)
+    yield estimate_step(end, estimate)
     body = testbed.body
     if estimate.outcome.usable:
         body = replace(body, com=estimate.com, inertia_P=estimate.inertia_P)

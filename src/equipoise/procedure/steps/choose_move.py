@@ -8,9 +8,7 @@ else the one with the least tilt.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from equipoise.actuators.sliding_masses import (
-    displacements_for,
-)
+from equipoise.actuators.sliding_masses import displacements_for
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.procedure.steps.tilt_prediction import Outlook
 

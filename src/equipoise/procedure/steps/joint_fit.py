@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.actuators.sliding_masses import shift_by, shift_by_travel
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.estimation.output_error.solution import Fitted
@@ -88,8 +88,7 @@ def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowl
 
 def shifted(knowledge: Knowledge, testbed: Testbed, targets: Floats) -> Vector3:
     """Return where the centre of mass should be with the masses at ``targets`` (m)."""
-    change = targets - knowledge.displacement
-    return knowledge.com + com_shift(mass_maps(testbed.masses), testbed.body.mass, change)
+    return knowledge.com + shift_by(testbed, targets - knowledge.displacement)
 
 
 def without_stops(knowledge: Knowledge, testbed: Testbed, moving: Bools) -> tuple[Vector3, Matrix3]:
@@ -98,7 +97,7 @@ def without_stops(knowledge: Knowledge, testbed: Testbed, moving: Bools) -> tupl
     They leave with the masses. The fit knows something of them, and they are part of ``com``.
     """
     estimate = knowledge.estimate
-    gain = mass_maps(testbed.masses).first_moment / testbed.body.mass
+    gain = shift_by_travel(testbed)
     rows = np.eye(len(estimate.parameters))[[estimate.index(name) for name in knowledge.standing]]
     for i in np.flatnonzero(moving):
         for error in stops_of(estimate, testbed.masses[i].name)[-1:]:

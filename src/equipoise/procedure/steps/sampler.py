@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.actuators.jets import on_platform
-from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.actuators.sliding_masses import shift_by
 from equipoise.control.law import Sample
 from equipoise.estimation.motion.attitude_filter import AttitudeState, followed
 from equipoise.maths.attitude import to_matrix
@@ -62,7 +62,7 @@ def sample_of(before: Eyes, now: Eyes, fresh: Recording, testbed: Testbed) -> Sa
         q=now.attitude.q,
         rate=now.attitude.rate,
         gravity=-testbed.gravity * vertical,
-        shift=com_shift(mass_maps(testbed.masses), testbed.body.mass, now.displacement),
+        shift=shift_by(testbed, now.displacement),
         momentum=now.momentum,
         torque=torque,
         impulse=impulse_of(fresh, testbed),
