@@ -25,9 +25,8 @@ import numpy as np
 
 from equipoise.model.arrays import Bools, Matrix3, Series, Series3
 from equipoise.planning.sizing.case import Case
-from equipoise.planning.sizing.contribution import REQUESTED, TESTBED, Line
 from equipoise.planning.sizing.environment import surrounding_lines
-from equipoise.planning.sizing.expected_torque import expected_torque
+from equipoise.planning.sizing.expected_torque import REQUESTED, TESTBED, Line, expected_torque
 from equipoise.planning.sizing.likely_offsets import (
     even_normals,
     share_within,

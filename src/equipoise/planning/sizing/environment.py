@@ -23,8 +23,14 @@ import numpy as np
 from equipoise.dynamics.sag_trim import downs, residual_torque, trimmed_com
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.testbed import Testbed
-from equipoise.planning.sizing.contribution import ASSUMED, PARTLY, REQUESTED, TESTBED, Line
-from equipoise.planning.sizing.expected_torque import expected_torque
+from equipoise.planning.sizing.expected_torque import (
+    ASSUMED,
+    PARTLY,
+    REQUESTED,
+    TESTBED,
+    Line,
+    expected_torque,
+)
 
 EARTH_RADIUS = 6.371e6  # m, mean
 EARTH_RATE = 7.292e-5  # rad/s

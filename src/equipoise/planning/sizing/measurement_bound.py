@@ -34,8 +34,7 @@ from equipoise.planning.manoeuvre.predicted_information import (
     predicted,
     prediction,
 )
-from equipoise.planning.manoeuvre.reference_manoeuvre import usual
-from equipoise.planning.manoeuvre.reference_swing import gentle_swing, usual_swing
+from equipoise.planning.manoeuvre.reference_manoeuvre import gentle_swing, usual, usual_swing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
