@@ -37,7 +37,7 @@ from equipoise.maths.attitude import to_matrix
 from equipoise.maths.compiled import kernel
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.testbed import SlidingMass, Testbed
-from equipoise.model.torque_terms import TERMS, typical
+from equipoise.model.torque_terms import GROUPS, TERMS, typical
 
 L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
 
@@ -202,7 +202,7 @@ def com_map(ledger: Ledger, book: Book, ahead: float = 0.0) -> Floats:
     """Return the map (3, n) from x to the centre of mass, masses at home, ``ahead`` (s) of now."""
     G = np.zeros((3, len(ledger.x)))
     G[:, COM:TERM] = np.eye(3)
-    for axis, name in enumerate(("drift_x", "drift_y", "drift_z")):
+    for axis, name in enumerate(GROUPS["drift"]):
         if name in book.terms:
             G[axis, TERM + book.terms.index(name)] = ledger.t - ledger.begin + ahead
     return G

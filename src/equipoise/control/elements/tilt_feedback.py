@@ -48,21 +48,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.plant.actuator_limits import greatest_slew
 from equipoise.control.plant.offset_bounds import (
     across,
+    greatest_frequency,
     level_inertia,
     likely_height,
     likely_offset,
-    refuse_unless_below,
-    within_reach,
 )
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.testbed import Testbed
 
 ZETA = 1.0  # chosen: no overshoot; the k_p = 0.5 N m s of published copies at w_a = 1 rad/s
-MOST = 1.0  # rad/s, chosen: above it a gyro's noise moves the masses more than the tilt does
-SAMPLED = 0.2  # rad, chosen: w_a T, of at most 1
 SPEED = 0.5  # chosen: w_a |r| / v; up to 1 it is as if masses were at once, from 2 it falls
 TILTED = 0.8  # of the tilt limit, chosen: what a swing may take
 UPRIGHT = 0.5  # of w_a^2, chosen: what an inverted pendulum may take of it
@@ -144,12 +140,8 @@ def swing_of(testbed: Testbed, height: float) -> float:
 
 def frequency_for(testbed: Testbed, period: float) -> float:
     """Return w_a (rad/s) at which the loop is stable; InputError if there is none."""
-    within_reach(testbed)
-    offset = likely_offset(testbed)
-    least = least_frequency(testbed, offset)
-    most = min(MOST, SAMPLED / period, SPEED * greatest_slew(testbed) / max(offset, 1e-12))
-    refuse_unless_below(testbed, least, most)
-    return most
+    least = least_frequency(testbed, likely_offset(testbed))
+    return greatest_frequency(testbed, least, SPEED, period)
 
 
 def least_frequency(testbed: Testbed, offset: float) -> float:

@@ -33,6 +33,7 @@ from equipoise.control.plant.swing_estimates import (
     METHOD,
     Shown,
     combined,
+    hanging_shift,
     held,
     shown,
     shows,
@@ -51,8 +52,6 @@ PERIOD = 0.5  # s
 SHORT, LONG = 30.0, 60.0  # s, chosen: of three periods when coarse, of one when fine
 COARSE = 50e-6  # m below the pivot, chosen: a period of 40 s on a table of 14 kg
 SAFE = 10e-6  # m below the pivot, chosen: 1.4 mN m at 14 kg bring it upright again
-STEEP = 6.0  # chosen: of the sideways sd, so that the platform leans by ten degrees at most
-UNSURE = 2.0  # sds of the height that must still hang
 SURE = 2.0  # sds, chosen: within which a measurement is trusted
 ENOUGH = 0.5e-6  # m, chosen: one sd that needs no further measurement
 SMALL = 0.1e-6  # m, chosen: what drift undoes in a minute needs no further measurement
@@ -89,12 +88,9 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError for a testbed without masses."""
     if not testbed.masses:
         raise InputError("coarse_fine", "a testbed without them", "sliding masses")
-    up, sd = testbed.up, testbed.com_sd
-    sideways = float(np.linalg.norm(sd - (sd @ up) * up))
-    depth = max(STEEP * sideways, 2 * COARSE) + UNSURE * float(abs(sd @ up))
+    up, hang = testbed.up, hanging_shift(testbed, 2 * COARSE)[1]
     low = min(float(target @ up), -SAFE)
     safe = target + (low - float(target @ up)) * up
-    hang = depth + float(testbed.body.com @ up)
     J = moment_across(testbed.body.inertia_P, up)
     stiffness = testbed.body.mass * testbed.gravity / J
     return State(-hang * up), Params(up, safe, held(testbed), stiffness, testbed.inertia_sd)

@@ -50,11 +50,10 @@ from equipoise.control.plant.offset_bounds import (
     LIKELY,
     around,
     coarsest_step,
+    greatest_frequency,
     height_sd,
     level_inertia,
     likely_offset,
-    refuse_unless_below,
-    within_reach,
 )
 from equipoise.control.plant.wheel_capacity import Capacity, capacity
 from equipoise.model.arrays import Matrix3, Vector3
@@ -69,8 +68,6 @@ from equipoise.model.units import UM
 
 PERIOD = 0.1  # s, chosen: a servo's beat
 ZETA = 1.0  # chosen: no overshoot
-MOST = 1.0  # rad/s, chosen: of w_a
-SAMPLED = 0.2  # rad, chosen: w_a T
 SPEED = 1.0  # chosen: w_a |r| / v
 RATIO = 2.0  # chosen: w_a over the sweep's speed
 BIAS = 2e-5  # m, chosen: what a wrong inertia may leave along up
@@ -139,13 +136,9 @@ def sweep_speed(testbed: Testbed) -> float:
 
 def frequency_for(testbed: Testbed, wish: float) -> float:
     """Return w_a (rad/s), as wished if it can be; InputError where the loop is not stable."""
-    within_reach(testbed)
-    offset = likely_offset(testbed)
     weight = testbed.body.mass * testbed.gravity / level_inertia(testbed)
-    least = (weight * offset / (STRAY * testbed.tilt_limit)) ** 0.5
-    most = min(MOST, SAMPLED / PERIOD, SPEED * greatest_slew(testbed) / max(offset, 1e-12))
-    refuse_unless_below(testbed, least, most)
-    return float(np.clip(wish, least, most))
+    least = (weight * likely_offset(testbed) / (STRAY * testbed.tilt_limit)) ** 0.5
+    return float(np.clip(wish, least, greatest_frequency(testbed, least, SPEED, PERIOD)))
 
 
 def spare(testbed: Testbed) -> Capacity:

@@ -57,6 +57,7 @@ from equipoise.control.elements.slew import (
     turned,
 )
 from equipoise.control.law import Law, Sample
+from equipoise.control.plant.actuator_limits import fastest_slew
 from equipoise.control.plant.wheel_capacity import capacity
 from equipoise.dynamics.sag_trim import sag_matrix, trimmed_com
 from equipoise.maths.attitude import to_matrix
@@ -121,12 +122,6 @@ class State:
     closing: float | None = None  # s, when it is level after the last move
 
 
-def reach_of(testbed: Testbed) -> float:
-    """Return how far (m) the masses may be set off so that they are soon there."""
-    speeds = [m.mass * m.speed / testbed.body.mass for m in testbed.masses]
-    return SOON / UNLOAD * max(speeds, default=0.0)
-
-
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError without a gyro, masses, or wheels along all axes."""
     can = capacity(testbed)
@@ -140,9 +135,8 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     pace = pace_for(moment_across(testbed.body.inertia_P, testbed.up), can)
     stages = planned(testbed, book, trim, pace)
     loop = gains_for(testbed.body.inertia_P, can.torque)
-    return State(), Params(
-        book, loop, testbed, target, trim, stages, pace, can.momentum, reach_of(testbed)
-    )
+    reach = SOON / UNLOAD * fastest_slew(testbed)
+    return State(), Params(book, loop, testbed, target, trim, stages, pace, can.momentum, reach)
 
 
 def planned(testbed: Testbed, book: Book, trim: Floats, pace: Pace) -> tuple[Stage, ...]:

@@ -36,12 +36,14 @@ from equipoise.control.elements.planar_feedback import (
 from equipoise.control.elements.slew import moment_across
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant import move_timing
+from equipoise.control.plant.actuator_limits import fastest_slew
 from equipoise.control.plant.move_timing import Waiting
 from equipoise.control.plant.settling import UNREPORTED, Stand, standing
 from equipoise.control.plant.swing_estimates import (
     METHOD,
     Shown,
     combined,
+    hanging_shift,
     held,
     shown,
     shows,
@@ -63,8 +65,6 @@ Phase = Literal["hang", "feedback", "kick", "level", "calm", "end"]
 PERIOD = 0.2  # s
 SWING = 60.0  # s of a measurement
 FLOOR = 30e-6  # m, chosen: as shallow as a swing of 60 s still shows, a period of 50 s
-STEEP = 6.0  # chosen: of the sideways sd, so that the platform leans by ten degrees at most
-UNSURE = 2.0  # sds of the height that must still hang
 KICK = float(np.radians(4))  # rad, chosen: well above what drafts do
 LEVEL = float(np.radians(0.5))  # rad, chosen: lean and swing at which the feedback has done
 CALM = float(np.radians(1.5))  # rad, chosen: the same before it rises to where coils are stronger
@@ -114,11 +114,9 @@ class State:
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError where masses are too slow for the feedback."""
-    up, sd = testbed.up, testbed.com_sd
+    up = testbed.up
     J = moment_across(testbed.body.inertia_P, up)
-    depth = max(STEEP * float(np.linalg.norm(sd - (sd @ up) * up)), 2 * FLOOR)
-    hang = depth + UNSURE * float(abs(up @ sd)) + float(testbed.body.com @ up)
-    speed = max([m.mass * m.speed / testbed.body.mass for m in testbed.masses], default=0.0)
+    (depth, hang), speed = hanging_shift(testbed, 2 * FLOOR), fastest_slew(testbed)
     plant = Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
     params = Params(plant, up, target, depth, speed, held(testbed), testbed.inertia_sd)
     loop = loop_for(plant, depth)

@@ -40,7 +40,7 @@ from equipoise.control.law import Law, Sample
 from equipoise.control.plant.pendulum import hanging
 from equipoise.control.plant.settling import UNREPORTED, Stand, standing
 from equipoise.control.plant.swing_estimates import METHOD as FREE
-from equipoise.control.plant.swing_estimates import of_group, shows, why_not_shown
+from equipoise.control.plant.swing_estimates import drift_of, of_group, shows, why_not_shown
 from equipoise.control.plant.wheel_capacity import capacity
 from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
 from equipoise.model.arrays import Quaternion, Vector3
@@ -202,12 +202,6 @@ def after_measurement(state: State, estimate: Estimate, params: Params) -> State
     done = at_place if state.round > ROUNDS else ()
     com: Vector3 = estimate.com + (state.t + AFTER - state.began) * drift_of(estimate)
     return replace(state, com=com, shift=params.target - com, moving=True, finished=done)
-
-
-def drift_of(estimate: Estimate) -> Vector3:
-    """Return how fast the centre of mass moves by itself (m/s); a record's com is at its start."""
-    names = ("drift_x", "drift_y", "drift_z")
-    return np.array([float(estimate.values((n,))[0]) if estimate.has(n) else 0.0 for n in names])
 
 
 def watched(state: State, sample: Sample) -> State:

@@ -50,6 +50,11 @@ def greatest_slew(testbed: Testbed) -> float:
     return ball(replace(testbed, masses=tuple(fastest)), np.array([m.speed for m in fastest]))
 
 
+def fastest_slew(testbed: Testbed) -> float:
+    """Return how fast (m/s) the fastest mass shifts the centre of mass along its rail."""
+    return max([m.mass * m.speed / testbed.body.mass for m in testbed.masses], default=0.0)
+
+
 def filling_time(testbed: Testbed) -> float:
     """Return the longest that a fine mass takes over half a step of a coarse one beside it, s."""
     pairs = [

@@ -16,6 +16,8 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 
 LIKELY = 2.0  # sd, chosen: few offsets exceed it
+MOST = 1.0  # rad/s, chosen: above it a gyro's noise moves the masses more than the tilt does
+SAMPLED = 0.2  # rad, chosen: frequency times period, of at most 1
 
 
 def across(up: Vector3) -> Matrix3:
@@ -67,8 +69,14 @@ def within_reach(testbed: Testbed) -> None:
         )
 
 
-def refuse_unless_below(testbed: Testbed, least: float, most: float) -> None:
-    """Raise InputError where a loop's frequencies (rad/s) leave no band between them."""
+def greatest_frequency(testbed: Testbed, least: float, share: float, period: float) -> float:
+    """Return the greatest frequency (rad/s) of a loop with w |r| / v up to ``share``.
+
+    InputError where the masses may not reach over the offset, or where that is below ``least``.
+    """
+    within_reach(testbed)
+    offset = max(likely_offset(testbed), 1e-12)
+    most = min(MOST, SAMPLED / period, share * greatest_slew(testbed) / offset)
     if least > most:
         raise InputError(
             testbed.name,
@@ -77,6 +85,7 @@ def refuse_unless_below(testbed: Testbed, least: float, most: float) -> None:
             f"{most:.2g} rad/s, for masses and samples: a coarse balance first, faster or heavier "
             "masses, or a firmer com_sd",
         )
+    return most
 
 
 def about_masses(testbed: Testbed) -> str:

@@ -34,6 +34,8 @@ from equipoise.model.torque_terms import GROUPS
 
 METHOD = "trajectory"
 LEAST, LEAST_SCALE = 1e-9, 1e-6  # m, -: no sd is smaller
+STEEP = 6.0  # chosen: of the sideways sd, so that the platform leans by ten degrees at most
+UNSURE = 2.0  # sds of the height that must still hang
 
 
 class Shown(NamedTuple):
@@ -53,6 +55,17 @@ def held(testbed: Testbed) -> tuple[str, ...]:
     return (*J, *of_group(testbed, "sag"), *of_group(testbed, "drift"))
 
 
+def hanging_shift(testbed: Testbed, least: float) -> tuple[float, float]:
+    """Return the depth (m) of a first swing, ``least`` or more, and the shift (m) along -up to it.
+
+    The depth keeps the lean by the likely sideways offset within ten degrees; the shift adds what
+    is uncertain of the height.
+    """
+    up, sd = testbed.up, testbed.com_sd
+    depth = max(STEEP * float(np.linalg.norm(sd - (sd @ up) * up)), least)
+    return depth, depth + UNSURE * float(abs(up @ sd)) + float(testbed.body.com @ up)
+
+
 def of_group(testbed: Testbed, group: str) -> tuple[str, ...]:
     """Return the torques of a group (``model.torque_terms``) that a testbed considers."""
     return tuple(term for term in testbed.disturbances if term in GROUPS[group])
@@ -66,6 +79,12 @@ def shows(estimate: Estimate) -> bool:
 def why_not_shown(estimate: Estimate) -> tuple[Reason, ...]:
     """Return why a measurement does not show the centre of mass."""
     return (*one_reason(LawReason.COM_NOT_SHOWN), *estimate.outcome.reasons)
+
+
+def drift_of(estimate: Estimate) -> Vector3:
+    """Return how fast the centre of mass drifts, m/s; com is that at the start of its record."""
+    names = GROUPS["drift"]
+    return np.array([float(estimate.values((n,))[0]) if estimate.has(n) else 0.0 for n in names])
 
 
 def shown(estimate: Estimate, shift: Vector3) -> Shown:

@@ -3,6 +3,7 @@
 import numpy as np
 from scipy.special import ndtr
 
+from equipoise.control.plant.swing_estimates import drift_of
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import NORMAL_95
 from equipoise.model.move import Move
@@ -44,9 +45,7 @@ def fresh_misfit(knowledge: Knowledge, since: float) -> float:
 
 def drift_since(knowledge: Knowledge, since: float) -> Vector3:
     """Return how far the centre of mass has drifted (m) since a time (s), as far as is known."""
-    names = ("drift_x", "drift_y", "drift_z")
-    rate = [knowledge.estimate.values((n,))[0] if knowledge.estimate.has(n) else 0.0 for n in names]
-    return (knowledge.recording.span[1] - since) * np.array(rate)
+    return (knowledge.recording.span[1] - since) * drift_of(knowledge.estimate)
 
 
 def verdict(
