@@ -10,11 +10,11 @@ from scipy.linalg import null_space
 from equipoise.actuators import cmg_steering as steering
 from equipoise.actuators.control_moment_gyros import (
     jacobian,
-    pyramid,
     rotor_momentum,
     singularity_measure,
     spin_axes,
 )
+from tests.support.gyro_pyramid import pyramid
 
 H0 = 2 / 3
 FOUR = pyramid(np.arccos(3**-0.5), H0, 1.0)

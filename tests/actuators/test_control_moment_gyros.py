@@ -14,7 +14,6 @@ from equipoise.actuators.control_moment_gyros import (
     gimbal_momentum,
     gyros_span,
     jacobian,
-    pyramid,
     rotor_momentum,
     singularity_measure,
     spin_axes,
@@ -22,6 +21,7 @@ from equipoise.actuators.control_moment_gyros import (
 from equipoise.actuators.sliding_masses import com_shift, inertia_shift
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.devices import ControlMomentGyro
+from tests.support.gyro_pyramid import pyramid
 
 SKEW = np.arccos(3**-0.5)  # 54.7 deg: the momentum reaches alike in all directions
 FOUR = pyramid(SKEW, 2 / 3, 1.0)

@@ -30,14 +30,9 @@ def on_platform(jets: Sequence[JetPair], about_axes: Floats) -> Floats:
     return about_axes @ axes_of(jets)
 
 
-def on_times(jets: Sequence[JetPair], impulses: Floats) -> Floats:
-    """Return how long the jets are on for such pulses (..., n) N m s, s."""
-    return abs(impulses) / np.array([jet.torque for jet in jets])
-
-
 def pulses_for(jets: Sequence[JetPair], wanted: Vector3) -> Pulses:
     """Return pulses for an impulse on the platform (N m s), and what is left over."""
     impulses = np.linalg.pinv(axes_of(jets).T) @ wanted
-    shortest = np.array([jet.min_pulse for jet in jets])
-    made = np.where(on_times(jets, impulses) >= shortest, impulses, 0.0)
+    on = abs(impulses) / np.array([jet.torque for jet in jets])
+    made = np.where(on >= np.array([jet.min_pulse for jet in jets]), impulses, 0.0)
     return Pulses(made, wanted - on_platform(jets, made))

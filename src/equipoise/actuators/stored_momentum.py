@@ -44,11 +44,6 @@ def reported(recording: Recording, devices: Sequence[Device]) -> Series:
     return recording.devices.values[:, [names.index(recorded_name(d)) for d in devices]]
 
 
-def slopes(t: Series1, values: Series) -> Series:
-    """Return the slopes (1/s) of columns at their rows, from the rows on both sides."""
-    return np.gradient(values, t, axis=0) if len(t) > 1 else np.zeros_like(values)
-
-
 def stored_momentum(recording: Recording, testbed: Testbed, gimbals: bool = True) -> Samples | None:
     """Return the momentum (n, 3) N m s of wheels and gyros; None where there are no such rows.
 
@@ -63,7 +58,8 @@ def stored_momentum(recording: Recording, testbed: Testbed, gimbals: bool = True
     if cmgs:
         angles = reported(recording, cmgs)
         h += rotor_momentum(cmgs, angles)
-        h += gimbal_momentum(cmgs, slopes(rows.t, angles)) if gimbals else 0.0
+        if gimbals and len(rows) > 1:
+            h += gimbal_momentum(cmgs, np.gradient(angles, rows.t, axis=0))
     return Samples(rows.t, h)
 
 

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.actuators.control_moment_gyros import pyramid
 from equipoise.control.law import Law, Sample
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.command import Command, Measurement
@@ -28,6 +27,7 @@ from equipoise.procedure.balancing.run_law import (
 )
 from equipoise.procedure.steps.sampler import opened, sample_of, sampled
 from equipoise.simulation.bench import SimulatedBench
+from tests.support.gyro_pyramid import pyramid
 
 EYE = np.eye(3)
 MASS, INERTIA = 10.0, np.diag([1.0, 2.0, 2.5])

@@ -157,16 +157,12 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     """Return the next state and what is wanted."""
     if isinstance(sample, Estimate):
         return trimmed(state, sample, params)
-    if tilt_of(sample, params.gains) > params.tilt_limit:
+    cosine = -params.gains.up @ sample.gravity / params.gains.gravity
+    if float(np.arccos(np.clip(cosine, -1.0, 1.0))) > params.tilt_limit:
         return state, Command(finished=one_reason(LawReason.TILTED))
     if state.phase == "follow":
         return follow(state, sample, params)
     return swing(state, sample, params)
-
-
-def tilt_of(sample: Sample, gains: Gains) -> float:
-    """Return the tilt, rad."""
-    return float(np.arccos(np.clip(-gains.up @ sample.gravity / gains.gravity, -1.0, 1.0)))
 
 
 def follow(state: State, sample: Sample, params: Params) -> tuple[State, Command]:

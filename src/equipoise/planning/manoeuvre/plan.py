@@ -120,16 +120,12 @@ def merit(search: Search, manoeuvre: Manoeuvre) -> float:
     return score(np.mean(each, axis=0), size, wish.criterion) + STIFF * beyond
 
 
-def silent(done: float) -> None:
-    """Hear how far a search is, and say nothing."""
-
-
 def planned(
     space: Space,
     wish: Wish,
     seed: int,
     trials: int = TRIALS,
-    on_progress: Callable[[float], None] = silent,
+    on_progress: Callable[[float], None] = lambda done: None,
 ) -> Manoeuvre:
     """Return the best manoeuvre found; ``on_progress`` hears what share of the search is done."""
     search = search_for(space, wish, seed)

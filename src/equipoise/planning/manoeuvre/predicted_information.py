@@ -122,7 +122,7 @@ def informed(problem: Problem, point: Unknowns, known: Known | None) -> Fitted:
 
 def prediction(fitted: Fitted, observed: Imagined, testbed: Testbed) -> Predicted:
     """Return what a fit at the truth says of itself, with the limits of its motion."""
-    problem: Problem = fitted.problem
+    problem, stored = fitted.problem, observed.recording.momentum
     held = problem.prior.held
     bound = bound_at(fitted, np.zeros_like(held) if problem.scale_open else held)
     return Predicted(
@@ -133,10 +133,5 @@ def prediction(fitted: Fitted, observed: Imagined, testbed: Testbed) -> Predicte
         bound.view.hidden,
         bound.view.unobservable,
         float(tilt(observed.motion.q, testbed.up).max()),
-        0.0 if observed.recording.momentum is None else largest(observed.recording.momentum.values),
+        0.0 if stored is None else float(np.linalg.norm(stored.values, axis=1).max()),
     )
-
-
-def largest(vectors: Floats) -> float:
-    """Return the length of the longest of vectors."""
-    return float(np.linalg.norm(vectors, axis=1).max())

@@ -71,16 +71,11 @@ def facet_directions(edges: Floats) -> Floats:
     rank = edges.shape[1]
     if rank < 2:
         return np.ones((rank, rank))
-    found = edges[:, ::-1] * [1.0, -1.0] if rank == 2 else crosses(edges)
-    size = np.linalg.norm(found, axis=1)
-    stands = size > FLAT * size.max()
-    return distinct(found[stands] / size[stands, None])
-
-
-def crosses(edges: Floats) -> Floats:
-    """Return the cross products of all pairs of vectors."""
     first, second = np.triu_indices(len(edges), 1)
-    return np.cross(edges[first], edges[second])
+    pairs = edges[:, ::-1] * [1.0, -1.0] if rank == 2 else np.cross(edges[first], edges[second])
+    size = np.linalg.norm(pairs, axis=1)
+    stands = size > FLAT * size.max()
+    return distinct(pairs[stands] / size[stands, None])
 
 
 def distinct(directions: Floats) -> Floats:
@@ -99,16 +94,11 @@ def contains(reach: Reach, shifts: Series3) -> Bools:
 
 def furthest(reach: Reach, direction: Vector3) -> float:
     """Return how far (m) the centre of mass can be shifted straight along a unit vector."""
-    if not on_span(reach, direction):
+    if np.linalg.norm(direction - reach.span @ (reach.span.T @ direction)) >= FLAT:
         return 0.0
     towards = reach.normals @ direction
     out = towards > FLAT
     return float(np.min(reach.heights[out] / towards[out]))
-
-
-def on_span(reach: Reach, direction: Vector3) -> bool:
-    """Say whether a unit vector lies among the directions that can be shifted along."""
-    return bool(np.linalg.norm(direction - reach.span @ (reach.span.T @ direction)) < FLAT)
 
 
 def tolerance(reach: Reach) -> float:

@@ -111,13 +111,10 @@ def changes(case: Case) -> Iterator[Change]:
     yield from surrounding_changes(case)
 
 
-def bettered(change: Change) -> Bettered:
-    """Return what is left after a change."""
-    found = budget_of(change.case)
-    return Bettered(change.name, change.line, found.torque, found.within)
-
-
 def what_to_buy(case: Case) -> tuple[Bettered, ...]:
     """Return all changes, the one that leaves least first; of equals the one with more reach."""
-    found = [bettered(change) for change in changes(case)]
+    found = list[Bettered]()
+    for change in changes(case):
+        budget = budget_of(change.case)
+        found.append(Bettered(change.name, change.line, budget.torque, budget.within))
     return tuple(sorted(found, key=lambda b: (b.torque, -b.within)))

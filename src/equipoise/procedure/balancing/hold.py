@@ -16,8 +16,7 @@ from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import INERTIA
-from equipoise.model.move import Move
-from equipoise.model.reasons.reason import Reason, axes_of, one_reason
+from equipoise.model.reasons.reason import axes_of, one_reason
 from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.step import Step
@@ -148,11 +147,6 @@ def timely(state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed)
     return not outlying or calming(state, shift, testbed)
 
 
-def pressing(com: Vector3, options: HoldOptions) -> bool:
-    """Say whether an offset is too near the tolerance to be kept waiting."""
-    return bool(np.any(np.abs(com - options.target) > PRESSING * options.tolerance))
-
-
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
     """Yield a move whenever one is made, and a verdict at the end."""
     testbed, end = bench.testbed, bench.time + options.duration
@@ -172,11 +166,13 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
         if goal is None:
             continue
         shift = shift_by(testbed, goal - displacement)
-        if pressing(com, options) or timely(state, com, shift, testbed):
+        pressing = np.any(np.abs(com - options.target) > PRESSING * options.tolerance)
+        if pressing or timely(state, com, shift, testbed):
             posterior = before_moving(state, testbed, displacement, goal)
             move = planned_move(testbed, displacement, goal, posterior, MoveReason.DRIFT)
             bench.move(move.targets)
-            yield Step("move", bench.time, drifted(move, com), fresh, move=move)
+            why = one_reason(move.reason, **axes_of("was", com), travel=move.travel)
+            yield Step("move", bench.time, why, fresh, move=move)
     last = standing(state, testbed, displacement)
     yield verdict_step(bench, options, last, worst, bench.time < end - 1e-9)
 
@@ -186,11 +182,6 @@ def without_drift(torque: Floats) -> Floats:
     kept = torque.copy()
     kept[-3:] = 0.0
     return kept
-
-
-def drifted(move: Move, com: Vector3) -> tuple[Reason, ...]:
-    """Return why a correction was made, and how large it was."""
-    return one_reason(move.reason, **axes_of("was", com), travel=move.travel)
 
 
 def verdict_step(

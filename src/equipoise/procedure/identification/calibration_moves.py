@@ -25,6 +25,7 @@ from equipoise.model.errors import InputError
 from equipoise.model.testbed import SlidingMass, Testbed
 
 COURSE = (0.5, 1.0, 0.0, -1.0, -0.5, 0.0)
+TURNS_OVER = math.pi / 3  # rad, chosen: the limit of a table that could turn over
 LEAN = 0.4  # of the tilt limit, chosen: twice that in the swing, and some for a rough guess
 HEIGHT = 0.5  # of the guessed depth of com below P, chosen: that is left at least
 DEPTH = 2.0  # of the same, chosen: that is reached at most, a period shorter by as much
@@ -66,7 +67,9 @@ def course_of(mass: SlidingMass, testbed: Testbed) -> list[float]:
     """Return the targets of one mass, m, in whole steps."""
     low, high = (share_of(mass, end, testbed) * end for end in mass.travel)
     ends = [high if share > 0 else -low for share in COURSE]
-    goals = [in_steps(share * end, mass) for share, end in zip(COURSE, ends, strict=True)]
+    goals = [share * end for share, end in zip(COURSE, ends, strict=True)]
+    if mass.resolution > 0:  # towards home
+        goals = [math.trunc(goal / mass.resolution) * mass.resolution for goal in goals]
     return [goal for k, goal in enumerate(goals) if goal != (goals[k - 1] if k else 0.0)]
 
 
@@ -81,15 +84,5 @@ def hangs(shift: Vector3, testbed: Testbed) -> bool:
     com, up = testbed.body.com + shift, testbed.up
     depth, before = -float(com @ up), -float(testbed.body.com @ up)
     aside = float(np.linalg.norm(com + depth * up))
-    leans = aside > math.tan(LEAN * lean_limit(testbed)) * depth
+    leans = aside > math.tan(LEAN * min(testbed.tilt_limit, TURNS_OVER)) * depth
     return HEIGHT * before <= depth <= DEPTH * before and not leans
-
-
-def lean_limit(testbed: Testbed) -> float:
-    """Return the tilt limit, or that of a table that could turn over, rad."""
-    return min(testbed.tilt_limit, math.pi / 3)
-
-
-def in_steps(goal: float, mass: SlidingMass) -> float:
-    """Return a target in whole steps, towards home."""
-    return goal if mass.resolution == 0 else math.trunc(goal / mass.resolution) * mass.resolution
