@@ -21,12 +21,12 @@ slower, by MARGIN A_s / A: the platform calms down first and is levelled then.
 (Bahu and Modenini 2020, and their note of 2022, in which coils damp and masses integrate; the split
 of the two is ours.)
 
-Coils give the part of tau across the field. That takes energy out at any rate, even cut short axis
-by axis, only if all of the rate is damped: with w across the vertical alone, as published, a field
-that leans spins the platform up about the vertical.
+Coils give the part of tau across the field. That takes energy out at any rate, even limited axis by
+axis, only if all of the rate is damped: with w across the vertical alone, as published, a tilted
+field spins the platform up about the vertical.
 
-Cannot see r along the vertical. Coils give torque across the field only: a swing about a horizontal
-field is not damped, and one about a leaning field in part.
+r along the vertical is unobservable. Coils give torque across the field only: a swing about a
+horizontal field is not damped, and one about a tilted field in part.
 """
 
 from typing import NamedTuple
@@ -41,7 +41,7 @@ SEPARATION = 0.2  # chosen: w_i of w_n, which is a seventh of where it is unsett
 
 
 class Plant(NamedTuple):
-    """What the loop has to deal with."""
+    """The platform and coils that the loop is designed for."""
 
     inertia: float  # kg m^2, the greatest about a horizontal axis
     weight: float  # N, m g
@@ -49,7 +49,7 @@ class Plant(NamedTuple):
 
 
 class Loop(NamedTuple):
-    """The gains, and what they were made for."""
+    """The gains, and the swing that they are for."""
 
     damping: float  # N m s, k_d
     integral: float  # m/s, k_i
@@ -73,10 +73,10 @@ def lean(gravity: Vector3, up: Vector3) -> Vector3:
 
 
 def creep(gravity: Vector3, up: Vector3, swing: float, loop: Loop) -> Vector3:
-    """Return the speed (m/s) of the shift that the tilt asks for in a swing of some rad."""
+    """Return the speed (m/s) of the shift for the present tilt, in a swing of some rad."""
     return loop.integral * min(1.0, loop.calm / max(swing, 1e-12)) * lean(gravity, up)
 
 
 def damping_torque(rate: Vector3, loop: Loop) -> Vector3:
-    """Return the torque on the platform (N m) that takes swing and spin out."""
+    """Return the torque on the platform (N m) that damps swing and spin."""
     return -loop.damping * rate

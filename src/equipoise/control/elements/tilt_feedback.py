@@ -1,26 +1,26 @@
 """Feedback to sliding masses that levels a platform and stops its swinging (Chesi 2014, step 1).
 
 Masses give torque across gravity only. With Phi = -m [g_b x], so that gravity's torque is Phi r,
-w_p the rate across gravity and rh what is believed of r (da Silva 2021 Eqs. 39-42 with errata
-R20-R23: the torques of gravity and of the masses, an adaptation gain gamma, |g|^2 and not |g|):
+w_p the rate across gravity and rh the estimate of r (da Silva 2021 Eqs. 39-42 with errata R20-R23:
+the torques of gravity and of the masses, an adaptation gain gamma, |g|^2 and not |g|):
 
     J w' + w x J w = Phi r + tau_c
     tau_c = -Phi rh - k_p w_p                      shift = (g_b x tau_c) / (m |g|^2)
     rh'   = gamma Phi^T w + gamma m w_i P_up g_b                P_up = E - up up^T
 
 As published w_i = 0. Then V = w J w / 2 + |r - rh|^2 / (2 gamma) has V' = -k_p |w_p|^2, and since
-g_b' = g_b x w, Phi^T w is m g_b': what is called an estimate is
+g_b' = g_b x w, Phi^T w is m g_b': the so-called estimate is
 
     rh(t) = rh(0) + gamma m (g_b(t) - g_b(0))
 
 a function of the present tilt and nothing else. Here rh takes the measured increments of g_b, so
 that this holds between samples, too, and nothing winds up however late the masses are. rh(0) is
-free. Printed as 0, it leaves |r_up| times the tilt at which the law happened to begin. With
+free. Printed as 0, it leaves |r_up| times the tilt at which the law began. With
 
-    rh(0) = believed + gamma m (g_b(0) + g up)
+    rh(0) = prior + gamma m (g_b(0) + g up)
 
-it ends as if it had begun level; the second term, X times the tilt, is ``owed`` and paid out no
-faster than masses follow. To first order about level, with tilt a = P_up g_b / g,
+it ends as if it had begun level; the second term, X times the tilt, is ``owed`` and added no faster
+than masses follow. To first order about level, with tilt a = P_up g_b / g,
 
     a'' = (m g / J) (r + shift) - w_z^2 a,    shift = -rh - (k_p / m g) a',    w_z^2 = -m g r_up / J
 
@@ -32,7 +32,7 @@ r - rh along g_b; with X = gamma m g = w_a^2 J / (m g)
     tilt   |r_xy| / (|r_up| + X)
     left   |r_xy| |r_up| / (|r_up| + X)            (R23: said to be nothing)
 
-With w_i > 0, rad/s, rh has an integral of the tilt, as rest is where rh' = 0, at a = 0: nothing is
+With w_i > 0, rad/s, rh has an integral of the tilt. Rest is where rh' = 0, at a = 0: no offset is
 left. The characteristic polynomial and Routh's condition are
 
     s^3 + 2 zeta w_a s^2 + (w_a^2 + w_z^2) s + w_i w_a^2
@@ -66,7 +66,7 @@ INTEGRAL = 0.25  # of w_a, chosen: w_i; 2 is the limit
 
 
 class Gains(NamedTuple):
-    """What the feedback is made of."""
+    """The gains, and the platform that they are for."""
 
     mass: float  # kg
     gravity: float  # m/s^2
@@ -95,7 +95,7 @@ def frequency_of(gains: Gains, testbed: Testbed) -> float:
 
 
 def owed(gains: Gains, gravity: Vector3) -> Vector3:
-    """Return what is to be added to rh (m), so that the law ends as if it had begun level."""
+    """Return the term of rh(0) (m) with which the law ends as if it had begun level."""
     return gains.gamma * gains.mass * (gravity + gains.gravity * gains.up)
 
 

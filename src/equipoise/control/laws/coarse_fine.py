@@ -75,7 +75,7 @@ class Params:
 class State:
     """The progress of the law."""
 
-    shift: Vector3  # m, asked for
+    shift: Vector3  # m, requested
     stand: Stand = UNREPORTED
     measurements: tuple[Shown, ...] = ()
     missed: int = 0  # measurements that showed nothing

@@ -9,7 +9,7 @@ Published with one H_s for all momentum. But momentum that passes between platfo
 not change their sum: it is J w alone that -h' can steer, and J w + h that turns with the body. So,
 with e = J w - H_d,
 
-    -h' = w x (J w + h) - K e + H_d' - m r* x g_b        the torque asked for, K > 0
+    -h' = w x (J w + h) - K e + H_d' - m r* x g_b        the requested torque, K > 0
     s'  = Gamma m [g_b x]^T e = -Gamma m g_b x e
     e'  = -K e - m [g_b x] (r + s - r*)
     V   = |e|^2 / 2 + |r + s - r*|^2 / (2 Gamma),        V' = -K |e|^2
@@ -19,24 +19,24 @@ and H_d = 0, s = s(0) - Gamma m j (g_b - g_b(0)): a function of the tilt, and no
 keep that identity exactly, as s takes j times the measured increment of g_b, j being a third of
 tr J, and the trapezoid rule of the rest.
 
-What is along gravity is not seen. With H_d = 0 the platform may come to rest with r + s along g_b,
-its momentum kept and it not balanced. H_d is therefore made to lead gravity round a cone
+The part along gravity is unobservable. With H_d = 0 the platform may come to rest with r + s along
+g_b, its momentum constant and the platform unbalanced. H_d therefore leads gravity round a cone
 (``sweep``), of half-angle A and speed W. The part along up then fades at about
 
     A^2 w_a^2 K W^2 / ((w_a^2 - W^2)^2 + K^2 W^2)
 
-and how much has been seen of the worst direction is the least eigenvalue of int (E - n n^T) dt,
-n = g_b / g. The law has finished when that is ENOUGH times the time constant, and says so when it
-stops with less. A wrong J turns with the cone just as a wrong height does: r_up ends off by
--dJ W^2 / (m g), so W is chosen from the testbed's inertia_sd. What turns with the cone is asked for
-as it will be in the middle of the period for which the torque stands.
+and the excitation of the worst direction is the least eigenvalue of int (E - n n^T) dt, where n is
+g_b / g. The law has finished when that is ENOUGH times the time constant, and reports when it stops
+with less. The effect of a wrong J turns with the cone just as that of a wrong height: r_up ends off by
+-dJ W^2 / (m g), so W is chosen from the testbed's inertia_sd. Terms that turn with the cone are
+computed for the middle of the period for which the torque is held.
 
 The trajectory is chosen from the tilt limit and from the momentum that wheels have left: they carry
 m g |r| 2 zeta / w_a for ever, and J A W + m g |r_up| A / W round the cone. Their torque holds r at
 first, and the cone, J A W^2 + m g |r_up| A, once the masses have met r.
 
-Anti-windup: s never leads what masses report by more than ``lead``, and stands still while the
-torque that was measured is not the one that was asked for.
+Anti-windup: s never leads the reported shift by more than ``lead``, and does not change while the
+measured torque differs from the requested one.
 """
 
 from dataclasses import dataclass
@@ -79,7 +79,7 @@ HOLD = 0.3  # of w_a, chosen
 SPARE = 0.8  # chosen: of momentum and torque, what is used
 SHARE = 0.5  # chosen: of a pyramid of gyros, what singular directions leave
 LEAD = 3.0  # periods of travel, chosen: by which masses may be behind
-SHORT = 0.1  # of the devices' torque, chosen: a torque that far from the one asked for is another
+SHORT = 0.1  # of the devices' torque, chosen: a greater difference counts as another torque
 ENOUGH = 7.0  # time constants, chosen: a thousandth is left
 QUIET = 30.0  # time constants, chosen: after which a law that sweeps nothing has ended
 
@@ -102,14 +102,14 @@ class Params:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """Where the law stands."""
+    """The progress of the law."""
 
     shift: Vector3  # m, s
     observed: Matrix3  # s, int (E - n n^T) dt
     start: float | None = None  # s
     gravity: Vector3 | None = None  # m/s^2, at the last step
     rest: Vector3 | None = None  # N m s, e - j w at the last step
-    torque: Vector3 | None = None  # N m, asked for at the last step
+    torque: Vector3 | None = None  # N m, requested at the last step
 
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
@@ -142,7 +142,7 @@ def frequency_for(testbed: Testbed, wish: float) -> float:
 
 
 def spare(testbed: Testbed) -> Capacity:
-    """Return the torque and momentum that can be counted on."""
+    """Return the usable torque and momentum."""
     most = capacity(testbed)
     share = SPARE * (SHARE if testbed.cmgs else 1.0)
     stored = sum(abs(wheel.inertia * wheel.speed) for wheel in testbed.wheels)
@@ -173,8 +173,8 @@ def cone_for(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
-    """Return the next state and what is wanted."""
-    assert isinstance(sample, Sample)  # it asks for no look
+    """Return the next state and the command."""
+    assert isinstance(sample, Sample)  # it requests no measurement
     start = sample.t if state.start is None else state.start
     down = sample.gravity / float(np.linalg.norm(sample.gravity))
     if -params.sweep.axes[:, 2] @ down < np.cos(params.tilt_limit):
@@ -193,7 +193,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 
 
 def steering(params: Params, sample: Sample, past: float, want: Wanted) -> Vector3:
-    """Return H_d' - m r* x g_b (N m) in the middle of the period for which a torque is asked."""
+    """Return H_d' - m r* x g_b (N m) in the middle of the period for which a torque is held."""
     half = params.period / 2
     gravity = sample.gravity + half * np.cross(sample.gravity, sample.rate)
     rate = sample.rate + half * want.slope
@@ -243,7 +243,7 @@ LAW = Law(
         "Wheels or gyros lead gravity round a cone, and masses move until no torque is missing.",
         "Kim & Agrawal 2009; da Silva 2021 section 4.2 with erratum R24",
         ("masses", "momentum", "gyro", "attitude"),
-        "what is along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
+        "the part along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
         "dJ (20 um for one inertia_sd)",
         "w_a T up to 0.1, w_a |r| / v up to 1; the torque of |r| sideways, and its momentum in "
         "2 zeta / w_a, within the devices'. It is as slow as they are weak: an hour at 14 kg, "

@@ -1,27 +1,27 @@
-"""Wheel momentum build-up: hold tilted attitudes and read r from what the wheels take up.
+"""Wheel momentum build-up: hold tilted attitudes and estimate r from the wheels' momentum.
 
     L' = R (m r x g_B) + ...,     L = R (J w + h)
 
-Wheels hold the platform at one tilted attitude after another, and what gravity puts in is on their
-speed. All samples enter one account (``momentum_ledger``): r, sag and drift come out together, with
-their covariance. Inertia is not needed. The course:
+Wheels hold the platform at one tilted attitude after another, and their speed shows the momentum
+that gravity adds. All samples enter one filter (``momentum_balance``), which estimates r, sag and
+drift together, with their covariance. Inertia is not needed. The sequence:
 
     catch    level, then a small tilt; every second the masses follow the estimate
-    holds    opposite pairs of tilts, so that what r_z puts in is taken out again; before each, the
-             masses go to the goal when what is known of it is worth more than a move's error
-    last     the masses go to the goal as it is known by then
+    holds    opposite pairs of tilts, so that the momentum which r_z adds is taken out again; before
+             each, the masses go to the goal when its sd is below the error of a move
+    last     the masses go to the goal as then estimated
 
-The goal is the target and, on a platform that sags, the height that trims it (``sag_trim``) above
-it: the torque left within RANGE of level is then the least that masses standing still leave. When
-the law has ended, masses can follow the tilt by the sag that was found, and leave less
-(``control.follow``). In the catch, and when wheels have
-filled to FULL until they are EMPTY, masses are set off the goal so that gravity takes the
-horizontal momentum out again, no further than is soon travelled:
+The goal is the target and, on a platform that sags, the height above it that trims the sag
+(``sag_trim``): the residual torque within RANGE of level is then the least for masses that stand
+still. When the law has ended, masses can follow the tilt by the estimated sag, and leave less
+(``control.laws.follow``). In the catch, and when wheels have filled to FULL until they are EMPTY,
+masses are set off the goal so that gravity takes the horizontal momentum out again, no further than
+is soon travelled:
 
     shift = goal - r + g_B x (R^T tau) / (m g^2),    tau = -UNLOAD L
 
-The seconds of a hold are the fewest of CHOICES for which the covariance foreseen leaves the goal
-known to WANTED within LONGEST; else the most that fit into it.
+The seconds of a hold are the fewest of CHOICES for which the predicted sd of the goal is WANTED or
+less within LONGEST; else the most that fit into it.
 
 (Hatcher and Young 1968 with wheels for jets; the trim is that of ``dynamics.sag_trim``.)
 """
@@ -72,7 +72,7 @@ from equipoise.model.reasons.reason import Reason, axes_of, one_reason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.1  # s
-RANGE = float(np.radians(20))  # rad, chosen: over which the torque that is left counts
+RANGE = float(np.radians(20))  # rad, chosen: over which the residual torque counts
 SHARE = 0.7  # of the tilt limit, chosen: the most that is held
 CHOICES = (10.0, 14.0, 20.0, 28.0, 40.0)  # s of a hold
 WANTED = 0.03e-6  # m, chosen: one sd of the goal per axis
@@ -92,13 +92,13 @@ SETTLED = 1.0  # s, chosen: masses that then stand have arrived
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What is told."""
+    """What does not change while it runs."""
 
     book: Book
     gains: Gains
     testbed: Testbed
     target: Vector3  # m
-    trim: Floats  # (3, k) what each torque term asks of the goal
+    trim: Floats  # (3, k) change of the goal by each torque term
     stages: tuple[Stage, ...]
     pace: Pace
     momentum: float  # N m s, that wheels can take
@@ -107,7 +107,7 @@ class Params:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """How far it has come."""
+    """The progress of the law."""
 
     ledger: Ledger | None = None
     pid: Pid = field(default_factory=unwound)
@@ -115,7 +115,7 @@ class State:
     turn: Slew | None = None
     stage: int = 0
     due: float = 0.0  # s, when this stage ends
-    shift: Vector3 | None = None  # m, last asked for
+    shift: Vector3 | None = None  # m, last requested
     followed: float = -np.inf  # s, when the masses last followed
     unloading: bool = False
     again: bool = False  # the last pair of holds is taken a second time
@@ -140,7 +140,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 
 
 def planned(testbed: Testbed, book: Book, trim: Floats, pace: Pace) -> tuple[Stage, ...]:
-    """Return the stages with the seconds of a hold that the covariance foreseen asks for."""
+    """Return the stages with the seconds of a hold that the predicted covariance requires."""
     tilt = min(RANGE, SHARE * testbed.tilt_limit)
     best = stages_of(testbed.up, tilt, CHOICES[0])
     for hold in CHOICES:
@@ -158,14 +158,14 @@ def planned(testbed: Testbed, book: Book, trim: Floats, pace: Pace) -> tuple[Sta
 def off_goal(
     ledger: Ledger, shift: Vector3, trim: Floats, book: Book, ahead: float = AHEAD
 ) -> tuple[Vector3, Matrix3]:
-    """Return how far the centre of mass is from what trims the platform, and the covariance."""
+    """Return the offset of the centre of mass from the one that trims, and its covariance."""
     G = com_map(ledger, book, ahead)
     G[:, TERM:] -= trim
     return G @ ledger.x + shift, G @ ledger.P @ G.T
 
 
 def unloading(ledger: Ledger, sample: Sample, params: Params) -> Vector3:
-    """Return how far (m) off the goal gravity takes the horizontal momentum out."""
+    """Return the offset (m) from the goal by which gravity takes the horizontal momentum out."""
     outward = -UNLOAD * np.array([ledger.x[0], ledger.x[1], 0.0])
     g = sample.gravity
     off = np.cross(g, to_matrix(sample.q).T @ outward) / (params.book.mass * (g @ g))
@@ -174,7 +174,7 @@ def unloading(ledger: Ledger, sample: Sample, params: Params) -> Vector3:
 
 
 def weight_moment(ledger: Ledger, sample: Sample, params: Params) -> Vector3:
-    """Return m (r + s + C n) as believed, kg m, for the feed-forward."""
+    """Return the estimated m (r + s + C n), kg m, for the feed-forward."""
     book = params.book
     down = sample.gravity / float(np.linalg.norm(sample.gravity))
     com = com_map(ledger, book) @ ledger.x
@@ -188,7 +188,7 @@ def home_to_goal(ledger: Ledger, params: Params) -> tuple[Vector3, Matrix3]:
 
 
 def shift_for(state: State, sample: Sample, params: Params) -> State:
-    """Return the state with the shift that this step asks for."""
+    """Return the state with the shift that this step requests."""
     assert state.ledger is not None
     follows = state.unloading or params.stages[state.stage].follows
     if not follows or sample.t < state.followed + FOLLOW:
@@ -217,7 +217,7 @@ def retrimmed(
 def guarded(state: State, sample: Sample, params: Params) -> State:
     """Return the state with the unloading begun, gone on with, or ended; the hold waits for it.
 
-    What a turn borrows of the wheels' momentum comes back by itself and does not count.
+    Momentum that the wheels give to a turn comes back by itself and does not count.
     """
     assert state.ledger is not None
     size = float(np.linalg.norm(state.ledger.x[:2])) / params.momentum
@@ -251,11 +251,11 @@ def advanced(state: State, sample: Sample, params: Params) -> State:
 
 
 def closed(state: State, sample: Sample, params: Params) -> State:
-    """Return the state with the last move asked for, or the last pair of holds taken once more.
+    """Return the state with the last move requested, or the last pair of holds repeated.
 
-    That is when the goal is left in more doubt than is wanted, or would be by the move: masses of
-    coarse steps stop where they will, now or when wheels were unloaded late. After it only fine
-    ones have to move.
+    They are repeated when the sd of the goal is above CLEAR, or would be by the move: coarse masses
+    stop with an error, now or when wheels were unloaded late. After the repetition only fine ones
+    have to move.
     """
     moved = retrimmed(state, sample, params, 0.0)
     assert moved.shift is not None
@@ -268,7 +268,7 @@ def closed(state: State, sample: Sample, params: Params) -> State:
 
 
 def homeward(state: State, sample: Sample, params: Params) -> State:
-    """Return the state on its way back to level, where a swing proves most; sag is least there."""
+    """Return the state on its way back to level, where a proof swing has the least sag."""
     assert state.turn is not None
     assert state.level is not None
     way = slew(reference_at(state.turn, np.inf).q, state.level, sample.t, params.pace)
@@ -284,7 +284,7 @@ def ended(state: State, sample: Sample) -> bool:
 
 
 def following(ledger: Ledger, params: Params) -> Following:
-    """Return what masses can follow from now on: the sag, and the drift."""
+    """Return the sag and the drift that masses can follow from now on."""
     book = params.book
     off, _ = off_goal(ledger, -params.target, params.trim, book, 0.0)
     sag, trim = sag_of(ledger, book), params.trim @ ledger.x[TERM:]
@@ -300,7 +300,7 @@ def report(ledger: Ledger, shift: Vector3, params: Params) -> tuple[Reason, ...]
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and the command: torque at every step, masses when they should move."""
-    assert isinstance(sample, Sample)  # no look is ever asked for
+    assert isinstance(sample, Sample)  # it requests no measurement
     ledger = state.ledger
     ledger = opened(params.testbed, params.book, sample) if ledger is None else entered(
         ledger, sample, params.book)  # fmt: skip
@@ -321,11 +321,11 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 LAW = Law(
     LawCard(
         "momentum_buildup",
-        "Holds tilted attitudes by wheels and reads the centre of mass, sag and drift from what "
-        "they take up.",
+        "Holds tilted attitudes by wheels and estimates the centre of mass, sag and drift from "
+        "their momentum.",
         "Equipoise; Hatcher and Young 1968 with wheels for jets",
         ("masses", "momentum", "gyro", "attitude"),
-        "what no centre of mass trims of the sag, 12 uN m rms within 20 deg for 25 um, and drift "
+        "the sag that no centre of mass trims, 12 uN m rms within 20 deg for 25 um, and drift "
         "after the last move, unless masses follow both; momentum about the vertical. A torque of "
         "the air that keeps its sign for minutes is taken for an offset",
         "steps of 0.1 s; offsets whose weight is twice what the wheels can turn against, 75 um at "

@@ -2,28 +2,28 @@
 
     follow   the tilt feedback levels the platform: across gravity it is balanced, nearly
     push     the masses go aside for a second, and back: the platform swings
-    look     masses still; the swing is recorded and the centre of mass estimated from it
-    trim     the masses move along up by what the look says is missing; then again from the start;
-             the last time they level only, and the platform rests
+    measure  masses still; the swing is recorded and the centre of mass estimated from it
+    trim     the masses move along up by the height error of that estimate; then again from the
+             start; the last time they level only, and the platform rests
 
 The push moves the centre of mass by d for PUSH seconds, so that the platform turns at
 
-    w = m g d PUSH / J = SWING tilt_limit / LOOK
+    w = m g d PUSH / J = SWING tilt_limit / MEASURED
 
-and gets at most about SWING of the way to its limit during the look. Before the first step the
-centre of mass is lowered by twice its sd, so that the platform does not stand on its head when the
-masses hold still; so a look ends near where it began, or swings.
+and gets at most about SWING of the way to its limit during the measurement. Before the first step
+the centre of mass is lowered by twice its sd. The platform is then no inverted pendulum while the
+masses hold still, and ends a measurement near where it began, or swings.
 
-Every round begins anew with what the masses report: rh(0) = -shift across up. Published rounds add
-nothing to one another but the smaller height; begun so, each leaves |r_up| / (|r_up| + X) of what
-the last one left. Rounds end when the look finds no more than a motor step, or no gain.
+Every round begins anew with the reported shift: rh(0) = -shift across up. Published rounds gain
+from one another only by the smaller height; begun so, each leaves |r_up| / (|r_up| + X) of the
+offset of the last one. Rounds end when the measurement finds no more than a motor step, or no gain.
 
-From the look only the height is used. The method is ``ukf_4`` (rate and r_up) when com across up
-is known to ACROSS beforehand: it takes that from the testbed, and knows nothing of what the masses
-did about it in the first step. Else it is ``trajectory`` with the testbed's inertia and its sd,
-which finds all of com. The record begins with the push: a known change, by which the scale of J is
-seen. A J that is wrong yet makes r_up wrong by the same share, and the next round takes that away
-but for the share of the target's own depth.
+Only the height of the estimate is used. The method is ``ukf_4`` (rate and r_up) when the prior sd
+of com across up is ACROSS or less: it takes com across up from the testbed and ignores the shift of
+the first step. Else it is ``trajectory`` with the testbed's inertia and its sd, which estimates all
+of com. The record begins with the push: a known change, which determines the scale of J. A
+remaining error of J makes r_up wrong by the same share, and the next round removes that but for the
+share of the target's own depth.
 """
 
 from dataclasses import dataclass, replace
@@ -70,7 +70,7 @@ PUSH = 1.0  # s
 BACK = 10.0  # s, chosen: masses that are not back by then stand still
 MEASURED = 20.0  # s
 SWING = 0.4  # of the tilt limit, chosen
-ACROSS = 2e-6  # m, chosen: com_sd across up at which ukf_4 may be believed
+ACROSS = 2e-6  # m, chosen: com_sd across up at which ukf_4 is used
 LATE = 2.0  # motor steps, chosen: masses farther than that from where they should be are late
 NEAR = 1e-6  # m, chosen: masses without steps are not late when they are as near as that
 GAIN = 0.8  # chosen: a round that leaves more than that of the one before is no gain
@@ -89,7 +89,7 @@ class Params:
     push: float  # m, by which the masses go aside
     follow: int  # steps until the platform rests
     tolerance: float  # m, what a motor step leaves
-    late: float  # m, off what was asked: the masses are on their way
+    late: float  # m, off the request: the masses are on their way
     pay: float  # m, of what is owed, in a step
     target: float  # m, along up
     tilt_limit: float  # rad
@@ -98,25 +98,25 @@ class Params:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """Where the law stands."""
+    """The progress of the law."""
 
-    held: Vector3  # m, rh; of a round that begins, what is believed
+    held: Vector3  # m, rh; of a round that begins, the prior
     height: float  # m, shift along up
     gravity: Vector3 | None = None  # m/s^2, at the last step; None: a round begins
     owed: Vector3 | None = None  # m, what rh has yet to get for the tilt at which the round began
     phase: Phase = "follow"
     step: int = 0  # of the phase
     requested: Vector3 | None = None  # m, shift at the last step
-    rest: Vector3 | None = None  # m, sum of shifts asked in the last second of a follow
+    rest: Vector3 | None = None  # m, sum of shifts requested in the last second of a follow
     level: Vector3 | None = None  # sum of P_up g_b / g then
     since: float = 0.0  # s, when the push began
-    rounds: int = 0  # looks made
-    left: float = np.inf  # m, what the last look found
+    rounds: int = 0  # measurements made
+    left: float = np.inf  # m, the offset that the last measurement found
     ending: tuple[Reason, ...] = ()  # why this follow is the last
 
 
 def method_for(testbed: Testbed) -> Measurement:
-    """Return the look that this testbed allows; InputError if there is none."""
+    """Return the measurement that this testbed allows; InputError if there is none."""
     spread = across(testbed.up) @ testbed.com_sd
     if testbed.attitude is None or testbed.gyro is None:
         raise InputError(testbed.name, "no gyro, or no attitude sensor", "both")
@@ -154,7 +154,7 @@ def push_for(testbed: Testbed) -> float:
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
-    """Return the next state and what is wanted."""
+    """Return the next state and the command."""
     if isinstance(sample, Estimate):
         return trimmed(state, sample, params)
     cosine = -params.gains.up @ sample.gravity / params.gains.gravity
@@ -208,7 +208,7 @@ def added(total: Vector3 | None, vector: Vector3) -> Vector3:
 
 
 def swing(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
-    """Push, come back, and look."""
+    """Push, come back, and measure."""
     assert state.rest is not None
     count = state.step + 1
     if state.phase == "push":
@@ -225,7 +225,7 @@ def swing(state: State, sample: Sample, params: Params) -> tuple[State, Command]
 
 
 def trimmed(state: State, estimate: Estimate, params: Params) -> tuple[State, Command]:
-    """Move along up by what the look says is missing, or finish."""
+    """Move along up by the height error that was measured, or finish."""
     assert state.rest is not None
     assert state.level is not None
     rounds = state.rounds + 1
@@ -249,7 +249,7 @@ def trimmed(state: State, estimate: Estimate, params: Params) -> tuple[State, Co
 
 
 def height_in(estimate: Estimate, up: Vector3) -> float:
-    """Return the centre of mass along up (m), masses at home; some methods tell no more."""
+    """Return the centre of mass along up (m), masses at home; some methods estimate no more."""
     if all(estimate.has(name) for name in COM):
         return float(up @ estimate.com)
     k = int(np.argmax(np.abs(up)))

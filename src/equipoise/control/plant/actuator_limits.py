@@ -1,4 +1,4 @@
-"""What masses can reach, how fast, and how late fine ones are.
+"""How far masses shift the centre of mass, how fast, and how late fine ones are.
 
 The shifts that masses m_i on rails u_i can give are a zonotope, the sum of their rails. The
 largest ball about its centre touches a face, whose normal n is that of two rails:
