@@ -18,7 +18,8 @@ x carries the gimbal's (gimbal_inertia x' g), the others the inertia. Where
 ``gimbal_maps`` are given, stored momentum is the rotors' alone. The coordinates are straight lines
 between nodes: these must be close to one another while a gimbal turns.
 
-Cannot see gimbals whose centre of mass is off their axis, or whose products of inertia matter.
+Gimbals whose centre of mass is off their axis, or whose products of inertia matter, are not
+modelled.
 """
 
 from collections.abc import Sequence

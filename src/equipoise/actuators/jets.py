@@ -5,7 +5,7 @@
 p = A^+ wanted, the least that give it. A pulse shorter than the jet's least time on is not made:
 none is made longer than it should be. What is left over is returned, to be asked for again with
 what comes next; it stays below the sum of the least pulses, and what lies outside the span of the
-axes is left over for good. Lags are not seen.
+axes is left over for good. Lags are not modelled.
 """
 
 from collections.abc import Sequence
@@ -19,14 +19,14 @@ from equipoise.model.devices import JetPair
 
 
 class Pulses(NamedTuple):
-    """What jets are given, and what they do not do of it."""
+    """The pulses of jets, and the impulse that they do not deliver."""
 
     impulses: Floats  # (n,) N m s, about each axis
     left: Vector3  # N m s, of what was wanted, body axes
 
 
 def on_platform(jets: Sequence[JetPair], about_axes: Floats) -> Floats:
-    """Return what the platform gets (..., 3) of impulses N m s, or torques N m, (..., n)."""
+    """Return impulse or torque on the platform (..., 3) of those about the axes (..., n)."""
     return about_axes @ axes_of(jets)
 
 

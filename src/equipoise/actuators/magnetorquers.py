@@ -3,10 +3,10 @@
     torque = (sum d_i a_i) x B
     wanted -> m = (B x wanted) / |B|^2,  torque = wanted - B (B . wanted) / |B|^2
 
-Torque along B cannot be made, whatever the coils: that part of what is wanted is lost, and told by
-what is delivered. The dipoles are the least that come nearest to the torque: for coils along all
-directions they sum up to m, for fewer to what they can do of it. Beyond a coil's dipole all are
-scaled alike. Without a field there is no torque, and no dipole. Lags are not seen.
+Torque along B cannot be made, whatever the coils: that part of the wanted torque is lost, and
+missing in the delivered one. The dipoles are the least that come nearest to the torque: for coils
+along all directions they sum up to m, for fewer to its part in their span. Beyond a coil's dipole
+all are scaled alike. Without a field there is no torque, and no dipole. Lags are not modelled.
 """
 
 from collections.abc import Sequence

@@ -88,7 +88,7 @@ def tiers_of(quanta: Floats) -> Ints:
 
 
 def rails_of(masses: Sequence[SlidingMass], total_mass: float) -> Rails:
-    """Return what the allocation needs to know of these masses, in their order."""
+    """Return the rails of these masses, in their order."""
     resolution = np.array([m.resolution for m in masses])
     whole, step = resolution > 0, np.where(resolution > 0, resolution, FREE_STEP)
     low, high = np.array([m.travel for m in masses]).T / step

@@ -8,7 +8,8 @@ and c alike of height h on each other from a height l on, along u from the foot 
 
     sum z = c l + h c^2 / 2,    sum z^2 = c l^2 + l h c^2 + h^2 (c^3 / 3 - c / 12)
 
-What is handled is known to its mass, a pile to where it stands, with a, b the grid's axes:
+Weights that are handled have an uncertain mass, piles an uncertain place; with a, b the grid's
+axes:
 
     cov(mu) = sum over weights handled  sd_m^2 x x^T
             + sum over piles changed    (change of mass)^2 sd^2 (a a^T + b b^T)

@@ -9,7 +9,8 @@ no rate of the platform appears.) Torques stay within each drive's, and so small
 passes its greatest speed before the next step; all are scaled alike, so that the torque keeps its
 direction. A wheel at its limit that would have to go on stops them all.
 
-Axes that do not span all directions give what of the torque lies in their span. Lags are not seen.
+Axes that do not span all directions give the part of the torque in their span. Lags are not
+modelled.
 """
 
 from collections.abc import Sequence

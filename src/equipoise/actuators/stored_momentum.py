@@ -1,18 +1,18 @@
-"""What devices did to a platform, from what they reported: never from what they were told.
+"""Momentum and torque of devices on a platform, from their reports: never from commands.
 
     h(t)   = sum I_i n_i a_i + sum momentum_j s_j(x_j) + gimbal_inertia_j x_j' g_j
     tau(t) = (sum d_k a_k) x B(t) + sum T_l a_l
 
 with speeds n of tachometers, angles x of encoders, dipoles d and jets' torques T from the recorded
 columns. (In a singularity of the gyros, or at a limit, the torque commanded is not that applied:
-Lee et al., section V.) This is the known side of the equations that identify the platform.
+Lee et al., section V.) They are the known side of the equations that identify the platform.
 
 Rates of gimbals are differences of angles over the neighbouring rows, of second order in their
 spacing; noise of an encoder comes through as gimbal_inertia noise / spacing. The field is the
 magnetometer's, or the testbed's, turned into body axes by the measured attitude at the rows'
-stamps: pass attitudes stamped when the camera looked.
+stamps: pass attitudes stamped at their exposure.
 
-Cannot see pulses of jets between two rows: a row within each is needed.
+Pulses of jets between two rows are lost: a row within each is needed.
 """
 
 from collections.abc import Sequence

@@ -27,8 +27,8 @@ g_b, its momentum constant and the platform unbalanced. H_d therefore leads grav
 
 and the excitation of the worst direction is the least eigenvalue of int (E - n n^T) dt, where n is
 g_b / g. The law has finished when that is ENOUGH times the time constant, and reports when it stops
-with less. The effect of a wrong J turns with the cone just as that of a wrong height: r_up ends off by
--dJ W^2 / (m g), so W is chosen from the testbed's inertia_sd. Terms that turn with the cone are
+with less. The effect of a wrong J turns with the cone just as that of a wrong height: r_up ends off
+by -dJ W^2 / (m g), so W is chosen from the testbed's inertia_sd. Terms that turn with the cone are
 computed for the middle of the period for which the torque is held.
 
 The trajectory is chosen from the tilt limit and from the momentum that wheels have left: they carry

@@ -1,7 +1,7 @@
 """The torque and momentum that wheels and gyros can give in every direction.
 
-A set of boxes along axes a_k reaches sum_k |a_k.d| b_k in direction d. The least over d is available
-in every direction:
+A set of boxes along axes a_k reaches sum_k |a_k.d| b_k in direction d. The least over d is
+available in every direction:
 
     wheel    a_k its axis,             b_k greatest torque, and inertia times greatest speed
     gyro     a_k = g x s at angle 0,   b_k momentum times greatest rate

@@ -1,8 +1,8 @@
-"""Balance: look, move, look, until the verdict passes or there is a reason to stop.
+"""Balance: measure, move, measure, until the verdict passes or there is a reason to stop.
 
-One fit runs through the whole record, moves included, so that every look adds to the last. A move
-is made when the centre of mass is known well enough for it to help, or when waiting would let the
-platform tilt too far. (Ivanov 2021 section 5 moves every 25 s; this moves when it pays.)
+One fit uses the whole record, moves included, so that every measurement adds to the last. A move is
+made when the estimate is precise enough for it to help, or when waiting would let the platform tilt
+too far. (Ivanov 2021 section 5 moves every 25 s; this moves when it pays.)
 """
 
 from collections.abc import Generator
@@ -49,10 +49,10 @@ INFORMED = 0.3  # of the offset: a sideways sd at which the direction of a move 
 FIRM = 0.99  # probability of being within tolerance at which to leave a move unused
 SPENT = 0.97  # the same with no move left, or no time for one
 TRIM = 0.3  # of the tolerance: an offset that the last move, when its time comes, is spent on
-LATEST = 0.97  # of the time, less the look after: when the last move is made at the latest
+LATEST = 0.97  # of the time, less SETTLE: when the last move is made at the latest
 LAST = 0.25  # of the tolerance: the same for the last move
-HELPS = 0.9  # of the tilt that is ahead, chosen: what a move against tilting must bring it to
-SETTLE = 20.0  # s to keep for the look after the last move
+HELPS = 0.9  # of the predicted tilt, chosen: that a move against tilting must reach
+SETTLE = 20.0  # s to keep for the measurement after the last move
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,8 +70,8 @@ def balance(
 ) -> Generator[Step, None, Knowledge]:
     """Yield Steps; the last is a verification, or a stop that says why, with a verdict.
 
-    What this bench has recorded ``before`` counts with what is seen from now on. What is known in
-    the end is the generator's return value.
+    The record that this bench made ``before`` counts with what is recorded from now on. The
+    generator returns the final knowledge.
     """
     began = bench.time
     fresh = bench.read(FIRST_MEASUREMENT)
@@ -133,7 +133,7 @@ def reason_to_stop(
 def decide(
     bench: Bench, progress: Progress, options: BalanceOptions, began: float
 ) -> Option | None:
-    """Return a move to make now, or None to look on."""
+    """Return a move to make now, or None to go on measuring."""
     left = options.max_moves - len(progress.moves)
     knowledge, testbed = progress.knowledge, bench.testbed
     if left == 0 or not testbed.masses:
@@ -156,10 +156,11 @@ def decide(
 def worth_learning(
     knowledge: Knowledge, testbed: Testbed, left: int, options: BalanceOptions
 ) -> bool:
-    """Say whether to go below the target: at first, and again while its height is not known.
+    """Say whether to go below the target: at first, and again while the height is uncertain.
 
-    The masses stop as far off in a long move as in a short one, so long ones tell the scale best.
-    The last move is the way back: from where it is low already, a last one to trim is worth more.
+    The masses stop with the same error in a long move as in a short one, so long moves determine
+    the scale best. The last move is the way back; when the platform is low already, it is kept for
+    the trim.
     """
     up, first = testbed.up, left == options.max_moves
     low = float((knowledge.com - options.target) @ up) < -NOTABLE
@@ -170,8 +171,8 @@ def worth_learning(
 def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:
     """Return a place (m) well below both the target and the present centre of mass.
 
-    It makes the platform stiffer, and the known changes on the way there and back are what the
-    scale of inertia and centre of mass is learnt from.
+    It makes the platform stiffer, and the known changes on the way there and back determine the
+    scale of inertia and centre of mass.
     """
     depth = max(DOWN, DEEPER - float((knowledge.com - target) @ testbed.up))
     return target - depth * testbed.up
@@ -180,8 +181,8 @@ def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:
 def urgent(view: Outlook, target: Vector3, may_brake: bool) -> bool:
     """Say whether to move because of the tilt.
 
-    When staying would pass the guard: if so would going straight one look later; but as long as
-    little is known, only if even the safest move, one look later, would pass the limit.
+    When staying would pass the guard: if a direct move one measurement later would pass it too; but
+    while the estimate is uncertain, only if even the safest move then would pass the limit.
     """
     knowledge, up = view.knowledge, view.testbed.up
     later, hopeful = replace(view, wait=MEASUREMENT), replace(view, cautious=False)
@@ -220,7 +221,7 @@ def reason_of(
 
 
 def announced(move: Move) -> tuple[Reason, ...]:
-    """Return why masses are moved, and what that should leave."""
+    """Return why masses are moved, and the predicted result."""
     com = axes_of("com", move.predicted_com)
     return one_reason(move.reason, **com, travel=move.travel, duration=move.duration)
 

@@ -1,12 +1,12 @@
-"""Balance by hand: let go, record, place the weights that are asked for, until the verdict passes.
+"""Balance by hand: let go, record, place the requested weights, until the verdict passes.
 
 For platforms without actuators. Every recording is a free swing of its own, from a hand that lets
-go to one that catches; what it says is added to the posterior (``manual_estimate``), and the
-weights of the next placing are those that should bring the centre of mass to the target
-(``actuators.weight_choice``). The last placing is judged by a recording made after it.
+go to one that catches. It is added to the posterior (``manual_estimate``), and the weights of the
+next placing should bring the centre of mass to the target (``actuators.weight_choice``). The last
+placing is judged by a recording made after it.
 
-A recording that does not fit where the weights should have left the centre of mass counts alone:
-a weight is not where it was asked for, or something slipped.
+A recording that contradicts the predicted centre of mass counts alone: a weight is not where it was
+requested, or something slipped.
 """
 
 from collections import Counter
@@ -56,11 +56,11 @@ class HandOptions:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Progress:
-    """What is believed after a recording."""
+    """The posterior after a recording."""
 
     posterior: Posterior
     shown: Shown
-    astray: bool = False  # not where the weights should have left it
+    astray: bool = False  # the recording contradicts the prediction
 
 
 def check(testbed: Testbed) -> None:
@@ -73,7 +73,7 @@ def check(testbed: Testbed) -> None:
 
 
 def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
-    """Yield Steps: look, estimate, place, ... ; the last has the verdict."""
+    """Yield Steps: measurement, estimate, place, ... ; the last has the verdict."""
     testbed = as_if_stiff(hands.testbed)
     check(testbed)
     posterior, loading = first_posterior(testbed), unloaded(testbed.grids, testbed.weights)
@@ -103,7 +103,7 @@ def caught(recording: Recording, testbed: Testbed) -> Recording:
 
 
 def learnt(posterior: Posterior, fresh: Recording, loading: Ints, testbed: Testbed) -> Progress:
-    """Return what is believed with a recording added, or by it alone where the two disagree."""
+    """Return the posterior with a recording added, or by it alone where the two disagree."""
     added = load_of(testbed, loading)
     drawn = testbed.body.inertia_P + added.inertia_P
     known = replace(testbed, body=MassProperties(posterior.mass, posterior.com, drawn))
@@ -118,7 +118,7 @@ def learnt(posterior: Posterior, fresh: Recording, loading: Ints, testbed: Testb
 
 
 def verdict_on(observed: Progress, options: HandOptions) -> Verdict:
-    """Return the verdict on what is believed after a recording."""
+    """Return the verdict after a recording."""
     com, sd = observed.posterior.com, observed.posterior.sd
     outcome = observed.shown.estimate.outcome
     if not outcome.usable:
@@ -146,7 +146,7 @@ def estimate_step(hands: Hands, observed: Progress, fresh: Recording) -> Step:
 
 
 def requested_of(placing: Placing, testbed: Testbed, options: HandOptions) -> tuple[Reason, ...]:
-    """Return a placing as what to do, what it should leave, and what it cannot reach."""
+    """Return the instructions of a placing, its predicted result, and what it cannot reach."""
     sd = np.sqrt(np.diag(placing.predicted_covariance))
     leaves = at(placing.predicted_com, sd)
     if not placing.handled:

@@ -1,7 +1,7 @@
-"""Hold: keep the centre of mass where it is, while the platform warms up and drifts.
+"""Hold: keep the centre of mass at its target, while the platform warms up and drifts.
 
-The tracker goes on from what balancing found, inertia and its uncertainty included; the masses
-follow whenever a step of theirs brings the centre of mass closer.
+The tracker starts from the estimate of balancing, inertia and its uncertainty included; the masses
+follow whenever one of their steps brings the centre of mass closer.
 """
 
 from collections.abc import Iterator
@@ -32,11 +32,11 @@ from equipoise.procedure.steps.tilt_prediction import state_now
 
 MEASUREMENT = 5.0  # s between decisions
 FINER = 1 / 3  # of the tolerance, chosen: how closely to balance first
-FIRST_MOVES, FIRST_TIME = 10, 600.0  # s, chosen: what balancing may take before a hold
+FIRST_MOVES, FIRST_TIME = 10, 600.0  # s, chosen: allowed to the balancing before a hold
 ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considered
 PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
 WIDE = 0.6  # of the tilt limit: a swing that corrections should calm
-GAIN = 0.1  # of the tolerance: what a move must better the worst axis by
+GAIN = 0.1  # of the tolerance: the least improvement of the worst axis by a move
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,10 +49,10 @@ class HoldOptions:
 
     @property
     def balancing(self) -> BalanceOptions:
-        """Return how best to balance before.
+        """Return the options of the balancing before the hold.
 
         An inertia wrong by 1 % is a height wrong by 1 um at 100 um, for as long as the hold lasts:
-        so there are moves to learn it by, and tolerance is left for what the masses cannot follow.
+        so there are moves to estimate it by, and tolerance is left for drift between the moves.
         """
         return BalanceOptions(self.target, FINER * self.tolerance, FIRST_MOVES, FIRST_TIME)
 
@@ -72,7 +72,7 @@ def balance_and_hold(
 
 
 def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
-    """Return the tracker's belief at the end of what balancing recorded."""
+    """Return the tracker's prior: the estimate at the end of the record of balancing."""
     q, rate = state_now(knowledge, testbed)
     shift = shift_by(testbed, knowledge.displacement)
     t = float(knowledge.fitted.problem.line.t[-1])
@@ -95,7 +95,7 @@ def before_moving(
 ) -> tuple[Vector3, Matrix3]:
     """Return the centre of mass (m, m^2) less the stops' errors of masses about to move to a goal.
 
-    The tracker knows no stop by itself, so nothing but their accuracy is known of them.
+    The tracker does not estimate single stops, so only their accuracy is known.
     """
     com, _ = standing(state, testbed, displacement)
     leaving = (goal != displacement) & (displacement != 0)  # at home a mass has no error
@@ -191,7 +191,7 @@ def verdict_step(
     worst: Vector3,
     tilted_out: bool,
 ) -> Step:
-    """Return the verdict on the whole hold; the belief is a centre of mass and its sd (m)."""
+    """Return the verdict on the whole hold; ``posterior`` is a centre of mass and its sd (m)."""
     if tilted_out:
         reasons = one_reason(VerdictReason.TILTED)
     else:

@@ -1,9 +1,9 @@
 """Run a balancing law on a bench, step by step, and prove what it reached on fresh data.
 
-Every ``card.period`` seconds the law is shown a Sample and its Command is carried out; when it asks
-for a look, masses and devices rest, the platform swings, and the law is given the Estimate. When
-it has finished, or its time is used up, the platform is left to swing once more and judged by that
-record alone. A platform that tilts beyond its limit is halted, with the reason.
+Every ``card.period`` seconds the law receives a Sample and its Command is carried out. When it
+requests a measurement, masses and devices rest, the platform swings, and the law receives the
+Estimate. When it has finished, or its time is used up, the platform swings once more and is judged
+by that record alone. A platform that tilts beyond its limit is stopped, with the reason.
 """
 
 from collections.abc import Iterator
@@ -66,7 +66,7 @@ class Session:
 
 
 def lacking(card: LawCard, testbed: Testbed) -> list[Need]:
-    """Return what a law needs and a testbed has not."""
+    """Return what a law needs and a testbed lacks."""
     has: dict[Need, bool] = {
         "masses": bool(testbed.masses),
         "momentum": span(axes_of(testbed.wheels)) or gyros_span(testbed.cmgs),
@@ -79,7 +79,7 @@ def lacking(card: LawCard, testbed: Testbed) -> list[Need]:
 
 
 def check(card: LawCard, testbed: Testbed) -> None:
-    """Raise InputError for a testbed that has not what a law needs."""
+    """Raise InputError for a testbed that lacks what a law needs."""
     missing = [NEEDS[need] for need in lacking(card, testbed)]
     if missing:
         found = f"a testbed without {' and without '.join(missing)}"
@@ -134,7 +134,7 @@ def reason_to_stop(bench: Bench, recording: Recording, end: float) -> tuple[Reas
 
 
 def first_sight(bench: Bench) -> tuple[Session, Sample]:
-    """Return the session and the first sample, when the platform was seen for a moment."""
+    """Return the session and the first sample, after SETTLE seconds of record."""
     testbed, fresh = bench.testbed, bench.read(SETTLE)
     before = opened(testbed)
     eyes = sampled(before, fresh, testbed)
@@ -148,7 +148,7 @@ def first_sight(bench: Bench) -> tuple[Session, Sample]:
 def control(
     bench: Bench, session: Session, command: Command, period: float
 ) -> tuple[Session, Sample, Recording]:
-    """Carry a command out and return what is seen a period later."""
+    """Carry a command out and return the sample a period later."""
     testbed = bench.testbed
     hands = carry_out(bench, command, session.eyes, session.hands, period)
     fresh = bench.read(period)
@@ -161,7 +161,7 @@ def control(
 def measurement(
     bench: Bench, session: Session, requested: Measurement
 ) -> tuple[Session, Recording, Estimate]:
-    """Let everything rest, read, and return what a method makes of it."""
+    """Let everything rest, record, and return the estimate of the requested method."""
     testbed = bench.testbed
     hands, wait = let_rest(bench, session.eyes, session.hands)
     before = guarded(bench, wait) if wait > 0 else None
@@ -178,7 +178,7 @@ def measurement(
 
 
 def measured_estimate(recording: Recording, testbed: Testbed, requested: Measurement) -> Estimate:
-    """Return what a method makes of a record, within the patience of somebody at a bench.
+    """Return the estimate of a method, computed quickly enough for a person at a bench.
 
     The trajectory fit is taken without the survey that it makes of a recording from elsewhere.
     """
@@ -186,7 +186,7 @@ def measured_estimate(recording: Recording, testbed: Testbed, requested: Measure
     options = Options(requested.terms, requested.hold, use_prior=requested.use_prior)
     if requested.method != trajectory.METHOD:
         return estimated(METHODS[requested.method], recording, testbed, options)
-    # A torque that is held is none: the trajectory fit is told of it by leaving it out.
+    # A held torque is zero: the trajectory fit leaves it out.
     terms = among({*testbed.disturbances, *requested.terms} - set(requested.hold))
     hold = tuple(name for name in requested.hold if name not in TERMS)
     params = trajectory.Params(terms, use_prior=requested.use_prior, hold=hold)
@@ -195,7 +195,7 @@ def measured_estimate(recording: Recording, testbed: Testbed, requested: Measure
 
 
 def since(parts: tuple[Recording, ...], start: float) -> Recording:
-    """Return what was recorded from a time (s) on, as one."""
+    """Return the record from a time (s) on."""
     recent = [part for part in parts if part.span[1] >= start]
     return window(joined(recent), start, np.inf)
 

@@ -7,12 +7,12 @@ home, and stands for half a swing after each:
 
 Half and whole on both sides show the gain (sum of d^2: 5/2 d_max^2), stops at half way and at home
 that are reached from either side the backlash, and six stops against three unknowns along the rail
-the scatter. d_max is as far as the rail goes and the platform, as it is guessed, may lean at rest:
-``LEAN`` of its limit, because it swings about as far beyond, and not above ``HEIGHT`` of its depth
-nor below ``DEPTH`` of it: a heavy mass on a long rail would make another pendulum of the platform,
-whose swings no fit follows from the guess.
+the scatter. d_max is limited by the rail and by the nominal platform at rest. It leans by at most
+``LEAN`` of its limit, because it swings about as much beyond, and hangs between ``HEIGHT`` and
+``DEPTH`` of its depth: a heavy mass on a long rail would make another pendulum of the platform, to
+which no fit converges from the nominal values.
 
-Cannot see how far the guess is off: identify and balance roughly first.
+The error of the nominal values is not considered: identify and balance roughly first.
 """
 
 import math
@@ -26,8 +26,8 @@ from equipoise.model.testbed import SlidingMass, Testbed
 
 COURSE = (0.5, 1.0, 0.0, -1.0, -0.5, 0.0)
 TURNS_OVER = math.pi / 3  # rad, chosen: the limit of a table that could turn over
-LEAN = 0.4  # of the tilt limit, chosen: twice that in the swing, and some for a rough guess
-HEIGHT = 0.5  # of the guessed depth of com below P, chosen: that is left at least
+LEAN = 0.4  # of the tilt limit, chosen: twice that in the swing, and some for nominal errors
+HEIGHT = 0.5  # of the nominal depth of com below P, chosen: that is left at least
 DEPTH = 2.0  # of the same, chosen: that is reached at most, a period shorter by as much
 SHARES = 0.85 ** np.arange(50)  # of the travel, chosen: tried from all of it to 0.03 %
 ROUND = 5.0  # s, chosen: times a person can follow
@@ -38,7 +38,7 @@ Moves = list[tuple[float, dict[str, float]]]
 def calibration_moves(testbed: Testbed, names: tuple[str, ...] = ()) -> tuple[Moves, float]:
     """Return times (s) and targets (m), and the time to record; all masses unless named.
 
-    InputError for a platform whose guessed centre of mass does not hang.
+    InputError for a platform whose nominal centre of mass does not hang.
     """
     moves, t = Moves(), stand(testbed)
     for mass in testbed.masses:
@@ -52,7 +52,7 @@ def calibration_moves(testbed: Testbed, names: tuple[str, ...] = ()) -> tuple[Mo
 
 
 def stand(testbed: Testbed) -> float:
-    """Return half a period of swing as guessed, s, in whole ROUNDs."""
+    """Return half a nominal period of swing, s, in whole ROUNDs."""
     body = testbed.body
     depth = -float(body.com @ testbed.up)
     if depth <= 0:
@@ -74,13 +74,13 @@ def course_of(mass: SlidingMass, testbed: Testbed) -> list[float]:
 
 
 def share_of(mass: SlidingMass, end: float, testbed: Testbed) -> float:
-    """Return the greatest share of the way to one end of the rail at which the guess hangs well."""
+    """Return the greatest share of the way to one end of a rail with which the platform hangs."""
     shift: Vector3 = mass_maps([mass]).first_moment[0] * end / testbed.body.mass
     return next((float(f) for f in SHARES if hangs(f * shift, testbed)), 0.0)
 
 
 def hangs(shift: Vector3, testbed: Testbed) -> bool:
-    """Say whether the guessed platform leans little enough with its centre of mass shifted (m)."""
+    """Say whether the nominal platform leans little enough with its centre of mass shifted (m)."""
     com, up = testbed.body.com + shift, testbed.up
     depth, before = -float(com @ up), -float(testbed.body.com @ up)
     aside = float(np.linalg.norm(com + depth * up))

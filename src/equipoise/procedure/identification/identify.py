@@ -1,8 +1,8 @@
 """Identify: from a recording to mass properties, coarse to fine, as Steps.
 
-What the record allows decides: rest positions, if there are any, give a first centre of mass; the
-linear momentum integral a first inertia; the trajectory fit, which does not need either, the
-answer. A single method can be asked for instead.
+The record decides: rest positions, if there are any, give a first centre of mass; the linear
+momentum integral a first inertia; the trajectory fit, which needs neither, the answer. A single
+method can be requested instead.
 """
 
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ from equipoise.procedure.steps.plain_steps import estimate_step, measurement_ste
 
 @dataclass(frozen=True, slots=True, eq=False)
 class IdentifyOptions:
-    """What is asked for."""
+    """The requested method and model."""
 
     method: str = "auto"
     terms: tuple[str, ...] = ()  # torques to estimate, beside the testbed's own
@@ -31,7 +31,7 @@ class IdentifyOptions:
 
     @property
     def requested(self) -> Options:
-        """Return what is asked of the method itself."""
+        """Return the options of the method itself."""
         return Options(self.terms, self.hold, self.use_prior, self.robust)
 
 
@@ -39,7 +39,7 @@ COARSE_TO_FINE = ("equilibrium", "momentum_laboratory", "trajectory")
 
 
 def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Iterator[Step]:
-    """Yield a look, then one estimate for each method that the record allows; the last counts.
+    """Yield a measurement, then one estimate for each possible method; the last counts.
 
     Raises InputError for a method or a held parameter that does not exist.
     """

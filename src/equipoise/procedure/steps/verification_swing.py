@@ -1,4 +1,4 @@
-"""Prove a balance on a fresh swing; a platform that stands still is set swinging first.
+"""Verify a balance on a fresh swing; a platform that stands still is set swinging first.
 
 A platform that hangs still in one attitude shows nothing of the centre of mass along gravity. Its
 finest masses, which come back nearest to where they were, go out and back once:
@@ -24,7 +24,7 @@ from equipoise.procedure.steps.tilt_guard import guarded
 
 STILL = np.deg2rad(0.1)  # rad/s, chosen: slower than this it hangs still, as far as a proof goes
 WANTED = np.deg2rad(0.2)  # rad/s, chosen: 8 deg in a proof of 40 s, where sag hardly bends yet
-BEFORE = 1.0  # s, chosen: seen before a push
+BEFORE = 1.0  # s, chosen: recorded before a push
 ALIKE = 2.0  # -, chosen: masses that err by up to so many times the least are the finest
 
 

@@ -1,4 +1,4 @@
-"""Verify that the centre of mass is where it was wanted, on data since the last move."""
+"""Verify that the centre of mass is at its target, on data since the last move."""
 
 import numpy as np
 from scipy.special import ndtr
@@ -79,7 +79,7 @@ def judged(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Ve
     """Return the verdict on a centre of mass.
 
     Passed where each axis is within its tolerance for sure, failed where the 95 % interval of one
-    lies outside. Between them nobody can tell, however far off the value found is.
+    lies outside. Between them it is undecided, however large the estimated offset is.
     """
     found = at(com, sd)
     sure = probability_within(com, sd, target, tolerance)
