@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from equipoise.control.elements.tilt_feedback import (
-    SAMPLED,
     SPEED,
     Gains,
     followed,
@@ -16,7 +15,7 @@ from equipoise.control.elements.tilt_feedback import (
     owed,
     shift_for,
 )
-from equipoise.control.plant.offset_bounds import likely_height, likely_offset
+from equipoise.control.plant.offset_bounds import SAMPLED, likely_height, likely_offset
 from equipoise.maths.attitude import exponential
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError

@@ -37,7 +37,7 @@ class Peaks(NamedTuple):
 
 
 def for_search(testbed: Testbed) -> Testbed:
-    """Return the testbed with sensors that tell as much in fewer rows, and drives that are stiff.
+    """Return the testbed with sensors of equal information in fewer rows, and with stiff drives.
 
     N rows of noise s, while nothing changes, are as good as one row of noise s / sqrt(N).
     """
@@ -51,7 +51,7 @@ def for_search(testbed: Testbed) -> Testbed:
 
 
 def thinned(sensor: S, rate: float) -> S:
-    """Return a sensor of a lower rate (Hz) that tells as much."""
+    """Return a sensor of a lower rate (Hz) with equal information."""
     if sensor.rate <= rate:
         return sensor
     return replace(sensor, rate=rate, noise=sensor.noise * float(np.sqrt(rate / sensor.rate)))
@@ -108,6 +108,6 @@ def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:
 
 
 def covariance_of(tried: Rehearsal, truth: Unknowns, known: Known | None) -> Square:
-    """Return the covariance of all unknowns; what is not seen is as wide as the fit's anchor."""
+    """Return the covariance of all unknowns; unobservable ones are as wide as the fit's anchor."""
     normal = informed(tried.problem, truth, known).at.normal
     return inverse_where(normal, ~tried.problem.prior.held)

@@ -2,7 +2,7 @@
 
     lean of the start x, y     within a circle of the tilt limit
     rate of the start          spin about the axis that points up, sway about the level ones
-    a time for each move       in order, the last early enough to arrive and to look afterwards
+    a time for each move       in order, the last early enough to arrive and to swing afterwards
     where masses go            one share of the travel, or of what is in time, for each kind of
                                rail and each move
     waves                      amplitude and period for each wheel or gyro
@@ -26,7 +26,7 @@ from equipoise.model.units import DEG
 
 TILT_STEP, SIDE_STEP, RATE_STEP = 0.5 * DEG, 5 * DEG, 0.1 * DEG  # chosen: what a person reads
 SWAY = 1.0 * DEG  # rad/s, chosen: a greater push sideways does what a greater tilt does
-EARLY, LATE = 2.0, 0.9  # s, share of the time, chosen: a swing is to be seen before and after
+EARLY, LATE = 2.0, 0.9  # s, share of the time, chosen: a swing is recorded before and after
 MOST_MOMENTUM = 0.8  # of a wheel's, chosen: leaves room for what it holds against
 MOST_GIMBAL = 60 * DEG  # chosen: a gyro that has turned further gives less and less torque
 SHORTEST = 8.0  # s, of a wave, chosen: ten times the lag of a slow wheel
@@ -36,7 +36,7 @@ LEVEL = 0.5  # sine of a slope, chosen: rails that are less steep count as level
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Space:
-    """What may be chosen."""
+    """The testbed, and the limits of a choice."""
 
     testbed: Testbed
     duration: float  # s

@@ -19,7 +19,7 @@ WAYS = ("nothing", "one line", "a plane")
 
 
 def limit_sentence(case: Case, budget: Budget, better: tuple[Bettered, ...]) -> str:
-    """Say which line is the largest, and what would become of the result if it were better."""
+    """Say which line is the largest, and the result if it were better."""
     line, total = budget.lines[0], plain(budget.torque / UN_M)
     text = (
         f"{line.cause}{detail(case, line)} limits the result: {plain(line.torque / UN_M)} of "
@@ -98,7 +98,7 @@ def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]
 
 
 def worth_listing(budget: Budget, better: tuple[Bettered, ...]) -> tuple[Bettered, ...]:
-    """Return the changes that bring something: less torque, or more platforms within reach."""
+    """Return the changes with an effect: less torque, or more platforms within reach."""
     return tuple(
         change
         for change in better

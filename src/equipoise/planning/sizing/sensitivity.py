@@ -1,8 +1,8 @@
-"""What limits the result, and what would become of it if one thing were better.
+"""What limits the result, and the result if one thing were better.
 
-Each change makes one thing half as bad, or adds one that is missing, and the whole budget is told
-anew, the look with it. Half is chosen so that changes compare; what it costs is the reader's to
-judge.
+Each change makes one thing half as bad, or adds one that is missing, and the whole budget is
+computed anew, with the measurement. Half is chosen so that changes compare; their cost is for the
+reader to judge.
 """
 
 from collections.abc import Iterable, Iterator
@@ -32,7 +32,7 @@ class Change(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bettered:
-    """A change and what is left then."""
+    """A change and the result with it."""
 
     name: str
     line: str
