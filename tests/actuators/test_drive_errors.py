@@ -1,4 +1,4 @@
-"""Drives in doubt: how gain, rail and backlash are felt."""
+"""Drives in doubt: the effects of gain, rail and backlash."""
 
 from dataclasses import replace
 
@@ -124,7 +124,7 @@ def test_units_are_those_of_the_unknowns():
 
 
 def test_a_gain_moves_a_mass_so_much_further():
-    """Hand-worked: 0.5 kg told 20 mm with gain 1.1 goes 22 mm: 0.011 kg m, and its inertia."""
+    """Hand-worked: 0.5 kg commanded 20 mm with gain 1.1 goes 22 mm: 0.011 kg m, and its inertia."""
     maps, d = mass_maps([rail([1.0, 0.0, 0.0], None, 1.1)]), np.array([0.02])
     np.testing.assert_allclose(d @ maps.first_moment, [0.011, 0.0, 0.0])
     there = HOME + np.array([0.022, 0.0, 0.0])

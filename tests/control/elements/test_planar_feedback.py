@@ -126,7 +126,7 @@ def test_known_shifts_between_measurements_remove_the_scale_error_of_r():
 
 
 def test_imprecise_measurements_leave_the_scale_to_the_inertia_prior():
-    """One look: as it says, and its sd has that of the inertia, 5 % of 240 um."""
+    """One measurement: its own estimate, and its sd includes that of the inertia, 5 % of 240 um."""
     measurement = Shown(np.array([0, 0, -40e-6]), np.full(3, 1e-6), SHIFTS[0])
     found = combined((measurement,), UP, 0.05)
     assert found.com == pytest.approx(measurement.com)
@@ -134,7 +134,7 @@ def test_imprecise_measurements_leave_the_scale_to_the_inertia_prior():
 
 
 def test_the_error_of_the_measured_height_is_consistent_with_its_sd():
-    """Over 400 draws of looks' errors and of k, the error in its sd is 1."""
+    """Over 400 draws of measurement errors and of k, the error in its sd is 1."""
     rng, r, errors = np.random.default_rng(3), np.array([0, 0, -40e-6]), []
     sds = [5e-6, 2e-6, 1e-6]
     for _ in range(400):

@@ -191,7 +191,7 @@ def test_with_the_printed_gain_it_diverges_with_slow_masses():
 def test_slow_masses_and_a_large_offset_need_a_slow_loop(speed_mm_s, frequency, holds):
     """r = (-0.1, -0.2, -0.5) mm, masses of 0.7 kg: w_a |r| / v is 4.6, 0.46 and 1.4.
 
-    85 degrees are seen in the first case, and it does not settle.
+    The first case reaches 85 degrees, and does not settle.
     """
     masses = rails(mass=0.7, speed=1e-3 * speed_mm_s, travel=1.0)
     bench = Bench(platform(masses=masses, **PUBLISHED), np.zeros(3), instant=False)

@@ -1,4 +1,4 @@
-"""Laws that look at swings and turns, each on a few platforms of 14 kg, judged by the truth."""
+"""Laws that measure swings and turns, each on a few platforms of 14 kg, judged by the truth."""
 
 from dataclasses import replace
 
@@ -46,7 +46,7 @@ def test_coarse_and_fine_leaves_it_hanging_ten_micrometres_low(seed):
 
 
 def test_a_target_that_hangs_lower_is_kept():
-    """Its height to 4 %: the way from a first, short look tells the scale to that."""
+    """Its height to 4 %: the shift from a first, short measurement determines the scale to that."""
     target = np.array([1e-6, 0, -40e-6])
     course = close(coarse_fine.LAW, hand_balanced(), truth_of(3), target, 700.0)
     assert course.com[:2] == pytest.approx(target[:2], abs=0.2e-6)
@@ -55,7 +55,7 @@ def test_a_target_that_hangs_lower_is_kept():
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_planar_feedback_and_swings_reach_the_target(seed):
-    """Sideways by feedback: LEVEL times FLOOR; the height by a look, known to ENOUGH."""
+    """Sideways by feedback: LEVEL times FLOOR; the height by a measurement, known to ENOUGH."""
     truth = truth_of(seed, field_N=FIELD)
     course = close(planar_magnetic.LAW, with_coils(), truth, LEVEL, 1500.0)
     assert course.finished[0].code == "level_at_height"
@@ -66,7 +66,7 @@ def test_planar_feedback_and_swings_reach_the_target(seed):
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_turns_to_widely_separated_attitudes_determine_all_of_r(seed):
-    """Two rounds; the truth's inertia is 2 to 3 % off what the law is told."""
+    """Two rounds; the truth's inertia is 2 to 3 % off the nominal one."""
     com = np.random.default_rng(100 + seed).normal(size=3) * 10e-6
     bed = replace(platform(com_sd=10e-6), wheels=wheels(torque=0.02, momentum=0.4))
     course = close(slew_and_measure.LAW, bed, Truth(com, play=2e-6, seed=seed), LEVEL, 400.0)

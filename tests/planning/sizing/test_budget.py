@@ -1,4 +1,4 @@
-"""Looks and moves put together: what is left, what limits it, what would better it."""
+"""Measurements and moves put together: what is left, what limits it, what would better it."""
 
 from dataclasses import replace
 from functools import cache
