@@ -71,7 +71,7 @@ def test_it_balances_to_the_target(law):
 
 @BOTH
 def test_it_balances_to_a_motor_step(law):
-    """Motor steps of 3.6 um, 5 mm/s, estimates 10 % and 1 um off, noise of a good attitude filter."""
+    """Motor steps of 3.6 um, 5 mm/s, estimates 10 % and 1 um off, noise of a good filter."""
     masses = rails(speed=0.005, resolution=1e-5)
     rows, bench, params = run(
         law, masses=masses, instant=False, reported=(0.1, 1e-6), noise=(1e-4, 1e-5), seed=4
