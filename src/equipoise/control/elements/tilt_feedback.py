@@ -48,13 +48,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.plant.offset_bounds import (
-    across,
-    greatest_frequency,
-    level_inertia,
-    likely_height,
-    likely_offset,
-)
+from equipoise.control.plant import offset_bounds as offsets
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.testbed import Testbed
 
@@ -84,14 +78,14 @@ class Gains(NamedTuple):
 
 def gains_at(testbed: Testbed, frequency: float, integral: float, period: float) -> Gains:
     """Return the gains for a closed loop of that frequency w_a (rad/s)."""
-    m, g, J = testbed.body.mass, testbed.gravity, level_inertia(testbed)
+    m, g, J = testbed.body.mass, testbed.gravity, offsets.level_inertia(testbed)
     gamma = J * (frequency / (m * g)) ** 2
     return Gains(m, g, testbed.up, gamma, 2 * ZETA * frequency * J, integral, period)
 
 
 def frequency_of(gains: Gains, testbed: Testbed) -> float:
     """Return w_a (rad/s)."""
-    return gains.damping / (2 * ZETA * level_inertia(testbed))
+    return gains.damping / (2 * ZETA * offsets.level_inertia(testbed))
 
 
 def owed(gains: Gains, gravity: Vector3) -> Vector3:
@@ -104,7 +98,7 @@ def followed(gains: Gains, held: Vector3, before: Vector3, now: Vector3, wait: b
     rise = now - before
     if not wait:
         mean = (before + now) / 2
-        rise = rise + gains.integral * gains.period * (across(gains.up) @ mean)
+        rise = rise + gains.integral * gains.period * (offsets.across(gains.up) @ mean)
     return held + gains.gamma * gains.mass * rise
 
 
@@ -135,18 +129,18 @@ def settling(frequency: float, integral: float, swing: float) -> float:
 
 def swing_of(testbed: Testbed, height: float) -> float:
     """Return w_z^2 (rad^2/s^2) of a centre of mass that high (m) above P."""
-    return -testbed.body.mass * testbed.gravity * height / level_inertia(testbed)
+    return -testbed.body.mass * testbed.gravity * height / offsets.level_inertia(testbed)
 
 
 def frequency_for(testbed: Testbed, period: float) -> float:
     """Return w_a (rad/s) at which the loop is stable; InputError if there is none."""
-    least = least_frequency(testbed, likely_offset(testbed))
-    return greatest_frequency(testbed, least, SPEED, period)
+    least = least_frequency(testbed, offsets.likely_offset(testbed))
+    return offsets.greatest_frequency(testbed, least, SPEED, period)
 
 
 def least_frequency(testbed: Testbed, offset: float) -> float:
     """Return w_a (rad/s) below which an offset (m), or an inverted pendulum, tilts too far."""
-    weight = testbed.body.mass * testbed.gravity / level_inertia(testbed)
+    weight = testbed.body.mass * testbed.gravity / offsets.level_inertia(testbed)
     sideways = weight * offset / (TILTED * testbed.tilt_limit)
-    upright = max(-swing_of(testbed, likely_height(testbed)), 0.0) / UPRIGHT
+    upright = max(-swing_of(testbed, offsets.likely_height(testbed)), 0.0) / UPRIGHT
     return float(max(sideways, upright) ** 0.5)

@@ -27,18 +27,9 @@ import numpy as np
 from equipoise.control.elements.slew import moment_across
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant import move_timing
+from equipoise.control.plant import swing_estimates as swings
 from equipoise.control.plant.move_timing import Waiting
 from equipoise.control.plant.settling import UNREPORTED, Stand, standing
-from equipoise.control.plant.swing_estimates import (
-    METHOD,
-    Shown,
-    combined,
-    hanging_shift,
-    held,
-    shown,
-    shows,
-    why_not_shown,
-)
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
@@ -77,7 +68,7 @@ class State:
 
     shift: Vector3  # m, requested
     stand: Stand = UNREPORTED
-    measurements: tuple[Shown, ...] = ()
+    measurements: tuple[swings.Shown, ...] = ()
     missed: int = 0  # measurements that showed nothing
     finished: tuple[Reason, ...] = ()
     waiting: Waiting | None = None
@@ -88,12 +79,12 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError for a testbed without masses."""
     if not testbed.masses:
         raise InputError("coarse_fine", "a testbed without them", "sliding masses")
-    up, hang = testbed.up, hanging_shift(testbed, 2 * COARSE)[1]
+    up, hang = testbed.up, swings.hanging_shift(testbed, 2 * COARSE)[1]
     low = min(float(target @ up), -SAFE)
     safe = target + (low - float(target @ up)) * up
     J = moment_across(testbed.body.inertia_P, up)
     stiffness = testbed.body.mass * testbed.gravity / J
-    return State(-hang * up), Params(up, safe, held(testbed), stiffness, testbed.inertia_sd)
+    return State(-hang * up), Params(up, safe, swings.held(testbed), stiffness, testbed.inertia_sd)
 
 
 def levelling(state: State, r: Vector3, params: Params) -> State:
@@ -116,12 +107,12 @@ def waited(state: State, sample: Sample, params: Params) -> State:
 def after_measurement(state: State, estimate: Estimate, params: Params) -> State:
     """Return the state after a measurement, with the move that it requires."""
     state = replace(state, stand=UNREPORTED)  # time has passed
-    if not shows(estimate):
+    if not swings.shows(estimate):
         missed = state.missed + 1
-        why = why_not_shown(estimate) if missed == MISSES else ()
+        why = swings.why_not_shown(estimate) if missed == MISSES else ()
         return replace(state, missed=missed, finished=why)
-    measurements = (*state.measurements, shown(estimate, state.shift))
-    r, sd, _ = combined(measurements, params.up, params.inertia_sd)
+    measurements = (*state.measurements, swings.shown(estimate, state.shift))
+    r, sd, _ = swings.combined(measurements, params.up, params.inertia_sd)
     if len(measurements) == 1:
         return levelling(replace(state, measurements=measurements), r, params)
     off: Vector3 = r + state.shift - params.target
@@ -148,7 +139,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
         return state, Command(shift=state.shift)
     if state.finished:
         return state, Command(shift=state.shift, finished=state.finished)
-    measurement = Measurement(LONG if state.measurements else SHORT, METHOD, params.held)
+    measurement = Measurement(LONG if state.measurements else SHORT, swings.METHOD, params.held)
     return state, Command(shift=state.shift, measurement=measurement)
 
 

@@ -16,16 +16,8 @@ Nothing is estimated here: errors of C and d remain.
 
 from dataclasses import dataclass, field, replace
 
+from equipoise.control.elements import slew as slews
 from equipoise.control.elements.attitude_pid import Gains, Pid, gains_for, torque, unwound
-from equipoise.control.elements.slew import (
-    Pace,
-    Slew,
-    levelled,
-    moment_across,
-    pace_for,
-    reference_at,
-    slew,
-)
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant.wheel_capacity import capacity
 from equipoise.dynamics.sag_trim import trimming_shift
@@ -60,7 +52,7 @@ class Params:
     target: Vector3  # m
     testbed: Testbed
     gains: Gains
-    pace: Pace
+    pace: slews.Pace
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,7 +60,7 @@ class State:
     """The state of the attitude loop, and the turn to level."""
 
     pid: Pid = field(default_factory=unwound)
-    way: Slew | None = None
+    way: slews.Slew | None = None
 
 
 def shift_at(following: Following, down: Vector3, t: float) -> Vector3:
@@ -83,10 +75,10 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     bed, down = params.testbed, sample.gravity / params.testbed.gravity
     if state.way is None:
         state = replace(
-            state, way=slew(sample.q, levelled(sample.q, bed.up), sample.t, params.pace)
+            state, way=slews.slew(sample.q, slews.levelled(sample.q, bed.up), sample.t, params.pace)
         )
     assert state.way is not None
-    reference = reference_at(state.way, sample.t)
+    reference = slews.reference_at(state.way, sample.t)
     weight = bed.body.mass * params.target
     pid, u = torque(state.pid, sample, reference, params.gains, weight)
     over = one_reason(LawReason.FOLLOWED) if sample.t >= params.end else ()
@@ -99,7 +91,7 @@ def following_law(following: Following, end: float) -> Law[State, Params]:
 
     def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
         can, J = capacity(testbed), testbed.body.inertia_P
-        pace = pace_for(moment_across(J, testbed.up), can)
+        pace = slews.pace_for(slews.moment_across(J, testbed.up), can)
         return State(), Params(following, end, target, testbed, gains_for(J, can.torque), pace)
 
     return Law(CARD, begin, step)

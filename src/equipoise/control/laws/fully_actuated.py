@@ -45,16 +45,8 @@ import numpy as np
 
 from equipoise.control.elements.sweep import Sweep, Wanted, wanted
 from equipoise.control.law import Law, Sample
+from equipoise.control.plant import offset_bounds as offsets
 from equipoise.control.plant.actuator_limits import greatest_slew, limited
-from equipoise.control.plant.offset_bounds import (
-    LIKELY,
-    around,
-    coarsest_step,
-    greatest_frequency,
-    height_sd,
-    level_inertia,
-    likely_offset,
-)
 from equipoise.control.plant.wheel_capacity import Capacity, capacity
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.command import Command
@@ -118,11 +110,11 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     speed = sweep_speed(testbed)
     w = frequency_for(testbed, RATIO * speed)
     speed = min(speed, w / RATIO)
-    sweep = Sweep(np.column_stack([*around(testbed.up), testbed.up]),
+    sweep = Sweep(np.column_stack([*offsets.around(testbed.up), testbed.up]),
                   cone_for(testbed, target, w, speed), speed, HOLD * w)  # fmt: skip
     params = Params(
         m, testbed.body.inertia_P, target, (w / (m * g)) ** 2, 2 * ZETA * w, sweep,
-        LEAD * greatest_slew(testbed) * PERIOD + coarsest_step(testbed),
+        LEAD * greatest_slew(testbed) * PERIOD + offsets.coarsest_step(testbed),
         SHORT * capacity(testbed).torque, testbed.tilt_limit, PERIOD,
     )  # fmt: skip
     return State(target - testbed.body.com, np.zeros((3, 3))), params
@@ -130,15 +122,15 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 
 def sweep_speed(testbed: Testbed) -> float:
     """Return the speed W (rad/s) of the cone at which a wrong inertia leaves BIAS."""
-    off = max(testbed.inertia_sd, FIRM) * level_inertia(testbed)
+    off = max(testbed.inertia_sd, FIRM) * offsets.level_inertia(testbed)
     return float((BIAS * testbed.body.mass * testbed.gravity / off) ** 0.5)
 
 
 def frequency_for(testbed: Testbed, wish: float) -> float:
     """Return w_a (rad/s), as wished if it can be; InputError where the loop is not stable."""
-    weight = testbed.body.mass * testbed.gravity / level_inertia(testbed)
-    least = (weight * likely_offset(testbed) / (STRAY * testbed.tilt_limit)) ** 0.5
-    return float(np.clip(wish, least, greatest_frequency(testbed, least, SPEED, PERIOD)))
+    weight = testbed.body.mass * testbed.gravity / offsets.level_inertia(testbed)
+    least = (weight * offsets.likely_offset(testbed) / (STRAY * testbed.tilt_limit)) ** 0.5
+    return float(np.clip(wish, least, offsets.greatest_frequency(testbed, least, SPEED, PERIOD)))
 
 
 def spare(testbed: Testbed) -> Capacity:
@@ -151,9 +143,10 @@ def spare(testbed: Testbed) -> Capacity:
 
 def cone_for(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
     """Return the cone's half-angle (rad) that tilt limit, torque and momentum allow."""
-    J, weight = level_inertia(testbed), testbed.body.mass * testbed.gravity
-    offset, have = likely_offset(testbed), spare(testbed)
-    low = abs(float(testbed.up @ (testbed.body.com - target))) + LIKELY * height_sd(testbed)
+    J, weight = offsets.level_inertia(testbed), testbed.body.mass * testbed.gravity
+    offset, have = offsets.likely_offset(testbed), spare(testbed)
+    low = abs(float(testbed.up @ (testbed.body.com - target)))
+    low += offsets.LIKELY * offsets.height_sd(testbed)
     low += float(np.linalg.norm(target))  # which torque holds up as long as the law runs
     momentum = have.momentum - weight * offset * 2 * ZETA / w
     angle = min(

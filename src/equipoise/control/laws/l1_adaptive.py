@@ -42,28 +42,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.elements.height_adjustment import (
-    HeightSearch,
-    continued,
-    height_search,
-    levelling,
-    raised_note,
-    shift_at_height,
-)
+from equipoise.control.elements import height_adjustment as heights
 from equipoise.control.elements.l1_norm import l1_norm
 from equipoise.control.elements.loop_stability import radius, steps_late, swing_input, swing_matrix
 from equipoise.control.law import Law, Sample
+from equipoise.control.plant import pendulum
 from equipoise.control.plant.actuator_limits import limited
-from equipoise.control.plant.pendulum import (
-    SPARE,
-    Hanging,
-    hanging,
-    rate_of,
-    shift_for,
-    spared,
-    tilt_of,
-    turned,
-)
 from equipoise.control.plant.settling import PERIOD, Bounds, finest_bounds
 from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.command import Command
@@ -107,7 +91,7 @@ class Axis(NamedTuple):
 class Params:
     """What does not change while it runs."""
 
-    plant: Hanging
+    plant: pendulum.Hanging
     axes: tuple[Axis, Axis]
     gyroscopic: Floats  # (2,) (J_2 - J_u) / J_1 and (J_u - J_1) / J_2
     quiet: Bounds
@@ -126,7 +110,7 @@ class Before(NamedTuple):
 class State:
     """Where it stands; rows of arrays are the two axes."""
 
-    search: HeightSearch
+    search: heights.HeightSearch
     e: Floats = field(default_factory=lambda: np.zeros((2, 2)))  # rad, rad/s
     th: Floats = field(default_factory=lambda: np.zeros((2, 2)))  # 1/s^2, 1/s
     s: Floats = field(default_factory=lambda: np.zeros(2))  # rad/s^2
@@ -163,7 +147,7 @@ def adapted(axis: Axis, e: Floats, x: Floats, th: Floats, s: float) -> tuple[Flo
 # --- Begin -----------------------------------------------------------------------------------
 
 
-def axes_of(plant: Hanging, testbed: Testbed) -> tuple[Axis, Axis]:
+def axes_of(plant: pendulum.Hanging, testbed: Testbed) -> tuple[Axis, Axis]:
     """Return the numbers of both axes."""
     made = list[Axis]()
     for a, w0 in zip(plant.gain, plant.frequency, strict=True):
@@ -200,7 +184,7 @@ def refuse(found: str) -> InputError:
     return InputError("law l1_adaptive", found, "a slower swing, surer mass properties")
 
 
-def check(axis: Axis, plant: Hanging, testbed: Testbed) -> None:
+def check(axis: Axis, plant: pendulum.Hanging, testbed: Testbed) -> None:
     """Raise InputError where adaptation, L1 condition or the sampled loop is not stable."""
     w, h = axis.predictor, PERIOD
     strength = w**3 * (1 + np.sin(testbed.tilt_limit) ** 2 + FASTEST**2)
@@ -219,7 +203,7 @@ def check(axis: Axis, plant: Hanging, testbed: Testbed) -> None:
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return where the law begins; InputError where it would not be stable."""
-    plant = hanging(testbed)
+    plant = pendulum.hanging(testbed)
     axes = axes_of(plant, testbed)
     for axis in axes:
         check(axis, plant, testbed)
@@ -227,13 +211,13 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     J = [float(axis @ testbed.body.inertia_P @ axis) for axis in (one, two, plant.up)]
     gyroscopic = np.array([(J[1] - J[2]) / J[0], (J[2] - J[0]) / J[1]])
     params = Params(plant, axes, gyroscopic, finest_bounds(plant))
-    return State(height_search(plant, target)), params
+    return State(heights.height_search(plant, target)), params
 
 
 # --- Step ------------------------------------------------------------------------------------
 
 
-def frequencies(state: State, sample: Sample, plant: Hanging) -> Floats:
+def frequencies(state: State, sample: Sample, plant: pendulum.Hanging) -> Floats:
     """Return w0 about both axes while masses raise or lower the platform, rad/s."""
     height = state.search.height
     above = float(plant.up @ sample.shift) - height.along
@@ -252,7 +236,7 @@ def learnt(state: State, x: Floats, sample: Sample, params: Params) -> State:
     before, plant = state.before, params.plant
     if before is None:
         return replace(state, e=np.zeros((2, 2)))
-    v = turned(plant, (before.shift + sample.shift) / 2)
+    v = pendulum.turned(plant, (before.shift + sample.shift) / 2)
     th, s, e = np.zeros((2, 2)), np.zeros(2), np.zeros((2, 2))
     turning = turned_about_up(before.x, before.spin, params)
     for i, axis in enumerate(params.axes):
@@ -272,7 +256,7 @@ def filtered(state: State, x: Floats, params: Params) -> Floats:
     """Return u_ad after a step, no faster than masses can follow, rad/s^2."""
     share = np.array([axis.share for axis in params.axes])
     way = share * (-matched(state, x) - state.u_ad) / params.plant.gain
-    most = params.plant.slew * PERIOD * (1 - SPARE)
+    most = params.plant.slew * PERIOD * (1 - pendulum.SPARE)
     return state.u_ad + params.plant.gain * limited(way, most)
 
 
@@ -281,21 +265,21 @@ def controlled(state: State, x: Floats, w0: Floats, params: Params) -> Vector3:
     plant = params.plant
     wanted = np.array([axis.wanted for axis in params.axes])
     p, d = (wanted**2 - w0**2).clip(0) / plant.gain, 2 * DAMPING * wanted / plant.gain
-    f = spared(plant, p, d, x[:, 0], x[:, 1])
+    f = pendulum.spared(plant, p, d, x[:, 0], x[:, 1])
     v = state.u_ad / plant.gain - f * (p * x[:, 0] + d * x[:, 1])
-    return shift_at_height(state.search, v)
+    return heights.shift_at_height(state.search, v)
 
 
 def sample_step(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next state and command after a sample."""
     plant = params.plant
-    tilt, rate = tilt_of(plant, sample), rate_of(plant, sample)
+    tilt, rate = pendulum.tilt_of(plant, sample), pendulum.rate_of(plant, sample)
     x, w0 = np.column_stack([tilt, rate]), frequencies(state, sample, plant)
     spin = float(plant.up @ sample.rate)
     state = learnt(state, x, sample, params)
     state = replace(state, u_ad=filtered(state, x, params))
     shift = controlled(state, x, w0, params)
-    search, command = levelling(state.search, sample, shift, params.quiet)
+    search, command = heights.levelling(state.search, sample, shift, params.quiet)
     return replace(state, search=search, before=Before(x, w0, sample.shift, spin)), command
 
 
@@ -303,13 +287,16 @@ def level_again(state: State, params: Params) -> tuple[State, Command]:
     """Return the first step after a measurement that raised the platform."""
     plant, search = params.plant, state.search
     assert search.level is not None
-    shift = shift_for(plant, turned(plant, search.level)) + search.height.along * plant.up
-    return replace(state, before=None), Command(shift=shift, note=raised_note(search))
+    shift = (
+        pendulum.shift_for(plant, pendulum.turned(plant, search.level))
+        + search.height.along * plant.up
+    )
+    return replace(state, before=None), Command(shift=shift, note=heights.raised_note(search))
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command."""
-    search, command = continued(state.search, sample)
+    search, command = heights.continued(state.search, sample)
     state = replace(state, search=search)
     if command is not None:
         return state, command

@@ -30,32 +30,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from equipoise.control.elements import momentum_balance as balance
+from equipoise.control.elements import slew as slews
 from equipoise.control.elements.attitude_pid import Gains, Pid, gains_for, torque, unwound
 from equipoise.control.elements.buildup_plan import Stage, foreseen, stages_of
-from equipoise.control.elements.momentum_balance import (
-    STANDS,
-    TERM,
-    Book,
-    Ledger,
-    book_of,
-    com_map,
-    drift_of,
-    entered,
-    opened,
-    sag_of,
-    stop_variance,
-)
-from equipoise.control.elements.slew import (
-    Pace,
-    Slew,
-    end_of,
-    levelled,
-    moment_across,
-    pace_for,
-    reference_at,
-    slew,
-    turned,
-)
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant.actuator_limits import fastest_slew
 from equipoise.control.plant.wheel_capacity import capacity
@@ -94,13 +72,13 @@ SETTLED = 1.0  # s, chosen: masses that then stand have arrived
 class Params:
     """What does not change while it runs."""
 
-    book: Book
+    book: balance.Book
     gains: Gains
     testbed: Testbed
     target: Vector3  # m
     trim: Floats  # (3, k) change of the goal by each torque term
     stages: tuple[Stage, ...]
-    pace: Pace
+    pace: slews.Pace
     momentum: float  # N m s, that wheels can take
     reach: float  # m, the most that masses are set off to unload
 
@@ -109,10 +87,10 @@ class Params:
 class State:
     """The progress of the law."""
 
-    ledger: Ledger | None = None
+    ledger: balance.Ledger | None = None
     pid: Pid = field(default_factory=unwound)
     level: Quaternion | None = None  # the level attitude with the first heading
-    turn: Slew | None = None
+    turn: slews.Slew | None = None
     stage: int = 0
     due: float = 0.0  # s, when this stage ends
     shift: Vector3 | None = None  # m, last requested
@@ -128,18 +106,20 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     if can.torque <= 0 or testbed.gyro is None or not testbed.masses:
         raise InputError("momentum_buildup", "a testbed without them",
                          "sliding masses, a gyro, and wheels or gyros along all axes")  # fmt: skip
-    book = book_of(testbed)
+    book = balance.book_of(testbed)
     tilt = min(RANGE, SHARE * testbed.tilt_limit)
     trims = [trimmed_com(sag_matrix({term: 1.0}), testbed.up, tilt) for term in book.terms]
     trim = np.array(trims).reshape(-1, 3).T
-    pace = pace_for(moment_across(testbed.body.inertia_P, testbed.up), can)
+    pace = slews.pace_for(slews.moment_across(testbed.body.inertia_P, testbed.up), can)
     stages = planned(testbed, book, trim, pace)
     loop = gains_for(testbed.body.inertia_P, can.torque)
     reach = SOON / UNLOAD * fastest_slew(testbed)
     return State(), Params(book, loop, testbed, target, trim, stages, pace, can.momentum, reach)
 
 
-def planned(testbed: Testbed, book: Book, trim: Floats, pace: Pace) -> tuple[Stage, ...]:
+def planned(
+    testbed: Testbed, book: balance.Book, trim: Floats, pace: slews.Pace
+) -> tuple[Stage, ...]:
     """Return the stages with the seconds of a hold that the predicted covariance requires."""
     tilt = min(RANGE, SHARE * testbed.tilt_limit)
     best = stages_of(testbed.up, tilt, CHOICES[0])
@@ -156,15 +136,15 @@ def planned(testbed: Testbed, book: Book, trim: Floats, pace: Pace) -> tuple[Sta
 
 
 def off_goal(
-    ledger: Ledger, shift: Vector3, trim: Floats, book: Book, ahead: float = AHEAD
+    ledger: balance.Ledger, shift: Vector3, trim: Floats, book: balance.Book, ahead: float = AHEAD
 ) -> tuple[Vector3, Matrix3]:
     """Return the offset of the centre of mass from the one that trims, and its covariance."""
-    G = com_map(ledger, book, ahead)
-    G[:, TERM:] -= trim
+    G = balance.com_map(ledger, book, ahead)
+    G[:, balance.TERM :] -= trim
     return G @ ledger.x + shift, G @ ledger.P @ G.T
 
 
-def unloading(ledger: Ledger, sample: Sample, params: Params) -> Vector3:
+def unloading(ledger: balance.Ledger, sample: Sample, params: Params) -> Vector3:
     """Return the offset (m) from the goal by which gravity takes the horizontal momentum out."""
     outward = -UNLOAD * np.array([ledger.x[0], ledger.x[1], 0.0])
     g = sample.gravity
@@ -173,15 +153,15 @@ def unloading(ledger: Ledger, sample: Sample, params: Params) -> Vector3:
     return off * min(1.0, params.reach / max(size, 1e-12))
 
 
-def weight_moment(ledger: Ledger, sample: Sample, params: Params) -> Vector3:
+def weight_moment(ledger: balance.Ledger, sample: Sample, params: Params) -> Vector3:
     """Return the estimated m (r + s + C n), kg m, for the feed-forward."""
     book = params.book
     down = sample.gravity / float(np.linalg.norm(sample.gravity))
-    com = com_map(ledger, book) @ ledger.x
-    return book.mass * (com + sample.shift + sag_of(ledger, book) @ down)
+    com = balance.com_map(ledger, book) @ ledger.x
+    return book.mass * (com + sample.shift + balance.sag_of(ledger, book) @ down)
 
 
-def home_to_goal(ledger: Ledger, params: Params) -> tuple[Vector3, Matrix3]:
+def home_to_goal(ledger: balance.Ledger, params: Params) -> tuple[Vector3, Matrix3]:
     """Return the shift (m) that brings the centre of mass to its goal, and the covariance."""
     off, covariance = off_goal(ledger, -params.target, params.trim, params.book)
     return -off, covariance
@@ -207,7 +187,7 @@ def retrimmed(
     assert state.ledger is not None
     wanted, covariance = home_to_goal(state.ledger, params)
     change: Vector3 = wanted - sample.shift
-    stops = float(np.sum(stop_variance(change, params.book)))
+    stops = float(np.sum(balance.stop_variance(change, params.book)))
     unsure = stops + doubt**2 * float(np.trace(covariance))
     if (late and stops > COARSE**2) or change @ change < unsure:
         return state
@@ -231,10 +211,10 @@ def guarded(state: State, sample: Sample, params: Params) -> State:
 def entered_stage(state: State, sample: Sample, params: Params) -> State:
     """Return the state at the beginning of its stage: the turn there, the masses to the goal."""
     stage = params.stages[state.stage]
-    base = state.level if state.level is not None else levelled(sample.q, params.testbed.up)
-    here = sample.q if state.turn is None else reference_at(state.turn, np.inf).q
-    way = slew(here, turned(base, stage.turn), sample.t, params.pace)
-    state = replace(state, level=base, turn=way, due=end_of(way) + stage.seconds)
+    base = state.level if state.level is not None else slews.levelled(sample.q, params.testbed.up)
+    here = sample.q if state.turn is None else slews.reference_at(state.turn, np.inf).q
+    way = slews.slew(here, slews.turned(base, stage.turn), sample.t, params.pace)
+    state = replace(state, level=base, turn=way, due=slews.end_of(way) + stage.seconds)
     late = state.stage >= len(params.stages) - LATE
     return state if stage.follows else retrimmed(state, sample, params, DOUBT, late)
 
@@ -260,7 +240,7 @@ def closed(state: State, sample: Sample, params: Params) -> State:
     moved = retrimmed(state, sample, params, 0.0)
     assert moved.shift is not None
     assert state.ledger is not None
-    stops = stop_variance(moved.shift - sample.shift, params.book)
+    stops = balance.stop_variance(moved.shift - sample.shift, params.book)
     doubt = np.diag(home_to_goal(state.ledger, params)[1])
     if state.again or float((stops + doubt).max()) <= CLEAR**2:
         return homeward(moved, sample, params)
@@ -271,27 +251,27 @@ def homeward(state: State, sample: Sample, params: Params) -> State:
     """Return the state on its way back to level, where a proof swing has the least sag."""
     assert state.turn is not None
     assert state.level is not None
-    way = slew(reference_at(state.turn, np.inf).q, state.level, sample.t, params.pace)
-    return replace(state, turn=way, closing=end_of(way))
+    way = slews.slew(slews.reference_at(state.turn, np.inf).q, state.level, sample.t, params.pace)
+    return replace(state, turn=way, closing=slews.end_of(way))
 
 
 def ended(state: State, sample: Sample) -> bool:
     """Say whether the last move is made, or is waited for no longer."""
     if state.closing is None or state.ledger is None or sample.t < state.closing + SETTLED:
         return False
-    stands = bool(np.linalg.norm(sample.shift - state.ledger.stood) <= STANDS)
+    stands = bool(np.linalg.norm(sample.shift - state.ledger.stood) <= balance.STANDS)
     return stands or sample.t > state.closing + PATIENCE
 
 
-def following(ledger: Ledger, params: Params) -> Following:
+def following(ledger: balance.Ledger, params: Params) -> Following:
     """Return the sag and the drift that masses can follow from now on."""
     book = params.book
     off, _ = off_goal(ledger, -params.target, params.trim, book, 0.0)
-    sag, trim = sag_of(ledger, book), params.trim @ ledger.x[TERM:]
-    return Following(-off, ledger.t, drift_of(ledger, book), sag, trim)
+    sag, trim = balance.sag_of(ledger, book), params.trim @ ledger.x[balance.TERM :]
+    return Following(-off, ledger.t, balance.drift_of(ledger, book), sag, trim)
 
 
-def report(ledger: Ledger, shift: Vector3, params: Params) -> tuple[Reason, ...]:
+def report(ledger: balance.Ledger, shift: Vector3, params: Params) -> tuple[Reason, ...]:
     """Return where the centre of mass is estimated to be."""
     off, covariance = off_goal(ledger, shift - params.target, params.trim, params.book)
     numbers = axes_of("off", off) | axes_of("sd", np.sqrt(np.diag(covariance)))
@@ -301,14 +281,15 @@ def report(ledger: Ledger, shift: Vector3, params: Params) -> tuple[Reason, ...]
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and the command: torque at every step, masses when they should move."""
     assert isinstance(sample, Sample)  # it requests no measurement
-    ledger = state.ledger
-    ledger = opened(params.testbed, params.book, sample) if ledger is None else entered(
-        ledger, sample, params.book)  # fmt: skip
+    if state.ledger is None:
+        ledger = balance.opened(params.testbed, params.book, sample)
+    else:
+        ledger = balance.entered(state.ledger, sample, params.book)
     state = advanced(replace(state, ledger=ledger), sample, params)
     if state.closing is None:
         state = shift_for(guarded(state, sample, params), sample, params)
     assert state.turn is not None
-    reference = reference_at(state.turn, sample.t)
+    reference = slews.reference_at(state.turn, sample.t)
     moment = weight_moment(ledger, sample, params)
     pid, u = torque(state.pid, sample, reference, params.gains, moment)
     requested = Command(shift=state.shift, torque=u)

@@ -33,38 +33,11 @@ from typing import Literal
 
 import numpy as np
 
-from equipoise.control.elements.height_adjustment import (
-    HeightSearch,
-    continued,
-    height_search,
-    levelling,
-    raised_note,
-    shift_at_height,
-)
+from equipoise.control.elements import height_adjustment as heights
+from equipoise.control.elements import ziegler_nichols as tuning
 from equipoise.control.elements.loop_stability import Sampled, closed, radius, steps_late
-from equipoise.control.elements.ziegler_nichols import (
-    CYCLES_IN,
-    CYCLES_USED,
-    Gains,
-    Loop,
-    Relay,
-    Ultimate,
-    band_of,
-    has_settled,
-    measured,
-    relay_step,
-    rule,
-    ultimate,
-)
 from equipoise.control.law import Law, Sample
-from equipoise.control.plant.pendulum import (
-    Hanging,
-    hanging,
-    rate_of,
-    spared,
-    tilt_of,
-    turned,
-)
+from equipoise.control.plant import pendulum
 from equipoise.control.plant.settling import (
     PERIOD,
     Bounds,
@@ -92,6 +65,8 @@ MARGIN = 2.0  # chosen: the gains may be wrong by this factor
 RAISED = 0.1  # chosen: of the swing's frequency, for a platform that has been raised
 ROUGH = 0.005  # chosen: of the depth, an offset that counts as none before the first measurement
 
+Pair = tuple[tuning.Gains, tuning.Gains]  # of both axes
+
 CARD = LawCard(
     name="pid",
     idea="Tilt, its integral and the gyro's rate move the masses; a relay finds the gains.",
@@ -108,10 +83,10 @@ CARD = LawCard(
 class Params:
     """What does not change while it runs."""
 
-    plant: Hanging
-    loops: tuple[Loop, Loop]
-    cycles: tuple[Ultimate, Ultimate]  # calculated
-    gains: tuple[Gains, Gains]  # calculated
+    plant: pendulum.Hanging
+    loops: tuple[tuning.Loop, tuning.Loop]
+    cycles: tuple[tuning.Ultimate, tuning.Ultimate]  # calculated
+    gains: Pair  # calculated
     calm: Bounds  # before the relay
     rough: Bounds  # before the first measurement
     quiet: Bounds  # after it
@@ -122,19 +97,19 @@ class State:
     """Where it stands."""
 
     phase: Literal["settle", "relay", "level"]
-    gains: tuple[Gains, Gains]
+    gains: Pair
     rest: Rest
-    search: HeightSearch
+    search: heights.HeightSearch
     requested: Vector3 | None = None  # m, the last shift
     integral: Floats | None = None  # (2,) m
-    relays: tuple[Relay, Relay] = (Relay(), Relay())
+    relays: tuple[tuning.Relay, tuning.Relay] = (tuning.Relay(), tuning.Relay())
     started: float = 0.0  # s, the relay
 
 
 # --- Begin -----------------------------------------------------------------------------------
 
 
-def loop_of(plant: Hanging, axis: int) -> Loop:
+def loop_of(plant: pendulum.Hanging, axis: int) -> tuning.Loop:
     """Return one axis with its lead and its relay; InputError for masses too slow or coarse."""
     frequency = float(plant.frequency[axis])
     lead, delay = 1 / frequency, plant.delay + PERIOD / 2
@@ -146,16 +121,16 @@ def loop_of(plant: Hanging, axis: int) -> Loop:
             f"{plant.step / UM:.3g} um, {delay:.2g} s late",
             f"{STEPS} steps in {LATE * lead:.2g} s, a quarter of a hanging swing's radian",
         )
-    return Loop(float(plant.gain[axis]), frequency, lead, delay, plant.slew, relay)
+    return tuning.Loop(float(plant.gain[axis]), frequency, lead, delay, plant.slew, relay)
 
 
-def check(loop: Loop, gains: Gains, delay: float) -> None:
+def check(loop: tuning.Loop, gains: tuning.Gains, delay: float) -> None:
     """Raise InputError where the sampled loop is unstable at half or twice the gains."""
     axis = Sampled(loop.gain, loop.frequency, PERIOD, steps_late(delay, PERIOD))
     for factor, share in product((1 / MARGIN, 1.0, MARGIN), (1.0, RAISED)):
         at = axis._replace(frequency=share * axis.frequency)
         p, i, d = np.array(gains) * factor
-        size = radius(closed(at, Gains(p, share * i, d)))
+        size = radius(closed(at, tuning.Gains(p, share * i, d)))
         if size >= 1:
             raise InputError(
                 "law pid",
@@ -167,16 +142,16 @@ def check(loop: Loop, gains: Gains, delay: float) -> None:
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return where the law begins; InputError where it would not be stable."""
-    plant = hanging(testbed)
+    plant = pendulum.hanging(testbed)
     loops = (loop_of(plant, 0), loop_of(plant, 1))
-    cycles = (ultimate(loops[0]), ultimate(loops[1]))
-    first, second = (rule(c, loop.lead) for c, loop in zip(cycles, loops, strict=True))
+    cycles = (tuning.ultimate(loops[0]), tuning.ultimate(loops[1]))
+    first, second = (tuning.rule(c, loop.lead) for c, loop in zip(cycles, loops, strict=True))
     for loop, gains in zip(loops, (first, second), strict=True):
         check(loop, gains, plant.delay + plant.filling)
     calm, quiet = bounds(plant, 0.3 * loops[0].relay), finest_bounds(plant)
     rough = bounds(plant, max(quiet.shift, ROUGH * plant.depth))
     params = Params(plant, loops, cycles, (first, second), calm, rough, quiet)
-    return State("settle", params.gains, Rest(), height_search(plant, target)), params
+    return State("settle", params.gains, Rest(), heights.height_search(plant, target)), params
 
 
 # --- Step ------------------------------------------------------------------------------------
@@ -184,9 +159,9 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 
 def damping(state: State, sample: Sample, params: Params) -> Floats:
     """Return -f K_d rate, m."""
-    rate = rate_of(params.plant, sample)
+    rate = pendulum.rate_of(params.plant, sample)
     d = np.array([gains.derivative for gains in state.gains])
-    return -spared(params.plant, 0 * d, d, np.zeros(2), rate) * d * rate
+    return -pendulum.spared(params.plant, 0 * d, d, np.zeros(2), rate) * d * rate
 
 
 def settle_phase(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
@@ -197,34 +172,34 @@ def settle_phase(state: State, sample: Sample, params: Params) -> tuple[State, C
     if is_quiet(rest, sample.t, params.calm):
         state = replace(state, phase="relay", started=sample.t)
         note = one_reason(LawReason.RELAY_BEGINS)
-    return state, Command(shift=shift_at_height(state.search, v), note=note)
+    return state, Command(shift=heights.shift_at_height(state.search, v), note=note)
 
 
 def relay_v(state: State, sample: Sample, params: Params) -> tuple[State, Floats]:
     """Return the relays after a sample, and v (m)."""
-    tilt = tilt_of(params.plant, sample) - state.rest.tilt
-    rate = rate_of(params.plant, sample)
+    tilt = pendulum.tilt_of(params.plant, sample) - state.rest.tilt
+    rate = pendulum.rate_of(params.plant, sample)
     relays, v = list(state.relays), damping(state, sample, params)
     for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
-        if not has_settled(relay):
-            band = band_of(loop, params.cycles[i])
+        if not tuning.has_settled(relay):
+            band = tuning.band_of(loop, params.cycles[i])
             sigma = float(tilt[i] + loop.lead * rate[i])
-            relays[i] = relay_step(relay, sample.t, sigma, band)
+            relays[i] = tuning.relay_step(relay, sample.t, sigma, band)
             v[i] = relays[i].output * loop.relay
     return replace(state, relays=(relays[0], relays[1])), v
 
 
-def tuned(state: State, params: Params) -> tuple[tuple[Gains, Gains], tuple[Reason, ...]]:
+def tuned(state: State, params: Params) -> tuple[Pair, tuple[Reason, ...]]:
     """Return the gains by the experiment, or the calculated ones where it is implausible."""
-    found, notes = list[Gains](), list[Reason]()
+    found, notes = list[tuning.Gains](), list[Reason]()
     for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
-        cycle = measured(relay, loop.relay) if has_settled(relay) else None
+        cycle = tuning.measured(relay, loop.relay) if tuning.has_settled(relay) else None
         expected = params.cycles[i]
         if cycle is None or not 1 / IMPLAUSIBLE < cycle.gain / expected.gain < IMPLAUSIBLE:
             found.append(params.gains[i])
             notes.append(Reason(LawReason.CYCLE_REJECTED))
         else:
-            found.append(rule(cycle, loop.lead))
+            found.append(tuning.rule(cycle, loop.lead))
             calculated = {"expected_gain": expected.gain, "expected_period": expected.period}
             numbers = {"gain": cycle.gain, "period": cycle.period} | calculated
             notes.append(Reason(LawReason.CYCLE_MEASURED, (), numbers))
@@ -236,42 +211,46 @@ def relay_phase(state: State, sample: Sample, params: Params) -> tuple[State, Co
     state, v = relay_v(state, sample, params)
     note = ()
     longest = max(cycle.period for cycle in params.cycles)
-    late = sample.t - state.started > PATIENCE * (CYCLES_IN + CYCLES_USED + 1) * longest
-    if late or all(has_settled(relay) for relay in state.relays):
+    late = (
+        sample.t - state.started > PATIENCE * (tuning.CYCLES_IN + tuning.CYCLES_USED + 1) * longest
+    )
+    if late or all(tuning.has_settled(relay) for relay in state.relays):
         gains, note = tuned(state, params)
         state = replace(state, phase="level", gains=gains, integral=np.zeros(2))
-    shift = shift_at_height(state.search, v)
+    shift = heights.shift_at_height(state.search, v)
     return replace(state, requested=shift), Command(shift=shift, note=note)
 
 
 def level_phase(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next step of the PID."""
     plant = params.plant
-    tilt, rate = tilt_of(plant, sample), rate_of(plant, sample)
+    tilt, rate = pendulum.tilt_of(plant, sample), pendulum.rate_of(plant, sample)
     assert state.integral is not None
     assert state.requested is not None
     p, i, d = np.array(state.gains).T
     height = state.search.height
     i = i * (height.depth / plant.depth) ** 0.5
-    f = spared(plant, p, d, tilt, rate)
-    undelivered = turned(plant, sample.shift - state.requested)
+    f = pendulum.spared(plant, p, d, tilt, rate)
+    undelivered = pendulum.turned(plant, sample.shift - state.requested)
     integral = state.integral + PERIOD * (f * i * tilt - undelivered * i / p)
-    shift = shift_at_height(state.search, -f * (p * tilt + d * rate) - integral)
+    shift = heights.shift_at_height(state.search, -f * (p * tilt + d * rate) - integral)
     quiet = params.quiet if height.measurements else params.rough
-    search, command = levelling(state.search, sample, shift, quiet)
+    search, command = heights.levelling(state.search, sample, shift, quiet)
     return replace(state, integral=integral, requested=shift, search=search), command
 
 
 def level_again(state: State) -> tuple[State, Command]:
     """Return the first step of the PID after a measurement that raised the platform."""
     assert state.integral is not None
-    shift = shift_at_height(state.search, -state.integral)
-    return replace(state, requested=shift), Command(shift=shift, note=raised_note(state.search))
+    shift = heights.shift_at_height(state.search, -state.integral)
+    return replace(state, requested=shift), Command(
+        shift=shift, note=heights.raised_note(state.search)
+    )
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command."""
-    search, command = continued(state.search, sample)
+    search, command = heights.continued(state.search, sample)
     state = replace(state, search=search)
     if command is not None:
         return state, command

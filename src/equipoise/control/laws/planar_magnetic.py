@@ -25,30 +25,14 @@ from typing import Literal
 
 import numpy as np
 
-from equipoise.control.elements.planar_feedback import (
-    Loop,
-    Plant,
-    creep,
-    damping_torque,
-    lean,
-    loop_for,
-)
+from equipoise.control.elements import planar_feedback as feedback
 from equipoise.control.elements.slew import moment_across
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant import move_timing
+from equipoise.control.plant import swing_estimates as swings
 from equipoise.control.plant.actuator_limits import fastest_slew
 from equipoise.control.plant.move_timing import Waiting
 from equipoise.control.plant.settling import UNREPORTED, Stand, standing
-from equipoise.control.plant.swing_estimates import (
-    METHOD,
-    Shown,
-    combined,
-    hanging_shift,
-    held,
-    shown,
-    shows,
-    why_not_shown,
-)
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
@@ -84,7 +68,7 @@ TEN_DEGREES = float(np.radians(10))
 class Params:
     """What does not change while it runs."""
 
-    plant: Plant
+    plant: feedback.Plant
     up: Vector3
     target: Vector3  # m
     depth: float  # m, of the first swing
@@ -99,13 +83,13 @@ class State:
 
     phase: Phase
     shift: Vector3  # m, requested
-    loop: Loop
+    loop: feedback.Loop
     since: float | None = None  # s, when the phase began
     lean: float = UNREST  # rad, running mean of the tilt
     swing: float = UNREST  # rad, running mean of |w across the vertical| / w_n
     stand: Stand = UNREPORTED
     t: float = 0.0
-    measurements: tuple[Shown, ...] = ()
+    measurements: tuple[swings.Shown, ...] = ()
     failed: int = 0  # measurements that showed nothing
     waiting: Waiting | None = None  # to level the platform
     flat: Vector3 | None = None  # m, the shift before the last kick
@@ -116,10 +100,10 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError where masses are too slow for the feedback."""
     up = testbed.up
     J = moment_across(testbed.body.inertia_P, up)
-    (depth, hang), speed = hanging_shift(testbed, 2 * FLOOR), fastest_slew(testbed)
-    plant = Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
-    params = Params(plant, up, target, depth, speed, held(testbed), testbed.inertia_sd)
-    loop = loop_for(plant, depth)
+    (depth, hang), speed = swings.hanging_shift(testbed, 2 * FLOOR), fastest_slew(testbed)
+    plant = feedback.Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
+    params = Params(plant, up, target, depth, speed, swings.held(testbed), testbed.inertia_sd)
+    loop = feedback.loop_for(plant, depth)
     if plant.coils == 0 or loop.integral * TEN_DEGREES > FAST * speed:
         raise InputError("planar_magnetic", f"masses that shift by {speed / UM:.3g} um/s and "
                          f"coils that give {plant.coils:.3g} N m", "coils, a known field, and "
@@ -141,7 +125,7 @@ def watched(state: State, sample: Sample, params: Params) -> State:
     began = state.since is not None
     n = sample.gravity / float(np.linalg.norm(sample.gravity))
     swing = float(np.linalg.norm(np.cross(sample.rate, n))) / state.loop.swing
-    tilt = float(np.linalg.norm(lean(sample.gravity, params.up)))
+    tilt = float(np.linalg.norm(feedback.lean(sample.gravity, params.up)))
     share = 1.0 - float(np.exp(-(sample.t - state.t) / MEAN)) if began else 0.0
     return replace(
         state,
@@ -158,7 +142,7 @@ def fed_back(state: State, sample: Sample, params: Params, dt: float) -> State:
     behind = float(np.linalg.norm(state.shift - sample.shift))
     if behind > LAG * params.speed:
         return state
-    speed = creep(sample.gravity, params.up, state.swing, state.loop)
+    speed = feedback.creep(sample.gravity, params.up, state.swing, state.loop)
     return replace(state, shift=state.shift + dt * speed)
 
 
@@ -191,17 +175,17 @@ def is_level(state: State, enough: float) -> bool:
 def after_measurement(state: State, estimate: Estimate, params: Params) -> State:
     """Return the state after a measurement: to be levelled and calmed where it is."""
     state = replace(state, since=None)  # time has passed
-    if not shows(estimate):
+    if not swings.shows(estimate):
         state = replace(state, failed=state.failed + 1)
         if state.flat is None:
             return into(state, "feedback", state.shift)
         back = Waiting(state.flat, state.loop.swing)
         return into(replace(state, waiting=back), "level", state.shift)
-    measurements, up = (*state.measurements, shown(estimate, state.shift)), params.up
-    r, sd, _ = combined(measurements, up, params.inertia_sd)
+    measurements, up = (*state.measurements, swings.shown(estimate, state.shift)), params.up
+    r, sd, _ = swings.combined(measurements, up, params.inertia_sd)
     depth = -float(up @ (r + state.shift))
     last = len(measurements) == MOST or (len(measurements) > 1 and bool(np.all(sd < ENOUGH)))
-    loop = loop_for(params.plant, max(depth, FLOOR))
+    loop = feedback.loop_for(params.plant, max(depth, FLOOR))
     goal = params.target - r if last else None
     waiting = Waiting(-depth * up - r, loop.swing)
     state = replace(state, measurements=measurements, loop=loop, goal=goal, waiting=waiting)
@@ -224,8 +208,8 @@ def after_calm(state: State, params: Params) -> State:
         aside = params.target - (params.target @ params.up) * params.up
         rise = float(params.up @ (state.goal - state.shift))
         return into(state, "end", state.shift + aside + rise * params.up)
-    loop = loop_for(params.plant, FLOOR)
-    r = combined(state.measurements, params.up, params.inertia_sd).com
+    loop = feedback.loop_for(params.plant, FLOOR)
+    r = swings.combined(state.measurements, params.up, params.inertia_sd).com
     return kicked(replace(state, loop=loop, shift=-FLOOR * params.up - r), params)
 
 
@@ -243,11 +227,11 @@ def next_of(state: State, params: Params) -> State:
 def requested(state: State, sample: Sample, params: Params) -> Command:
     """Return the command of a phase."""
     if state.phase == "kick":
-        measurement = Measurement(SWING, METHOD, params.held) if has_arrived(state) else None
+        measurement = Measurement(SWING, swings.METHOD, params.held) if has_arrived(state) else None
         return Command(shift=state.shift, measurement=measurement)
     done = state.phase == "end" and has_arrived(state)
     why = one_reason(LawReason.LEVEL_AT_HEIGHT, swings=len(state.measurements)) if done else ()
-    coils = damping_torque(sample.rate, state.loop)
+    coils = feedback.damping_torque(sample.rate, state.loop)
     return Command(shift=state.shift, magnetic=coils, finished=why)
 
 
@@ -255,7 +239,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     """Return the next state and the command."""
     if isinstance(sample, Estimate):
         state = after_measurement(state, sample, params)
-        lost = why_not_shown(sample) if state.failed == MISSES else ()
+        lost = swings.why_not_shown(sample) if state.failed == MISSES else ()
         return state, Command(shift=state.shift, finished=lost)
     dt = sample.t - state.t if state.since is not None else 0.0
     state = watched(state, sample, params)

@@ -25,17 +25,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from equipoise.control.elements import slew as slews
 from equipoise.control.elements.attitude_pid import Gains, Pid, gains_for, torque, unwound
-from equipoise.control.elements.slew import (
-    Pace,
-    Slew,
-    end_of,
-    levelled,
-    pace_for,
-    reference_at,
-    slew,
-    time_for,
-)
 from equipoise.control.law import Law, Sample
 from equipoise.control.plant.pendulum import hanging
 from equipoise.control.plant.settling import UNREPORTED, Stand, standing
@@ -71,7 +62,7 @@ class Params:
 
     testbed: Testbed
     gains: Gains
-    pace: Pace
+    pace: slews.Pace
     target: Vector3  # m
     turns: tuple[Quaternion, ...]  # A, B and C, from level with the first heading
     bearable: float  # m, the sd of r with which turns can be begun
@@ -85,7 +76,7 @@ class State:
     com: Vector3  # m, as estimated, masses at home
     pid: Pid = field(default_factory=unwound)
     base: Quaternion | None = None  # level, with the first heading
-    way: Slew | None = None
+    way: slews.Slew | None = None
     at: int = 0  # which turn
     round: int = 1  # 0: swings before the first
     swings: int = 0
@@ -109,13 +100,13 @@ def attitudes(testbed: Testbed) -> tuple[Quaternion, ...]:
     )
 
 
-def ways(up: Vector3, turns: tuple[Quaternion, ...], pace: Pace) -> list[float]:
+def ways(up: Vector3, turns: tuple[Quaternion, ...], pace: slews.Pace) -> list[float]:
     """Return how long each turn lasts (s), the first from level."""
     here, found = level(up), list[float]()
     for turn in turns:
         there = multiply(level(up), turn)
         angle = float(np.linalg.norm(difference(there, here)))
-        found.append(time_for(angle, pace) + REST)
+        found.append(slews.time_for(angle, pace) + REST)
         here = there
     return found
 
@@ -126,7 +117,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     if can.torque <= 0 or not testbed.masses:
         raise InputError("slew_and_measure", "a testbed without them",
                          "sliding masses, and wheels or gyros along all axes")  # fmt: skip
-    pace = pace_for(float(np.linalg.eigvalsh(J)[-1]), can)
+    pace = slews.pace_for(float(np.linalg.eigvalsh(J)[-1]), can)
     turns, held = attitudes(testbed), of_group(testbed, "drift")
     lasting = sum(ways(testbed.up, turns, pace))
     needed = testbed.body.mass * testbed.gravity * lasting  # N m s per m
@@ -147,14 +138,14 @@ def turning(state: State, sample: Sample, params: Params) -> State:
     """Return the state on its way to the turn that is due; ``at`` past the last: all are made."""
     turned = state.way is not None and state.way.duration > 0  # or held while masses travelled
     if state.way is not None and turned:
-        if sample.t < end_of(state.way) + REST:
+        if sample.t < slews.end_of(state.way) + REST:
             return state
         state = replace(state, at=state.at + 1)
     if state.at == len(params.turns):
         return state
-    base = levelled(sample.q, params.testbed.up) if state.base is None else state.base
-    here = sample.q if state.way is None else reference_at(state.way, np.inf).q
-    way = slew(here, multiply(base, params.turns[state.at]), sample.t, params.pace)
+    base = slews.levelled(sample.q, params.testbed.up) if state.base is None else state.base
+    here = sample.q if state.way is None else slews.reference_at(state.way, np.inf).q
+    way = slews.slew(here, multiply(base, params.turns[state.at]), sample.t, params.pace)
     began = sample.t if state.at == 0 else state.began
     return replace(state, base=base, way=way, began=began)
 
@@ -162,7 +153,7 @@ def turning(state: State, sample: Sample, params: Params) -> State:
 def driven(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the state and the command that follows the turn, or holds after it."""
     assert state.way is not None
-    reference = reference_at(state.way, sample.t)
+    reference = slews.reference_at(state.way, sample.t)
     moment = params.testbed.body.mass * (state.com + sample.shift)
     pid, u = torque(state.pid, sample, reference, params.gains, moment)
     return replace(state, pid=pid), Command(shift=state.shift, torque=u)
@@ -220,7 +211,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     if state.finished and not state.moving:
         return state, Command(shift=state.shift, finished=state.finished)
     if state.way is None and (state.moving or state.finished):
-        state = replace(state, way=Slew(sample.q, np.zeros(3), sample.t, 0.0))
+        state = replace(state, way=slews.Slew(sample.q, np.zeros(3), sample.t, 0.0))
     if state.moving or state.finished:
         return driven(state, sample, params)
     if state.round == 0:

@@ -31,27 +31,10 @@ from typing import Literal
 
 import numpy as np
 
-from equipoise.control.elements.tilt_feedback import (
-    Gains,
-    followed,
-    frequency_for,
-    gains_at,
-    owed,
-    settling,
-    shift_for,
-    swing_of,
-)
+from equipoise.control.elements import tilt_feedback as feedback
 from equipoise.control.law import Sample
+from equipoise.control.plant import offset_bounds as offsets
 from equipoise.control.plant.actuator_limits import greatest_shift, greatest_slew, limited
-from equipoise.control.plant.offset_bounds import (
-    LIKELY,
-    across,
-    around,
-    coarsest_step,
-    height_sd,
-    level_inertia,
-    likely_height,
-)
 from equipoise.control.plant.swing_estimates import of_group
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
@@ -84,7 +67,7 @@ Phase = Literal["follow", "push", "back", "measurement"]
 class Params:
     """What does not change from step to step."""
 
-    gains: Gains
+    gains: feedback.Gains
     measurement: Measurement
     push: float  # m, by which the masses go aside
     follow: int  # steps until the platform rests
@@ -117,7 +100,7 @@ class State:
 
 def method_for(testbed: Testbed) -> Measurement:
     """Return the measurement that this testbed allows; InputError if there is none."""
-    spread = across(testbed.up) @ testbed.com_sd
+    spread = offsets.across(testbed.up) @ testbed.com_sd
     if testbed.attitude is None or testbed.gyro is None:
         raise InputError(testbed.name, "no gyro, or no attitude sensor", "both")
     if float(np.linalg.norm(spread)) <= ACROSS:
@@ -127,15 +110,17 @@ def method_for(testbed: Testbed) -> Measurement:
 
 def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Params]:
     """Return state and parameters; ``integral`` is w_i over w_a."""
-    up, quantum, reach = testbed.up, coarsest_step(testbed), greatest_shift(testbed)
-    if float(np.linalg.norm(across(up) @ target)) > LEAST:
+    up, quantum, reach = testbed.up, offsets.coarsest_step(testbed), greatest_shift(testbed)
+    if float(np.linalg.norm(offsets.across(up) @ target)) > LEAST:
         raise InputError(
             "target", "a centre of mass aside of up", "one along up: masses settle there"
         )
-    w = frequency_for(testbed, PERIOD)
-    gains = gains_at(testbed, w, integral * w, PERIOD)
-    slowest = settling(w, integral * w, min(swing_of(testbed, likely_height(testbed)), 0.0))
-    lower = float(up @ (target - testbed.body.com)) - LIKELY * height_sd(testbed)
+    w = feedback.frequency_for(testbed, PERIOD)
+    gains = feedback.gains_at(testbed, w, integral * w, PERIOD)
+    slowest = feedback.settling(
+        w, integral * w, min(feedback.swing_of(testbed, offsets.likely_height(testbed)), 0.0)
+    )
+    lower = float(up @ (target - testbed.body.com)) - offsets.LIKELY * offsets.height_sd(testbed)
     height = float(np.clip(lower, -reach, reach))
     params = Params(
         gains, method_for(testbed), push_for(testbed),
@@ -143,13 +128,13 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
         max(LATE * quantum, NEAR), PAY * greatest_slew(testbed) * PERIOD, float(up @ target),
         testbed.tilt_limit,
     )  # fmt: skip
-    return State(across(up) @ testbed.body.com, height), params
+    return State(offsets.across(up) @ testbed.body.com, height), params
 
 
 def push_for(testbed: Testbed) -> float:
     """Return how far (m) the centre of mass goes aside for a swing of the wanted size."""
     rate = SWING * testbed.tilt_limit / MEASURED
-    wanted = rate * level_inertia(testbed) / (testbed.body.mass * testbed.gravity * PUSH)
+    wanted = rate * offsets.level_inertia(testbed) / (testbed.body.mass * testbed.gravity * PUSH)
     return min(wanted, greatest_slew(testbed) * PUSH)
 
 
@@ -170,15 +155,15 @@ def follow(state: State, sample: Sample, params: Params) -> tuple[State, Command
     gains = params.gains
     held, owing = held_now(state, sample, params)
     upward = state.height * gains.up
-    shift = shift_for(gains, held, sample.gravity, sample.rate) + upward
+    shift = feedback.shift_for(gains, held, sample.gravity, sample.rate) + upward
     paid = float(np.linalg.norm(owing)) < params.tolerance
     count = state.step + 1 if paid else 0
     state = replace(
         state, held=held, gravity=sample.gravity, owed=owing, requested=shift, step=count
     )
     if state.step > params.follow - round(MEAN / PERIOD):
-        still = shift_for(gains, held, sample.gravity, np.zeros(3)) + upward
-        tilt = across(gains.up) @ sample.gravity / gains.gravity
+        still = feedback.shift_for(gains, held, sample.gravity, np.zeros(3)) + upward
+        tilt = offsets.across(gains.up) @ sample.gravity / gains.gravity
         state = replace(state, rest=added(state.rest, still), level=added(state.level, tilt))
     if state.step < params.follow:
         return state, Command(shift=shift)
@@ -195,9 +180,9 @@ def follow(state: State, sample: Sample, params: Params) -> tuple[State, Command
 def held_now(state: State, sample: Sample, params: Params) -> tuple[Vector3, Vector3]:
     """Return rh (m), begun anew at the first sample of a round, and what is still owed (m)."""
     if state.gravity is None or state.requested is None or state.owed is None:
-        return state.held, owed(params.gains, sample.gravity)
+        return state.held, feedback.owed(params.gains, sample.gravity)
     late = float(np.linalg.norm(state.requested - sample.shift)) > params.late
-    held = followed(params.gains, state.held, state.gravity, sample.gravity, late)
+    held = feedback.followed(params.gains, state.held, state.gravity, sample.gravity, late)
     paid = limited(state.owed, params.pay)
     return held + paid, state.owed - paid
 
@@ -212,7 +197,7 @@ def swing(state: State, sample: Sample, params: Params) -> tuple[State, Command]
     assert state.rest is not None
     count = state.step + 1
     if state.phase == "push":
-        aside = around(params.gains.up)[state.rounds % 2]
+        aside = offsets.around(params.gains.up)[state.rounds % 2]
         ends = count >= round(PUSH / PERIOD)
         state = replace(state, phase="back" if ends else "push", step=0 if ends else count)
         return state, Command(shift=state.rest + params.push * aside)
@@ -243,7 +228,7 @@ def trimmed(state: State, estimate: Estimate, params: Params) -> tuple[State, Co
     over = why_over(left, replace(state, rounds=rounds), params)
     up = params.gains.up
     ending = (*found, *over, *one_reason(LawReason.LEVEL_AGAIN)) if over else ()
-    held, height = -across(up) @ state.rest, float(up @ state.rest) + missing
+    held, height = -offsets.across(up) @ state.rest, float(up @ state.rest) + missing
     onward = State(held, height, rounds=rounds, left=left, ending=ending)
     return onward, Command(shift=state.rest + missing * up, note=() if over else found)
 
