@@ -6,7 +6,7 @@ too far. (Ivanov 2021 section 5 moves every 25 s; this moves when it pays.)
 """
 
 from collections.abc import Generator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
@@ -27,15 +26,13 @@ from equipoise.procedure.steps.plain_steps import measurement_step
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
-from equipoise.procedure.steps.verify import at, fresh_enough, is_within, verdict
+from equipoise.procedure.steps.verify import Aim, at, fresh_enough, is_within, verdict
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class BalanceOptions:
-    """Where the centre of mass should go, and what may be spent on it."""
+class BalanceOptions(Aim):
+    """The aim, and the moves and the time that may be spent."""
 
-    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
-    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
     max_moves: int = 3
     max_time: float = 120.0  # s on the bench's clock
 

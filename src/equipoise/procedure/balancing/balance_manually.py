@@ -11,7 +11,7 @@ requested, or something slipped.
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from equipoise.actuators.placed_weights import load_of
 from equipoise.actuators.weight_choice import Wanted, chosen
 from equipoise.estimation.information.single_record_information import Shown, shown_by
 from equipoise.maths.attitude import tilt
-from equipoise.model.arrays import Ints, Vector3
+from equipoise.model.arrays import Ints
 from equipoise.model.errors import InputError
 from equipoise.model.hands import Hands
 from equipoise.model.mass_properties import MassProperties
@@ -29,7 +29,6 @@ from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.model.weights import places_of, unloaded
 from equipoise.procedure.balancing.manual_estimate import (
@@ -42,15 +41,13 @@ from equipoise.procedure.balancing.manual_estimate import (
 )
 from equipoise.procedure.steps.joint_fit import as_if_stiff
 from equipoise.procedure.steps.plain_steps import measurement_step
-from equipoise.procedure.steps.verify import CONTRADICTION, at, judged, unusable
+from equipoise.procedure.steps.verify import CONTRADICTION, Aim, at, judged, unusable
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class HandOptions:
-    """Where the centre of mass should go, and what may be spent on it."""
+class HandOptions(Aim):
+    """The aim, and the placings that may be made."""
 
-    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
-    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
     max_rounds: int = 4  # placings
 
 

@@ -7,7 +7,7 @@ by that record alone. A platform that tilts beyond its limit is stopped, with th
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,6 @@ from equipoise.estimation.method_contract import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
-from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
@@ -33,7 +32,6 @@ from equipoise.model.recording import Recording, joined, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS, among
-from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
 from equipoise.procedure.steps.joint_fit import as_if_stiff, learn, without
@@ -41,17 +39,15 @@ from equipoise.procedure.steps.plain_steps import estimate_step, measurement_ste
 from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
 from equipoise.procedure.steps.tilt_guard import guarded, tilted
 from equipoise.procedure.steps.verification_swing import watched_swing
-from equipoise.procedure.steps.verify import verdict
+from equipoise.procedure.steps.verify import Aim, verdict
 
 SETTLE = 1.0  # s, chosen: after it the filter's rate and attitude can be used
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LawOptions:
-    """Where the centre of mass should go, and what may be spent on it."""
+class LawOptions(Aim):
+    """The aim, and the time that may be spent."""
 
-    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
-    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
     max_time: float = 600.0  # s on the bench's clock, the proof included
     proof: float = 40.0  # s of swinging by which the result is judged
 

@@ -1,5 +1,7 @@
 """Verify that the centre of mass is at its target, on data since the last move."""
 
+from dataclasses import dataclass, field
+
 import numpy as np
 from scipy.special import ndtr
 
@@ -10,12 +12,21 @@ from equipoise.model.move import Move
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.reason import Reason, axes_of
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
+from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.joint_fit import Knowledge
 
 SURE = 0.95  # probability that each axis is within its tolerance
 CONTRADICTION = 4.0  # sd between what a move predicted and what was found
 FRESH = 8.0  # s, chosen: least record since the last move for a verdict
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Aim:
+    """Where the centre of mass should go, and how closely."""
+
+    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
+    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
 
 
 def probability_within(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Vector3:
