@@ -12,7 +12,7 @@ platform's by asymmetry (s s^T - s0 s0^T), which is linear in two functions of t
 
     s s^T - s0 s0^T = sin cos (s0 n^T + n s0^T) + sin^2 (n n^T - s0 s0^T)
 
-The propagator knows masses on rails, whose displacement changes mu, J and h. Three such coordinates
+The propagator models masses on rails, whose displacement changes mu, J and h. Three coordinates of
 a gyro, x, sin x cos x and sin^2 x, without first moment, represent all but the rotor's momentum:
 x carries the gimbal's (gimbal_inertia x' g), the others the inertia. Where
 ``gimbal_maps`` are given, stored momentum is the rotors' alone. The coordinates are straight lines
@@ -100,7 +100,7 @@ def gimbal_coordinates(cmgs: Gyros, angles: Floats) -> Floats:
 
 
 def gimbal_maps(cmgs: Gyros) -> MassMaps:
-    """Return what ``gimbal_coordinates`` do to inertia and momentum, three rows a gyro."""
+    """Return the effect of ``gimbal_coordinates`` on inertia and momentum, three rows a gyro."""
     g, s0, n = frame(cmgs)
     i, j = np.array(PAIRS).T
     asymmetry = np.array([cmg.asymmetry for cmg in cmgs]).reshape(-1, 1)

@@ -3,9 +3,9 @@
     impulse on the platform = sum p_i a_i,     on for |p_i| / torque_i
 
 p = A^+ wanted, the least that give it. A pulse shorter than the jet's least time on is not made:
-none is made longer than it should be. What is left over is returned, to be asked for again with
-what comes next; it stays below the sum of the least pulses, and what lies outside the span of the
-axes is left over for good. Lags are not modelled.
+none is made longer than it should be. The remainder is returned, to be requested again with the
+next impulse. It stays below the sum of the least pulses, but for its part outside the span of the axes.
+Lags are not modelled.
 """
 
 from collections.abc import Sequence

@@ -67,12 +67,12 @@ def mass_maps(masses: Sequence[SlidingMass]) -> MassMaps:
 
 
 def com_shift(maps: MassMaps, total_mass: float, displacement: Floats) -> Vector3:
-    """Return what displacements (m) do to the centre of mass, m."""
+    """Return the shift of the centre of mass by displacements (m), m."""
     return displacement @ maps.first_moment / total_mass
 
 
 def shift_by(testbed: Testbed, displacement: Floats) -> Vector3:
-    """Return what displacements (m) do to the centre of mass of a testbed's platform, m."""
+    """Return the shift of a testbed's centre of mass by displacements (m), m."""
     return com_shift(mass_maps(testbed.masses), testbed.body.mass, displacement)
 
 
@@ -82,7 +82,7 @@ def shift_by_travel(testbed: Testbed) -> Series3:
 
 
 def inertia_shift(maps: MassMaps, displacement: Floats) -> Vector6:
-    """Return what displacements (m) do to the inertia about P, xx yy zz xy xz yz, kg m^2."""
+    """Return the change of the inertia about P by displacements (m), xx yy zz xy xz yz, kg m^2."""
     return displacement @ maps.inertia_1 + displacement**2 @ maps.inertia_2
 
 

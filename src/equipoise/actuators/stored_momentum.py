@@ -34,7 +34,7 @@ from equipoise.model.testbed import Testbed
 
 
 def reported(recording: Recording, devices: Sequence[Device]) -> Series:
-    """Return what these devices reported, (n, k) SI; InputError for one that did not."""
+    """Return the reports of these devices, (n, k) SI; InputError for one without."""
     names = list(recording.device_names)
     for device in devices:
         if recorded_name(device) not in names:

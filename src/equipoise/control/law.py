@@ -3,8 +3,9 @@
     step(state, observed, params) -> (state, command)
 
 is a pure function. ``observed`` is a Sample, or the Estimate of the measurement that the last
-command requested. A law knows no device: it requests a shift of the centre of mass and torques, and
-``procedure.run_law`` allocates them to masses, wheels, gyros, coils and jets.
+command requested. A law is independent of devices: it requests a shift of the centre of mass and
+torques, and ``procedure.balancing.allocation`` assigns them to masses, wheels, gyros, coils and
+jets.
 """
 
 from collections.abc import Callable

@@ -23,7 +23,7 @@ PEAK_ACCELERATION = 10.0 / 3.0**0.5
 
 
 class Pace(NamedTuple):
-    """How fast turns may be."""
+    """The limits of a turn."""
 
     rate: float  # rad/s
     acceleration: float  # rad/s^2

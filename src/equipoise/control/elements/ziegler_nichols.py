@@ -21,7 +21,7 @@ sigma already, in series,
 
     v = -K (1 + 1 / (T_i s)) (1 + L s) theta,    K = 0.45 K_u,   T_i = T_u / 1.2
 
-The calculation knows the first harmonic only. The two ways agree to 8 % in gain, and to a fifth
+The calculation includes the first harmonic only. The two ways agree to 8 % in gain, and to a fifth
 where the masses are so slow that the cycle comes near the swing itself.
 """
 

@@ -53,7 +53,7 @@ ARRIVED = 1.0  # s, chosen: masses that stand so long have arrived
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
     up: Vector3
     target: Vector3  # m

@@ -78,7 +78,7 @@ QUIET = 30.0  # time constants, chosen: after which a law that sweeps nothing ha
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change from step to step."""
+    """The constants of a run."""
 
     mass: float  # kg
     inertia: Matrix3  # kg m^2

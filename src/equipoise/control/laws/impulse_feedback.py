@@ -102,7 +102,7 @@ class Before(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
     mass: float
     inertia: Matrix3

@@ -89,7 +89,7 @@ class Axis(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
     plant: pendulum.Hanging
     axes: tuple[Axis, Axis]
@@ -225,7 +225,7 @@ def frequencies(state: State, sample: Sample, plant: pendulum.Hanging) -> Floats
 
 
 def turned_about_up(x: Floats, spin: float, params: Params) -> Floats:
-    """Return what turning about the vertical (rad/s) does to x, per second."""
+    """Return the slope of x by a turn about the vertical (rad/s)."""
     (tilt_1, rate_1), (tilt_2, rate_2) = x
     one, two = params.gyroscopic
     return spin * np.array([[tilt_2, one * rate_2], [-tilt_1, two * rate_1]])

@@ -70,7 +70,7 @@ SETTLED = 1.0  # s, chosen: masses that then stand have arrived
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
     book: balance.Book
     gains: Gains

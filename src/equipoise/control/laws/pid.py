@@ -81,7 +81,7 @@ CARD = LawCard(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
     plant: pendulum.Hanging
     loops: tuple[tuning.Loop, tuning.Loop]

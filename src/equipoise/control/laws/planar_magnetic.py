@@ -66,7 +66,7 @@ TEN_DEGREES = float(np.radians(10))
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
     plant: feedback.Plant
     up: Vector3

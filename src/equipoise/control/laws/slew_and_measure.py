@@ -58,7 +58,7 @@ ARRIVED = 1.0  # s: masses that stand so long have arrived
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
     testbed: Testbed
     gains: Gains
@@ -196,7 +196,7 @@ def after_measurement(state: State, estimate: Estimate, params: Params) -> State
 
 
 def watched(state: State, sample: Sample) -> State:
-    """Return the state with what a sample says of the masses: whether they still travel."""
+    """Return the state after a sample: whether the masses still travel."""
     stand = standing(state.stand, sample)
     moving = state.moving and sample.t < stand.since + ARRIVED
     return replace(state, stand=stand, t=sample.t, moving=moving)

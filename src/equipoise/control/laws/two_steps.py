@@ -65,7 +65,7 @@ Phase = Literal["follow", "push", "back", "measurement"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change from step to step."""
+    """The constants of a run."""
 
     gains: feedback.Gains
     measurement: Measurement

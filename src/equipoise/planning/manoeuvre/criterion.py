@@ -22,7 +22,7 @@ from equipoise.model.mass_properties import MassProperties
 Criterion = Literal["A", "D"]
 Quantity = Literal["J", "r", "both"]
 NAMES: dict[Quantity, tuple[str, ...]] = {"J": INERTIA, "r": COM, "both": (*INERTIA, *COM)}
-OF_MOMENT, OF_COM = 0.01, 1e-6  # -, m, chosen: what laboratories ask for
+OF_MOMENT, OF_COM = 0.01, 1e-6  # -, m, chosen: as laboratories require
 
 
 def sizes(body: MassProperties) -> Floats:

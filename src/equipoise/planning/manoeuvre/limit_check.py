@@ -30,7 +30,7 @@ DENSE_CAMERA, DENSE_GYRO = 5.0, 10.0  # Hz, chosen: a swing of some 10 s is well
 
 
 class Peaks(NamedTuple):
-    """How far a motion goes."""
+    """The peaks of a motion."""
 
     tilt: float  # rad
     rate: float  # rad/s
@@ -98,7 +98,7 @@ def true_body(point: Unknowns, scenario: Scenario) -> Unknowns:
 
 
 def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:
-    """Return how far one platform goes."""
+    """Return the peaks of one platform."""
     problem = tried.problem
     body = truth.body(problem.mass)
     rigid = body_of(body.mass, problem.gravity, pack_symmetric(body.inertia_P), body.first_moment)

@@ -64,7 +64,7 @@ class Wish:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Search:
-    """What does not change while manoeuvres are tried."""
+    """The constants of a search."""
 
     space: Space
     testbed: Testbed  # as for a search

@@ -123,7 +123,7 @@ def promise(
 
 
 def times_better(before: Promise, after: Promise, names: tuple[str, ...]) -> Floats:
-    """Return how many times less the second promises; held on both sides: 1."""
+    """Return the ratio of the first sd to the second; held on both sides: 1."""
     first, second = before.sd_of(names), after.sd_of(names)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(first == second, 1.0, first / second)

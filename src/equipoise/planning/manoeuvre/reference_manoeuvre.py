@@ -73,7 +73,7 @@ def usual_swing(testbed: Testbed, duration: float) -> Swing:
 
 
 def followed(manoeuvre: Manoeuvre, testbed: Testbed) -> Swing:
-    """Return what a manoeuvre does to the platform as stated."""
+    """Return the swing of the platform as stated in a manoeuvre."""
     observed = imagined(testbed, testbed.body, manoeuvre)
     return Swing(manoeuvre, observed, float(tilt(observed.motion.q, testbed.up).max()))
 

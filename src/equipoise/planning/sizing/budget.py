@@ -39,7 +39,7 @@ from equipoise.planning.sizing.measurement_bound import MeasurementBound, first_
 from equipoise.planning.sizing.move_error import Left, Standing, at_home, move
 from equipoise.planning.sizing.reachable_set import Reach, reach_of, tolerance
 
-MANY, SOME = 13, 9  # powers of 2, chosen: offsets to say how many are within reach; to move
+MANY, SOME = 13, 9  # powers of 2, chosen: offsets to count those within reach; to move
 FEWEST = 32  # chosen: offsets within reach by which a move is judged
 
 

@@ -60,7 +60,7 @@ def capital(text: str) -> str:
 
 
 def reach_sentence(reach: Reach, within: float) -> str:
-    """Say what masses can correct, and of how many platforms that is enough."""
+    """Return the correctable offset as a sentence, and the share of platforms within it."""
     share = f"{within / PERCENT:.3g} % of the platforms that the testbed states"
     size = plain(tolerance(reach) / UM)
     if reach.rank == 3:

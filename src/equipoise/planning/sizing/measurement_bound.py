@@ -135,7 +135,7 @@ def bound_of(
 
 
 def cautions(reported: Predicted, testbed: Testbed, unseen: bool) -> tuple[Reason, ...]:
-    """Return what is not observable, and whether the platform would touch on its way."""
+    """Return unobservable quantities, and whether the platform would pass its tilt limit."""
     found = one_reason(RecordCaution.COM_UNOBSERVABLE) if unseen else ()
     if reported.peak_tilt > testbed.tilt_limit:
         numbers = {"tilt": reported.peak_tilt, "limit": testbed.tilt_limit}

@@ -37,8 +37,7 @@ def balanced_by(
     if name == OWN.name:
         return balance(bench, options)
     own = LawOptions(options.target, options.tolerance)
-    longest = own.max_time if max_time is None else max_time
-    return run_law(bench, LAWS[name], LawOptions(own.target, own.tolerance, longest))
+    return run_law(bench, LAWS[name], own if max_time is None else replace(own, max_time=max_time))
 
 
 def balanced_and_followed(

@@ -48,7 +48,7 @@ class Posterior:
 
     @property
     def body(self) -> MassProperties:
-        """The mean as a body; nothing here says that it can exist."""
+        """The mean as a body, which need not be physically consistent."""
         return MassProperties(self.mass, self.com, unpack_symmetric(self.mean[J]))
 
 

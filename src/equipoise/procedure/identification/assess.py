@@ -42,7 +42,7 @@ from equipoise.procedure.steps.plain_steps import estimate_step, measurement_ste
 UNKNOWN_COM = 1e-3  # m, chosen: one sd of the prior of a centre of mass that is to be proven
 RANGE = np.radians(20.0)
 DOUBTFUL = 0.02  # chosen: an inertia of a larger sd widens every bound
-Fit = tuple[Estimate, tuple[tuple[Parameter, ...], Square]]  # and what ``spread_of`` says
+Fit = tuple[Estimate, tuple[tuple[Parameter, ...], Square]]  # and the result of ``spread_of``
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,7 +59,7 @@ class AssessOptions:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Assessment:
-    """What a record proves."""
+    """The assessment of a record."""
 
     testbed: Testbed
     recording: Recording
