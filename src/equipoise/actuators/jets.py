@@ -4,8 +4,8 @@
 
 p = A^+ wanted, the least that give it. A pulse shorter than the jet's least time on is not made:
 none is made longer than it should be. The remainder is returned, to be requested again with the
-next impulse. It stays below the sum of the least pulses, but for its part outside the span of the axes.
-Lags are not modelled.
+next impulse. It stays below the sum of the least pulses, but for its part outside the span of the
+axes. Lags are not modelled.
 """
 
 from collections.abc import Sequence

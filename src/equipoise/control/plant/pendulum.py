@@ -16,8 +16,8 @@ demand has the greatest slope |w0 (p theta + d rate) + j (p rate - d w0^2 theta)
 to what masses can follow, in phase with the swing (``spared``).
 
 It hangs where r.u < 0. Masses first lower the centre of mass until the nominal one is SURE sds
-below P, and until the sideways offset tilts the platform by a part of the limit only. Rotation about the
-vertical is not modelled: the yaw rate is assumed to be far below w0.
+below P, and until the sideways offset tilts the platform by a part of the limit only. Rotation
+about the vertical is not modelled: the yaw rate is assumed to be far below w0.
 """
 
 from typing import NamedTuple
