@@ -23,7 +23,7 @@ from equipoise.io.testbed.presets import read_preset
 from equipoise.model.defects import CameraErrors
 from equipoise.model.estimate import END, INERTIA
 from equipoise.model.testbed import SlidingMass, Testbed
-from equipoise.planning.manoeuvre.reference_swing import usual_swing
+from equipoise.planning.manoeuvre.reference_manoeuvre import usual_swing
 from equipoise.planning.sizing.budget import SOME, budget_of, mean_square, platforms
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.expected_torque import expected_torque

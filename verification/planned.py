@@ -101,7 +101,7 @@ def agreement(who: str, promised: Promise, runs: Sequence[Run]) -> tuple[Row, ..
     """Return RMSE over what was predicted where the model was kept: mean and extremes of nine."""
     kept = [run for run in runs if run.as_stated]
     ratio, n = rmse(kept) / promised.sd_of(BODY), len(kept)
-    off = AGREES + chance_of(promised.sds_of(BODY), n)
+    off = AGREES + chance_of(promised.sds, n)
     low, high = int(np.argmin(ratio)), int(np.argmax(ratio))
     of_mean = AGREES if n >= ENOUGH else float(off.mean())
     name = f"{who}, {n} runs: RMSE / predicted sd"

@@ -10,11 +10,11 @@ from scipy.linalg import null_space
 from equipoise.actuators import cmg_steering as steering
 from equipoise.actuators.control_moment_gyros import (
     jacobian,
-    pyramid,
     rotor_momentum,
     singularity_measure,
     spin_axes,
 )
+from tests.support.gyro_pyramid import pyramid
 
 H0 = 2 / 3
 FOUR = pyramid(np.arccos(3**-0.5), H0, 1.0)
@@ -37,33 +37,6 @@ def test_pseudo_inverse_is_exact_away_from_singularities(x, torque):
     step = 1e-4
     ahead, behind = (rotor_momentum(FOUR, x + s * rates) for s in (step, -step))
     np.testing.assert_allclose(-(ahead - behind) / (2 * step), torque, atol=1e-6)
-
-
-@given(angles4, torques, angles4)
-def test_null_motion_makes_no_torque(x, torque, wish):
-    """1e-12 N m on rates of radians per second, at singular angles too; the rest is the least."""
-    null = steering.null_motion(FOUR, x, wish)
-    assert np.abs(delivered(x, null)).max() < 1e-12
-    least = steering.pseudo_inverse(FOUR, x, torque)
-    assume(singularity_measure(FOUR, x) > 0.01)
-    assert abs(least @ null) < 1e-9 * (1 + np.linalg.norm(least) * np.linalg.norm(null))
-
-
-@given(angles4)
-def test_null_motion_leads_where_it_should(x):
-    """Towards preferred angles the distance falls; uphill the measure grows."""
-    assume(singularity_measure(FOUR, x) > 0.05)
-    preferred, step = np.radians([45.0, -45.0, 45.0, -45.0]), 1e-4
-    nearer = steering.null_motion(FOUR, x, steering.towards(x, preferred, 1.0))
-    assert nearer @ steering.towards(x, preferred, 1.0) >= -1e-12
-    up = steering.null_motion(FOUR, x, steering.uphill(FOUR, x, 1.0))
-    before = singularity_measure(FOUR, x)
-    assert singularity_measure(FOUR, x + step * up) >= before - 1e-7
-
-
-def test_preferred_angles_are_reached_the_shorter_way():
-    wish = steering.towards(np.radians([170.0, -170.0]), np.radians([-170.0, 170.0]), 2.0)
-    np.testing.assert_allclose(np.degrees(wish), [40.0, -40.0])
 
 
 @given(angles4, torques)

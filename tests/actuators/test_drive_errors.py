@@ -1,14 +1,15 @@
-"""Drives in doubt: how gain, rail and backlash are felt."""
+"""Drives in doubt: the effects of gain, rail and backlash."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from equipoise.actuators.drive_errors import across, drive_errors, plays, rails_of
+from equipoise.actuators.drive_errors import drive_errors, plays, rails_of
 from equipoise.actuators.lost_motion import directions, play_of
 from equipoise.actuators.mass_errors import mass_errors, unit_of
 from equipoise.actuators.sliding_masses import inertia_shift, mass_maps
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import DriveDoubt, SlidingMass
 
@@ -72,7 +73,7 @@ def test_the_error_of_a_stop_passes_over_while_the_mass_is_taken_along():
 
 def test_rails_across_are_square_and_right_handed():
     for axis in ([1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [-0.48, 0.6, 0.64]):
-        v, w = across(np.array(axis))
+        v, w = axes_across(np.array(axis))
         frame = np.array([axis, v, w])
         np.testing.assert_allclose(frame @ frame.T, np.eye(3), atol=1e-12)
         assert np.linalg.det(frame) == pytest.approx(1.0)
@@ -123,7 +124,7 @@ def test_units_are_those_of_the_unknowns():
 
 
 def test_a_gain_moves_a_mass_so_much_further():
-    """Hand-worked: 0.5 kg told 20 mm with gain 1.1 goes 22 mm: 0.011 kg m, and its inertia."""
+    """Hand-worked: 0.5 kg commanded 20 mm with gain 1.1 goes 22 mm: 0.011 kg m, and its inertia."""
     maps, d = mass_maps([rail([1.0, 0.0, 0.0], None, 1.1)]), np.array([0.02])
     np.testing.assert_allclose(d @ maps.first_moment, [0.011, 0.0, 0.0])
     there = HOME + np.array([0.022, 0.0, 0.0])

@@ -1,4 +1,4 @@
-"""Pulses by hand; what is too short to be made is told, not made."""
+"""Pulses by hand; a pulse too short to be made is reported, not made."""
 
 from dataclasses import replace
 

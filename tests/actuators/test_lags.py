@@ -1,4 +1,4 @@
-"""How late masses follow a command: what counts as one, and where a lag is felt."""
+"""How late masses follow a command: what counts as one, and where a lag acts."""
 
 from dataclasses import replace
 
@@ -61,7 +61,7 @@ def test_lags_come_after_the_stops():
 
 @pytest.mark.parametrize("shift", [-0.05, 0.02, 0.1])
 def test_a_shifted_ramp_is_the_ramp_and_its_lag(shift):
-    """d(t - tau) = d(t) + felt tau, to second order: d'' is 23 mm/s^2, s and tau 0.1 s at most.
+    """d(t - tau) = d(t) + response tau, to second order: d'' is 23 mm/s^2, s and tau 0.1 s at most.
 
     tau^2 d''/2 = 0.12 mm, and of the box of 0.1 s tau s^2 d'''/6 = 0.03 mm of 1 mm.
     """
@@ -74,7 +74,7 @@ def test_a_shifted_ramp_is_the_ramp_and_its_lag(shift):
 
 
 def test_a_lag_moves_the_whole_way():
-    """Felt over time is minus the way: 10 mm, slow ends of the ramp included."""
+    """The response over time is minus the way: 10 mm, slow ends of the ramp included."""
     t = np.arange(0, 12, 0.02)
     d = 0.010 * smooth(t, 2, 9)
     response = slowness(t, Samples(t, d[:, None]), 0, LAG)
@@ -82,7 +82,7 @@ def test_a_lag_moves_the_whole_way():
 
 
 def test_a_column_that_creeps_at_rest_is_a_measurement():
-    """The same ramp as told; as read, with noise at rest; and as a coarse encoder reads it."""
+    """The same ramp as commanded; as read, with noise at rest; and as a coarse encoder reads it."""
     t = np.arange(0, 20, 0.02)
     d = 0.010 * smooth(t, 5, 2)
     read = d + 1e-6 * np.random.default_rng(0).normal(size=len(t))
@@ -91,7 +91,7 @@ def test_a_column_that_creeps_at_rest_is_a_measurement():
 
 
 def test_measured_and_standing_masses_have_no_lag():
-    """x is measured, y never travels, z was told."""
+    """x is measured, y never travels, z is a command."""
     t = np.arange(0, 20, 0.02)
     d = 0.010 * smooth(t, 5, 2)
     read = d + 1e-6 * np.random.default_rng(0).normal(size=len(t))
@@ -112,7 +112,7 @@ def test_a_record_without_mass_travel_yields_no_lag(record):
 
 
 def test_at_once_and_stiff():
-    """Zero is believed."""
+    """Zero is trusted."""
     found = mass_errors(track(ONCE), (replace(X, lag_sd=0.0, sag_sd=0.0),))
     assert found.names == ()
     assert found.sag.tolist() == [0]

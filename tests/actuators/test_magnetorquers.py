@@ -40,7 +40,7 @@ def test_three_coils_give_b_cross_tau_over_b_squared(field, wanted):
 
 @given(fields, torques)
 def test_skew_coils_do_all_that_can_be_done(field, wanted):
-    """What is missing lies along the field; what is told is what the dipoles give."""
+    """The missing torque lies along the field; the reported one is that of the dipoles."""
     assume(np.linalg.norm(field) > 1e-6)
     found = dipoles_for(coils(SKEW), wanted, field)
     np.testing.assert_allclose(np.cross(wanted - found.torque, field), 0.0, atol=1e-18)

@@ -1,4 +1,4 @@
-"""Stored momentum against bodies that turn: our propagator told what MuJoCo's wheels and gyros did.
+"""Stored momentum against bodies that turn: our propagator with MuJoCo's wheels and gyros.
 
 The platform's attitude over a minute agrees within 1e-6 rad, whether wheels are driven, gyros with
 inertia of their own are gimballed, or both while a mass travels. Left out, each of these effects

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from equipoise.actuators.reaction_wheels import wheel_momentum, wheel_torques, wheels_span
+from equipoise.actuators.reaction_wheels import axes_of, span, wheel_momentum, wheel_torques
 from equipoise.model.devices import ReactionWheel
 
 TETRAHEDRON = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / 3**0.5
@@ -108,4 +108,4 @@ def test_two_wheels_give_what_lies_in_their_plane():
     ],
 )
 def test_axes_that_span(axes, all_three):
-    assert wheels_span(wheels(axes)) is all_three
+    assert span(axes_of(wheels(axes))) is all_three

@@ -1,4 +1,4 @@
-"""When masses stood, and how far the error of each stop is felt."""
+"""When masses stood, and the effect of the error of each stop."""
 
 from dataclasses import replace
 
@@ -51,14 +51,14 @@ def test_the_stop_error_ramps_up_holds_and_ramps_down_by_hand():
 
 
 def test_a_stop_error_at_a_record_edge_acts_from_the_first_row_or_to_the_last():
-    """A stop that the record begins with is felt at once; one that it ends with, to the end."""
+    """A stop that the record begins with acts at once; one that it ends with, to the end."""
     t = np.arange(5.0)
     assert response(t, (0, 0), (2, 3)).tolist() == [1, 1, 1, 0, 0]
     assert response(t, (1, 2), (4, 4)).tolist() == [0, 0, 1, 1, 1]
 
 
 def test_home_has_no_error():
-    """Starting at home, one move: one unknown, felt after the travel, none for x at home."""
+    """Starting at home, one move: one unknown that acts after the travel, none for x at home."""
     found = mass_errors(track(ONCE, HOME, HOME), (X, Y, Z))
     assert found.names == ("error_x_1",)
     assert found.owner.tolist() == [[0, 0]]
@@ -87,7 +87,7 @@ def test_two_moves_hand_the_error_over():
 
 
 def test_off_home_and_never_moved():
-    """Standing 20 mm out for the whole record: one error, always felt."""
+    """Standing 20 mm out for the whole record: one error that always acts."""
     found = mass_errors(track([20] * 6), (X,))
     assert found.response is not None
     assert found.response.values[:, 0].tolist() == [1] * 6

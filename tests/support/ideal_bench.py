@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import pack_symmetric

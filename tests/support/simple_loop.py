@@ -10,8 +10,7 @@ import numpy as np
 
 from equipoise.actuators.mass_allocation import rails_of, without_delay
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.control.law import Law
-from equipoise.control.sample import Sample
+from equipoise.control.law import Law, Sample
 from equipoise.dynamics.propagation import body_of
 from equipoise.maths.attitude import exponential, level, multiply, to_matrix
 from equipoise.maths.linalg import pack_symmetric

@@ -1,1 +1,1 @@
-"""What masses, wheels, gyros, coils and jets do to a platform, and the inverse maps."""
+"""The effects of masses, wheels, gyros, coils and jets on a platform, and their inverse maps."""

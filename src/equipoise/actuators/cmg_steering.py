@@ -1,15 +1,13 @@
 """Gimbal rates that give a wanted torque on the platform, u = -D x' (Lee: h' = -u).
 
-    pseudo-inverse       x' = -D^+ u + (E - D^+ D) z            exact; without bound near m = 0
+    pseudo-inverse       x' = -D^+ u                            exact; without bound near m = 0
     singularity-robust   x' = -D^T (D D^T + l E)^-1 u           Nakamura and Hanafusa 1986
                          l = 0.01 (1 - m / 0.4)^2 where m < 0.4, else 0
     generalised          x' = -D^T (D D^T + l E_d)^-1 u         Wie, Bailey and Heiberg 2001
                          l = 0.01 exp(-10 m^2),  E_d = [1 e3 e2; e3 1 e1; e2 e1 1],
                          e_i = 0.01 sin(pi t / 2 + f_i),  f = (0, pi / 2, pi)
 
-with D in units of the mean momentum of a rotor and m its measure (``control_moment_gyros``). z is
-any wish for the gimbals; what is left of it makes no torque (null motion): towards preferred
-angles, or up the slope of m^2.
+with D in units of the mean momentum of a rotor and m its measure (``control_moment_gyros``).
 
 The robust inverses trade torque for rates: |x'| is at most |u| / (2 sqrt(l)) in these units. With
 u along a direction in which D has nothing, the singularity-robust inverse gives no rates at all:
@@ -25,7 +23,6 @@ import numpy as np
 
 from equipoise.actuators.control_moment_gyros import (
     Gyros,
-    measure_slope,
     momenta_of,
     singularity_measure,
     unit_jacobian,
@@ -68,22 +65,6 @@ def generalised_robust(cmgs: Gyros, angles: Floats, torque: Vector3, t: float) -
     """Return rates (k,) rad/s that leave singularities by a dither in time t (s)."""
     weight = dithered_weight(cmgs, angles, t)
     return weighted_inverse(cmgs, unit_jacobian(cmgs, angles), weight, torque)
-
-
-def null_motion(cmgs: Gyros, angles: Floats, wish: Floats) -> Floats:
-    """Return what of the wished rates (k,) rad/s makes no torque."""
-    D = unit_jacobian(cmgs, angles)
-    return wish - np.linalg.pinv(D) @ (D @ wish)
-
-
-def towards(angles: Floats, preferred: Floats, gain: float) -> Floats:
-    """Return a wish: rates towards preferred angles (rad), the shorter way; gain in 1/s."""
-    return gain * (np.mod(preferred - angles + np.pi, 2 * np.pi) - np.pi)
-
-
-def uphill(cmgs: Gyros, angles: Floats, gain: float) -> Floats:
-    """Return a wish: rates away from singularities, up the slope of m^2; gain in rad/s."""
-    return gain * measure_slope(cmgs, angles)
 
 
 def limited_rates(cmgs: Gyros, rates: Floats) -> Floats:

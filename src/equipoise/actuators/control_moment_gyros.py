@@ -6,23 +6,20 @@
     m      = sqrt(det(D D^T)) / mean(momentum)^3
 
 (Lee; Wie 2001. For equal gyros m is the measure of the papers with D in units of the rotors'
-momentum: a pure number, 0 where some direction has no torque, 1.54 for four that stand best.) The
-pyramid of skew b has h_1 along +y at angle zero, each further gyro a quarter turn about +z on:
-
-    g_1 = (sin b, 0, cos b),  s0_1 = (0, 1, 0)
-
+momentum: a pure number, 0 where some direction has no torque, 1.54 for four that stand best.)
 Gimbal with rotor has inertia diag(along s, third, along g), so that turning it changes the
 platform's by asymmetry (s s^T - s0 s0^T), which is linear in two functions of the angle:
 
     s s^T - s0 s0^T = sin cos (s0 n^T + n s0^T) + sin^2 (n n^T - s0 s0^T)
 
-The propagator knows masses on rails, of which displacement moves mu, J and h. Three such
-coordinates a gyro, x, sin x cos x and sin^2 x, without first moment, tell it all but the rotor's
-momentum: x carries the gimbal's (gimbal_inertia x' g), the others the inertia. Where
+The propagator models masses on rails, whose displacement changes mu, J and h. Three coordinates of
+a gyro, x, sin x cos x and sin^2 x, without first moment, represent all but the rotor's momentum:
+x carries the gimbal's (gimbal_inertia x' g), the others the inertia. Where
 ``gimbal_maps`` are given, stored momentum is the rotors' alone. The coordinates are straight lines
 between nodes: these must be close to one another while a gimbal turns.
 
-Cannot see gimbals whose centre of mass is off their axis, or whose products of inertia matter.
+Gimbals whose centre of mass is off their axis, or whose products of inertia matter, are not
+modelled.
 """
 
 from collections.abc import Sequence
@@ -86,20 +83,6 @@ def singularity_measure(cmgs: Gyros, angles: Floats) -> float:
     return float(max(np.linalg.det(D @ D.T), 0.0)) ** 0.5
 
 
-def measure_slope(cmgs: Gyros, angles: Floats) -> Floats:
-    """Return d(m^2)/dangles (k,), which is smooth where m is 0, unlike the slope of m.
-
-    dA = sum dx_i (d_i' d_i^T + d_i d_i'^T) with A = D D^T and d_i' = -momentum_i s_i; and
-    d(det A) = tr(adj(A) dA).
-    """
-    D = unit_jacobian(cmgs, angles)
-    a, b, c = D @ D.T
-    adjugate = np.array([np.cross(b, c), np.cross(c, a), np.cross(a, b)])
-    momenta = momenta_of(cmgs)
-    bent = -(momenta / momenta.mean())[:, None] * spin_axes(cmgs, angles)
-    return 2.0 * np.sum(bent @ adjugate * D.T, axis=1)
-
-
 def gyros_span(cmgs: Gyros) -> bool:
     """Say whether there are gimbal angles at which the gyros give a torque along every direction.
 
@@ -107,18 +90,6 @@ def gyros_span(cmgs: Gyros) -> bool:
     """
     _, s0, n = frame(cmgs)
     return len(cmgs) >= 3 and span(np.vstack([s0, n]))
-
-
-def pyramid(skew: float, momentum: float, max_rate: float) -> tuple[ControlMomentGyro, ...]:
-    """Return four gyros on the sides of a pyramid of that skew (rad), at angle zero."""
-    c, s = float(np.cos(skew)), float(np.sin(skew))
-    turned = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])  # quarters about +z
-    return tuple(
-        ControlMomentGyro(
-            f"cmg_{i + 1}", np.array([s * x, s * y, c]), np.array([-y, x, 0.0]), momentum, max_rate
-        )
-        for i, (x, y) in enumerate(turned)
-    )
 
 
 def gimbal_coordinates(cmgs: Gyros, angles: Floats) -> Floats:
@@ -129,7 +100,7 @@ def gimbal_coordinates(cmgs: Gyros, angles: Floats) -> Floats:
 
 
 def gimbal_maps(cmgs: Gyros) -> MassMaps:
-    """Return what ``gimbal_coordinates`` do to inertia and momentum, three rows a gyro."""
+    """Return the effect of ``gimbal_coordinates`` on inertia and momentum, three rows a gyro."""
     g, s0, n = frame(cmgs)
     i, j = np.array(PAIRS).T
     asymmetry = np.array([cmg.asymmetry for cmg in cmgs]).reshape(-1, 1)

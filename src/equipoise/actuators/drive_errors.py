@@ -1,25 +1,24 @@
-"""How far drives may be off what is stated of them: gain, rail and backlash, as unknowns.
+"""Errors of drives against their nominal values: gain, rail and backlash, as unknowns.
 
-A mass m that is told to stand at d, on a rail along u, with v and w across it, stands at
+A mass m that is commanded to d, on a rail along u, with v and w across it, stands at
 
     e = d [ (1 + x_g) u + x_v v + x_w w ] + [ x_p p(t) - x_b s(t) / 2 ] u
 
-x_g    gain           relative, of the product m d: weight and steps are felt as one
+x_g    gain           relative, of the product m d: mass and steps have one effect
 x_v,w  rail           tangents of its misalignment about w and v
 x_b    backlash       lost motion when the direction changes; s: side of the play on which the mass
                       hangs, in the end the direction of the last travel
-x_p    play at home   how far, of what the backlash leaves open, the first travel began off; p: 1
-                      from the first travel on
+x_p    play at home   unknown initial position within the backlash; p: 1 from the first travel on
 
 s and p are 0 before the first travel and pass over while the play is taken up (``lost_motion``),
 for which the backlash has to be known roughly: it is that of the testbed, or of a fit before. The
 rails across begin at the same home and carry the same mass: two more coordinates of the
-propagator, displaced by nothing but these unknowns. The inertia of a displacement along both,
+propagator, displaced by these unknowns alone. The inertia of a displacement along both,
 -m (e_u e_v^T + e_v e_u^T), is left out: it is of second order, m d^2 x, 1e-5 of J.
 
 Only masses with a ``doubt`` (``model.testbed.DriveDoubt``) that travel in the record have unknowns.
 
-Cannot see a travel shorter than the backlash for what it is; nor a rail that is bent.
+A travel shorter than the backlash, and a bent rail, are not modelled.
 """
 
 from collections.abc import Sequence
@@ -30,7 +29,8 @@ import numpy as np
 
 from equipoise.actuators.lost_motion import Play, directions, play_of
 from equipoise.actuators.stops import MassError
-from equipoise.model.arrays import Series1, Vector3
+from equipoise.maths.axes_across import axes_across
+from equipoise.model.arrays import Series1
 from equipoise.model.recording import Samples
 from equipoise.model.testbed import SlidingMass
 
@@ -39,7 +39,7 @@ SIDES = 2  # directions across a rail
 
 
 class DriveNames(NamedTuple):
-    """What the unknowns of one mass are called."""
+    """The names of the unknowns of one mass."""
 
     gain: str
     across: tuple[str, str]
@@ -53,27 +53,19 @@ def drive_names(mass: str) -> DriveNames:
     return DriveNames(f"{GAIN}_{mass}", sides, f"{BACKLASH}_{mass}", f"{PLAY}_{mass}")
 
 
-def across(axis: Vector3) -> tuple[Vector3, Vector3]:
-    """Return two unit vectors across a rail, v first: near the body axis farthest from it."""
-    outlying = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    square: Vector3 = outlying - float(outlying @ axis) * axis
-    v: Vector3 = square / np.linalg.norm(square)
-    return v, np.cross(axis, v)
-
-
 def rails_of(masses: Sequence[SlidingMass]) -> tuple[SlidingMass, ...]:
     """Return the masses, and behind them the rails across those whose drive is in doubt."""
     beside = [
         replace(mass, name=name, axis=axis, doubt=None)
         for mass in masses
         if mass.doubt is not None
-        for name, axis in zip(drive_names(mass.name).across, across(mass.axis), strict=True)
+        for name, axis in zip(drive_names(mass.name).across, axes_across(mass.axis), strict=True)
     ]
     return (*masses, *beside)
 
 
 def on_rails(track: Samples | None, rails: int) -> Samples | None:
-    """Return a track of masses with columns for the rails across, along which nothing is told."""
+    """Return a track of masses with columns for the rails across, which have no commands."""
     if track is None or track.values.shape[1] == rails:
         return track
     more = np.zeros((len(track), rails - track.values.shape[1]))
@@ -94,7 +86,7 @@ def plays(track: Samples, masses: tuple[SlidingMass, ...]) -> dict[int, Play]:
 def drive_errors(
     t: Series1, track: Samples, masses: tuple[SlidingMass, ...], taken_up: dict[int, Play]
 ) -> list[MassError]:
-    """Return the unknowns of drives in doubt that travel, felt at the times ``t``."""
+    """Return the unknowns of drives in doubt that travel, with their effect at times ``t``."""
     doubted = [i for i, mass in enumerate(masses) if mass.doubt is not None]
     found: list[MassError] = []
     for i, play in taken_up.items():

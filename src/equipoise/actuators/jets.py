@@ -3,9 +3,9 @@
     impulse on the platform = sum p_i a_i,     on for |p_i| / torque_i
 
 p = A^+ wanted, the least that give it. A pulse shorter than the jet's least time on is not made:
-none is made longer than it should be. What is left over is returned, to be asked for again with
-what comes next; it stays below the sum of the least pulses, and what lies outside the span of the
-axes is left over for good. Lags are not seen.
+none is made longer than it should be. The remainder is returned, to be requested again with the
+next impulse. It stays below the sum of the least pulses, but for its part outside the span of the
+axes. Lags are not modelled.
 """
 
 from collections.abc import Sequence
@@ -13,35 +13,26 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.actuators.reaction_wheels import axes_of
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.devices import JetPair
 
 
 class Pulses(NamedTuple):
-    """What jets are given, and what they do not do of it."""
+    """The pulses of jets, and the impulse that they do not deliver."""
 
     impulses: Floats  # (n,) N m s, about each axis
     left: Vector3  # N m s, of what was wanted, body axes
 
 
-def axes_of(jets: Sequence[JetPair]) -> Floats:
-    """Return the axes, (n, 3)."""
-    return np.array([jet.axis for jet in jets], dtype=np.float64).reshape(-1, 3)
-
-
 def on_platform(jets: Sequence[JetPair], about_axes: Floats) -> Floats:
-    """Return what the platform gets (..., 3) of impulses N m s, or torques N m, (..., n)."""
+    """Return impulse or torque on the platform (..., 3) of those about the axes (..., n)."""
     return about_axes @ axes_of(jets)
-
-
-def on_times(jets: Sequence[JetPair], impulses: Floats) -> Floats:
-    """Return how long the jets are on for such pulses (..., n) N m s, s."""
-    return abs(impulses) / np.array([jet.torque for jet in jets])
 
 
 def pulses_for(jets: Sequence[JetPair], wanted: Vector3) -> Pulses:
     """Return pulses for an impulse on the platform (N m s), and what is left over."""
     impulses = np.linalg.pinv(axes_of(jets).T) @ wanted
-    shortest = np.array([jet.min_pulse for jet in jets])
-    made = np.where(on_times(jets, impulses) >= shortest, impulses, 0.0)
+    on = abs(impulses) / np.array([jet.torque for jet in jets])
+    made = np.where(on >= np.array([jet.min_pulse for jet in jets]), impulses, 0.0)
     return Pulses(made, wanted - on_platform(jets, made))

@@ -5,14 +5,14 @@ A servo that pulls as a spring and a damper follows a slow command late by the s
 
     d(t) = d_log(t - tau) = d_log(t) - tau d_log'(t) + ...
 
-so a lag is felt as minus the speed, and the momentum of the travel changes with -tau d_log''. The
-speed is that over [t - s, t + s] with s one sd of the lag: what it leaves out of a constant speed's
-begin and end is of second order, tau^2, and cancels between them.
+so the effect of a lag is minus the speed, and the momentum of the travel changes with -tau d_log''.
+The speed is that over [t - s, t + s] with s one sd of the lag: its error at the begin and end of a
+constant speed is of second order, tau^2, and cancels between them.
 
 A command stands still exactly; a column that creeps while the mass stands is a measurement, and is
 taken as it is. Masses with one ``lag_sd`` have drives of one kind and share one lag.
 
-Cannot see that drives of one kind lag differently.
+Different lags of drives of one kind are not modelled.
 """
 
 from collections.abc import Collection
@@ -32,18 +32,18 @@ CREEPS = 0.5  # share of the steps at rest, chosen: a command changes in none bu
 class CommandColumns(NamedTuple):
     """Which columns of a record are commands."""
 
-    standing: list[int]  # masses that were told to stay where they are
+    standing: list[int]  # masses that were commanded to stay where they are
     travelling: list[int]
 
 
 def is_command(d: Series1, travelling: Bools) -> bool:
-    """Say whether a column tells what a mass was told: in one step at rest of two, no change."""
+    """Say whether a column holds commands: no change in every second step at rest, or more."""
     at_rest = np.diff(d)[~travelling]
     return bool(np.count_nonzero(at_rest) <= CREEPS * len(at_rest))
 
 
 def command_columns(track: Samples, masses: tuple[SlidingMass, ...]) -> CommandColumns:
-    """Return which masses, of those that may not do as they are told, have commands as columns."""
+    """Return the masses with a lag or a sag whose columns are commands."""
     found = CommandColumns([], [])
     for i, mass in enumerate(masses):
         if mass.lag_sd > 0 or mass.sag_sd > 0:
@@ -80,9 +80,9 @@ def slowness(t: Series1, track: Samples, mass: int, reach: float) -> Series1:
 
 
 def lag_errors(t: Series1, track: Samples, kinds: dict[float, list[int]]) -> list[MassError]:
-    """Return one unknown lag for each kind of drive that travels, felt at the times ``t``.
+    """Return one unknown lag for each kind of drive that travels, with its effect at times ``t``.
 
-    Its name tells the kind, whichever of them travel in this part of a record.
+    Its name states the kind, whichever of them travel in this part of a record.
     """
     return [
         MassError(f"{LAG}_{k + 1}", sd, [(i, slowness(t, track, i, sd)) for i in kind])

@@ -1,7 +1,6 @@
-"""Inputs beyond a limit are scaled all together, so that what they do keeps its direction.
+"""Inputs beyond a limit are scaled together, so that their torque keeps its direction.
 
-Cutting each input at its own limit would turn the torque, and a law that pushes one way would push
-another.
+Limiting each input by itself would turn the torque.
 """
 
 from typing import NamedTuple
@@ -12,7 +11,7 @@ from equipoise.model.arrays import Floats, Vector3
 
 
 class Delivered(NamedTuple):
-    """What devices are given, and what that does to the platform."""
+    """The inputs of devices, and their torque on the platform."""
 
     inputs: Floats  # (n,) as ``model.devices`` has them
     torque: Vector3  # N m on the platform, body axes

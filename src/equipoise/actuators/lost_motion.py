@@ -1,14 +1,14 @@
-"""How a drive with backlash takes up its play, by what it was told.
+"""How a drive with backlash takes up its play, by its commands.
 
-A nut that is told to go the other way first crosses its play and takes the mass along then. With s
-the side of the play it is at, 1 or -1 behind a travel that was long enough, and D what it was told
-to go since the travel began,
+A nut that reverses first crosses its play and then takes the mass along. With s the side of the
+play that it is at, 1 or -1 behind a travel that was long enough, and D the commanded travel since
+its beginning,
 
     s -> clip(s + 2 D / b, -1, 1)        b: backlash
 
-and the mass stands off what was told by -b s / 2. Before the first travel nobody knows s: 0.
+and the mass stands off its command by -b s / 2. Before the first travel s is unknown: 0.
 
-Cannot see friction: a mass that shakes in its play is not where it was left.
+Friction is not modelled: a mass that shakes in its play is not where it was left.
 """
 
 from itertools import pairwise
@@ -19,7 +19,7 @@ import numpy as np
 from equipoise.actuators.stops import is_travelling
 from equipoise.model.arrays import Series1
 
-LEAST = 1e-5  # m, chosen: what crosses a lesser play in no time passes over this way
+LEAST = 1e-5  # m, chosen: a lesser play, crossed in no time, counts as this
 
 
 class Way(NamedTuple):
@@ -33,8 +33,8 @@ class Way(NamedTuple):
 class Play(NamedTuple):
     """How a play is taken up; both courses are straight between their knots.
 
-    The side s of the play; the first two knots behind the start begin it. And when the mass was
-    told to go as far as it has gone: it stands while the play is taken up, and makes up for that
+    The side s of the play; the first two knots behind the start begin it. And the time at which the
+    mass was commanded to where it is: it stands while the play is taken up, and makes up for that
     until the travel ends.
     """
 
@@ -69,5 +69,5 @@ def play_of(t: Series1, d: Series1, ways: list[Way], backlash: float) -> Play:
 
 
 def command_times(play: Play | None, t: Series1) -> Series1:
-    """Return when a mass was told to go as far as it has gone at ``t``; None: no play."""
+    """Return when a mass was commanded to its position at ``t``; None: no play."""
     return t if play is None else np.interp(t, play.gone, play.command_times)

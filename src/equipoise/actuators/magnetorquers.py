@@ -3,10 +3,10 @@
     torque = (sum d_i a_i) x B
     wanted -> m = (B x wanted) / |B|^2,  torque = wanted - B (B . wanted) / |B|^2
 
-Torque along B cannot be made, whatever the coils: that part of what is wanted is lost, and told by
-what is delivered. The dipoles are the least that come nearest to the torque: for coils along all
-directions they sum up to m, for fewer to what they can do of it. Beyond a coil's dipole all are
-scaled alike. Without a field there is no torque, and no dipole. Lags are not seen.
+Torque along B cannot be made, whatever the coils: that part of the wanted torque is lost, and
+missing in the delivered one. The dipoles are the least that come nearest to the torque: for coils
+along all directions they sum up to m, for fewer to its part in their span. Beyond a coil's dipole
+all are scaled alike. Without a field there is no torque, and no dipole. Lags are not modelled.
 """
 
 from collections.abc import Sequence
@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from equipoise.actuators.limiting import Delivered, scaled
+from equipoise.actuators.reaction_wheels import axes_of
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.devices import Magnetorquer
 
@@ -22,7 +23,7 @@ FAINT = 1e-6  # -, chosen: of the strongest direction; a weaker one is rounding,
 
 def dipole_of(coils: Sequence[Magnetorquer], dipoles: Floats) -> Floats:
     """Return the sum of dipoles (..., n) A m^2 as a vector (..., 3)."""
-    return dipoles @ np.array([coil.axis for coil in coils], dtype=np.float64).reshape(-1, 3)
+    return dipoles @ axes_of(coils)
 
 
 def magnetic_torque(coils: Sequence[Magnetorquer], dipoles: Floats, field: Floats) -> Floats:

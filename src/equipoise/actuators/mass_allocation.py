@@ -51,7 +51,7 @@ KEPT = 0.2  # -, chosen: of the travel at each end
 
 
 class Rails(NamedTuple):
-    """The masses as the kernel sees them; lengths of the centre of mass in units of ``unit``."""
+    """The masses as the kernel takes them; lengths of the centre of mass in units of ``unit``."""
 
     gain: Floats  # (k, 3) per step
     step: Floats  # (k,) m
@@ -70,7 +70,7 @@ class Search(NamedTuple):
     """Where the search for whole steps stands."""
 
     table: Table  # columns: steps forward, steps back, error over and under
-    x: Floats  # (k,) what the programme says, steps from now
+    x: Floats  # (k,) the solution of the programme, steps from now
     fixed: Bools  # (k,) masses that are decided
     chosen: Floats  # (k,) and where, steps from now
 
@@ -88,7 +88,7 @@ def tiers_of(quanta: Floats) -> Ints:
 
 
 def rails_of(masses: Sequence[SlidingMass], total_mass: float) -> Rails:
-    """Return what the allocation needs to know of these masses, in their order."""
+    """Return the rails of these masses, in their order."""
     resolution = np.array([m.resolution for m in masses])
     whole, step = resolution > 0, np.where(resolution > 0, resolution, FREE_STEP)
     low, high = np.array([m.travel for m in masses]).T / step

@@ -1,10 +1,10 @@
-"""How far masses may be from where the record says they are, as unknowns with a prior.
+"""Errors of the recorded positions of masses, as unknowns with a prior.
 
-    d_i(t) = d_i,log(t) + sum_j felt_ij(t) x_j
+    d_i(t) = d_i,log(t) + sum_j a_ij(t) x_j
 
-One unknown x_j may be felt by one mass (where it stopped: ``stops``), by several (how late they
-follow what they were told: ``lags``), or along rails of its own (``drive_errors``). d_i is a
-displacement along one of the ``rails``: the masses' own, and those across drives in doubt.
+One unknown x_j may act on one mass (where it stopped: ``stops``), on several (how late they follow
+their commands: ``lags``), or along rails of its own (``drive_errors``). d_i is a displacement along
+one of the ``rails``: the masses' own, and those across drives in doubt.
 """
 
 from dataclasses import dataclass
@@ -22,10 +22,10 @@ from equipoise.model.testbed import SlidingMass
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MassErrors:
-    """The unknowns, and where each of them is felt."""
+    """The unknowns, and where each of them acts."""
 
     response: Samples | None  # (n, f) displacement by unknown, straight between rows
-    owner: Ints  # (f, 2) index of the rail along which it is felt, and of the unknown
+    owner: Ints  # (f, 2) index of the rail along which it acts, and of the unknown
     sd: Floats  # (e,) in the units of ``unit_of``
     names: tuple[str, ...]
     sag: Floats  # (rails,) m, one sd of how far a mass hangs below a command, rail upright

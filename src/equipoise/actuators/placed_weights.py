@@ -1,4 +1,4 @@
-"""Weights on their places: what they add to mass, first moment and inertia, and how surely.
+"""Weights on their places: their contribution to mass, first moment and inertia, and its sd.
 
 A weight of mass m whose middle is at x (on a pile of others, half its height above them) adds
 
@@ -8,7 +8,8 @@ and c alike of height h on each other from a height l on, along u from the foot 
 
     sum z = c l + h c^2 / 2,    sum z^2 = c l^2 + l h c^2 + h^2 (c^3 / 3 - c / 12)
 
-What is handled is known to its mass, a pile to where it stands, with a, b the grid's axes:
+Weights that are handled have an uncertain mass, piles an uncertain place; with a, b the grid's
+axes:
 
     cov(mu) = sum over weights handled  sd_m^2 x x^T
             + sum over piles changed    (change of mass)^2 sd^2 (a a^T + b b^T)
@@ -29,7 +30,7 @@ from equipoise.model.weights import Place, Weight, places_of, rack_of
 
 
 class Load(NamedTuple):
-    """What a loading adds to a platform, about P."""
+    """The mass properties that a loading adds, about P."""
 
     mass: float  # kg
     first_moment: Vector3  # kg m
@@ -46,7 +47,7 @@ def stages(place: Place, weights: tuple[Weight, ...], counts: Ints) -> Iterator[
 
 
 def load_of(testbed: Testbed, loading: Ints) -> Load:
-    """Return what a loading adds."""
+    """Return the mass properties of a loading."""
     rack, (c, low, h) = rack_of(testbed.grids), heights(testbed, loading)
     m, foot, up = np.array([w.mass for w in testbed.weights]), rack.foot, rack.up
     first = (c * low + h * c**2 / 2) @ m

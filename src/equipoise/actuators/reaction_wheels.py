@@ -9,7 +9,8 @@ no rate of the platform appears.) Torques stay within each drive's, and so small
 passes its greatest speed before the next step; all are scaled alike, so that the torque keeps its
 direction. A wheel at its limit that would have to go on stops them all.
 
-Axes that do not span all directions give what of the torque lies in their span. Lags are not seen.
+Axes that do not span all directions give the part of the torque in their span. Lags are not
+modelled.
 """
 
 from collections.abc import Sequence
@@ -18,14 +19,14 @@ import numpy as np
 
 from equipoise.actuators.limiting import Delivered, scaled
 from equipoise.model.arrays import Floats, Vector3
-from equipoise.model.devices import ReactionWheel
+from equipoise.model.devices import JetPair, Magnetorquer, ReactionWheel
 
 FLAT = 1e-2  # -, chosen: axes 0.5 deg off a plane are as good as in it
 
 
-def axes_of(wheels: Sequence[ReactionWheel]) -> Floats:
-    """Return the axes, (n, 3)."""
-    return np.array([wheel.axis for wheel in wheels], dtype=np.float64).reshape(-1, 3)
+def axes_of(devices: Sequence[ReactionWheel | Magnetorquer | JetPair]) -> Floats:
+    """Return the axes of devices, (n, 3)."""
+    return np.array([device.axis for device in devices], dtype=np.float64).reshape(-1, 3)
 
 
 def inertias_of(wheels: Sequence[ReactionWheel]) -> Floats:
@@ -41,11 +42,6 @@ def wheel_momentum(wheels: Sequence[ReactionWheel], speeds: Floats) -> Floats:
 def span(axes: Floats) -> bool:
     """Say whether unit vectors (n, 3) span all three directions."""
     return len(axes) >= 3 and bool(np.linalg.svd(axes, compute_uv=False)[2] > FLAT)
-
-
-def wheels_span(wheels: Sequence[ReactionWheel]) -> bool:
-    """Say whether the wheels can give a torque along every direction."""
-    return span(axes_of(wheels))
 
 
 def room(wheels: Sequence[ReactionWheel], speeds: Floats, torques: Floats, period: float) -> Floats:

@@ -24,9 +24,21 @@ from scipy.optimize import Bounds, LinearConstraint, milp
 
 from equipoise.maths.linalg import PAIRS
 from equipoise.model.arrays import Floats, Matrix3, Series3, Vector3, Vector6
-from equipoise.model.testbed import SlidingMass
+from equipoise.model.testbed import SlidingMass, Testbed
 
 ERRORS, WAYS = 1e6, 1e3  # 1/m, chosen: the programme counts errors in um and ways in mm
+
+
+PARALLEL = 0.99  # cosine, chosen: rails of one direction
+
+
+def one_a_direction(masses: Sequence[SlidingMass]) -> list[SlidingMass]:
+    """Return the first mass on rails of each direction."""
+    found: list[SlidingMass] = []
+    for mass in masses:
+        if all(abs(float(mass.axis @ other.axis)) < PARALLEL for other in found):
+            found.append(mass)
+    return found
 
 
 class MassMaps(NamedTuple):
@@ -55,12 +67,22 @@ def mass_maps(masses: Sequence[SlidingMass]) -> MassMaps:
 
 
 def com_shift(maps: MassMaps, total_mass: float, displacement: Floats) -> Vector3:
-    """Return what displacements (m) do to the centre of mass, m."""
+    """Return the shift of the centre of mass by displacements (m), m."""
     return displacement @ maps.first_moment / total_mass
 
 
+def shift_by(testbed: Testbed, displacement: Floats) -> Vector3:
+    """Return the shift of a testbed's centre of mass by displacements (m), m."""
+    return com_shift(mass_maps(testbed.masses), testbed.body.mass, displacement)
+
+
+def shift_by_travel(testbed: Testbed) -> Series3:
+    """Return how far each mass of a testbed shifts the centre of mass by its travel, (k, 3)."""
+    return mass_maps(testbed.masses).first_moment / testbed.body.mass
+
+
 def inertia_shift(maps: MassMaps, displacement: Floats) -> Vector6:
-    """Return what displacements (m) do to the inertia about P, xx yy zz xy xz yz, kg m^2."""
+    """Return the change of the inertia about P by displacements (m), xx yy zz xy xz yz, kg m^2."""
     return displacement @ maps.inertia_1 + displacement**2 @ maps.inertia_2
 
 

@@ -22,7 +22,7 @@ def switchings(wave: SquareWave, duration: float) -> list[tuple[float, float]]:
 def inputs_along(
     waves: Sequence[SquareWave], duration: float
 ) -> list[tuple[float, dict[str, float]]]:
-    """Return what devices are given and when (s), in order of time."""
+    """Return the inputs of devices and their times (s), in order of time."""
     found: dict[float, dict[str, float]] = {}
     for wave in waves:
         for t, value in switchings(wave, duration):

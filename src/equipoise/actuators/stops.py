@@ -1,7 +1,7 @@
-"""Where masses stood still in a recording, and how far a wrong stop would be felt.
+"""Where masses stood still in a recording, and the effect of the error of a stop.
 
-A mass that is told to stop at d stops at d + error, with one error for each stop. Between stops
-the error passes over with the travel of the mass, which waits while a play is taken up
+A mass that is commanded to d stops at d + error, with one error for each stop. Between stops the
+error changes in proportion to the travel of the mass, which waits while a play is taken up
 (``lost_motion``). At home the error is zero by definition: home is where the mass properties are
 stated.
 """
@@ -19,7 +19,7 @@ STILL = 0.05  # of the mass's speed, chosen: slower than this is standing still
 
 
 class MassError(NamedTuple):
-    """One unknown, and by which masses it is felt."""
+    """One unknown, and the masses on which it acts."""
 
     name: str
     sd: float  # in its unit: m of a stop, s of a lag
@@ -39,7 +39,7 @@ def travels(t: Series1, d: Series1, speed: float) -> list[tuple[int, int]]:
 
 
 def response(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -> Floats:
-    """Return how far the error of one stop is felt at each row: up, on, down."""
+    """Return the share of the error of one stop at each row: up, on, down."""
     before, after = t[list(arrival)], t[list(departure)]
     knots = [before[0], before[1], after[0], after[1]]
     levels = [float(arrival[1] == arrival[0]), 1.0, 1.0, float(departure[1] == departure[0])]
@@ -47,7 +47,7 @@ def response(t: Series1, arrival: tuple[int, int], departure: tuple[int, int]) -
 
 
 def stops_of(t: Series1, d: Series1, mass: SlidingMass) -> list[Floats]:
-    """Return how each stop of one mass is felt, home excepted."""
+    """Return the share of the error of each stop of one mass at each row, home excepted."""
     ways = travels(t, d, mass.speed)
     bounds = [(0, 0), *ways, (len(d) - 1, len(d) - 1)]
     stands = [response(t, bounds[k], bounds[k + 1]) for k in range(len(bounds) - 1)]
@@ -59,7 +59,7 @@ def stop_errors(
 ) -> list[MassError]:
     """Return an unknown displacement for each stop of a mass that stops with an accuracy.
 
-    Of each mass i, felt when it has gone as far as it was told at the times ``told[i]``.
+    The error of mass i acts when the mass has gone as far as commanded at times ``reported[i]``.
     """
     return [
         MassError(f"error_{mass.name}_{k + 1}", mass.accuracy, [(i, np.interp(t, track.t, stand))])

@@ -1,18 +1,18 @@
-"""What devices did to a platform, from what they reported: never from what they were told.
+"""Momentum and torque of devices on a platform, from their reports: never from commands.
 
     h(t)   = sum I_i n_i a_i + sum momentum_j s_j(x_j) + gimbal_inertia_j x_j' g_j
     tau(t) = (sum d_k a_k) x B(t) + sum T_l a_l
 
 with speeds n of tachometers, angles x of encoders, dipoles d and jets' torques T from the recorded
 columns. (In a singularity of the gyros, or at a limit, the torque commanded is not that applied:
-Lee et al., section V.) This is the known side of the equations that identify the platform.
+Lee et al., section V.) They are the known side of the equations that identify the platform.
 
 Rates of gimbals are differences of angles over the neighbouring rows, of second order in their
 spacing; noise of an encoder comes through as gimbal_inertia noise / spacing. The field is the
 magnetometer's, or the testbed's, turned into body axes by the measured attitude at the rows'
-stamps: pass attitudes stamped when the camera looked.
+stamps: pass attitudes stamped at their exposure.
 
-Cannot see pulses of jets between two rows: a row within each is needed.
+Pulses of jets between two rows are lost: a row within each is needed.
 """
 
 from collections.abc import Sequence
@@ -34,7 +34,7 @@ from equipoise.model.testbed import Testbed
 
 
 def reported(recording: Recording, devices: Sequence[Device]) -> Series:
-    """Return what these devices reported, (n, k) SI; InputError for one that did not."""
+    """Return the reports of these devices, (n, k) SI; InputError for one without."""
     names = list(recording.device_names)
     for device in devices:
         if recorded_name(device) not in names:
@@ -42,11 +42,6 @@ def reported(recording: Recording, devices: Sequence[Device]) -> Series:
             raise InputError(where, f"no '{device.name}'", nearest(recorded_name(device), names))
     assert recording.devices is not None
     return recording.devices.values[:, [names.index(recorded_name(d)) for d in devices]]
-
-
-def slopes(t: Series1, values: Series) -> Series:
-    """Return the slopes (1/s) of columns at their rows, from the rows on both sides."""
-    return np.gradient(values, t, axis=0) if len(t) > 1 else np.zeros_like(values)
 
 
 def stored_momentum(recording: Recording, testbed: Testbed, gimbals: bool = True) -> Samples | None:
@@ -63,7 +58,8 @@ def stored_momentum(recording: Recording, testbed: Testbed, gimbals: bool = True
     if cmgs:
         angles = reported(recording, cmgs)
         h += rotor_momentum(cmgs, angles)
-        h += gimbal_momentum(cmgs, slopes(rows.t, angles)) if gimbals else 0.0
+        if gimbals and len(rows) > 1:
+            h += gimbal_momentum(cmgs, np.gradient(angles, rows.t, axis=0))
     return Samples(rows.t, h)
 
 

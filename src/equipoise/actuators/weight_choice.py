@@ -1,4 +1,4 @@
-"""Which weights to put where, so that the centre of mass goes where it is wanted.
+"""Which weights to put where, so that the centre of mass goes to its target.
 
 With counts n of weights m at x and a platform of mass M and centre of mass r, loaded by n0,
 
@@ -46,7 +46,7 @@ class Wanted:
     body: MassProperties  # as it is loaded now
     loading: Ints
     target: Vector3  # m
-    spread: Vector3  # m, how much each axis matters: tolerance, and what is not known
+    spread: Vector3  # m, the weight of each axis: tolerance and sd
 
 
 class Actions(NamedTuple):
@@ -66,13 +66,13 @@ def left_by(testbed: Testbed, wanted: Wanted, loading: Ints) -> Vector3:
 
 
 def price(testbed: Testbed, wanted: Wanted, loading: Ints) -> float:
-    """Return what is to be as small as can be."""
+    """Return the cost of a loading, to be minimised."""
     left = left_by(testbed, wanted, loading) / wanted.spread
     return float(abs(loading - wanted.loading).sum() + STRICT * (left @ left))
 
 
 def chosen(testbed: Testbed, wanted: Wanted) -> Ints:
-    """Return the loading to ask for; ``left_by`` tells what it leaves."""
+    """Return the loading to request; ``left_by`` returns the offset that it leaves."""
 
     def cost(loading: Ints) -> float:
         return price(testbed, wanted, loading)

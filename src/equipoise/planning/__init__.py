@@ -1,1 +1,1 @@
-"""What a testbed can show before it is used: manoeuvres, reach, error budget."""
+"""Predictions for a testbed before its use: manoeuvres, reach, error budget."""

@@ -14,7 +14,7 @@ from equipoise.control.elements.attitude_pid import (
     torque,
     unwound,
 )
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.maths.attitude import exponential, from_euler321, logarithm, multiply, to_matrix
 from equipoise.maths.linalg import pack_symmetric

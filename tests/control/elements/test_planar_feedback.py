@@ -8,14 +8,14 @@ import pytest
 from equipoise.control.elements import planar_feedback as pf
 from equipoise.control.plant.move_timing import Waiting, amplitudes, watched
 from equipoise.control.plant.swing_estimates import Shown, combined, held
-from equipoise.maths.attitude import exponential, to_matrix
+from equipoise.maths.attitude import exponential
 from equipoise.model.command import Command
 from tests.control.elements.test_momentum_balance import observed_at
 from tests.support.plain_loop import GRAVITY, MASS, UP, Truth, begun, go, platform, sample
 
 DEPTH = 100e-6
 PLANT = pf.Plant(0.3, MASS * GRAVITY, 1e-3)
-LOOP = pf.loop_for(PLANT, DEPTH, "sine")
+LOOP = pf.loop_for(PLANT, DEPTH)
 
 
 def hanging(r):
@@ -31,17 +31,6 @@ def test_at_rest_the_masses_creep_to_where_it_is_level():
     assert speed == pytest.approx(-w_i * np.array([3e-6, -5e-6, 0.0]))
 
 
-@pytest.mark.parametrize("degrees", [1.0, 25.0])
-def test_the_variants_differ_as_an_angle_from_its_sine(degrees):
-    down = -to_matrix(exponential(np.radians([degrees, 0, 0]))).T[:, 2] * GRAVITY
-    sine, angle = (
-        np.linalg.norm(pf.creep(down, UP, 0.0, LOOP._replace(variant=v)))
-        for v in ("sine", "linear")
-    )
-    assert sine == pytest.approx(LOOP.integral * np.sin(np.radians(degrees)))
-    assert angle == pytest.approx(LOOP.integral * np.radians(degrees))
-
-
 def test_gains_keep_the_integral_well_within_routh():
     """k_d lambda > J k_i, by 1.4 / 0.2 = 7."""
     assert LOOP.damping * DEPTH == pytest.approx(7 * PLANT.inertia * LOOP.integral)
@@ -50,19 +39,19 @@ def test_gains_keep_the_integral_well_within_routh():
 
 def test_in_a_swing_the_integral_is_worth_half_of_what_coils_can_give():
     """At amplitude A the integral drives the swing by m g lambda A w_i / w_n."""
-    weak = pf.loop_for(PLANT._replace(coils=2e-4), DEPTH, "sine")
+    weak = pf.loop_for(PLANT._replace(coils=2e-4), DEPTH)
     A = 0.2
     gain = np.linalg.norm(pf.creep(hanging(np.array([1e-5, 0, -DEPTH])), UP, A, weak))
     free = np.linalg.norm(pf.creep(hanging(np.array([1e-5, 0, -DEPTH])), UP, 0.0, weak))
     assert MASS * GRAVITY * DEPTH * A * 0.2 * gain / free == pytest.approx(0.5 * 2e-4)
 
 
-def swung(variant, coils, seconds=150.0):
+def swung(coils, seconds=150.0):
     """A platform that leans and swings, under ideal coils; return tilts over time (rad)."""
     r = np.array([8e-6, -5e-6, -DEPTH])
     truth = Truth(r, tilt=np.array([0.12, 0.1, 0.3]), rate=np.zeros(3), camera_sd=1e-6, bias=0.0)
     course, rng = begun(replace(platform(), wheels=()), truth), np.random.default_rng(2)
-    loop = pf.loop_for(PLANT._replace(coils=coils), DEPTH, variant)
+    loop = pf.loop_for(PLANT._replace(coils=coils), DEPTH)
     shift, tilts = np.zeros(3), []
     for _ in range(round(seconds / 0.2)):
         observed = sample(course, 0.2, rng)
@@ -79,9 +68,8 @@ def swung(variant, coils, seconds=150.0):
     return np.array(tilts), course
 
 
-@pytest.mark.parametrize("variant", ["linear", "sine"])
-def test_it_levels_a_platform_and_stops_its_swing(variant):
-    tilts, course = swung(variant, 1e-2)
+def test_it_levels_a_platform_and_stops_its_swing():
+    tilts, course = swung(1e-2)
     assert tilts[0] > 0.15
     assert tilts[-50:].max() < 3e-3
     assert np.abs(course.com[:2]).max() < 0.4e-6
@@ -89,7 +77,7 @@ def test_it_levels_a_platform_and_stops_its_swing(variant):
 
 def test_it_does_not_drive_a_swing_that_is_too_large_for_its_coils():
     """0.2 mN m against 14 mN m / rad: half a degree of swing is all the integral may have."""
-    tilts, _ = swung("sine", 2e-4)
+    tilts, _ = swung(2e-4)
     assert tilts[-100:].max() < tilts[:100].max()
 
 
@@ -138,7 +126,7 @@ def test_known_shifts_between_measurements_remove_the_scale_error_of_r():
 
 
 def test_imprecise_measurements_leave_the_scale_to_the_inertia_prior():
-    """One look: as it says, and its sd has that of the inertia, 5 % of 240 um."""
+    """One measurement: its own estimate, and its sd includes that of the inertia, 5 % of 240 um."""
     measurement = Shown(np.array([0, 0, -40e-6]), np.full(3, 1e-6), SHIFTS[0])
     found = combined((measurement,), UP, 0.05)
     assert found.com == pytest.approx(measurement.com)
@@ -146,7 +134,7 @@ def test_imprecise_measurements_leave_the_scale_to_the_inertia_prior():
 
 
 def test_the_error_of_the_measured_height_is_consistent_with_its_sd():
-    """Over 400 draws of looks' errors and of k, the error in its sd is 1."""
+    """Over 400 draws of measurement errors and of k, the error in its sd is 1."""
     rng, r, errors = np.random.default_rng(3), np.array([0, 0, -40e-6]), []
     sds = [5e-6, 2e-6, 1e-6]
     for _ in range(400):

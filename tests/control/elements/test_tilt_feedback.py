@@ -7,17 +7,15 @@ import numpy as np
 import pytest
 
 from equipoise.control.elements.tilt_feedback import (
-    SAMPLED,
     SPEED,
     Gains,
     followed,
     frequency_for,
     gains_at,
-    left_over,
     owed,
     shift_for,
 )
-from equipoise.control.plant.offset_bounds import likely_height, likely_offset
+from equipoise.control.plant.offset_bounds import SAMPLED, likely_height, likely_offset
 from equipoise.maths.attitude import exponential
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -155,7 +153,7 @@ def test_the_printed_law_leaves_what_was_published(com_mm, predicted_um, simulat
     rows = run(com, gains, 30.0, bench)
     across = np.hypot(*(com - rows[-2].state.held)[:2])
     assert 1e6 * across == pytest.approx(simulated_um, rel=0.01)
-    predicted = left_over(float(np.hypot(*com[:2])), com[2], gains.spring)
+    predicted = np.hypot(*com[:2]) * abs(com[2]) / (abs(com[2]) + gains.spring)
     assert 1e6 * predicted == pytest.approx(predicted_um, rel=1e-3)
     down = com + np.array([0, 0, -gains.spring])
     n = down / np.linalg.norm(down)
@@ -193,7 +191,7 @@ def test_with_the_printed_gain_it_diverges_with_slow_masses():
 def test_slow_masses_and_a_large_offset_need_a_slow_loop(speed_mm_s, frequency, holds):
     """r = (-0.1, -0.2, -0.5) mm, masses of 0.7 kg: w_a |r| / v is 4.6, 0.46 and 1.4.
 
-    85 degrees are seen in the first case, and it does not settle.
+    The first case reaches 85 degrees, and does not settle.
     """
     masses = rails(mass=0.7, speed=1e-3 * speed_mm_s, travel=1.0)
     bench = Bench(platform(masses=masses, **PUBLISHED), np.zeros(3), instant=False)

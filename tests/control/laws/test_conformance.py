@@ -34,7 +34,7 @@ WITHOUT = {
 }
 LEANING = {"attitude": np.radians([40.0, 0.0, 0.0])}  # the table's limit is 30 deg
 THROWN = {"attitude": np.zeros(3), "rate": np.array([0.4, 0.0, 0.0])}  # there after 1.3 s
-AFTER = 2.0  # s that are looked at when the platform was halted
+AFTER = 2.0  # s that are checked when the platform was stopped
 
 
 def frozen(value: object) -> object:
@@ -73,7 +73,7 @@ class GuardedBench(SimulatedBench):
 
 @dataclass
 class Course:
-    """What a law was seen to do."""
+    """The observed actions of a law."""
 
     bench: GuardedBench
     steps: list[Step] = field(default_factory=list)
@@ -221,7 +221,7 @@ def test_what_the_card_names_is_enough(name):
 
 @every_law
 def test_a_run_ends_with_a_verdict(name):
-    """In time: no look is begun that would overrun; what still travels may arrive.
+    """In time: no measurement begins that would overrun; masses under way may arrive.
 
     Cut short, masses may stand so that it topples, which then ends it.
     """

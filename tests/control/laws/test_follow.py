@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from equipoise.control.law import Sample
 from equipoise.control.laws.follow import following_law, shift_at
-from equipoise.control.sample import Sample
 from equipoise.dynamics.sag_trim import sag_matrix, trimmed_com, trimming_shift
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.following import Following

@@ -130,7 +130,7 @@ def test_slow_masses_do_no_harm():
 
 
 def test_a_steady_torque_is_taken_for_unbalance():
-    """What it cannot tell apart: 1e-4 N m about x is 0.73 um along y, at one attitude."""
+    """What it cannot separate: 1e-4 N m about x is 0.73 um along y, at one attitude."""
     params = params_for(table())
     shift = law.fed_back(HELD, np.array([20e-4, 0.0, 0.0]), np.zeros(3), params)
     assert abs(shift[1]) == pytest.approx(law.GAIN * 1e-4 / (MASS * GRAVITY))

@@ -81,7 +81,7 @@ def test_the_adaptation_keeps_its_bounds():
 
 
 def test_a_platform_that_lags_its_prediction_is_pushed():
-    """x_hat ahead of x, so the matched disturbance is less than believed."""
+    """x_hat ahead of x, so the matched disturbance is less than estimated."""
     axis = law.begin(guess(), np.zeros(3))[1].axes[0]
     _, s = law.adapted(axis, np.array([0.0, 1e-3]), np.zeros(2), np.zeros(2), 0.0)
     assert s == pytest.approx(-law.PERIOD * axis.predictor**2 * 0.5e-3)
@@ -98,7 +98,7 @@ def flown(seed, duration=1200, truth=None, **kwargs):
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_a_known_offset_is_removed(seed):
-    """From (60, -40, -150) um to 0.15 um sideways; upward to 5 % of the last look's 10 um."""
+    """From (60, -40, -150) um to 0.15 um sideways; upward to 5 % of the last depth, 10 um."""
     run = flown(seed)
     assert run.finished[0].code == "level_at_target"
     np.testing.assert_allclose(run.left[:2], 0.0, atol=0.15 * UM)

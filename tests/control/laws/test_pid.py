@@ -36,7 +36,7 @@ def flown(seed=0, target=(0.0, 0.0, 0.0), noise=NOISE, truth=None, tilt=TURN, **
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_a_known_offset_is_removed(seed):
-    """From (60, -40, -150) um to 0.1 um sideways; upward to the error of the look, 5 % of 10 um."""
+    """From (60, -40, -150) um to 0.1 um sideways; upward to 5 % of the last depth, 10 um."""
     run = flown(seed)
     assert run.finished[0].code == "level_at_target"
     np.testing.assert_allclose(run.left[:2], 0.0, atol=0.1 * UM)
@@ -45,13 +45,13 @@ def test_a_known_offset_is_removed(seed):
 
 
 def test_a_target_that_is_not_the_centre_is_reached():
-    """Upward to the error of a look at 50 um, whose scale is open by 5 %."""
+    """Upward to the error of a measurement at 50 um, whose scale is open by 5 %."""
     target = np.array([5.0, -3.0, -40.0]) * UM
     assert np.all(np.abs(flown(4, target).left - target) < [0.1e-6, 0.1e-6, 2.6e-6])
 
 
 def test_the_tilt_goes_to_zero_at_every_height():
-    """What is levelled is the sideways part, and that alone: the height stays, until a look."""
+    """Only the sideways part is levelled: the height stays, until a measurement."""
     run = flown()
     measurements = [i for i, c in enumerate(run.commands) if c.measurement is not None]
     first, *later = (i - 24 for i in measurements)  # 6 s before the kick
@@ -85,7 +85,7 @@ def swung(seed=0):
 
 
 def at_last(run):
-    """The tilt over the last 5 s before it is swung for a look, or of all."""
+    """The tilt over the last 5 s before it is swung for a measurement, or of all."""
     swung_at = next(
         (i for i, s in enumerate(run.states) if s.search.way is not None), len(run.tilt)
     )

@@ -1,4 +1,4 @@
-"""Laws that look at swings and turns, each on a few platforms of 14 kg, judged by the truth."""
+"""Laws that measure swings and turns, each on a few platforms of 14 kg, judged by the truth."""
 
 from dataclasses import replace
 
@@ -9,7 +9,7 @@ from equipoise.control.laws import coarse_fine, planar_magnetic, slew_and_measur
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.devices import MagneticField, Magnetorquer
 from equipoise.model.errors import InputError
-from tests.support.plain_loop import Truth, begun, carried_on, close, platform, wheels
+from tests.support.plain_loop import Truth, close, platform, wheels
 
 FIELD = np.array([2e-5, 0, -4.5e-5])
 LOW = np.array([0, 0, -110e-6])  # m, a platform that hangs, as balanced by hand
@@ -46,7 +46,7 @@ def test_coarse_and_fine_leaves_it_hanging_ten_micrometres_low(seed):
 
 
 def test_a_target_that_hangs_lower_is_kept():
-    """Its height to 4 %: the way from a first, short look tells the scale to that."""
+    """Its height to 4 %: the shift from a first, short measurement determines the scale to that."""
     target = np.array([1e-6, 0, -40e-6])
     course = close(coarse_fine.LAW, hand_balanced(), truth_of(3), target, 700.0)
     assert course.com[:2] == pytest.approx(target[:2], abs=0.2e-6)
@@ -55,7 +55,7 @@ def test_a_target_that_hangs_lower_is_kept():
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_planar_feedback_and_swings_reach_the_target(seed):
-    """Sideways by feedback: LEVEL times FLOOR; the height by a look, known to ENOUGH."""
+    """Sideways by feedback: LEVEL times FLOOR; the height by a measurement, known to ENOUGH."""
     truth = truth_of(seed, field_N=FIELD)
     course = close(planar_magnetic.LAW, with_coils(), truth, LEVEL, 1500.0)
     assert course.finished[0].code == "level_at_height"
@@ -64,21 +64,9 @@ def test_planar_feedback_and_swings_reach_the_target(seed):
     assert greatest_tilt(course) < 30
 
 
-def test_both_variants_of_the_planar_feedback_are_carried_through():
-    state, params = planar_magnetic.LAW.begin(with_coils(), LEVEL)
-    assert params.variant == "sine"
-    linear = replace(params, variant="linear")
-    state = replace(state, loop=state.loop._replace(variant="linear"))
-    course = begun(with_coils(), truth_of(0, field_N=FIELD))
-    course = carried_on(planar_magnetic.LAW, (state, linear), course, 1500.0)
-    assert course.finished[0].code == "level_at_height"
-    assert course.states[-1].loop.variant == "linear"
-    assert np.abs(course.com[:2]).max() < planar_magnetic.LEVEL * planar_magnetic.FLOOR
-
-
 @pytest.mark.parametrize("seed", [0, 1])
 def test_turns_to_widely_separated_attitudes_determine_all_of_r(seed):
-    """Two rounds; the truth's inertia is 2 to 3 % off what the law is told."""
+    """Two rounds; the truth's inertia is 2 to 3 % off the nominal one."""
     com = np.random.default_rng(100 + seed).normal(size=3) * 10e-6
     bed = replace(platform(com_sd=10e-6), wheels=wheels(torque=0.02, momentum=0.4))
     course = close(slew_and_measure.LAW, bed, Truth(com, play=2e-6, seed=seed), LEVEL, 400.0)

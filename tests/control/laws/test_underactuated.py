@@ -1,4 +1,4 @@
-"""Balancing with masses alone: rounds of levelling and looking, with and without an integral."""
+"""Balancing with masses alone: rounds of levelling and measuring, with and without an integral."""
 
 from dataclasses import replace
 
@@ -8,7 +8,6 @@ import pytest
 from equipoise.control.elements.tilt_feedback import (
     INTEGRAL,
     frequency_of,
-    left_over,
     polynomial,
     routh_margin,
     settling,
@@ -57,7 +56,7 @@ def codes(row):
 
 
 def measurements(rows):
-    """Rows at which a look was judged."""
+    """Rows at which a measurement was judged."""
     return [r for r in rows if r.command is not None and "height_missing" in codes(r)]
 
 
@@ -72,7 +71,7 @@ def test_it_balances_to_the_target(law):
 
 @BOTH
 def test_it_balances_to_a_motor_step(law):
-    """Motor steps of 3.6 um, 5 mm/s, looks 10 % and 1 um off, noise of a good attitude filter."""
+    """Motor steps of 3.6 um, 5 mm/s, estimates 10 % and 1 um off, noise of a good filter."""
     masses = rails(speed=0.005, resolution=1e-5)
     rows, bench, params = run(
         law, masses=masses, instant=False, reported=(0.1, 1e-6), noise=(1e-4, 1e-5), seed=4
@@ -90,7 +89,7 @@ def test_each_round_leaves_the_printed_share_and_the_integral_nothing():
     aside = float(np.hypot(*COM[:2]))  # rh(0) is nought across
     for row in ends(rows)[:2]:
         com = row.shift + bench.com
-        aside = left_over(aside, com[2], params.gains.spring)
+        aside *= abs(com[2]) / (abs(com[2]) + params.gains.spring)
         # To first order in the tilt; the first round's is 0.083 rad.
         assert np.hypot(*com[:2]) == pytest.approx(aside, rel=0.01)
     assert aside > 3e-6
@@ -215,7 +214,7 @@ def test_a_target_aside_of_up_is_refused():
 def reported(usable=True, **values):
     """An estimate with these parameters."""
     parameters = tuple(Parameter(name, "m", x, 1e-6) for name, x in values.items())
-    return Estimate("told", of_use(usable), parameters, np.eye(len(values)))
+    return Estimate("scripted", of_use(usable), parameters, np.eye(len(values)))
 
 
 def test_heights_are_read_from_the_estimate_of_a_method():
@@ -227,7 +226,7 @@ def test_heights_are_read_from_the_estimate_of_a_method():
 
 
 def measured():
-    """A state that waits for a look, level but for 0.01 rad, masses 0.5 mm up."""
+    """A state that waits for a measurement, level but for 0.01 rad, masses 0.5 mm up."""
     _, params = underactuated.LAW.begin(platform(1e-4), TARGET)
     state = two_steps.State(
         np.zeros(3), 0.0, phase="measurement", rest=np.array([1e-5, 0, 5e-4]),
@@ -258,7 +257,7 @@ def test_rounds_end_when_nothing_is_gained_or_they_are_used_up():
 
 
 def test_after_the_last_measurement_it_levels_once_more_and_rests():
-    """The push of the look is gone when the law ends: no tilt, no rate."""
+    """The push of the measurement is gone when the law ends: no tilt, no rate."""
     rows, *_ = run(underactuated.LAW)
     assert "level_again" in codes(rows[-1])
     pushed = max(i for i, row in enumerate(rows) if row.state.phase == "push" and row.state.step)
@@ -284,7 +283,7 @@ def test_it_stops_beyond_the_tilt_limit():
 
 
 def test_the_push_swings_the_platform_by_the_intended_amplitude():
-    """SWING of the tilt limit in the 20 s of a look, when hardly anything pulls back."""
+    """SWING of the tilt limit in the 20 s of a measurement, when hardly any torque restores."""
     bench = Bench(platform(1e-4), np.array([0, 0, -1.05e-4]))
     begun = underactuated_integral.LAW.begin(bench.testbed, TARGET)
     begun = (replace(begun[0], height=0.0), begun[1])

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from equipoise.control.law import Sample
 from equipoise.control.plant import pendulum as h
-from equipoise.control.sample import Sample
 from equipoise.maths.attitude import exponential, multiply, to_matrix
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.errors import InputError
 from tests.support.simple_loop import GRAVITY, MASS, Loop, Plant, table
 
@@ -37,7 +38,7 @@ def test_a_weight_to_the_left_turns_to_the_left():
 
 @pytest.mark.parametrize("up", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0.6, 0, 0.8)])
 def test_there_and_back_for_any_up(up):
-    plant = h.hanging(DEEP)._replace(up=np.array(up, float), axes=h.level_axes(np.array(up, float)))
+    plant = h.hanging(DEEP)._replace(up=np.array(up, float), axes=axes_across(np.array(up, float)))
     v = np.array([0.3, -0.7])
     np.testing.assert_allclose(h.turned(plant, h.shift_for(plant, v)), v, atol=1e-15)
     np.testing.assert_allclose(plant.axes @ plant.axes.T, np.eye(2), atol=1e-15)

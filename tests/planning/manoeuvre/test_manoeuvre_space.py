@@ -10,6 +10,7 @@ from equipoise.actuators.square_waves import inputs_along, switchings
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.attitude import leaning, tilt, to_matrix
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.manoeuvre import SquareWave
 from equipoise.planning.manoeuvre.criterion import score, sizes
@@ -21,7 +22,7 @@ from equipoise.planning.manoeuvre.limit_check import (
     started,
     thinned,
 )
-from equipoise.planning.manoeuvre.manoeuvre_space import Space, chosen, greatest, level_axes
+from equipoise.planning.manoeuvre.manoeuvre_space import Space, chosen, greatest
 from equipoise.planning.manoeuvre.plan import Wish, merit, planned, search_for
 from equipoise.planning.manoeuvre.predicted_information import predicted
 from equipoise.planning.manoeuvre.predicted_sd import met
@@ -135,7 +136,7 @@ def test_the_benchs_hand_errs_as_the_plan_says():
     m, up = replace(usual(bed(), 20.0, {}), tilt=0.0), np.array([0.6, 0.0, 0.8])
     rng = np.random.default_rng(3)
     drawn = [met_start(up, m, rng) for _ in range(1000)]
-    first, second = level_axes(up)
+    first, second = axes_across(up)
     downs = np.array([-to_matrix(q)[2] for q, _ in drawn])
     np.testing.assert_allclose((downs @ first).std(), np.radians(1.0), rtol=0.1)
     np.testing.assert_allclose((downs @ second).std(), np.radians(1.0), rtol=0.1)
@@ -177,7 +178,7 @@ def test_the_same_seed_plans_the_same_and_better_than_usual():
 
 def test_level_axes_are_square_to_up_whatever_points_up():
     for up in (np.eye(3)[0], np.array([0.6, 0.0, 0.8])):
-        axes = np.array([*level_axes(up), up])
+        axes = np.array([*axes_across(up), up])
         np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
 
 

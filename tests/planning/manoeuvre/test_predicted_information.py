@@ -1,4 +1,4 @@
-"""What a manoeuvre is said to tell is what a fit of its recording says, and what the bench does."""
+"""The predicted covariance of a manoeuvre is that of a fit of its recording, and of the bench."""
 
 from dataclasses import replace
 from functools import cache
@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from equipoise.estimation.information import fisher_information
+from equipoise.estimation.information.reference_motion import Followed
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.estimate import COM, INERTIA
@@ -16,7 +17,7 @@ from equipoise.model.manoeuvre import Manoeuvre, SquareWave
 from equipoise.model.mass_properties import MassProperties
 from equipoise.model.testbed import Gyro
 from equipoise.planning.manoeuvre.noiseless_record import imagined
-from equipoise.planning.manoeuvre.predicted_information import Known, followed_truth, predicted
+from equipoise.planning.manoeuvre.predicted_information import Known, at_truth, posed, predicted
 
 BODY = (*INERTIA, *COM)
 X = np.array([1.0, 0.0, 0.0])
@@ -99,7 +100,7 @@ def test_it_is_the_inverse_information_of_another_integrator():
 
 
 def test_the_drift_of_a_rate_from_white_noise_is_known_as_the_rule_says():
-    """sigma(w') = sqrt(12) N T^-3/2 for noise N per root Hz: seen in com_x of a level platform.
+    """sigma(w') = sqrt(12) N T^-3/2 for noise N per root Hz: as in com_x of a level platform.
 
     Hanging at rest on its side it cannot; so by hand: tau = J w' = m g r gives sigma(r) within the
     first second, while the swing of 35 s has not begun.
@@ -113,15 +114,15 @@ def test_the_drift_of_a_rate_from_white_noise_is_known_as_the_rule_says():
     density = gyro.noise / np.sqrt(gyro.rate)
     slope = np.sqrt(12.0) * density
     sd = 0.3 * slope / (14.0 * testbed.gravity)
-    # attitude at the start is not seen without a camera: its prior is wide, its pull m g z small
+    # the initial attitude is unobservable without a camera: its prior is wide, its pull m g z small
     assert said.sd_of(("com_x",))[0] == pytest.approx(sd, rel=0.05)
 
 
 def test_it_is_what_observe_says_along_the_same_motion():
     said = predicted(sputnix(), sputnix().body, PAPER, Params())
-    observed = fisher_information.information_along(
-        followed_truth(sputnix(), sputnix().body, PAPER, Params())
-    )
+    body, record = sputnix().body, imagined(sputnix(), sputnix().body, PAPER)
+    fitted = at_truth(posed(record, sputnix(), Params(), None), record, body, PAPER, None)
+    observed = fisher_information.information_along(Followed(fitted, sputnix(), Params(), ()))
     np.testing.assert_array_equal(said.sd, observed.sd)
     assert said.peak_tilt == pytest.approx(observed.tilt[1], rel=1e-3)
 
@@ -135,7 +136,7 @@ def test_unobservable_parameters_have_infinite_sd_and_are_named():
 
 
 def test_what_is_known_counts_as_one_more_recording():
-    """Known: what a first run like it told of the body. Then every sd is 2^-1/2 of one run's.
+    """Known: the information of a first run like it. Then every sd is 2^-1/2 of one run's.
 
     But for what hanging masses add, which depends on the lag and so a little on all else: 1e-4.
     """

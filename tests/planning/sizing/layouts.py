@@ -21,7 +21,7 @@ def mass(axis, weight=0.1, travel=0.05, **details):
 
 
 def testbed(*masses) -> Testbed:
-    """The platform with these masses, believed to be balanced within 0.1 mm."""
+    """The platform with these masses, balanced within 0.1 mm by its prior."""
     named = tuple(replace(m, name=f"m{k}") for k, m in enumerate(masses))
     body = MassProperties(TOTAL, np.zeros(3), np.diag([0.3, 0.35, 0.5]))
     bed = replace(builders.platform(), body=body, masses=named, gravity=10.0)

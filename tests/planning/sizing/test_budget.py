@@ -1,4 +1,4 @@
-"""Looks and moves put together: what is left, what limits it, what would better it."""
+"""Measurements and moves put together: what is left, what limits it, what would better it."""
 
 from dataclasses import replace
 from functools import cache
@@ -9,7 +9,7 @@ from scipy.stats import norm
 
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths.linalg import symmetrise
-from equipoise.planning.manoeuvre.reference_swing import GUARD, gentle_swing, usual_swing
+from equipoise.planning.manoeuvre.reference_manoeuvre import GUARD, gentle_swing, usual_swing
 from equipoise.planning.sizing.budget import budget_of, estimated
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.environment import Surroundings

@@ -7,14 +7,13 @@ import pytest
 
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.mass_properties import MassProperties
-from equipoise.planning.sizing.contribution import ASSUMED, PARTLY
 from equipoise.planning.sizing.environment import (
     Surroundings,
     not_stated,
     sag_of,
     surrounding_lines,
 )
-from equipoise.planning.sizing.expected_torque import expected_torque
+from equipoise.planning.sizing.expected_torque import ASSUMED, PARTLY, expected_torque
 from equipoise.planning.sizing.mass_steps import mass_steps
 from tests.planning.sizing.layouts import X, Z, box, testbed
 

@@ -1,4 +1,4 @@
-"""Balancing by hand: from 500 um to 5 um, what is believed on the way, what is told a person."""
+"""Balancing by hand: from 500 um to 5 um, the posteriors and the instructions on the way."""
 
 from dataclasses import replace
 from functools import cache
@@ -105,7 +105,7 @@ def test_a_free_swing_leaves_the_scale_open_and_a_known_load_closes_it():
 
 
 def test_what_a_recording_says_does_not_depend_on_the_prior_it_was_fitted_with():
-    """Guesses 8 % and 100 um apart, the same belief to add it to: the same within a tenth sd."""
+    """Nominal values 8 % and 100 um apart, the same prior: the same within a tenth sd."""
     hands = SimulatedHands(half_a_millimetre_off(BED, 5), 5)
     fresh, posterior = caught(hands.swing(), BED), first_posterior(BED)
     other = MassProperties(14.0, np.array([60.0, -80.0, 20.0]) * UM, 1.08 * BED.body.inertia_P)

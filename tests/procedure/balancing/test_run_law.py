@@ -5,9 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.actuators.control_moment_gyros import pyramid
-from equipoise.control.law import Law
-from equipoise.control.sample import Sample
+from equipoise.control.law import Law, Sample
 from equipoise.maths.attitude import exponential, to_matrix
 from equipoise.model.command import Command, Measurement
 from equipoise.model.defects import Gap
@@ -29,6 +27,7 @@ from equipoise.procedure.balancing.run_law import (
 )
 from equipoise.procedure.steps.sampler import opened, sample_of, sampled
 from equipoise.simulation.bench import SimulatedBench
+from tests.support.gyro_pyramid import pyramid
 
 EYE = np.eye(3)
 MASS, INERTIA = 10.0, np.diag([1.0, 2.0, 2.5])
@@ -77,7 +76,7 @@ def reported(*commands, observed=None):
         command = commands[state] if state < len(commands) else Command(finished=one_reason(DONE))
         return state + 1, command
 
-    card = LawCard("told", "", "", ("attitude",), "", "", PERIOD)
+    card = LawCard("scripted", "", "", ("attitude",), "", "", PERIOD)
     return Law(card, lambda _bed, _target: (0, None), step)
 
 
@@ -229,11 +228,11 @@ def test_an_attitude_and_a_rate_are_those_of_the_platform():
     np.testing.assert_allclose(to_matrix(last.q), turned, atol=1e-4)
 
 
-# --- Looks -----------------------------------------------------------------------------------
+# --- Measurements ----------------------------------------------------------------------------
 
 
 def measurement_of(*commands, measurement, testbed=None, options=None):
-    """Return the steps and what was seen, of commands, a look and the end."""
+    """Return the steps and what the law received, of commands, a measurement and the end."""
     observed = []
     bed = platform(HANGING, attitude=(0.05, -0.03, 0.2)) if testbed is None else testbed
     bench = SimulatedBench(bed, 1)
@@ -247,7 +246,7 @@ def measurement_of(*commands, measurement, testbed=None, options=None):
 
 
 def test_a_measurement_gives_the_law_an_estimate_of_the_unactuated_platform():
-    """Wheels are not driven in it, masses have arrived; the next thing seen is the Estimate."""
+    """Wheels are not driven in it, masses have arrived; the next observation is the Estimate."""
     shift = np.array([0.0, 0.0, -2e-4])
     driven = Command(torque=np.array([1e-4, 0.0, 0.0]), shift=shift)
     steps, observed, bench = measurement_of(
@@ -293,7 +292,7 @@ def test_a_measurement_since_a_time_accounts_for_device_actuation():
 
 
 def test_a_sample_after_a_measurement_covers_the_time_since_it():
-    """Torque is a mean since the look's last row, and no pulse of before is told again."""
+    """Torque is a mean since the measurement's last row, and no earlier pulse counts again."""
     observed = []
     bench = SimulatedBench(platform(HANGING), 1)
     measurement = Command(measurement=Measurement(10.0, "trajectory", use_prior=True))
@@ -325,7 +324,7 @@ def test_what_a_law_claims_is_proved_by_what_comes_after():
     steps, bench = ended(law, target=HANGING, tolerance=np.full(3, 5e-6), proof=30.0)
     assert [step.kind for step in steps] == ["control", "control", "verify"]
     assert steps[0].sentence == "Level again."
-    assert steps[1].sentence == f"told for 0 s of bench time: {DONE.template}"
+    assert steps[1].sentence == f"scripted for 0 s of bench time: {DONE.template}"
     assert steps[2].verdict.passed
     assert steps[2].recording.span[0] >= steps[1].time
     assert bench.time == pytest.approx(1.5 + 30.0)
@@ -399,7 +398,7 @@ def test_masses_that_stand_away_from_home_at_first_are_brought_where_a_law_wants
 
 
 def test_a_torque_fixed_by_a_measurement_is_taken_as_zero():
-    """Of drift and swirl, which the testbed considers, the look is asked to hold the drift."""
+    """Of drift and swirl, which the testbed considers, the measurement holds the drift."""
     bed = platform(HANGING, (0.05, -0.03, 0.2), disturbances=("swirl", "drift_x", "drift_z"))
     swing = SimulatedBench(bed, 1).read(20.0)
     measurement = Measurement(

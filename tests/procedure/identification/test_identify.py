@@ -31,7 +31,7 @@ def test_an_unknown_method_names_the_nearest(observed):
 
 
 def test_auto_goes_from_coarse_to_fine(observed):
-    """A look, then methods in their order; the last is the fit, and is right to 4 sd."""
+    """A measurement, then methods in their order; the last is the fit, and is right to 4 sd."""
     steps = list(identify(observed, TESTBED, IdentifyOptions()))
     assert [step.kind for step in steps] == ["measurement"] + ["estimate"] * (len(steps) - 1)
     names = [step.estimate.method for step in steps[1:]]
@@ -44,7 +44,7 @@ def test_auto_goes_from_coarse_to_fine(observed):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_method_can_be_requested(briefly, method):
-    """One measurement, one estimate, whatever it can say."""
+    """One measurement, one estimate, whatever its outcome."""
     steps = list(identify(briefly, TESTBED, IdentifyOptions(method=method)))
     assert [step.kind for step in steps] == ["measurement", "estimate"]
     assert steps[1].estimate.method == method
@@ -54,7 +54,7 @@ def test_a_method_can_be_requested(briefly, method):
 def test_the_tracker_says_where_the_centre_of_mass_is_at_the_end(observed):
     """After a move, the masses as they stand, and the inertia: within 4 sd.
 
-    Known to 2 um and 2 % of J_zz, beforehand 100 um and 10 %.
+    Known to 2 um and 2 % of J_zz, a priori 100 um and 10 %.
     """
     found = list(identify(observed, TESTBED, IdentifyOptions(method="tracker")))[-1].estimate
     names = (*END, *INERTIA)

@@ -1,4 +1,4 @@
-"""Passed, failed, cannot tell: by bounds, with the floor where it decides."""
+"""Passed, failed, undecided: by bounds, with the floor where it decides."""
 
 import numpy as np
 import pytest

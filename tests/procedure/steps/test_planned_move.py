@@ -17,7 +17,7 @@ from equipoise.simulation.bench import SimulatedBench
 from tests.support import thorough
 from tests.support.builders import platform
 
-UNB = read_preset("unb")  # a stop errs by 1 um, and a look sees 0.05 um sideways
+UNB = read_preset("unb")  # a stop errs by 1 um, a measurement by 0.05 um sideways
 BELOW = np.array([0.0, 0.0, -100.0]) * UM
 STEPS = 200 * np.array([mass.resolution for mass in UNB.masses])
 SPEED = np.array([mass.speed for mass in UNB.masses])

@@ -78,7 +78,7 @@ def test_what_is_hardly_known_has_not_failed(known):
 
 @pytest.mark.parametrize(("off", "passes"), [(2.0, True), (20.0, False)])
 def test_a_move_that_led_elsewhere_fails(known, off, passes):
-    """The look after a move tests its prediction: 2 sd may be chance, 20 are not."""
+    """The measurement after a move tests its prediction: 2 sd may be chance, 20 are not."""
     there = known.com + off * np.sqrt(2) * known.sd
     move = Move({}, 0.0, 1.0, there, known.covariance, MoveReason.TO_TARGET)
     judged = verdict(known, move, 0.0, known.com, wide(known))

@@ -27,8 +27,8 @@ from equipoise.model.reasons.reason import Reason, distinct
 from equipoise.model.units import DEG, GRAM, MM, PERCENT, UM, UN_M
 from equipoise.planning.sizing.budget import Budget
 from equipoise.planning.sizing.case import Case
-from equipoise.planning.sizing.contribution import Line
 from equipoise.planning.sizing.environment import not_stated
+from equipoise.planning.sizing.expected_torque import Line
 from equipoise.planning.sizing.limits import plain, worth_listing
 from equipoise.planning.sizing.mass_steps import MassStep
 from equipoise.planning.sizing.measurement_bound import MeasurementBound

@@ -1,1 +1,1 @@
-"""What laws are made of: feedback, tuning, sweeps, stability."""
+"""Elements of laws: feedback, tuning, sweeps, stability."""

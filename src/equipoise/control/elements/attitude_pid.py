@@ -1,6 +1,6 @@
 """Attitude control by wheels or gyros: quaternion PID with gravity feed-forward.
 
-Wanted is a platform that follows a reference as one with inertia J and neither wheels nor weight:
+The platform should follow a reference as one with inertia J and neither wheels nor weight:
 
     e   = 2 sgn(s) v,   (s, v) = q* (x) q_ref         rad, body axes; small: what is left to turn
     a   = a_ref + 2 zeta w_n (w_ref - w) + w_n^2 ( e + w_i int e dt )
@@ -10,10 +10,10 @@ Put into J w' = -w x (J w + h) + u + m r x g_B this leaves w' = a. Wrong J in th
 does no work and cannot unsettle. The integral takes what the feed-forward misses; with it the loop
 is stable for w_i < 2 zeta w_n.
 
-The integral is kept from winding up twice. What was asked of the wheels and not delivered goes
-back into it (back-calculation, time constant 1 / w_n), and its torque never passes a limit:
+The integral is kept from winding up twice. Torque that was requested and not delivered goes back
+into it (back-calculation, time constant 1 / w_n), and its torque never passes a limit:
 
-    x' = e + J^-1 (u_delivered - u_asked) / (w_n w_i)
+    x' = e + J^-1 (u_delivered - u_requested) / (w_n w_i)
 
 (Lee et al. Eq. 2, with K_d = 2 zeta w_n J, K_p = w_n^2 J, K_I = 2 w_n^2 w_i J; of its gyroscopic
 terms that has w x h alone. Printed there is the integral of E^T(q) w, which is no 3-vector: it is
@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.maths.attitude import conjugate, multiply
 from equipoise.model.arrays import Matrix3, Quaternion, Vector3
 
@@ -35,7 +35,7 @@ FREQUENCY, DAMPING, INTEGRAL = 0.5, 0.8, 0.1  # rad/s, -, rad/s, chosen: settles
 
 
 class Reference(NamedTuple):
-    """Where the platform should be; vectors in its own body axes there."""
+    """The wanted attitude and its derivatives; vectors in the body axes of that attitude."""
 
     q: Quaternion
     rate: Vector3  # rad/s
@@ -53,7 +53,7 @@ class Gains(NamedTuple):
 
 
 class Pid(NamedTuple):
-    """What is carried from step to step."""
+    """The state of the controller."""
 
     total: Vector3  # rad s, of the error
     requested: Vector3  # N m, at the last step
@@ -61,7 +61,7 @@ class Pid(NamedTuple):
 
 
 def gains_for(inertia_P: Matrix3, most: float) -> Gains:
-    """Return the loop that is used unless told otherwise; ``most`` as in Gains."""
+    """Return the loop that laws use by default; ``most`` as in Gains."""
     return Gains(inertia_P, FREQUENCY, DAMPING, INTEGRAL, most)
 
 
@@ -82,7 +82,7 @@ def error_of(q: Quaternion, target: Quaternion) -> Vector3:
 
 
 def integrated(pid: Pid, error: Vector3, sample: Sample, gains: Gains) -> Vector3:
-    """Return the integral (rad s) at this sample, unwound by what was not delivered."""
+    """Return the integral (rad s) at this sample, unwound by the torque that was not delivered."""
     if pid.t is None or gains.integral == 0:
         return pid.total
     slope = gains.frequency * gains.integral
@@ -95,7 +95,7 @@ def integrated(pid: Pid, error: Vector3, sample: Sample, gains: Gains) -> Vector
 def torque(
     pid: Pid, sample: Sample, reference: Reference, gains: Gains, moment: Vector3
 ) -> tuple[Pid, Vector3]:
-    """Return the torque to ask for, N m; ``moment`` (kg m) is m r, as believed, for its weight."""
+    """Return the torque to request, N m; ``moment`` (kg m) is the estimated m r, for its weight."""
     J, w, w_n = gains.inertia_P, sample.rate, gains.frequency
     e = error_of(sample.q, reference.q)
     total = integrated(pid, e, sample, gains)

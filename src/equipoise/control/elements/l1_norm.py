@@ -1,4 +1,4 @@
-"""The L1 norm of what a filter leaves of a disturbance, for the condition of L1 adaptive control.
+"""The L1 norm of a disturbance's filtered remainder, for the condition of L1 adaptive control.
 
     ||(sE - A)^-1 b (1 - C(s))||_L1 L < 1,      C = w_c / (s + w_c),  1 - C = s / (s + w_c)
 

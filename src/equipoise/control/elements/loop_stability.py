@@ -8,8 +8,8 @@
     I+ = I + h K_i theta,   v = -(K_p theta + K_d theta' + I)
 
 n covers the delay of sensors and masses, and half a step, for masses that go evenly over a step.
-The eigenvalues of all this together lie within the unit circle where the loop is stable. Says
-nothing of masses that are asked to go faster than they can.
+The loop is stable where all eigenvalues lie within the unit circle. The speed limit of the masses
+is not part of the model.
 """
 
 from typing import NamedTuple

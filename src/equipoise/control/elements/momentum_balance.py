@@ -1,7 +1,7 @@
-"""Momentum build-up as a running account: what gravity's torque has put into the platform.
+"""Momentum build-up as a Kalman filter: the momentum that gravity's torque adds to the platform.
 
-In laboratory axes the platform's momentum changes by torque from outside alone, whatever wheels and
-gyros do:
+In laboratory axes only external torque changes the platform's momentum, whatever wheels and gyros
+do:
 
     L = R (J w + h),      L' = R ( m (r + s(t)) x g_B + sum_k c_k T_k + tau )
 
@@ -12,45 +12,45 @@ answer to all samples at once, and needs no stops, starts or windows:
 
     x = [ L (3)  tau (3)  b (3)  r (3)  c (k) ],      z = R (J (w + b) + h) = L + R J b + noise
 
-b is what the gyro's bias was left at. J matters as J w alone, and is known to ``inertia_sd``: a
-sample weighs as if that error lasted for SAME_TURN, so that little but rest counts; what gravity
-does during a turn is not lost, since L carries it to the next rest. Samples while masses travel are
-not taken: their momentum is not known.
+b is the remaining bias of the gyro. J enters as J w alone, and is known to ``inertia_sd``: a sample
+is weighted as if that error lasted for SAME_TURN, so that mainly samples at rest count. Gravity's
+effect during a turn is not lost, since L carries it to the next rest. Samples during mass travel
+are rejected: the momentum of the masses is not known.
 
 A move leaves an error: the accuracy of each mass that may have moved, one whose own step shifts by
-less than twice as much. r walks by CREEP, less where drift is a term, and c are constants.
+less than twice as much. r walks by CREEP, less where drift is a term; c are constants.
 
 (Wheel momentum build-up: Hatcher and Young 1968 with wheels for jets.)
 
-Cannot see r along gravity's mean direction without tilt; tau that keeps its sign for longer than
-the record is taken for r.
+Without tilt, r along gravity's mean direction is unobservable. A tau that keeps its sign for longer
+than the record is taken for r.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.dynamics.regressor import TORQUE, WIDTH, torque_columns
 from equipoise.dynamics.sag_trim import sag_matrix
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.compiled import kernel
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.testbed import SlidingMass, Testbed
-from equipoise.model.torque_terms import TERMS, typical
+from equipoise.model.torque_terms import GROUPS, TERMS, typical
 
 L, PLAY, BIAS, COM, TERM = 0, 3, 6, 9, 12  # first row of each part of x
 
 PLAY_SD, PLAY_TIME = 2e-6, 30.0  # N m, s, chosen: measured 4e-7 to 3e-6 at 2.7 kg
 BIAS_SD = 1e-4  # rad/s, chosen: a camera of 0.2 deg and 5 Hz leaves so much after ten seconds
 CREEP = 0.05e-6 / 60**0.5  # m/sqrt(s), chosen: thermal walk of 0.05 um/sqrt(min)
-LEFT = 0.2  # of that, chosen: what is left where a constant drift is a term of its own
+LEFT = 0.2  # of that, chosen: the rest where a constant drift is a term of its own
 SAME_TURN = 10.0  # s, chosen: as long as a turn lasts, in which an error of J w keeps its sign
 STANDS = 1e-10  # m, chosen: less is no travel
 
 
 class Book(NamedTuple):
-    """What is known beforehand."""
+    """The constants of the filter, and its priors."""
 
     mass: float  # kg
     inertia_P: Matrix3
@@ -64,7 +64,7 @@ class Book(NamedTuple):
 
 
 class Ledger(NamedTuple):
-    """What is believed."""
+    """The estimate of the filter, and the last sample."""
 
     x: Floats  # (12 + k,)
     P: Square
@@ -77,7 +77,7 @@ class Ledger(NamedTuple):
 
 
 def book_of(testbed: Testbed) -> Book:
-    """Return what a testbed says beforehand; it must have a gyro."""
+    """Return the constants for a testbed; it must have a gyro."""
     assert testbed.gyro is not None
     terms = testbed.disturbances
     quiet = [w.inertia * w.speed_noise for w in testbed.wheels]
@@ -115,7 +115,7 @@ def rows_at(sample: Sample, book: Book, begin: float) -> Floats:
 
 
 def opened(testbed: Testbed, book: Book, sample: Sample) -> Ledger:
-    """Return the account at the first sample; the testbed's first guess is its beginning."""
+    """Return the estimate at the first sample, with the testbed's nominal values as prior."""
     priors = [typical(term) for term in book.terms]
     sd = np.concatenate(
         [np.full(3, 1.0), np.full(3, PLAY_SD), np.full(3, BIAS_SD), testbed.com_sd, priors]
@@ -138,7 +138,7 @@ def stop_variance(change: Vector3, book: Book) -> Vector3:
 
 
 def predicted(ledger: Ledger, sample: Sample, book: Book) -> Ledger:
-    """Return the account carried on to a sample."""
+    """Return the estimate propagated to a sample."""
     dt = sample.t - ledger.t
     rows, R = rows_at(sample, book, ledger.begin), to_matrix(sample.q)
     mean = 0.5 * dt * (ledger.rows + rows)
@@ -158,7 +158,7 @@ def predicted(ledger: Ledger, sample: Sample, book: Book) -> Ledger:
 
 
 def arrived(ledger: Ledger, book: Book) -> Ledger:
-    """Return the account with the error of a move that has ended, if one has."""
+    """Return the estimate with the error of a move that has ended, if one has."""
     change: Vector3 = ledger.shift - ledger.stood
     if float(np.linalg.norm(change)) <= STANDS:
         return ledger
@@ -176,7 +176,7 @@ def noise_of(sample: Sample, R: Matrix3, dt: float, book: Book) -> Matrix3:
 
 
 def corrected(ledger: Ledger, sample: Sample, dt: float, book: Book) -> Ledger:
-    """Return the account with a sample's momentum entered."""
+    """Return the estimate corrected with a sample's momentum."""
     RJ = ledger.R @ book.inertia_P
     H = np.zeros((3, len(ledger.x)))
     H[:, :3], H[:, BIAS:COM] = np.eye(3), RJ
@@ -189,7 +189,7 @@ def corrected(ledger: Ledger, sample: Sample, dt: float, book: Book) -> Ledger:
 
 
 def entered(ledger: Ledger, sample: Sample, book: Book) -> Ledger:
-    """Return the account after one more sample."""
+    """Return the estimate after one more sample."""
     dt = sample.t - ledger.t
     if dt <= 0:
         return ledger
@@ -202,16 +202,10 @@ def com_map(ledger: Ledger, book: Book, ahead: float = 0.0) -> Floats:
     """Return the map (3, n) from x to the centre of mass, masses at home, ``ahead`` (s) of now."""
     G = np.zeros((3, len(ledger.x)))
     G[:, COM:TERM] = np.eye(3)
-    for axis, name in enumerate(("drift_x", "drift_y", "drift_z")):
+    for axis, name in enumerate(GROUPS["drift"]):
         if name in book.terms:
             G[axis, TERM + book.terms.index(name)] = ledger.t - ledger.begin + ahead
     return G
-
-
-def com_now(ledger: Ledger, book: Book) -> tuple[Vector3, Matrix3]:
-    """Return the centre of mass now (m) with the masses at home, and its covariance (m^2)."""
-    G = com_map(ledger, book)
-    return G @ ledger.x, G @ ledger.P @ G.T
 
 
 def drift_of(ledger: Ledger, book: Book) -> Vector3:

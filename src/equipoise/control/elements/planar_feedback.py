@@ -1,10 +1,9 @@
 """Planar feedback: masses integrate the tilt away, coils damp the swing.
 
-With n the vertical in body axes, n_p its part across ``up`` and theta the tilt,
+With n the vertical in body axes and n_p its part across ``up``,
 
-    linear      s' = k_i theta n_p / |n_p|          the angle of tilt
-    sine        s' = k_i n_p                        its sine
-    magnetic    tau = -k_d w                        torque on the platform
+    s'  = k_i n_p                       speed of the shift
+    tau = -k_d w                        torque on the platform, by coils
 
 A centre of mass that hangs by lambda below the pivot leans the platform until n_p = -(r + s)_p /
 lambda. So at rest the masses creep to where it is level, (r + s)_p' = -w_i (r + s)_p with
@@ -22,21 +21,19 @@ slower, by MARGIN A_s / A: the platform calms down first and is levelled then.
 (Bahu and Modenini 2020, and their note of 2022, in which coils damp and masses integrate; the split
 of the two is ours.)
 
-Coils give the part of tau across the field. That takes energy out at any rate, even cut short axis
-by axis, only if all of the rate is damped: with w across the vertical alone, as published, a field
-that leans spins the platform up about the vertical.
+Coils give the part of tau across the field. That takes energy out at any rate, even limited axis by
+axis, only if all of the rate is damped: with w across the vertical alone, as published, a tilted
+field spins the platform up about the vertical.
 
-Cannot see r along the vertical. Coils give torque across the field only: a swing about a horizontal
-field is not damped, and one about a leaning field in part.
+r along the vertical is unobservable. Coils give torque across the field only: a swing about a
+horizontal field is not damped, and one about a tilted field in part.
 """
 
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from equipoise.model.arrays import Vector3
-
-Variant = Literal["linear", "sine"]
 
 DAMPING = 0.7  # chosen: of critical, where coils are not saturated
 MARGIN = 0.5  # chosen: fields lean, and A is a running mean
@@ -44,7 +41,7 @@ SEPARATION = 0.2  # chosen: w_i of w_n, which is a seventh of where it is unsett
 
 
 class Plant(NamedTuple):
-    """What the loop has to deal with."""
+    """The platform and coils that the loop is designed for."""
 
     inertia: float  # kg m^2, the greatest about a horizontal axis
     weight: float  # N, m g
@@ -52,22 +49,21 @@ class Plant(NamedTuple):
 
 
 class Loop(NamedTuple):
-    """The gains, and what they were made for."""
+    """The gains, and the swing that they are for."""
 
     damping: float  # N m s, k_d
     integral: float  # m/s, k_i
     swing: float  # rad/s, w_n
     depth: float  # m, lambda
     calm: float  # rad, the amplitude up to which the integral may have its whole gain
-    variant: Variant
 
 
-def loop_for(plant: Plant, depth: float, variant: Variant) -> Loop:
+def loop_for(plant: Plant, depth: float) -> Loop:
     """Return the gains for a centre of mass ``depth`` (m) below the pivot."""
     w_n = (plant.weight * depth / plant.inertia) ** 0.5
     calm = MARGIN / SEPARATION * plant.coils / (plant.weight * depth)
     k_d = 2 * DAMPING * w_n * plant.inertia
-    return Loop(k_d, SEPARATION * w_n * depth, w_n, depth, calm, variant)
+    return Loop(k_d, SEPARATION * w_n * depth, w_n, depth, calm)
 
 
 def lean(gravity: Vector3, up: Vector3) -> Vector3:
@@ -77,16 +73,10 @@ def lean(gravity: Vector3, up: Vector3) -> Vector3:
 
 
 def creep(gravity: Vector3, up: Vector3, swing: float, loop: Loop) -> Vector3:
-    """Return the speed (m/s) of the shift that the tilt asks for in a swing of some rad."""
-    across = lean(gravity, up)
-    gain = loop.integral * min(1.0, loop.calm / max(swing, 1e-12))
-    if loop.variant == "sine":
-        return gain * across
-    sine = float(np.linalg.norm(across))
-    tilt = float(np.arctan2(sine, -(gravity @ up) / float(np.linalg.norm(gravity))))
-    return gain * tilt / max(sine, 1e-12) * across
+    """Return the speed (m/s) of the shift for the present tilt, in a swing of some rad."""
+    return loop.integral * min(1.0, loop.calm / max(swing, 1e-12)) * lean(gravity, up)
 
 
 def damping_torque(rate: Vector3, loop: Loop) -> Vector3:
-    """Return the torque on the platform (N m) that takes swing and spin out."""
+    """Return the torque on the platform (N m) that damps swing and spin."""
     return -loop.damping * rate

@@ -16,14 +16,14 @@ from equipoise.control.plant.wheel_capacity import Capacity
 from equipoise.maths.attitude import difference, exponential, level, multiply, to_matrix
 from equipoise.model.arrays import Matrix3, Quaternion, Vector3
 
-SLOW = 0.06  # rad/s, chosen: the fastest turn; momentum may ask for less
+SLOW = 0.06  # rad/s, chosen: the fastest turn; momentum may require less
 PART = 0.5  # of torque and momentum, chosen: what a turn may take of them
 PEAK_RATE = 15.0 / 8.0
 PEAK_ACCELERATION = 10.0 / 3.0**0.5
 
 
 class Pace(NamedTuple):
-    """How fast turns may be."""
+    """The limits of a turn."""
 
     rate: float  # rad/s
     acceleration: float  # rad/s^2

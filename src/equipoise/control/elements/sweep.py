@@ -10,7 +10,7 @@ back when n has strayed, is
     w_d  = n_d' x n_d + k n_d x n
     w_d' = n_d'' x n_d + k (n_d' x n + n_d x (n x w))
 
-and the momentum trajectory is H_d = J w_d. It asks for no spin about n. A = 0 and k = 0 is rest.
+and the momentum trajectory is H_d = J w_d. It includes no spin about n. A = 0 and k = 0 is rest.
 """
 
 from typing import NamedTuple

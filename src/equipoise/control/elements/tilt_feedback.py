@@ -1,26 +1,26 @@
 """Feedback to sliding masses that levels a platform and stops its swinging (Chesi 2014, step 1).
 
 Masses give torque across gravity only. With Phi = -m [g_b x], so that gravity's torque is Phi r,
-w_p the rate across gravity and rh what is believed of r (da Silva 2021 Eqs. 39-42 with errata
-R20-R23: the torques of gravity and of the masses, an adaptation gain gamma, |g|^2 and not |g|):
+w_p the rate across gravity and rh the estimate of r (da Silva 2021 Eqs. 39-42 with errata R20-R23:
+the torques of gravity and of the masses, an adaptation gain gamma, |g|^2 and not |g|):
 
     J w' + w x J w = Phi r + tau_c
     tau_c = -Phi rh - k_p w_p                      shift = (g_b x tau_c) / (m |g|^2)
     rh'   = gamma Phi^T w + gamma m w_i P_up g_b                P_up = E - up up^T
 
 As published w_i = 0. Then V = w J w / 2 + |r - rh|^2 / (2 gamma) has V' = -k_p |w_p|^2, and since
-g_b' = g_b x w, Phi^T w is m g_b': what is called an estimate is
+g_b' = g_b x w, Phi^T w is m g_b': the so-called estimate is
 
     rh(t) = rh(0) + gamma m (g_b(t) - g_b(0))
 
 a function of the present tilt and nothing else. Here rh takes the measured increments of g_b, so
 that this holds between samples, too, and nothing winds up however late the masses are. rh(0) is
-free. Printed as 0, it leaves |r_up| times the tilt at which the law happened to begin. With
+free. Printed as 0, it leaves |r_up| times the tilt at which the law began. With
 
-    rh(0) = believed + gamma m (g_b(0) + g up)
+    rh(0) = prior + gamma m (g_b(0) + g up)
 
-it ends as if it had begun level; the second term, X times the tilt, is ``owed`` and paid out no
-faster than masses follow. To first order about level, with tilt a = P_up g_b / g,
+it ends as if it had begun level; the second term, X times the tilt, is ``owed`` and added no faster
+than masses follow. To first order about level, with tilt a = P_up g_b / g,
 
     a'' = (m g / J) (r + shift) - w_z^2 a,    shift = -rh - (k_p / m g) a',    w_z^2 = -m g r_up / J
 
@@ -32,7 +32,7 @@ r - rh along g_b; with X = gamma m g = w_a^2 J / (m g)
     tilt   |r_xy| / (|r_up| + X)
     left   |r_xy| |r_up| / (|r_up| + X)            (R23: said to be nothing)
 
-With w_i > 0, rad/s, rh has an integral of the tilt, as rest is where rh' = 0, at a = 0: nothing is
+With w_i > 0, rad/s, rh has an integral of the tilt. Rest is where rh' = 0, at a = 0: no offset is
 left. The characteristic polynomial and Routh's condition are
 
     s^3 + 2 zeta w_a s^2 + (w_a^2 + w_z^2) s + w_i w_a^2
@@ -48,21 +48,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.plant.actuator_limits import greatest_slew
-from equipoise.control.plant.offset_bounds import (
-    across,
-    level_inertia,
-    likely_height,
-    likely_offset,
-    refuse_unless_below,
-    within_reach,
-)
+from equipoise.control.plant import offset_bounds as offsets
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.testbed import Testbed
 
 ZETA = 1.0  # chosen: no overshoot; the k_p = 0.5 N m s of published copies at w_a = 1 rad/s
-MOST = 1.0  # rad/s, chosen: above it a gyro's noise moves the masses more than the tilt does
-SAMPLED = 0.2  # rad, chosen: w_a T, of at most 1
 SPEED = 0.5  # chosen: w_a |r| / v; up to 1 it is as if masses were at once, from 2 it falls
 TILTED = 0.8  # of the tilt limit, chosen: what a swing may take
 UPRIGHT = 0.5  # of w_a^2, chosen: what an inverted pendulum may take of it
@@ -70,7 +60,7 @@ INTEGRAL = 0.25  # of w_a, chosen: w_i; 2 is the limit
 
 
 class Gains(NamedTuple):
-    """What the feedback is made of."""
+    """The gains, and the platform that they are for."""
 
     mass: float  # kg
     gravity: float  # m/s^2
@@ -88,18 +78,18 @@ class Gains(NamedTuple):
 
 def gains_at(testbed: Testbed, frequency: float, integral: float, period: float) -> Gains:
     """Return the gains for a closed loop of that frequency w_a (rad/s)."""
-    m, g, J = testbed.body.mass, testbed.gravity, level_inertia(testbed)
+    m, g, J = testbed.body.mass, testbed.gravity, offsets.level_inertia(testbed)
     gamma = J * (frequency / (m * g)) ** 2
     return Gains(m, g, testbed.up, gamma, 2 * ZETA * frequency * J, integral, period)
 
 
 def frequency_of(gains: Gains, testbed: Testbed) -> float:
     """Return w_a (rad/s)."""
-    return gains.damping / (2 * ZETA * level_inertia(testbed))
+    return gains.damping / (2 * ZETA * offsets.level_inertia(testbed))
 
 
 def owed(gains: Gains, gravity: Vector3) -> Vector3:
-    """Return what is to be added to rh (m), so that the law ends as if it had begun level."""
+    """Return the term of rh(0) (m) with which the law ends as if it had begun level."""
     return gains.gamma * gains.mass * (gravity + gains.gravity * gains.up)
 
 
@@ -108,7 +98,7 @@ def followed(gains: Gains, held: Vector3, before: Vector3, now: Vector3, wait: b
     rise = now - before
     if not wait:
         mean = (before + now) / 2
-        rise = rise + gains.integral * gains.period * (across(gains.up) @ mean)
+        rise = rise + gains.integral * gains.period * (offsets.across(gains.up) @ mean)
     return held + gains.gamma * gains.mass * rise
 
 
@@ -117,11 +107,6 @@ def shift_for(gains: Gains, held: Vector3, gravity: Vector3, rate: Vector3) -> V
     # The product with g_b leaves of w, too, only what is across gravity.
     torque = gains.mass * np.cross(gravity, held) - gains.damping * rate
     return np.cross(gravity, torque) / (gains.mass * float(gravity @ gravity))
-
-
-def left_over(offset: float, height: float, spring: float) -> float:
-    """Return what the law leaves (m) of a sideways offset, without an integral of the tilt."""
-    return offset * abs(height) / (abs(height) + spring)
 
 
 def polynomial(frequency: float, integral: float, swing: float) -> Floats:
@@ -144,22 +129,18 @@ def settling(frequency: float, integral: float, swing: float) -> float:
 
 def swing_of(testbed: Testbed, height: float) -> float:
     """Return w_z^2 (rad^2/s^2) of a centre of mass that high (m) above P."""
-    return -testbed.body.mass * testbed.gravity * height / level_inertia(testbed)
+    return -testbed.body.mass * testbed.gravity * height / offsets.level_inertia(testbed)
 
 
 def frequency_for(testbed: Testbed, period: float) -> float:
     """Return w_a (rad/s) at which the loop is stable; InputError if there is none."""
-    within_reach(testbed)
-    offset = likely_offset(testbed)
-    least = least_frequency(testbed, offset)
-    most = min(MOST, SAMPLED / period, SPEED * greatest_slew(testbed) / max(offset, 1e-12))
-    refuse_unless_below(testbed, least, most)
-    return most
+    least = least_frequency(testbed, offsets.likely_offset(testbed))
+    return offsets.greatest_frequency(testbed, least, SPEED, period)
 
 
 def least_frequency(testbed: Testbed, offset: float) -> float:
     """Return w_a (rad/s) below which an offset (m), or an inverted pendulum, tilts too far."""
-    weight = testbed.body.mass * testbed.gravity / level_inertia(testbed)
+    weight = testbed.body.mass * testbed.gravity / offsets.level_inertia(testbed)
     sideways = weight * offset / (TILTED * testbed.tilt_limit)
-    upright = max(-swing_of(testbed, likely_height(testbed)), 0.0) / UPRIGHT
+    upright = max(-swing_of(testbed, offsets.likely_height(testbed)), 0.0) / UPRIGHT
     return float(max(sideways, upright) ** 0.5)

@@ -21,7 +21,7 @@ sigma already, in series,
 
     v = -K (1 + 1 / (T_i s)) (1 + L s) theta,    K = 0.45 K_u,   T_i = T_u / 1.2
 
-The calculation knows the first harmonic only. The two ways agree to 8 % in gain, and to a fifth
+The calculation includes the first harmonic only. The two ways agree to 8 % in gain, and to a fifth
 where the masses are so slow that the cycle comes near the swing itself.
 """
 
@@ -36,7 +36,7 @@ CYCLES_IN, CYCLES_USED = 2, 3  # chosen: the cycle has settled to a per cent aft
 
 
 class Loop(NamedTuple):
-    """One axis as the rule sees it."""
+    """The parameters of one axis that the rule needs."""
 
     gain: float  # a, rad/s^2 per m
     frequency: float  # w0, rad/s
@@ -112,12 +112,12 @@ def relay_step(relay: Relay, t: float, sigma: float, band: float) -> Relay:
 
 
 def has_settled(relay: Relay) -> bool:
-    """Say whether enough cycles were seen."""
+    """Say whether the relay has completed enough cycles."""
     return len(relay.swings) >= CYCLES_IN + CYCLES_USED
 
 
 def measured(relay: Relay, amplitude: float) -> Ultimate:
-    """Return the ultimate cycle that a relay of +-``amplitude`` (m) has shown."""
+    """Return the ultimate cycle measured with a relay of +-``amplitude`` (m)."""
     swing = float(np.mean(relay.swings[-CYCLES_USED:]))
     period = (relay.rises[-1] - relay.rises[-1 - CYCLES_USED]) / CYCLES_USED
     return Ultimate(4 * amplitude / (np.pi * swing), period)

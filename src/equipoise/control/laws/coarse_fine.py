@@ -1,22 +1,23 @@
 """Coarse, then fine, by free swings alone (RAMBO).
 
     hang      masses go down until the platform hangs whatever its height is
-    coarse    a short look; a move sideways that levels the platform, at a good moment, and
-              one up to COARSE below the pivot
-    fine      looks and moves to the target, until one finds it within SURE sds, at most MOST
+    coarse    a short measurement; a move sideways that levels the platform, at a good moment,
+              and one up to COARSE below the pivot
+    fine      measurements and moves to the target, until one finds it within SURE sds, at most
+              MOST of them
 
-Between coarse and fine the known way frees r of the factor that it shares with J
+Between coarse and fine the known shift removes the factor that r shares with J
 (``swing_estimates``).
-The target is never higher than SAFE below the pivot: what is left of balance keeps the platform
-upright when the law has gone.
+The target is never higher than SAFE below the pivot: the remaining restoring torque keeps the
+platform upright when the law has ended.
 
 Nothing damps a swing, but the move sideways is made at the moment that leaves least of it
-(``good_moment``). The way up is slow against a swing, which then grows as depth^-1/4, by a half
+(``move_timing``). The way up is slow against a swing, which then grows as depth^-1/4, by a half
 from 250 um to 50 um.
 
 (RAMBO, engrXiv 7342: coarse active stage, fine free-response least squares, negative vertical
 offset. Its coarse stage is a feedback by wheels, and not read in detail; where there are wheels,
-``momentum_buildup`` does that. Here the coarse stage is a look like the fine ones.)
+``momentum_buildup`` does that. Here the coarse stage is a measurement like the fine ones.)
 """
 
 from dataclasses import dataclass, replace
@@ -24,11 +25,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.control.elements.slew import moment_across
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant import move_timing
+from equipoise.control.plant import swing_estimates as swings
 from equipoise.control.plant.move_timing import Waiting
-from equipoise.control.plant.swing_estimates import METHOD, Shown, combined, held, shown, shows
-from equipoise.control.sample import Sample
+from equipoise.control.plant.settling import UNREPORTED, Stand, standing
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
@@ -39,40 +40,36 @@ from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
 
 PERIOD = 0.5  # s
-SHORT, LONG = 30.0, 60.0  # s, chosen: a coarse look of three periods, a fine one of one
+SHORT, LONG = 30.0, 60.0  # s, chosen: of three periods when coarse, of one when fine
 COARSE = 50e-6  # m below the pivot, chosen: a period of 40 s on a table of 14 kg
 SAFE = 10e-6  # m below the pivot, chosen: 1.4 mN m at 14 kg bring it upright again
-STEEP = 6.0  # chosen: of the sideways sd, so that the platform leans by ten degrees at most
-UNSURE = 2.0  # sds of the height that must still hang
-SURE = 2.0  # sds, chosen: what a look is believed to
-ENOUGH = 0.5e-6  # m, chosen: one sd at which there is no need to look again
-SMALL = 0.1e-6  # m, chosen: what drift undoes in a minute is not worth another look
-MOST = 6  # looks, chosen
-MISSES = 3  # looks in all that show nothing, chosen
+SURE = 2.0  # sds, chosen: within which a measurement is trusted
+ENOUGH = 0.5e-6  # m, chosen: one sd that needs no further measurement
+SMALL = 0.1e-6  # m, chosen: what drift undoes in a minute needs no further measurement
+MOST = 6  # measurements, chosen
+MISSES = 3  # measurements in all that show nothing, chosen
 ARRIVED = 1.0  # s, chosen: masses that stand so long have arrived
-STANDS = 1e-10  # m
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What is told."""
+    """The constants of a run."""
 
     up: Vector3
     target: Vector3  # m
-    held: tuple[str, ...]  # elements of J that looks do not estimate
+    held: tuple[str, ...]  # elements of J that measurements do not estimate
     stiffness: float  # 1/(m s^2), m g / J
     inertia_sd: float  # -, relative
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """How far it has come."""
+    """The progress of the law."""
 
-    shift: Vector3  # m, asked for
-    observed_shift: Vector3 | None = None  # m, at the last sample
-    stood: float = 0.0  # s, since when the masses stand
-    measurements: tuple[Shown, ...] = ()
-    missed: int = 0  # looks that showed nothing
+    shift: Vector3  # m, requested
+    stand: Stand = UNREPORTED
+    measurements: tuple[swings.Shown, ...] = ()
+    missed: int = 0  # measurements that showed nothing
     finished: tuple[Reason, ...] = ()
     waiting: Waiting | None = None
     rise: Vector3 | None = None  # m, the shift after the present one
@@ -82,15 +79,12 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError for a testbed without masses."""
     if not testbed.masses:
         raise InputError("coarse_fine", "a testbed without them", "sliding masses")
-    up, sd = testbed.up, testbed.com_sd
-    sideways = float(np.linalg.norm(sd - (sd @ up) * up))
-    depth = max(STEEP * sideways, 2 * COARSE) + UNSURE * float(abs(sd @ up))
+    up, hang = testbed.up, swings.hanging_shift(testbed, 2 * COARSE)[1]
     low = min(float(target @ up), -SAFE)
     safe = target + (low - float(target @ up)) * up
-    hang = depth + float(testbed.body.com @ up)
     J = moment_across(testbed.body.inertia_P, up)
     stiffness = testbed.body.mass * testbed.gravity / J
-    return State(-hang * up), Params(up, safe, held(testbed), stiffness, testbed.inertia_sd)
+    return State(-hang * up), Params(up, safe, swings.held(testbed), stiffness, testbed.inertia_sd)
 
 
 def levelling(state: State, r: Vector3, params: Params) -> State:
@@ -106,19 +100,19 @@ def waited(state: State, sample: Sample, params: Params) -> State:
     assert state.waiting is not None
     waiting, shift = move_timing.watched(state.waiting, sample, params.up, state.shift)
     if all(waiting.done):
-        return replace(state, shift=shift, waiting=None, stood=sample.t)
+        return replace(state, shift=shift, waiting=None, stand=state.stand._replace(since=sample.t))
     return replace(state, waiting=waiting, shift=shift)
 
 
 def after_measurement(state: State, estimate: Estimate, params: Params) -> State:
-    """Return the state after a look, with the move that it asks for."""
-    state = replace(state, observed_shift=None)  # the clock has gone on
-    if not shows(estimate):
-        why = (*one_reason(LawReason.COM_NOT_SHOWN), *estimate.outcome.reasons)
+    """Return the state after a measurement, with the move that it requires."""
+    state = replace(state, stand=UNREPORTED)  # time has passed
+    if not swings.shows(estimate):
         missed = state.missed + 1
-        return replace(state, missed=missed, finished=why if missed == MISSES else ())
-    measurements = (*state.measurements, shown(estimate, state.shift))
-    r, sd, _ = combined(measurements, params.up, params.inertia_sd)
+        why = swings.why_not_shown(estimate) if missed == MISSES else ()
+        return replace(state, missed=missed, finished=why)
+    measurements = (*state.measurements, swings.shown(estimate, state.shift))
+    r, sd, _ = swings.combined(measurements, params.up, params.inertia_sd)
     if len(measurements) == 1:
         return levelling(replace(state, measurements=measurements), r, params)
     off: Vector3 = r + state.shift - params.target
@@ -128,38 +122,32 @@ def after_measurement(state: State, estimate: Estimate, params: Params) -> State
     return replace(state, measurements=measurements, shift=state.shift - off, finished=done)
 
 
-def watched(state: State, sample: Sample) -> State:
-    """Return the state that knows since when the masses stand."""
-    before = state.observed_shift
-    stands = before is not None and bool(np.linalg.norm(sample.shift - before) <= STANDS)
-    return replace(state, observed_shift=sample.shift, stood=state.stood if stands else sample.t)
-
-
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
-    """Return the next state and the command: a move, and a look once the masses stand."""
+    """Return the next state and the command: a move, and a measurement once the masses stand."""
     if isinstance(sample, Estimate):
         state = after_measurement(state, sample, params)
         return state, Command(shift=state.shift)
-    state = watched(state, sample)
+    state = replace(state, stand=standing(state.stand, sample))
     if state.waiting is not None:
         state = waited(state, sample, params)
         return state, Command(shift=state.shift)
-    if sample.t < state.stood + ARRIVED:
+    if sample.t < state.stand.since + ARRIVED:
         return state, Command(shift=state.shift)
     if state.rise is not None:
-        state = replace(state, shift=state.rise, rise=None, stood=sample.t)
+        stand = state.stand._replace(since=sample.t)
+        state = replace(state, shift=state.rise, rise=None, stand=stand)
         return state, Command(shift=state.shift)
     if state.finished:
         return state, Command(shift=state.shift, finished=state.finished)
-    measurement = Measurement(LONG if state.measurements else SHORT, METHOD, params.held)
+    measurement = Measurement(LONG if state.measurements else SHORT, swings.METHOD, params.held)
     return state, Command(shift=state.shift, measurement=measurement)
 
 
 LAW = Law(
     LawCard(
         "coarse_fine",
-        "A coarse move from a first look, then looks and small moves, always kept hanging.",
-        "RAMBO, engrXiv 7342, as far as its abstract tells",
+        "A first measurement and a coarse move, then further ones and small moves, always hanging.",
+        "RAMBO, engrXiv 7342, as far as its abstract says",
         ("masses", "attitude", "gyro"),
         "10 um below the pivot at least, on purpose; 1 um of that, 0.1 um sideways, and 4 % of a "
         "lower target's depth; swing, as nothing damps it; sag but for small tilts",

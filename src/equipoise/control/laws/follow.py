@@ -1,34 +1,25 @@
 """Masses that follow a platform's tilt and its drift, once a law has found sag and drift.
 
-Masses that stand still leave what no centre of mass trims of the sag (``dynamics.sag_trim``). With
-n = g_B / g, masses that shift the centre of mass by
+Masses that stand still leave the part of the sag that no centre of mass trims
+(``dynamics.sag_trim``). With n = g_B / g, masses that shift the centre of mass by
 
     s(n, t) = s_0 - d (t - t_0) - (E - n n^T)(trim + C n)
 
-leave nothing of it: m g (r + s + C n) x n = m g target x n. What lies along n turns nothing and is
-left out, so the shift is the least that does it: 0.17 um at 20 deg for a deck that sinks by 25 um.
+compensate it: m g (r + s + C n) x n = m g target x n. A shift along n gives no torque and is left
+out, so the shift is the least that does it: 0.17 um at 20 deg for a deck that sinks by 25 um.
 
 Wheels or gyros hold the platform meanwhile, level and at its heading: one that is balanced in every
 attitude stays in none by itself.
 
-Cannot see what C and d were found wrong by; nothing is estimated here.
+Nothing is estimated here: errors of C and d remain.
 """
 
 from dataclasses import dataclass, field, replace
 
+from equipoise.control.elements import slew as slews
 from equipoise.control.elements.attitude_pid import Gains, Pid, gains_for, torque, unwound
-from equipoise.control.elements.slew import (
-    Pace,
-    Slew,
-    levelled,
-    moment_across,
-    pace_for,
-    reference_at,
-    slew,
-)
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant.wheel_capacity import capacity
-from equipoise.control.sample import Sample
 from equipoise.dynamics.sag_trim import trimming_shift
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command
@@ -43,33 +34,33 @@ PERIOD = 0.1  # s, chosen: a servo's beat
 
 CARD = LawCard(
     "follow",
-    "Moves masses with the tilt and the drift that were found before, while wheels hold level.",
+    "Moves masses with the tilt and the estimated drift, while wheels hold the platform level.",
     "Equipoise; the sag that dynamics.sag_trim cannot trim",
     ("masses", "momentum", "gyro", "attitude"),
-    "what sag and drift were found wrong by",
-    "masses open loop: always; wheels as they are to hold what is left",
+    "the errors of the estimated sag and drift",
+    "masses open loop: always; wheels that can hold the residual torque",
     PERIOD,
 )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What is followed, until when (s), and what holds the platform."""
+    """The sag and drift to follow, until when (s), and the attitude loop."""
 
     following: Following
     end: float
     target: Vector3  # m
     testbed: Testbed
     gains: Gains
-    pace: Pace
+    pace: slews.Pace
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """What holds the platform, and the way to level."""
+    """The state of the attitude loop, and the turn to level."""
 
     pid: Pid = field(default_factory=unwound)
-    way: Slew | None = None
+    way: slews.Slew | None = None
 
 
 def shift_at(following: Following, down: Vector3, t: float) -> Vector3:
@@ -79,15 +70,15 @@ def shift_at(following: Following, down: Vector3, t: float) -> Vector3:
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
-    """Return the state and the command: the shift for this attitude and time, and what holds it."""
-    assert isinstance(sample, Sample)  # no look is ever asked for
+    """Return the state and the command: the shift for this attitude and time, and the torque."""
+    assert isinstance(sample, Sample)  # it requests no measurement
     bed, down = params.testbed, sample.gravity / params.testbed.gravity
     if state.way is None:
         state = replace(
-            state, way=slew(sample.q, levelled(sample.q, bed.up), sample.t, params.pace)
+            state, way=slews.slew(sample.q, slews.levelled(sample.q, bed.up), sample.t, params.pace)
         )
     assert state.way is not None
-    reference = reference_at(state.way, sample.t)
+    reference = slews.reference_at(state.way, sample.t)
     weight = bed.body.mass * params.target
     pid, u = torque(state.pid, sample, reference, params.gains, weight)
     over = one_reason(LawReason.FOLLOWED) if sample.t >= params.end else ()
@@ -96,11 +87,11 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 
 
 def following_law(following: Following, end: float) -> Law[State, Params]:
-    """Return the law that follows what was found until a time, s."""
+    """Return the law that follows sag and drift until a time, s."""
 
     def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
         can, J = capacity(testbed), testbed.body.inertia_P
-        pace = pace_for(moment_across(J, testbed.up), can)
+        pace = slews.pace_for(slews.moment_across(J, testbed.up), can)
         return State(), Params(following, end, target, testbed, gains_for(J, can.torque), pace)
 
     return Law(CARD, begin, step)

@@ -9,7 +9,7 @@ Published with one H_s for all momentum. But momentum that passes between platfo
 not change their sum: it is J w alone that -h' can steer, and J w + h that turns with the body. So,
 with e = J w - H_d,
 
-    -h' = w x (J w + h) - K e + H_d' - m r* x g_b        the torque asked for, K > 0
+    -h' = w x (J w + h) - K e + H_d' - m r* x g_b        the requested torque, K > 0
     s'  = Gamma m [g_b x]^T e = -Gamma m g_b x e
     e'  = -K e - m [g_b x] (r + s - r*)
     V   = |e|^2 / 2 + |r + s - r*|^2 / (2 Gamma),        V' = -K |e|^2
@@ -19,24 +19,24 @@ and H_d = 0, s = s(0) - Gamma m j (g_b - g_b(0)): a function of the tilt, and no
 keep that identity exactly, as s takes j times the measured increment of g_b, j being a third of
 tr J, and the trapezoid rule of the rest.
 
-What is along gravity is not seen. With H_d = 0 the platform may come to rest with r + s along g_b,
-its momentum kept and it not balanced. H_d is therefore made to lead gravity round a cone
+The part along gravity is unobservable. With H_d = 0 the platform may come to rest with r + s along
+g_b, its momentum constant and the platform unbalanced. H_d therefore leads gravity round a cone
 (``sweep``), of half-angle A and speed W. The part along up then fades at about
 
     A^2 w_a^2 K W^2 / ((w_a^2 - W^2)^2 + K^2 W^2)
 
-and how much has been seen of the worst direction is the least eigenvalue of int (E - n n^T) dt,
-n = g_b / g. The law has finished when that is ENOUGH times the time constant, and says so when it
-stops with less. A wrong J turns with the cone just as a wrong height does: r_up ends off by
--dJ W^2 / (m g), so W is chosen from the testbed's inertia_sd. What turns with the cone is asked for
-as it will be in the middle of the period for which the torque stands.
+and the excitation of the worst direction is the least eigenvalue of int (E - n n^T) dt, where n is
+g_b / g. The law has finished when that is ENOUGH times the time constant, and reports when it stops
+with less. The effect of a wrong J turns with the cone just as that of a wrong height: r_up ends off
+by -dJ W^2 / (m g), so W is chosen from the testbed's inertia_sd. Terms that turn with the cone are
+computed for the middle of the period for which the torque is held.
 
 The trajectory is chosen from the tilt limit and from the momentum that wheels have left: they carry
 m g |r| 2 zeta / w_a for ever, and J A W + m g |r_up| A / W round the cone. Their torque holds r at
 first, and the cone, J A W^2 + m g |r_up| A, once the masses have met r.
 
-Anti-windup: s never leads what masses report by more than ``lead``, and stands still while the
-torque that was measured is not the one that was asked for.
+Anti-windup: s never leads the reported shift by more than ``lead``, and does not change while the
+measured torque differs from the requested one.
 """
 
 from dataclasses import dataclass
@@ -44,20 +44,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from equipoise.control.elements.sweep import Sweep, Wanted, wanted
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
+from equipoise.control.plant import offset_bounds as offsets
 from equipoise.control.plant.actuator_limits import greatest_slew, limited
-from equipoise.control.plant.offset_bounds import (
-    LIKELY,
-    around,
-    coarsest_step,
-    height_sd,
-    level_inertia,
-    likely_offset,
-    refuse_unless_below,
-    within_reach,
-)
 from equipoise.control.plant.wheel_capacity import Capacity, capacity
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -70,8 +60,6 @@ from equipoise.model.units import UM
 
 PERIOD = 0.1  # s, chosen: a servo's beat
 ZETA = 1.0  # chosen: no overshoot
-MOST = 1.0  # rad/s, chosen: of w_a
-SAMPLED = 0.2  # rad, chosen: w_a T
 SPEED = 1.0  # chosen: w_a |r| / v
 RATIO = 2.0  # chosen: w_a over the sweep's speed
 BIAS = 2e-5  # m, chosen: what a wrong inertia may leave along up
@@ -83,14 +71,14 @@ HOLD = 0.3  # of w_a, chosen
 SPARE = 0.8  # chosen: of momentum and torque, what is used
 SHARE = 0.5  # chosen: of a pyramid of gyros, what singular directions leave
 LEAD = 3.0  # periods of travel, chosen: by which masses may be behind
-SHORT = 0.1  # of the devices' torque, chosen: a torque that far from the one asked for is another
+SHORT = 0.1  # of the devices' torque, chosen: a greater difference counts as another torque
 ENOUGH = 7.0  # time constants, chosen: a thousandth is left
 QUIET = 30.0  # time constants, chosen: after which a law that sweeps nothing has ended
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change from step to step."""
+    """The constants of a run."""
 
     mass: float  # kg
     inertia: Matrix3  # kg m^2
@@ -106,14 +94,14 @@ class Params:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """Where the law stands."""
+    """The progress of the law."""
 
     shift: Vector3  # m, s
     observed: Matrix3  # s, int (E - n n^T) dt
     start: float | None = None  # s
     gravity: Vector3 | None = None  # m/s^2, at the last step
     rest: Vector3 | None = None  # N m s, e - j w at the last step
-    torque: Vector3 | None = None  # N m, asked for at the last step
+    torque: Vector3 | None = None  # N m, requested at the last step
 
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
@@ -122,11 +110,11 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     speed = sweep_speed(testbed)
     w = frequency_for(testbed, RATIO * speed)
     speed = min(speed, w / RATIO)
-    sweep = Sweep(np.column_stack([*around(testbed.up), testbed.up]),
+    sweep = Sweep(np.column_stack([*offsets.around(testbed.up), testbed.up]),
                   cone_for(testbed, target, w, speed), speed, HOLD * w)  # fmt: skip
     params = Params(
         m, testbed.body.inertia_P, target, (w / (m * g)) ** 2, 2 * ZETA * w, sweep,
-        LEAD * greatest_slew(testbed) * PERIOD + coarsest_step(testbed),
+        LEAD * greatest_slew(testbed) * PERIOD + offsets.coarsest_step(testbed),
         SHORT * capacity(testbed).torque, testbed.tilt_limit, PERIOD,
     )  # fmt: skip
     return State(target - testbed.body.com, np.zeros((3, 3))), params
@@ -134,23 +122,19 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 
 def sweep_speed(testbed: Testbed) -> float:
     """Return the speed W (rad/s) of the cone at which a wrong inertia leaves BIAS."""
-    off = max(testbed.inertia_sd, FIRM) * level_inertia(testbed)
+    off = max(testbed.inertia_sd, FIRM) * offsets.level_inertia(testbed)
     return float((BIAS * testbed.body.mass * testbed.gravity / off) ** 0.5)
 
 
 def frequency_for(testbed: Testbed, wish: float) -> float:
     """Return w_a (rad/s), as wished if it can be; InputError where the loop is not stable."""
-    within_reach(testbed)
-    offset = likely_offset(testbed)
-    weight = testbed.body.mass * testbed.gravity / level_inertia(testbed)
-    least = (weight * offset / (STRAY * testbed.tilt_limit)) ** 0.5
-    most = min(MOST, SAMPLED / PERIOD, SPEED * greatest_slew(testbed) / max(offset, 1e-12))
-    refuse_unless_below(testbed, least, most)
-    return float(np.clip(wish, least, most))
+    weight = testbed.body.mass * testbed.gravity / offsets.level_inertia(testbed)
+    least = (weight * offsets.likely_offset(testbed) / (STRAY * testbed.tilt_limit)) ** 0.5
+    return float(np.clip(wish, least, offsets.greatest_frequency(testbed, least, SPEED, PERIOD)))
 
 
 def spare(testbed: Testbed) -> Capacity:
-    """Return the torque and momentum that can be counted on."""
+    """Return the usable torque and momentum."""
     most = capacity(testbed)
     share = SPARE * (SHARE if testbed.cmgs else 1.0)
     stored = sum(abs(wheel.inertia * wheel.speed) for wheel in testbed.wheels)
@@ -159,9 +143,10 @@ def spare(testbed: Testbed) -> Capacity:
 
 def cone_for(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
     """Return the cone's half-angle (rad) that tilt limit, torque and momentum allow."""
-    J, weight = level_inertia(testbed), testbed.body.mass * testbed.gravity
-    offset, have = likely_offset(testbed), spare(testbed)
-    low = abs(float(testbed.up @ (testbed.body.com - target))) + LIKELY * height_sd(testbed)
+    J, weight = offsets.level_inertia(testbed), testbed.body.mass * testbed.gravity
+    offset, have = offsets.likely_offset(testbed), spare(testbed)
+    low = abs(float(testbed.up @ (testbed.body.com - target)))
+    low += offsets.LIKELY * offsets.height_sd(testbed)
     low += float(np.linalg.norm(target))  # which torque holds up as long as the law runs
     momentum = have.momentum - weight * offset * 2 * ZETA / w
     angle = min(
@@ -181,8 +166,8 @@ def cone_for(testbed: Testbed, target: Vector3, w: float, W: float) -> float:
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
-    """Return the next state and what is wanted."""
-    assert isinstance(sample, Sample)  # it asks for no look
+    """Return the next state and the command."""
+    assert isinstance(sample, Sample)  # it requests no measurement
     start = sample.t if state.start is None else state.start
     down = sample.gravity / float(np.linalg.norm(sample.gravity))
     if -params.sweep.axes[:, 2] @ down < np.cos(params.tilt_limit):
@@ -201,7 +186,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 
 
 def steering(params: Params, sample: Sample, past: float, want: Wanted) -> Vector3:
-    """Return H_d' - m r* x g_b (N m) in the middle of the period for which a torque is asked."""
+    """Return H_d' - m r* x g_b (N m) in the middle of the period for which a torque is held."""
     half = params.period / 2
     gravity = sample.gravity + half * np.cross(sample.gravity, sample.rate)
     rate = sample.rate + half * want.slope
@@ -251,7 +236,7 @@ LAW = Law(
         "Wheels or gyros lead gravity round a cone, and masses move until no torque is missing.",
         "Kim & Agrawal 2009; da Silva 2021 section 4.2 with erratum R24",
         ("masses", "momentum", "gyro", "attitude"),
-        "what is along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
+        "the part along gravity unless gravity sweeps; along up -dJ W^2 / (m g) when J is wrong by "
         "dJ (20 um for one inertia_sd)",
         "w_a T up to 0.1, w_a |r| / v up to 1; the torque of |r| sideways, and its momentum in "
         "2 zeta / w_a, within the devices'. It is as slow as they are weak: an hour at 14 kg, "

@@ -1,4 +1,4 @@
-"""Impulse feedback: jets hold an attitude, and what they spend on it tells where the mass is.
+"""Impulse feedback: jets hold an attitude, and their impulse determines the centre of mass.
 
 In laboratory axes the momentum L = R (J w + h) changes by gravity and by the jets' impulses alone.
 Over a window of T seconds, with the masses' shift s(t) as reported,
@@ -11,17 +11,17 @@ Delta H = b turned back into the body its least solution is the printed
 
     r_perp = g_B x (Delta H - I) / (m g^2 T)
 
-Printed with d += -k m (U M)^-1 r_perp, 0 < k < 1: here the shift is asked for, s += -k r_perp of
-what is then left, counted from the target. No model of J is needed where the rate is the same at
-both ends of a window; Delta H is kept, so J errs with the change of the rate only.
+Printed with d += -k m (U M)^-1 r_perp, 0 < k < 1: here the law requests the shift, s += -k r_perp
+of the remaining offset from the target. No model of J is needed where the rate is the same at both
+ends of a window; Delta H is kept, so an error of J counts with the change of the rate only.
 
-One attitude does not show the part along g_B. The platform is held in turn at those of a schedule,
-level and tilted about both horizontal axes; r of all windows together,
+At one attitude the part along g_B is unobservable. The platform is held in turn at the attitudes of
+a schedule, level and tilted about both horizontal axes; r of all windows together,
 
     (sum A^T A) r = sum A^T b
 
-is then seen in all three directions, and at the end of each round of the schedule the masses go to
-target - r.
+is then observable in all three directions. At the end of each round of the schedule the masses go
+to target - r.
 
 The jets are on-off: with n = -g_B / g and n_ref that of the schedule the rate is to be
 
@@ -29,8 +29,8 @@ The jets are on-off: with n = -g_B / g and n_ref that of the schedule the rate i
 
 Heading is left free; spin about the vertical is braked like any rate. With impulses even over a
 step h and J wrong by a factor q, tilt and rate follow a matrix with determinant 1 - q + q RETURN h
-/ 2, and all is stable for q < 2 and RETURN h < 2 (Jury). Masses may be as slow as they like: what
-they do is known, but for their own momentum and moments, which are left out.
+/ 2, and all is stable for q < 2 and RETURN h < 2 (Jury). The speed of the masses does not matter:
+their shift is known; their own momentum and moments are neglected.
 
 Source: Hatcher and Young 1968, as da Silva et al. 2021 describe it; the equations are derived here.
 """
@@ -40,11 +40,10 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant.actuator_limits import greatest_shift, limited
-from equipoise.control.plant.pendulum import level_axes
-from equipoise.control.sample import Sample
 from equipoise.maths.attitude import to_matrix
+from equipoise.maths.axes_across import axes_across
 from equipoise.maths.linalg import skew
 from equipoise.model.arrays import Matrix3, Series, Vector3
 from equipoise.model.command import Command
@@ -59,7 +58,7 @@ PERIOD = 0.2  # s, chosen: a step in which likely torques change the rate by a d
 WINDOW = 20.0  # s, T; chosen: gyro noise of 0.01 deg/s is then 0.03 um for 14 kg
 SETTLING = 15.0  # s, chosen: to turn by TILT, and to come to rest
 WINDOWS = 2  # at each attitude, chosen
-ROUNDS = 2  # of the schedule, chosen: the second has little torque left to err by
+ROUNDS = 2  # of the schedule, chosen: the second has little residual torque and thus little error
 TILT = 0.2  # rad, chosen: shows the height with a fifth of its weight
 SHARE = 0.6  # of the tilt limit that TILT may take, chosen
 GAIN = 0.7  # k, chosen: below 1, for r_perp is an estimate
@@ -73,7 +72,7 @@ FLAT = 0.3  # chosen: singular values below this share are the direction along g
 
 CARD = LawCard(
     name="impulse_feedback",
-    idea="Jets hold the platform at several tilts; the impulse they spend there is the unbalance.",
+    idea="Jets hold the platform at several tilts; their impulse there measures the unbalance.",
     source="Hatcher and Young 1968 (da Silva et al. 2021, section 5), with an attitude schedule",
     needs=("masses", "jets", "gyro", "attitude"),
     leaves="a steady torque of air or bearing, which it takes for unbalance; height five times "
@@ -103,7 +102,7 @@ class Before(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
     mass: float
     inertia: Matrix3
@@ -116,7 +115,7 @@ class Params:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """Where it stands."""
+    """The progress of the law."""
 
     phase: Literal["settle", "window", "leave"]
     place: int  # in the schedule, rounds counted on
@@ -134,8 +133,7 @@ class State:
 
 def schedule(up: Vector3, tilt: float) -> Series:
     """Return the verticals, body axes: level, and tilted about both horizontal axes."""
-    first, second = level_axes(up)
-    tilted = [np.cos(tilt) * up + np.sin(tilt) * across for across in (first, second)]
+    tilted = [np.cos(tilt) * up + np.sin(tilt) * across for across in axes_across(up)]
     return np.array([up, *tilted])
 
 
@@ -190,7 +188,7 @@ def impulse_for(sample: Sample, vertical: Vector3, params: Params) -> Vector3 | 
     return params.inertia @ off if off.any() else None
 
 
-# --- The account -----------------------------------------------------------------------------
+# --- The momentum balance --------------------------------------------------------------------
 
 
 def momentum_of(sample: Sample, R: Matrix3, params: Params) -> Vector3:
@@ -222,14 +220,14 @@ def unbalance_impulse(window: Window, sample: Sample, params: Params) -> Vector3
 
 
 def fed_back(window: Window, b: Vector3, shift: Vector3, params: Params) -> Vector3:
-    """Return s - k r_perp, m: the part along gravity is left alone."""
+    """Return s - k r_perp, m: the part along gravity is not changed."""
     inverse = np.linalg.pinv(window.A, rcond=FLAT)
     observed_of: Vector3 = inverse @ (b + window.A @ (shift - params.target))
     return limited(shift - GAIN * observed_of, params.reach)
 
 
 def closed(state: State, sample: Sample, params: Params) -> State:
-    """Return the state after a window: what it told, and the masses sent on."""
+    """Return the state with a window added to the estimate, and the masses sent on."""
     assert state.window is not None
     A, b = state.window.A, unbalance_impulse(state.window, sample, params)
     shift = fed_back(state.window, b, state.requested, params)
@@ -282,7 +280,7 @@ def has_left(state: State, sample: Sample, params: Params) -> bool:
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
-    """Return the next state and command; the law asks for no look."""
+    """Return the next state and command; the law requests no measurement."""
     assert isinstance(sample, Sample)
     old = state
     state = forward(state, sample, params)
@@ -297,7 +295,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 
 
 def moved_by_jets(old: State, state: State) -> tuple[Reason, ...]:
-    """Return what people should know of this step."""
+    """Return the note of a step that moves the masses."""
     if state.requested is old.requested:
         return ()
     return one_reason(LawReason.MOVED_BY_JETS, **axes_of("shift", state.requested - old.requested))

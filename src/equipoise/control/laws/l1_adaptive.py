@@ -5,24 +5,23 @@ On each of two horizontal axes of a platform that hangs (``hanging``), x = (tilt
     x' = A_m x + b (u_ad + th^T x + s),   A_m = [0, 1; -w_m^2, -2 z w_m],   b = (0, 1)
     a v = f u_m + u_ad,   u_m = -(w_m^2 - w0^2) tilt - 2 z w_m rate
 
-The matched disturbance s = a u x r is the unbalance torque over J; th is what the guess of a and of
-the height has wrong. Predictor, adaptation and control (Cao and Hovakimyan 2006, 2008), with
+The matched disturbance s = a u x r is the unbalance torque over J; th is the error of the assumed a
+and height. Predictor, adaptation and control (Cao and Hovakimyan 2006, 2008), with
 e = x_hat - x:
 
     x_hat' = [0, 1; -w0^2, 0] x + b (a v_done + th_hat^T x + s_hat) + A_s e
     th_hat' = G Proj(th_hat, -e^T P b x),   s_hat' = G Proj(s_hat, -e^T P b)
     u_ad = -C(s) (th_hat^T x + s_hat),   C = w_c / (s + w_c)
 
-A yaw rate W turns tilt and rate over between the axes, and the predictor is told so, a step at a
-time:
+A yaw rate W couples tilt and rate of the two axes; the predictor includes that, step by step:
 
     tilt_1' += W tilt_2,  tilt_2' -= W tilt_1     (theta' = w - W u x theta)
     rate_1' += W (J_2 - J_u) / J_1 rate_2,   rate_2' += W (J_u - J_1) / J_2 rate_1
 
-v_done is the shift that was reported: what masses do late, limited or not at all is no disturbance
-then, and nothing winds up. A_s = [0, 1; -w^2, -2 w] makes e quicker than A_m would (the companion
-predictor of the same authors). With Q = diag(w^2, 1), A_s^T P + P A_s = -Q gives
-P b = (1, 1/w) / 2; with G = w^3 the poles are -w and w (-1 +- j) / 2 where x is small.
+v_done is the reported shift: late, limited or missing motion of the masses then does not count as
+a disturbance, and nothing winds up. A_s = [0, 1; -w^2, -2 w] makes e quicker than A_m would (the
+companion predictor of the same authors). With Q = diag(w^2, 1), A_s^T P + P A_s = -Q gives P b =
+(1, 1/w) / 2; with G = w^3 the poles are -w and w (-1 +- j) / 2 where x is small.
 
 Sampled with a step h, x_hat is exact for inputs held over it, and n = th_hat^T x + s_hat, less what
 is true, follows with y = e^T P b (a left eigenvector of A_s)
@@ -31,11 +30,11 @@ is true, follows with y = e^T P b (a left eigenvector of A_s)
 
 which is stable for G (1 + |x|^2) < 4 (1 + exp(-w h)) / (h^2 (h / 2 + 1 / w)) (Jury). The whole is
 stable for a bounded th if ||(sE - A_m)^-1 b (1 - C)||_L1 L < 1 with L the largest |th|_1
-(``l1_condition``); masses that are late are not in that condition, so the eigenvalues of the
-sampled loop are looked at as well. ``begin`` raises InputError where one of the three fails.
+(``l1_norm``). That condition does not include late masses, so ``begin`` also checks the eigenvalues
+of the sampled loop. It raises InputError where one of the three fails.
 
-The height is seen by looks at the end only (``height``). Sources: Cao and Hovakimyan 2006 and 2008;
-for balancing Xuan 2016 and Hua 2018, by da Silva et al. 2021 section 5.
+Only the measurements at the end determine the height (``height_adjustment``). Sources: Cao and
+Hovakimyan 2006 and 2008; for balancing Xuan 2016 and Hua 2018, by da Silva et al. 2021 section 5.
 """
 
 from dataclasses import dataclass, field, replace
@@ -43,29 +42,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.elements.height_adjustment import (
-    HeightSearch,
-    gone_on,
-    height_search,
-    levelled_at,
-    raised_note,
-)
+from equipoise.control.elements import height_adjustment as heights
 from equipoise.control.elements.l1_norm import l1_norm
 from equipoise.control.elements.loop_stability import radius, steps_late, swing_input, swing_matrix
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
+from equipoise.control.plant import pendulum
 from equipoise.control.plant.actuator_limits import limited
-from equipoise.control.plant.pendulum import (
-    SPARE,
-    Hanging,
-    hanging,
-    rate_of,
-    shift_for,
-    spared,
-    tilt_of,
-    turned,
-)
-from equipoise.control.plant.settling import Bounds, Rest, Sums, at_depth, bounds, is_quiet, settle
-from equipoise.control.sample import Sample
+from equipoise.control.plant.settling import PERIOD, Bounds, finest_bounds
 from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -73,7 +56,6 @@ from equipoise.model.estimate import Estimate
 from equipoise.model.law_card import LawCard
 from equipoise.model.testbed import Testbed
 
-PERIOD = 0.25  # s, chosen: a fiftieth of a swing
 DAMPING = 0.7  # z, chosen
 PREDICTOR = 4.0  # w over w_m, chosen: four times as fast, with a step of half its time at most
 FILTER = 2.5  # w_c over w_m, chosen: faster than the loop, slower than the predictor
@@ -81,16 +63,15 @@ SURE = 3.0  # sds of the height and of the inertia that th allows for, chosen
 FASTEST = 1.0  # rad/s, chosen: rates at which the adaptation must still be stable
 FLATTEST = 0.01  # chosen: of the depth; a platform that is being lowered may not hang at all yet
 MARGIN = 2.0  # chosen: the platform's swing may be this much faster or slower, squared
-LEVEL = 1e-7  # m, chosen: an offset that counts as none, 1.4e-5 N m for 14 kg
 
 CARD = LawCard(
     name="l1_adaptive",
     idea="A predictor of tilt and rate learns the unbalance torque; masses cancel it, filtered.",
     source="Cao and Hovakimyan 2006, 2008; Xuan 2016, Hua 2018 (da Silva et al. 2021, section 5)",
     needs=("masses", "gyro", "attitude"),
-    leaves="the height, which it sees by looks at the end only; those know it by the inertia",
+    leaves="the height, which only the measurements at the end determine, by the inertia",
     stable="hanging; sensors and fine masses up to 0.8 s late at 14 kg and steps of 0.25 s, spin "
-    "to 17 deg/s, half to twice the stiffness that is believed",
+    "to 17 deg/s, half to twice the nominal stiffness",
     period=PERIOD,
 )
 
@@ -108,17 +89,16 @@ class Axis(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
-    plant: Hanging
+    plant: pendulum.Hanging
     axes: tuple[Axis, Axis]
     gyroscopic: Floats  # (2,) (J_2 - J_u) / J_1 and (J_u - J_1) / J_2
     quiet: Bounds
-    target: Vector3
 
 
 class Before(NamedTuple):
-    """What the last sample showed."""
+    """The last sample, as the loop uses it."""
 
     x: Floats  # (2, 2) tilt and rate
     frequency: Floats  # (2,) w0, rad/s
@@ -130,13 +110,12 @@ class Before(NamedTuple):
 class State:
     """Where it stands; rows of arrays are the two axes."""
 
-    search: HeightSearch
+    search: heights.HeightSearch
     e: Floats = field(default_factory=lambda: np.zeros((2, 2)))  # rad, rad/s
     th: Floats = field(default_factory=lambda: np.zeros((2, 2)))  # 1/s^2, 1/s
     s: Floats = field(default_factory=lambda: np.zeros(2))  # rad/s^2
     u_ad: Floats = field(default_factory=lambda: np.zeros(2))  # rad/s^2
     before: Before | None = None
-    rest: Rest = field(default_factory=Rest)
 
 
 # --- Predictor and adaptation ----------------------------------------------------------------
@@ -168,7 +147,7 @@ def adapted(axis: Axis, e: Floats, x: Floats, th: Floats, s: float) -> tuple[Flo
 # --- Begin -----------------------------------------------------------------------------------
 
 
-def axes_of(plant: Hanging, testbed: Testbed) -> tuple[Axis, Axis]:
+def axes_of(plant: pendulum.Hanging, testbed: Testbed) -> tuple[Axis, Axis]:
     """Return the numbers of both axes."""
     made = list[Axis]()
     for a, w0 in zip(plant.gain, plant.frequency, strict=True):
@@ -205,7 +184,7 @@ def refuse(found: str) -> InputError:
     return InputError("law l1_adaptive", found, "a slower swing, surer mass properties")
 
 
-def check(axis: Axis, plant: Hanging, testbed: Testbed) -> None:
+def check(axis: Axis, plant: pendulum.Hanging, testbed: Testbed) -> None:
     """Raise InputError where adaptation, L1 condition or the sampled loop is not stable."""
     w, h = axis.predictor, PERIOD
     strength = w**3 * (1 + np.sin(testbed.tilt_limit) ** 2 + FASTEST**2)
@@ -224,22 +203,21 @@ def check(axis: Axis, plant: Hanging, testbed: Testbed) -> None:
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return where the law begins; InputError where it would not be stable."""
-    plant = hanging(testbed)
+    plant = pendulum.hanging(testbed)
     axes = axes_of(plant, testbed)
     for axis in axes:
         check(axis, plant, testbed)
-    quiet = bounds(plant, max(LEVEL, 2 * plant.step), 0.5)
     one, two = plant.axes
     J = [float(axis @ testbed.body.inertia_P @ axis) for axis in (one, two, plant.up)]
     gyroscopic = np.array([(J[1] - J[2]) / J[0], (J[2] - J[0]) / J[1]])
-    params = Params(plant, axes, gyroscopic, quiet, target)
-    return State(height_search(plant)), params
+    params = Params(plant, axes, gyroscopic, finest_bounds(plant))
+    return State(heights.height_search(plant, target)), params
 
 
 # --- Step ------------------------------------------------------------------------------------
 
 
-def frequencies(state: State, sample: Sample, plant: Hanging) -> Floats:
+def frequencies(state: State, sample: Sample, plant: pendulum.Hanging) -> Floats:
     """Return w0 about both axes while masses raise or lower the platform, rad/s."""
     height = state.search.height
     above = float(plant.up @ sample.shift) - height.along
@@ -247,7 +225,7 @@ def frequencies(state: State, sample: Sample, plant: Hanging) -> Floats:
 
 
 def turned_about_up(x: Floats, spin: float, params: Params) -> Floats:
-    """Return what turning about the vertical (rad/s) does to x, per second."""
+    """Return the slope of x by a turn about the vertical (rad/s)."""
     (tilt_1, rate_1), (tilt_2, rate_2) = x
     one, two = params.gyroscopic
     return spin * np.array([[tilt_2, one * rate_2], [-tilt_1, two * rate_1]])
@@ -258,7 +236,7 @@ def learnt(state: State, x: Floats, sample: Sample, params: Params) -> State:
     before, plant = state.before, params.plant
     if before is None:
         return replace(state, e=np.zeros((2, 2)))
-    v = turned(plant, (before.shift + sample.shift) / 2)
+    v = pendulum.turned(plant, (before.shift + sample.shift) / 2)
     th, s, e = np.zeros((2, 2)), np.zeros(2), np.zeros((2, 2))
     turning = turned_about_up(before.x, before.spin, params)
     for i, axis in enumerate(params.axes):
@@ -278,50 +256,47 @@ def filtered(state: State, x: Floats, params: Params) -> Floats:
     """Return u_ad after a step, no faster than masses can follow, rad/s^2."""
     share = np.array([axis.share for axis in params.axes])
     way = share * (-matched(state, x) - state.u_ad) / params.plant.gain
-    most = params.plant.slew * PERIOD * (1 - SPARE)
+    most = params.plant.slew * PERIOD * (1 - pendulum.SPARE)
     return state.u_ad + params.plant.gain * limited(way, most)
 
 
 def controlled(state: State, x: Floats, w0: Floats, params: Params) -> Vector3:
-    """Return the shift (m) that is asked."""
+    """Return the requested shift (m)."""
     plant = params.plant
     wanted = np.array([axis.wanted for axis in params.axes])
     p, d = (wanted**2 - w0**2).clip(0) / plant.gain, 2 * DAMPING * wanted / plant.gain
-    f = spared(plant, p, d, x[:, 0], x[:, 1])
+    f = pendulum.spared(plant, p, d, x[:, 0], x[:, 1])
     v = state.u_ad / plant.gain - f * (p * x[:, 0] + d * x[:, 1])
-    return shift_for(plant, limited(v, plant.reach)) + state.search.height.along * plant.up
+    return heights.shift_at_height(state.search, v)
 
 
 def sample_step(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next state and command after a sample."""
     plant = params.plant
-    tilt, rate = tilt_of(plant, sample), rate_of(plant, sample)
+    tilt, rate = pendulum.tilt_of(plant, sample), pendulum.rate_of(plant, sample)
     x, w0 = np.column_stack([tilt, rate]), frequencies(state, sample, plant)
     spin = float(plant.up @ sample.rate)
     state = learnt(state, x, sample, params)
     state = replace(state, u_ad=filtered(state, x, params))
-    now = Sums(sample.t, tilt, rate, sample.shift)
-    quiet = at_depth(params.quiet, plant.depth, state.search.height.depth)
-    rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
-    state = replace(state, rest=rest, before=Before(x, w0, sample.shift, spin))
-    if not is_quiet(rest, sample.t, quiet):
-        return state, Command(shift=controlled(state, x, w0, params))
-    search, command = levelled_at(state.search, sample, rest.shift, plant, params.target)
-    return replace(state, search=search), command
+    shift = controlled(state, x, w0, params)
+    search, command = heights.levelling(state.search, sample, shift, params.quiet)
+    return replace(state, search=search, before=Before(x, w0, sample.shift, spin)), command
 
 
 def level_again(state: State, params: Params) -> tuple[State, Command]:
-    """Return the first step where a look has raised the platform."""
+    """Return the first step after a measurement that raised the platform."""
     plant, search = params.plant, state.search
     assert search.level is not None
-    shift = shift_for(plant, turned(plant, search.level)) + search.height.along * plant.up
-    state = replace(state, rest=Rest(), before=None)
-    return state, Command(shift=shift, note=raised_note(search.height))
+    shift = (
+        pendulum.shift_for(plant, pendulum.turned(plant, search.level))
+        + search.height.along * plant.up
+    )
+    return replace(state, before=None), Command(shift=shift, note=heights.raised_note(search))
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command."""
-    search, command = gone_on(state.search, sample, params.plant, params.target)
+    search, command = heights.continued(state.search, sample)
     state = replace(state, search=search)
     if command is not None:
         return state, command

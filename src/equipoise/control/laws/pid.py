@@ -7,23 +7,24 @@ On each of two horizontal axes of a platform that hangs (``hanging``; a = m g / 
     f = min(1, SPARE R / |slope of the demand|)                             (``hanging.spared``)
 
 The derivative is the gyro's rate, not a differenced angle. The integral carries v to -c, so the
-tilt goes to zero and with it the sideways part of r + s; its height this loop does not see. v_done
-is the shift that the last Sample reports: an integral whose command was not delivered unwinds
-(back-calculation: Astrom and Wittenmark; T_a = K_p / K_i). f keeps the demand of a large swing as
-slow as the masses are (R, m/s). K_i goes down with the swing's frequency where the platform has
-been raised, for a shallow pendulum does not bear the integral of a deep one.
+tilt goes to zero and with it the sideways part of r + s; the height is unobservable to this loop.
+v_done is the shift that the last Sample reports: an integral whose command was not delivered
+unwinds (back-calculation: Astrom and Wittenmark; T_a = K_p / K_i). f limits the demand of a large
+swing to the speed of the masses (R, m/s). K_i decreases with the swing's frequency on a platform
+that has been raised: the integral of a deep pendulum would destabilise a shallow one.
 
     1 settle   -f K_d rate, with calculated gains, while masses lower the centre of mass
     2 relay    +-d about the rest tilt, both axes at once: K_u and T_u (``ziegler_nichols``)
-    3 level    the PID, until tilt, rate and shift stay quiet (``quiet``)
-    4 look     at the swinging platform, which tells its height (``height``); then level again,
-               from further up, and at the end a last shift to the target
+    3 level    the PID, until tilt, rate and shift stay quiet (``settling``)
+    4 measure  the height of the swinging platform (``height_adjustment``); then level again, from
+               further up, and at the end a last shift to the target
 
 Source: Ziegler and Nichols 1942, and their use for balancing in da Silva et al. 2021 section 5.
-Their test, proportional action alone turned up until the loop just oscillates, cannot be done here:
-without damping it oscillates at every gain. It is done on tilt and rate together, and T_u is set by
-the masses' lag. ``begin`` raises InputError where masses cannot make the platform hang, are too
-slow or coarse for the relay, or where the sampled loop is not stable at half to twice the gains.
+Their test increases the proportional gain alone until the loop just oscillates. It is impossible
+here: without damping the loop oscillates at every gain. It is done on tilt and rate together, and
+T_u is set by the masses' lag. ``begin`` raises InputError where masses cannot make the platform
+hang, are too slow or coarse for the relay, or where the sampled loop is not stable at half to twice
+the gains.
 """
 
 from dataclasses import dataclass, replace
@@ -32,41 +33,20 @@ from typing import Literal
 
 import numpy as np
 
-from equipoise.control.elements.height_adjustment import (
-    HeightSearch,
-    gone_on,
-    height_search,
-    levelled_at,
-    raised_note,
-)
+from equipoise.control.elements import height_adjustment as heights
+from equipoise.control.elements import ziegler_nichols as tuning
 from equipoise.control.elements.loop_stability import Sampled, closed, radius, steps_late
-from equipoise.control.elements.ziegler_nichols import (
-    CYCLES_IN,
-    CYCLES_USED,
-    Gains,
-    Loop,
-    Relay,
-    Ultimate,
-    band_of,
-    has_settled,
-    measured,
-    relay_step,
-    rule,
-    ultimate,
+from equipoise.control.law import Law, Sample
+from equipoise.control.plant import pendulum
+from equipoise.control.plant.settling import (
+    PERIOD,
+    Bounds,
+    Rest,
+    bounds,
+    finest_bounds,
+    is_quiet,
+    settle,
 )
-from equipoise.control.law import Law
-from equipoise.control.plant.actuator_limits import limited
-from equipoise.control.plant.pendulum import (
-    Hanging,
-    hanging,
-    rate_of,
-    shift_for,
-    spared,
-    tilt_of,
-    turned,
-)
-from equipoise.control.plant.settling import Bounds, Rest, Sums, at_depth, bounds, is_quiet, settle
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -77,24 +57,22 @@ from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 
-PERIOD = 0.25  # s, chosen: a fiftieth of a swing
 LATE = 0.5  # chosen: the share of the lead that masses and sensors may be late in the relay's cycle
 STEPS = 4  # chosen: motor steps in the relay's amplitude, at the least
 PATIENCE = 3.0  # chosen: of the calculated time, before the relay is given up
-IMPLAUSIBLE = (
-    2.0  # chosen: a measured gain further than this factor from the calculated one is not taken
-)
+IMPLAUSIBLE = 2.0  # chosen: a measured gain off the calculated one by more is rejected
 MARGIN = 2.0  # chosen: the gains may be wrong by this factor
 RAISED = 0.1  # chosen: of the swing's frequency, for a platform that has been raised
-ROUGH = 0.005  # chosen: of the depth, an offset that counts as none before the first look
-LEVEL = 1e-7  # m, chosen: an offset that counts as none, 1.4e-5 N m for 14 kg
+ROUGH = 0.005  # chosen: of the depth, an offset that counts as none before the first measurement
+
+Pair = tuple[tuning.Gains, tuning.Gains]  # of both axes
 
 CARD = LawCard(
     name="pid",
     idea="Tilt, its integral and the gyro's rate move the masses; a relay finds the gains.",
     source="Ziegler and Nichols 1942; Astrom and Hagglund 1984; da Silva et al. 2021, section 5",
     needs=("masses", "gyro", "attitude"),
-    leaves="the height, which it sees by looks at the end only; those know it by the inertia",
+    leaves="the height, which only the measurements at the end determine, by the inertia",
     stable="hanging; sensors and fine masses up to 0.6 s late at 14 kg and steps of 0.25 s, spin "
     "to 17 deg/s; masses of 1.4 um/s too; a swing beyond what masses can follow is damped slowly",
     period=PERIOD,
@@ -103,16 +81,15 @@ CARD = LawCard(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change while it runs."""
+    """The constants of a run."""
 
-    plant: Hanging
-    loops: tuple[Loop, Loop]
-    cycles: tuple[Ultimate, Ultimate]  # calculated
-    gains: tuple[Gains, Gains]  # calculated
+    plant: pendulum.Hanging
+    loops: tuple[tuning.Loop, tuning.Loop]
+    cycles: tuple[tuning.Ultimate, tuning.Ultimate]  # calculated
+    gains: Pair  # calculated
     calm: Bounds  # before the relay
-    rough: Bounds  # before the first look
+    rough: Bounds  # before the first measurement
     quiet: Bounds  # after it
-    target: Vector3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -120,19 +97,19 @@ class State:
     """Where it stands."""
 
     phase: Literal["settle", "relay", "level"]
-    gains: tuple[Gains, Gains]
+    gains: Pair
     rest: Rest
-    search: HeightSearch
+    search: heights.HeightSearch
     requested: Vector3 | None = None  # m, the last shift
     integral: Floats | None = None  # (2,) m
-    relays: tuple[Relay, Relay] = (Relay(), Relay())
+    relays: tuple[tuning.Relay, tuning.Relay] = (tuning.Relay(), tuning.Relay())
     started: float = 0.0  # s, the relay
 
 
 # --- Begin -----------------------------------------------------------------------------------
 
 
-def loop_of(plant: Hanging, axis: int) -> Loop:
+def loop_of(plant: pendulum.Hanging, axis: int) -> tuning.Loop:
     """Return one axis with its lead and its relay; InputError for masses too slow or coarse."""
     frequency = float(plant.frequency[axis])
     lead, delay = 1 / frequency, plant.delay + PERIOD / 2
@@ -144,16 +121,16 @@ def loop_of(plant: Hanging, axis: int) -> Loop:
             f"{plant.step / UM:.3g} um, {delay:.2g} s late",
             f"{STEPS} steps in {LATE * lead:.2g} s, a quarter of a hanging swing's radian",
         )
-    return Loop(float(plant.gain[axis]), frequency, lead, delay, plant.slew, relay)
+    return tuning.Loop(float(plant.gain[axis]), frequency, lead, delay, plant.slew, relay)
 
 
-def check(loop: Loop, gains: Gains, delay: float) -> None:
+def check(loop: tuning.Loop, gains: tuning.Gains, delay: float) -> None:
     """Raise InputError where the sampled loop is unstable at half or twice the gains."""
     axis = Sampled(loop.gain, loop.frequency, PERIOD, steps_late(delay, PERIOD))
     for factor, share in product((1 / MARGIN, 1.0, MARGIN), (1.0, RAISED)):
         at = axis._replace(frequency=share * axis.frequency)
         p, i, d = np.array(gains) * factor
-        size = radius(closed(at, Gains(p, share * i, d)))
+        size = radius(closed(at, tuning.Gains(p, share * i, d)))
         if size >= 1:
             raise InputError(
                 "law pid",
@@ -165,73 +142,64 @@ def check(loop: Loop, gains: Gains, delay: float) -> None:
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return where the law begins; InputError where it would not be stable."""
-    plant = hanging(testbed)
+    plant = pendulum.hanging(testbed)
     loops = (loop_of(plant, 0), loop_of(plant, 1))
-    cycles = (ultimate(loops[0]), ultimate(loops[1]))
-    first, second = (rule(c, loop.lead) for c, loop in zip(cycles, loops, strict=True))
+    cycles = (tuning.ultimate(loops[0]), tuning.ultimate(loops[1]))
+    first, second = (tuning.rule(c, loop.lead) for c, loop in zip(cycles, loops, strict=True))
     for loop, gains in zip(loops, (first, second), strict=True):
         check(loop, gains, plant.delay + plant.filling)
-    calm = bounds(plant, 0.3 * loops[0].relay, 0.5)
-    quiet = bounds(plant, max(LEVEL, 2 * plant.step), 0.5)
-    rough = bounds(plant, max(quiet.shift, ROUGH * plant.depth), 0.5)
-    params = Params(plant, loops, cycles, (first, second), calm, rough, quiet, target)
-    return State("settle", params.gains, Rest(), height_search(plant)), params
+    calm, quiet = bounds(plant, 0.3 * loops[0].relay), finest_bounds(plant)
+    rough = bounds(plant, max(quiet.shift, ROUGH * plant.depth))
+    params = Params(plant, loops, cycles, (first, second), calm, rough, quiet)
+    return State("settle", params.gains, Rest(), heights.height_search(plant, target)), params
 
 
 # --- Step ------------------------------------------------------------------------------------
 
 
-def requested_shift(state: State, plant: Hanging, v: Floats) -> Vector3:
-    """Return the shift (m) that gives v within reach, and the height that is wanted."""
-    return shift_for(plant, limited(v, plant.reach)) + state.search.height.along * plant.up
-
-
 def damping(state: State, sample: Sample, params: Params) -> Floats:
     """Return -f K_d rate, m."""
-    rate = rate_of(params.plant, sample)
+    rate = pendulum.rate_of(params.plant, sample)
     d = np.array([gains.derivative for gains in state.gains])
-    return -spared(params.plant, 0 * d, d, np.zeros(2), rate) * d * rate
+    return -pendulum.spared(params.plant, 0 * d, d, np.zeros(2), rate) * d * rate
 
 
 def settle_phase(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next step of the first phase."""
-    plant = params.plant
-    now = Sums(sample.t, tilt_of(plant, sample), rate_of(plant, sample), sample.shift)
-    rest = settle(state.rest, now, PERIOD, params.calm)
-    v = damping(state, sample, params)
+    rest = settle(state.rest, sample, params.plant, params.calm, level=False)
+    v, note = damping(state, sample, params), ()
     state = replace(state, rest=rest)
-    note = ()
     if is_quiet(rest, sample.t, params.calm):
         state = replace(state, phase="relay", started=sample.t)
         note = one_reason(LawReason.RELAY_BEGINS)
-    return state, Command(shift=requested_shift(state, plant, v), note=note)
+    return state, Command(shift=heights.shift_at_height(state.search, v), note=note)
 
 
 def relay_v(state: State, sample: Sample, params: Params) -> tuple[State, Floats]:
     """Return the relays after a sample, and v (m)."""
-    tilt = tilt_of(params.plant, sample) - state.rest.tilt
-    rate = rate_of(params.plant, sample)
+    tilt = pendulum.tilt_of(params.plant, sample) - state.rest.tilt
+    rate = pendulum.rate_of(params.plant, sample)
     relays, v = list(state.relays), damping(state, sample, params)
     for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
-        if not has_settled(relay):
-            band = band_of(loop, params.cycles[i])
+        if not tuning.has_settled(relay):
+            band = tuning.band_of(loop, params.cycles[i])
             sigma = float(tilt[i] + loop.lead * rate[i])
-            relays[i] = relay_step(relay, sample.t, sigma, band)
+            relays[i] = tuning.relay_step(relay, sample.t, sigma, band)
             v[i] = relays[i].output * loop.relay
     return replace(state, relays=(relays[0], relays[1])), v
 
 
-def tuned(state: State, params: Params) -> tuple[tuple[Gains, Gains], tuple[Reason, ...]]:
-    """Return the gains by the experiment, or the calculated ones where it is not to be trusted."""
-    found, notes = list[Gains](), list[Reason]()
+def tuned(state: State, params: Params) -> tuple[Pair, tuple[Reason, ...]]:
+    """Return the gains by the experiment, or the calculated ones where it is implausible."""
+    found, notes = list[tuning.Gains](), list[Reason]()
     for i, (loop, relay) in enumerate(zip(params.loops, state.relays, strict=True)):
-        cycle = measured(relay, loop.relay) if has_settled(relay) else None
+        cycle = tuning.measured(relay, loop.relay) if tuning.has_settled(relay) else None
         expected = params.cycles[i]
         if cycle is None or not 1 / IMPLAUSIBLE < cycle.gain / expected.gain < IMPLAUSIBLE:
             found.append(params.gains[i])
             notes.append(Reason(LawReason.CYCLE_REJECTED))
         else:
-            found.append(rule(cycle, loop.lead))
+            found.append(tuning.rule(cycle, loop.lead))
             calculated = {"expected_gain": expected.gain, "expected_period": expected.period}
             numbers = {"gain": cycle.gain, "period": cycle.period} | calculated
             notes.append(Reason(LawReason.CYCLE_MEASURED, (), numbers))
@@ -243,54 +211,51 @@ def relay_phase(state: State, sample: Sample, params: Params) -> tuple[State, Co
     state, v = relay_v(state, sample, params)
     note = ()
     longest = max(cycle.period for cycle in params.cycles)
-    late = sample.t - state.started > PATIENCE * (CYCLES_IN + CYCLES_USED + 1) * longest
-    if late or all(has_settled(relay) for relay in state.relays):
+    late = (
+        sample.t - state.started > PATIENCE * (tuning.CYCLES_IN + tuning.CYCLES_USED + 1) * longest
+    )
+    if late or all(tuning.has_settled(relay) for relay in state.relays):
         gains, note = tuned(state, params)
-        state = replace(state, phase="level", gains=gains, rest=Rest(), integral=np.zeros(2))
-    shift = requested_shift(state, params.plant, v)
+        state = replace(state, phase="level", gains=gains, integral=np.zeros(2))
+    shift = heights.shift_at_height(state.search, v)
     return replace(state, requested=shift), Command(shift=shift, note=note)
 
 
 def level_phase(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
     """Return the next step of the PID."""
     plant = params.plant
-    tilt, rate = tilt_of(plant, sample), rate_of(plant, sample)
+    tilt, rate = pendulum.tilt_of(plant, sample), pendulum.rate_of(plant, sample)
     assert state.integral is not None
     assert state.requested is not None
     p, i, d = np.array(state.gains).T
     height = state.search.height
     i = i * (height.depth / plant.depth) ** 0.5
-    f = spared(plant, p, d, tilt, rate)
-    undelivered = turned(plant, sample.shift - state.requested)
+    f = pendulum.spared(plant, p, d, tilt, rate)
+    undelivered = pendulum.turned(plant, sample.shift - state.requested)
     integral = state.integral + PERIOD * (f * i * tilt - undelivered * i / p)
-    shift = requested_shift(state, plant, -f * (p * tilt + d * rate) - integral)
-    now = Sums(sample.t, tilt, rate, sample.shift)
-    wanted = params.quiet if height.measurements else params.rough
-    quiet = at_depth(wanted, plant.depth, height.depth)
-    rest = settle(state.rest, now, PERIOD, quiet, np.zeros(2))
-    state = replace(state, integral=integral, requested=shift, rest=rest)
-    if not is_quiet(rest, sample.t, quiet):
-        return state, Command(shift=shift)
-    search, command = levelled_at(state.search, sample, rest.shift, plant, params.target)
-    return replace(state, search=search), command
+    shift = heights.shift_at_height(state.search, -f * (p * tilt + d * rate) - integral)
+    quiet = params.quiet if height.measurements else params.rough
+    search, command = heights.levelling(state.search, sample, shift, quiet)
+    return replace(state, integral=integral, requested=shift, search=search), command
 
 
-def level_again(state: State, params: Params) -> tuple[State, Command]:
-    """Return the first step of the PID where a look has raised the platform."""
+def level_again(state: State) -> tuple[State, Command]:
+    """Return the first step of the PID after a measurement that raised the platform."""
     assert state.integral is not None
-    shift = requested_shift(state, params.plant, -state.integral)
-    state = replace(state, phase="level", rest=Rest(), requested=shift)
-    return state, Command(shift=shift, note=raised_note(state.search.height))
+    shift = heights.shift_at_height(state.search, -state.integral)
+    return replace(state, requested=shift), Command(
+        shift=shift, note=heights.raised_note(state.search)
+    )
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
     """Return the next state and command."""
-    search, command = gone_on(state.search, sample, params.plant, params.target)
+    search, command = heights.continued(state.search, sample)
     state = replace(state, search=search)
     if command is not None:
         return state, command
     if isinstance(sample, Estimate):
-        return level_again(state, params)
+        return level_again(state)
     phases = {"settle": settle_phase, "relay": relay_phase, "level": level_phase}
     return phases[state.phase](state, sample, params)
 

@@ -1,44 +1,38 @@
 """Planar feedback by masses and coils, then free swings for the height, in turn (Bologna).
 
     hang      the masses go down, so that the platform is a pendulum whatever r_z is
-    look      free swing, least squares for r and one moment of J, another held
-    level     masses level the platform as the look says, at a ``good_moment``: what was let go from
-              level is back there at rest once in every swing
-    calm      masses integrate the tilt away, coils damp (``planar_feedback``): a swing taken up to
-              where the platform is softer would grow
+    measure   free swing, least squares for r and one moment of J, another held
+    level     masses level the platform by that estimate, at a good moment (``move_timing``): a
+              platform let go from level is back there at rest once in every swing
+    calm      masses integrate the tilt away, coils damp (``planar_feedback``): a swing carried up
+              to where the platform is softer would grow
     rise      up to FLOOR, where coils are strong against gravity, and KICK off level
-    ...       look, level and calm again, and again from a new kick while r is not known to ENOUGH
-    end       from where feedback found it level, up to the target
+    ...       measure, level and calm again, and again from a new kick while the sd of r is above
+              ENOUGH
+    end       from where feedback levelled it, up to the target
 
-The first look takes the swing as it finds it; where one shows nothing, there is feedback and a kick
-before the next. The way between the two depths is known, and frees r of the factor that it
-shares with J (``swing_measurements``).
+The first measurement takes the present swing. After one that shows nothing, feedback and a kick
+precede the next. The shift between the two depths is known and removes the factor that r shares
+with J (``swing_estimates``).
 
-(Bahu and Modenini 2020; the note of 2022 for coils. They fit J and r_z under constraints that could
-not be read. Here what a small swing does not show of J is held, and the least
+(Bahu and Modenini 2020; the note of 2022 for coils. They fit J and r_z under constraints that were
+not accessible. Here the part of J that a small swing does not determine is held, and the least
 squares are corrected for noise: constrained ones were 0.4 % further off and often not usable.)
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
-from equipoise.control.elements.planar_feedback import (
-    Loop,
-    Plant,
-    Variant,
-    creep,
-    damping_torque,
-    lean,
-    loop_for,
-)
+from equipoise.control.elements import planar_feedback as feedback
 from equipoise.control.elements.slew import moment_across
-from equipoise.control.law import Law
+from equipoise.control.law import Law, Sample
 from equipoise.control.plant import move_timing
+from equipoise.control.plant import swing_estimates as swings
+from equipoise.control.plant.actuator_limits import fastest_slew
 from equipoise.control.plant.move_timing import Waiting
-from equipoise.control.plant.swing_estimates import METHOD, Shown, combined, held, shown, shows
-from equipoise.control.sample import Sample
+from equipoise.control.plant.settling import UNREPORTED, Stand, standing
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
@@ -53,55 +47,50 @@ from equipoise.model.units import UM
 Phase = Literal["hang", "feedback", "kick", "level", "calm", "end"]
 
 PERIOD = 0.2  # s
-SWING = 60.0  # s of a look
+SWING = 60.0  # s of a measurement
 FLOOR = 30e-6  # m, chosen: as shallow as a swing of 60 s still shows, a period of 50 s
-STEEP = 6.0  # chosen: of the sideways sd, so that the platform leans by ten degrees at most
-UNSURE = 2.0  # sds of the height that must still hang
 KICK = float(np.radians(4))  # rad, chosen: well above what drafts do
 LEVEL = float(np.radians(0.5))  # rad, chosen: lean and swing at which the feedback has done
 CALM = float(np.radians(1.5))  # rad, chosen: the same before it rises to where coils are stronger
-UNREST = 0.1  # rad, chosen: what running means begin with
+UNREST = 0.1  # rad, chosen: the first value of running means
 MEAN = 10.0  # s, chosen: over which these are judged
 LONGEST = 600.0  # s, chosen: feedback is left after that in any case
 ENOUGH = 1e-6  # m, chosen: one sd of r, a third of a usual tolerance
-MOST = 3  # looks, chosen
-MISSES = 3  # looks that show nothing, chosen
+MOST = 3  # measurements, chosen
+MISSES = 3  # measurements that show nothing, chosen
 ARRIVED = 0.5  # s, chosen: masses that stand so long have arrived
-STANDS = 1e-10  # m
-LAG = 2.0  # s of travel, chosen: masses so far behind are not asked for more
-FAST = 0.5  # chosen: of the masses' speed, the most that feedback at ten degrees may ask for
+LAG = 2.0  # s of travel, chosen: masses that are further behind get no new request
+FAST = 0.5  # chosen: of the masses' speed, the most that feedback at ten degrees may request
 TEN_DEGREES = float(np.radians(10))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What is told."""
+    """The constants of a run."""
 
-    plant: Plant
+    plant: feedback.Plant
     up: Vector3
     target: Vector3  # m
     depth: float  # m, of the first swing
     speed: float  # m/s, of the shift
-    held: tuple[str, ...]  # what looks do not estimate
+    held: tuple[str, ...]  # what measurements do not estimate
     inertia_sd: float  # -, relative
-    variant: Variant = "sine"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """How far it has come."""
+    """The progress of the law."""
 
     phase: Phase
-    shift: Vector3  # m, asked for
-    loop: Loop
+    shift: Vector3  # m, requested
+    loop: feedback.Loop
     since: float | None = None  # s, when the phase began
     lean: float = UNREST  # rad, running mean of the tilt
     swing: float = UNREST  # rad, running mean of |w across the vertical| / w_n
-    observed_shift: Vector3 = field(default_factory=lambda: np.zeros(3))
-    stood: float = 0.0  # s, since when the masses stand
+    stand: Stand = UNREPORTED
     t: float = 0.0
-    measurements: tuple[Shown, ...] = ()
-    failed: int = 0  # looks that showed nothing
+    measurements: tuple[swings.Shown, ...] = ()
+    failed: int = 0  # measurements that showed nothing
     waiting: Waiting | None = None  # to level the platform
     flat: Vector3 | None = None  # m, the shift before the last kick
     goal: Vector3 | None = None  # m, the shift to end with
@@ -109,14 +98,12 @@ class State:
 
 def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
     """Return the beginning; InputError where masses are too slow for the feedback."""
-    up, sd = testbed.up, testbed.com_sd
+    up = testbed.up
     J = moment_across(testbed.body.inertia_P, up)
-    depth = max(STEEP * float(np.linalg.norm(sd - (sd @ up) * up)), 2 * FLOOR)
-    hang = depth + UNSURE * float(abs(up @ sd)) + float(testbed.body.com @ up)
-    speed = max([m.mass * m.speed / testbed.body.mass for m in testbed.masses], default=0.0)
-    plant = Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
-    params = Params(plant, up, target, depth, speed, held(testbed), testbed.inertia_sd)
-    loop = loop_for(plant, depth, params.variant)
+    (depth, hang), speed = swings.hanging_shift(testbed, 2 * FLOOR), fastest_slew(testbed)
+    plant = feedback.Plant(J, testbed.body.mass * testbed.gravity, coils_of(testbed))
+    params = Params(plant, up, target, depth, speed, swings.held(testbed), testbed.inertia_sd)
+    loop = feedback.loop_for(plant, depth)
     if plant.coils == 0 or loop.integral * TEN_DEGREES > FAST * speed:
         raise InputError("planar_magnetic", f"masses that shift by {speed / UM:.3g} um/s and "
                          f"coils that give {plant.coils:.3g} N m", "coils, a known field, and "
@@ -138,34 +125,32 @@ def watched(state: State, sample: Sample, params: Params) -> State:
     began = state.since is not None
     n = sample.gravity / float(np.linalg.norm(sample.gravity))
     swing = float(np.linalg.norm(np.cross(sample.rate, n))) / state.loop.swing
-    tilt = float(np.linalg.norm(lean(sample.gravity, params.up)))
+    tilt = float(np.linalg.norm(feedback.lean(sample.gravity, params.up)))
     share = 1.0 - float(np.exp(-(sample.t - state.t) / MEAN)) if began else 0.0
-    moved = bool(np.linalg.norm(sample.shift - state.observed_shift) > STANDS)
     return replace(
         state,
         since=state.since if began else sample.t,
         lean=state.lean + share * (tilt - state.lean),
         swing=state.swing + share * (swing - state.swing),
-        stood=state.stood if began and not moved else sample.t,
-        observed_shift=sample.shift,
+        stand=standing(state.stand if began else UNREPORTED, sample),
         t=sample.t,
     )
 
 
 def fed_back(state: State, sample: Sample, params: Params, dt: float) -> State:
-    """Return the state with the masses told to follow the tilt, unless they are behind."""
+    """Return the state with the masses commanded to follow the tilt, unless they are behind."""
     behind = float(np.linalg.norm(state.shift - sample.shift))
     if behind > LAG * params.speed:
         return state
-    speed = creep(sample.gravity, params.up, state.swing, state.loop)
+    speed = feedback.creep(sample.gravity, params.up, state.swing, state.loop)
     return replace(state, shift=state.shift + dt * speed)
 
 
 def into(state: State, phase: Phase, shift: Vector3) -> State:
-    """Return the state at the beginning of a phase that asks for a shift (m)."""
-    since = None if state.since is None else state.t
+    """Return the state at the beginning of a phase that requests a shift (m)."""
+    since, stand = None if state.since is None else state.t, state.stand._replace(since=state.t)
     return replace(
-        state, phase=phase, shift=shift, since=since, stood=state.t, lean=UNREST, swing=UNREST
+        state, phase=phase, shift=shift, since=since, stand=stand, lean=UNREST, swing=UNREST
     )
 
 
@@ -177,8 +162,8 @@ def kicked(state: State, params: Params) -> State:
 
 
 def has_arrived(state: State) -> bool:
-    """Say whether the masses have stood for a while after this phase asked for a shift."""
-    return state.since is not None and state.t >= max(state.stood, state.since) + ARRIVED
+    """Say whether the masses have stood for a while after this phase requested a shift."""
+    return state.since is not None and state.t >= max(state.stand.since, state.since) + ARRIVED
 
 
 def is_level(state: State, enough: float) -> bool:
@@ -188,19 +173,19 @@ def is_level(state: State, enough: float) -> bool:
 
 
 def after_measurement(state: State, estimate: Estimate, params: Params) -> State:
-    """Return the state after a look: levelled and calmed down where it is."""
-    state = replace(state, since=None)  # the clock has gone on
-    if not shows(estimate):
+    """Return the state after a measurement: to be levelled and calmed where it is."""
+    state = replace(state, since=None)  # time has passed
+    if not swings.shows(estimate):
         state = replace(state, failed=state.failed + 1)
         if state.flat is None:
             return into(state, "feedback", state.shift)
         back = Waiting(state.flat, state.loop.swing)
         return into(replace(state, waiting=back), "level", state.shift)
-    measurements, up = (*state.measurements, shown(estimate, state.shift)), params.up
-    r, sd, _ = combined(measurements, up, params.inertia_sd)
+    measurements, up = (*state.measurements, swings.shown(estimate, state.shift)), params.up
+    r, sd, _ = swings.combined(measurements, up, params.inertia_sd)
     depth = -float(up @ (r + state.shift))
     last = len(measurements) == MOST or (len(measurements) > 1 and bool(np.all(sd < ENOUGH)))
-    loop = loop_for(params.plant, max(depth, FLOOR), params.variant)
+    loop = feedback.loop_for(params.plant, max(depth, FLOOR))
     goal = params.target - r if last else None
     waiting = Waiting(-depth * up - r, loop.swing)
     state = replace(state, measurements=measurements, loop=loop, goal=goal, waiting=waiting)
@@ -223,8 +208,8 @@ def after_calm(state: State, params: Params) -> State:
         aside = params.target - (params.target @ params.up) * params.up
         rise = float(params.up @ (state.goal - state.shift))
         return into(state, "end", state.shift + aside + rise * params.up)
-    loop = loop_for(params.plant, FLOOR, params.variant)
-    r = combined(state.measurements, params.up, params.inertia_sd).com
+    loop = feedback.loop_for(params.plant, FLOOR)
+    r = swings.combined(state.measurements, params.up, params.inertia_sd).com
     return kicked(replace(state, loop=loop, shift=-FLOOR * params.up - r), params)
 
 
@@ -242,11 +227,11 @@ def next_of(state: State, params: Params) -> State:
 def requested(state: State, sample: Sample, params: Params) -> Command:
     """Return the command of a phase."""
     if state.phase == "kick":
-        measurement = Measurement(SWING, METHOD, params.held) if has_arrived(state) else None
+        measurement = Measurement(SWING, swings.METHOD, params.held) if has_arrived(state) else None
         return Command(shift=state.shift, measurement=measurement)
     done = state.phase == "end" and has_arrived(state)
     why = one_reason(LawReason.LEVEL_AT_HEIGHT, swings=len(state.measurements)) if done else ()
-    coils = damping_torque(sample.rate, state.loop)
+    coils = feedback.damping_torque(sample.rate, state.loop)
     return Command(shift=state.shift, magnetic=coils, finished=why)
 
 
@@ -254,8 +239,8 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     """Return the next state and the command."""
     if isinstance(sample, Estimate):
         state = after_measurement(state, sample, params)
-        lost = (*one_reason(LawReason.COM_NOT_SHOWN), *sample.outcome.reasons)
-        return state, Command(shift=state.shift, finished=lost if state.failed == MISSES else ())
+        lost = swings.why_not_shown(sample) if state.failed == MISSES else ()
+        return state, Command(shift=state.shift, finished=lost)
     dt = sample.t - state.t if state.since is not None else 0.0
     state = watched(state, sample, params)
     if state.phase in ("feedback", "calm"):
@@ -270,10 +255,10 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 LAW = Law(
     LawCard(
         "planar_magnetic",
-        "Masses integrate the tilt away while coils damp, and free swings tell the height.",
-        "Bahu and Modenini 2020 and their note of 2022, as far as abstracts tell",
+        "Masses integrate the tilt away while coils damp, and free swings determine the height.",
+        "Bahu and Modenini 2020 and their note of 2022, as far as their abstracts say",
         ("masses", "magnetorquers", "attitude", "gyro"),
-        "the height, to 1 um as the swing of a minute shows it; sideways 0.1 to 0.3 um; sag but "
+        "the height, to 1 um by the swing of a minute; sideways 0.1 to 0.3 um; sag but "
         "for small tilts. Coils brake no turn about the field",
         "hanging; the integral yields to any swing that coils cannot hold. It is as slow as coils "
         "are weak: 7 to 16 min with 0.25 mN m at 14 kg, 11 min to more than 20 with 0.06 mN m",

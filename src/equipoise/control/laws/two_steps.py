@@ -2,28 +2,28 @@
 
     follow   the tilt feedback levels the platform: across gravity it is balanced, nearly
     push     the masses go aside for a second, and back: the platform swings
-    look     masses still; the swing is recorded and the centre of mass estimated from it
-    trim     the masses move along up by what the look says is missing; then again from the start;
-             the last time they level only, and the platform rests
+    measure  masses still; the swing is recorded and the centre of mass estimated from it
+    trim     the masses move along up by the height error of that estimate; then again from the
+             start; the last time they level only, and the platform rests
 
 The push moves the centre of mass by d for PUSH seconds, so that the platform turns at
 
-    w = m g d PUSH / J = SWING tilt_limit / LOOK
+    w = m g d PUSH / J = SWING tilt_limit / MEASURED
 
-and gets at most about SWING of the way to its limit during the look. Before the first step the
-centre of mass is lowered by twice its sd, so that the platform does not stand on its head when the
-masses hold still; so a look ends near where it began, or swings.
+and gets at most about SWING of the way to its limit during the measurement. Before the first step
+the centre of mass is lowered by twice its sd. The platform is then no inverted pendulum while the
+masses hold still, and ends a measurement near where it began, or swings.
 
-Every round begins anew with what the masses report: rh(0) = -shift across up. Published rounds add
-nothing to one another but the smaller height; begun so, each leaves |r_up| / (|r_up| + X) of what
-the last one left. Rounds end when the look finds no more than a motor step, or no gain.
+Every round begins anew with the reported shift: rh(0) = -shift across up. Published rounds gain
+from one another only by the smaller height; begun so, each leaves |r_up| / (|r_up| + X) of the
+offset of the last one. Rounds end when the measurement finds no more than a motor step, or no gain.
 
-From the look only the height is used. The method is ``ukf_4`` (rate and r_up) when com across up
-is known to ACROSS beforehand: it takes that from the testbed, and knows nothing of what the masses
-did about it in the first step. Else it is ``trajectory`` with the testbed's inertia and its sd,
-which finds all of com. The record begins with the push: a known change, by which the scale of J is
-seen. A J that is wrong yet makes r_up wrong by the same share, and the next round takes that away
-but for the share of the target's own depth.
+Only the height of the estimate is used. The method is ``ukf_4`` (rate and r_up) when the prior sd
+of com across up is ACROSS or less: it takes com across up from the testbed and ignores the shift of
+the first step. Else it is ``trajectory`` with the testbed's inertia and its sd, which estimates all
+of com. The record begins with the push: a known change, which determines the scale of J. A
+remaining error of J makes r_up wrong by the same share, and the next round removes that but for the
+share of the target's own depth.
 """
 
 from dataclasses import dataclass, replace
@@ -31,28 +31,11 @@ from typing import Literal
 
 import numpy as np
 
-from equipoise.control.elements.tilt_feedback import (
-    Gains,
-    followed,
-    frequency_for,
-    gains_at,
-    owed,
-    settling,
-    shift_for,
-    swing_of,
-)
+from equipoise.control.elements import tilt_feedback as feedback
+from equipoise.control.law import Sample
+from equipoise.control.plant import offset_bounds as offsets
 from equipoise.control.plant.actuator_limits import greatest_shift, greatest_slew, limited
-from equipoise.control.plant.offset_bounds import (
-    LIKELY,
-    across,
-    around,
-    coarsest_step,
-    height_sd,
-    level_inertia,
-    likely_height,
-)
 from equipoise.control.plant.swing_estimates import of_group
-from equipoise.control.sample import Sample
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
@@ -70,7 +53,7 @@ PUSH = 1.0  # s
 BACK = 10.0  # s, chosen: masses that are not back by then stand still
 MEASURED = 20.0  # s
 SWING = 0.4  # of the tilt limit, chosen
-ACROSS = 2e-6  # m, chosen: com_sd across up at which ukf_4 may be believed
+ACROSS = 2e-6  # m, chosen: com_sd across up at which ukf_4 is used
 LATE = 2.0  # motor steps, chosen: masses farther than that from where they should be are late
 NEAR = 1e-6  # m, chosen: masses without steps are not late when they are as near as that
 GAIN = 0.8  # chosen: a round that leaves more than that of the one before is no gain
@@ -82,14 +65,14 @@ Phase = Literal["follow", "push", "back", "measurement"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What does not change from step to step."""
+    """The constants of a run."""
 
-    gains: Gains
+    gains: feedback.Gains
     measurement: Measurement
     push: float  # m, by which the masses go aside
     follow: int  # steps until the platform rests
     tolerance: float  # m, what a motor step leaves
-    late: float  # m, off what was asked: the masses are on their way
+    late: float  # m, off the request: the masses are on their way
     pay: float  # m, of what is owed, in a step
     target: float  # m, along up
     tilt_limit: float  # rad
@@ -98,26 +81,26 @@ class Params:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """Where the law stands."""
+    """The progress of the law."""
 
-    held: Vector3  # m, rh; of a round that begins, what is believed
+    held: Vector3  # m, rh; of a round that begins, the prior
     height: float  # m, shift along up
     gravity: Vector3 | None = None  # m/s^2, at the last step; None: a round begins
     owed: Vector3 | None = None  # m, what rh has yet to get for the tilt at which the round began
     phase: Phase = "follow"
     step: int = 0  # of the phase
     requested: Vector3 | None = None  # m, shift at the last step
-    rest: Vector3 | None = None  # m, sum of shifts asked in the last second of a follow
+    rest: Vector3 | None = None  # m, sum of shifts requested in the last second of a follow
     level: Vector3 | None = None  # sum of P_up g_b / g then
     since: float = 0.0  # s, when the push began
-    rounds: int = 0  # looks made
-    left: float = np.inf  # m, what the last look found
+    rounds: int = 0  # measurements made
+    left: float = np.inf  # m, the offset that the last measurement found
     ending: tuple[Reason, ...] = ()  # why this follow is the last
 
 
 def method_for(testbed: Testbed) -> Measurement:
-    """Return the look that this testbed allows; InputError if there is none."""
-    spread = across(testbed.up) @ testbed.com_sd
+    """Return the measurement that this testbed allows; InputError if there is none."""
+    spread = offsets.across(testbed.up) @ testbed.com_sd
     if testbed.attitude is None or testbed.gyro is None:
         raise InputError(testbed.name, "no gyro, or no attitude sensor", "both")
     if float(np.linalg.norm(spread)) <= ACROSS:
@@ -127,15 +110,17 @@ def method_for(testbed: Testbed) -> Measurement:
 
 def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Params]:
     """Return state and parameters; ``integral`` is w_i over w_a."""
-    up, quantum, reach = testbed.up, coarsest_step(testbed), greatest_shift(testbed)
-    if float(np.linalg.norm(across(up) @ target)) > LEAST:
+    up, quantum, reach = testbed.up, offsets.coarsest_step(testbed), greatest_shift(testbed)
+    if float(np.linalg.norm(offsets.across(up) @ target)) > LEAST:
         raise InputError(
             "target", "a centre of mass aside of up", "one along up: masses settle there"
         )
-    w = frequency_for(testbed, PERIOD)
-    gains = gains_at(testbed, w, integral * w, PERIOD)
-    slowest = settling(w, integral * w, min(swing_of(testbed, likely_height(testbed)), 0.0))
-    lower = float(up @ (target - testbed.body.com)) - LIKELY * height_sd(testbed)
+    w = feedback.frequency_for(testbed, PERIOD)
+    gains = feedback.gains_at(testbed, w, integral * w, PERIOD)
+    slowest = feedback.settling(
+        w, integral * w, min(feedback.swing_of(testbed, offsets.likely_height(testbed)), 0.0)
+    )
+    lower = float(up @ (target - testbed.body.com)) - offsets.LIKELY * offsets.height_sd(testbed)
     height = float(np.clip(lower, -reach, reach))
     params = Params(
         gains, method_for(testbed), push_for(testbed),
@@ -143,30 +128,26 @@ def begin(testbed: Testbed, target: Vector3, integral: float) -> tuple[State, Pa
         max(LATE * quantum, NEAR), PAY * greatest_slew(testbed) * PERIOD, float(up @ target),
         testbed.tilt_limit,
     )  # fmt: skip
-    return State(across(up) @ testbed.body.com, height), params
+    return State(offsets.across(up) @ testbed.body.com, height), params
 
 
 def push_for(testbed: Testbed) -> float:
     """Return how far (m) the centre of mass goes aside for a swing of the wanted size."""
     rate = SWING * testbed.tilt_limit / MEASURED
-    wanted = rate * level_inertia(testbed) / (testbed.body.mass * testbed.gravity * PUSH)
+    wanted = rate * offsets.level_inertia(testbed) / (testbed.body.mass * testbed.gravity * PUSH)
     return min(wanted, greatest_slew(testbed) * PUSH)
 
 
 def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State, Command]:
-    """Return the next state and what is wanted."""
+    """Return the next state and the command."""
     if isinstance(sample, Estimate):
         return trimmed(state, sample, params)
-    if tilt_of(sample, params.gains) > params.tilt_limit:
+    cosine = -params.gains.up @ sample.gravity / params.gains.gravity
+    if float(np.arccos(np.clip(cosine, -1.0, 1.0))) > params.tilt_limit:
         return state, Command(finished=one_reason(LawReason.TILTED))
     if state.phase == "follow":
         return follow(state, sample, params)
     return swing(state, sample, params)
-
-
-def tilt_of(sample: Sample, gains: Gains) -> float:
-    """Return the tilt, rad."""
-    return float(np.arccos(np.clip(-gains.up @ sample.gravity / gains.gravity, -1.0, 1.0)))
 
 
 def follow(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
@@ -174,15 +155,15 @@ def follow(state: State, sample: Sample, params: Params) -> tuple[State, Command
     gains = params.gains
     held, owing = held_now(state, sample, params)
     upward = state.height * gains.up
-    shift = shift_for(gains, held, sample.gravity, sample.rate) + upward
+    shift = feedback.shift_for(gains, held, sample.gravity, sample.rate) + upward
     paid = float(np.linalg.norm(owing)) < params.tolerance
     count = state.step + 1 if paid else 0
     state = replace(
         state, held=held, gravity=sample.gravity, owed=owing, requested=shift, step=count
     )
     if state.step > params.follow - round(MEAN / PERIOD):
-        still = shift_for(gains, held, sample.gravity, np.zeros(3)) + upward
-        tilt = across(gains.up) @ sample.gravity / gains.gravity
+        still = feedback.shift_for(gains, held, sample.gravity, np.zeros(3)) + upward
+        tilt = offsets.across(gains.up) @ sample.gravity / gains.gravity
         state = replace(state, rest=added(state.rest, still), level=added(state.level, tilt))
     if state.step < params.follow:
         return state, Command(shift=shift)
@@ -199,9 +180,9 @@ def follow(state: State, sample: Sample, params: Params) -> tuple[State, Command
 def held_now(state: State, sample: Sample, params: Params) -> tuple[Vector3, Vector3]:
     """Return rh (m), begun anew at the first sample of a round, and what is still owed (m)."""
     if state.gravity is None or state.requested is None or state.owed is None:
-        return state.held, owed(params.gains, sample.gravity)
+        return state.held, feedback.owed(params.gains, sample.gravity)
     late = float(np.linalg.norm(state.requested - sample.shift)) > params.late
-    held = followed(params.gains, state.held, state.gravity, sample.gravity, late)
+    held = feedback.followed(params.gains, state.held, state.gravity, sample.gravity, late)
     paid = limited(state.owed, params.pay)
     return held + paid, state.owed - paid
 
@@ -212,11 +193,11 @@ def added(total: Vector3 | None, vector: Vector3) -> Vector3:
 
 
 def swing(state: State, sample: Sample, params: Params) -> tuple[State, Command]:
-    """Push, come back, and look."""
+    """Push, come back, and measure."""
     assert state.rest is not None
     count = state.step + 1
     if state.phase == "push":
-        aside = around(params.gains.up)[state.rounds % 2]
+        aside = offsets.around(params.gains.up)[state.rounds % 2]
         ends = count >= round(PUSH / PERIOD)
         state = replace(state, phase="back" if ends else "push", step=0 if ends else count)
         return state, Command(shift=state.rest + params.push * aside)
@@ -229,7 +210,7 @@ def swing(state: State, sample: Sample, params: Params) -> tuple[State, Command]
 
 
 def trimmed(state: State, estimate: Estimate, params: Params) -> tuple[State, Command]:
-    """Move along up by what the look says is missing, or finish."""
+    """Move along up by the height error that was measured, or finish."""
     assert state.rest is not None
     assert state.level is not None
     rounds = state.rounds + 1
@@ -247,13 +228,13 @@ def trimmed(state: State, estimate: Estimate, params: Params) -> tuple[State, Co
     over = why_over(left, replace(state, rounds=rounds), params)
     up = params.gains.up
     ending = (*found, *over, *one_reason(LawReason.LEVEL_AGAIN)) if over else ()
-    held, height = -across(up) @ state.rest, float(up @ state.rest) + missing
+    held, height = -offsets.across(up) @ state.rest, float(up @ state.rest) + missing
     onward = State(held, height, rounds=rounds, left=left, ending=ending)
     return onward, Command(shift=state.rest + missing * up, note=() if over else found)
 
 
 def height_in(estimate: Estimate, up: Vector3) -> float:
-    """Return the centre of mass along up (m), masses at home; some methods tell no more."""
+    """Return the centre of mass along up (m), masses at home; some methods estimate no more."""
     if all(estimate.has(name) for name in COM):
         return float(up @ estimate.com)
     k = int(np.argmax(np.abs(up)))

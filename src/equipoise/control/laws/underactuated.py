@@ -2,36 +2,29 @@
 
 The feedback is that of ``tilt_feedback`` with w_i = 0, the rounds are those of ``two_steps``
 (Chesi 2014; da Silva 2021 Eqs. 39-42; errata R20-R23; Bahu & Modenini 2020 for repeating it). Each
-round leaves |r_up| / (|r_up| + X), X = w_a^2 J / (m g), of what was aside: little once the height
-has been trimmed, and nothing only in the end.
+round leaves |r_up| / (|r_up| + X), X = w_a^2 J / (m g), of the sideways offset: little once the
+height has been trimmed.
 """
+
+from functools import partial
 
 from equipoise.control.law import Law
 from equipoise.control.laws import two_steps
-from equipoise.control.laws.two_steps import PERIOD, Params, State
-from equipoise.model.arrays import Vector3
 from equipoise.model.law_card import LawCard
-from equipoise.model.testbed import Testbed
-
-
-def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
-    """Return state and parameters; InputError where the loop would not be stable."""
-    return two_steps.begin(testbed, target, 0.0)
-
 
 LAW = Law(
     LawCard(
         "underactuated",
-        "Masses level the platform as if they knew its centre of mass; then a swing tells how high "
-        "it is, and they trim that; again until nothing is gained.",
+        "Masses level the platform by an adaptive law; a swing then determines its height, which "
+        "they trim; again until nothing is gained.",
         "Chesi 2014; da Silva 2021 Eqs. 39-42 with errata R20-R23; Bahu & Modenini 2020",
         ("masses", "gyro", "attitude"),
         "each round leaves |r_up| / (|r_up| + w_a^2 J / (m g)) of the offset across up; spin about "
         "up; r_up to the share by which J is wrong, times what the last trim moved",
         "w_a T below 1 (0.1 is used); w_a |r| / v below 1 (0.5 is used, at 2.5 it falls); up to "
         "w_a^2 J / (m g) above P (half is used); spin of 0.2 rad/s",
-        PERIOD,
+        two_steps.PERIOD,
     ),
-    begin,
+    partial(two_steps.begin, integral=0.0),
     two_steps.step,
 )

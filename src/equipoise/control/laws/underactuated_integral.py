@@ -4,8 +4,8 @@
 
 Rest is where P_up g_b = 0: level, so that the centre of mass is under P however low it is. To
 first order the loop has s^3 + 2 zeta w_a s^2 + (w_a^2 + w_z^2) s + w_i w_a^2, stable where
-2 zeta w_a (w_a^2 + w_z^2) > w_i w_a^2 (``tilt_feedback``); ``begin`` asks that of the greatest
-likely height. Not published; the integral stands still while masses are late (anti-windup).
+2 zeta w_a (w_a^2 + w_z^2) > w_i w_a^2 (``tilt_feedback``); ``begin`` requires that of the greatest
+likely height. Not published; the integral stops while masses are late (anti-windup).
 """
 
 from equipoise.control.elements.tilt_feedback import INTEGRAL, frequency_of, routh_margin, swing_of

@@ -1,4 +1,4 @@
-"""What masses can reach, how fast, and how late fine ones are.
+"""How far masses shift the centre of mass, how fast, and how late fine ones are.
 
 The shifts that masses m_i on rails u_i can give are a zonotope, the sum of their rails. The
 largest ball about its centre touches a face, whose normal n is that of two rails:
@@ -16,10 +16,10 @@ from itertools import combinations, permutations
 
 import numpy as np
 
+from equipoise.actuators.sliding_masses import PARALLEL, one_a_direction
 from equipoise.model.arrays import Floats
-from equipoise.model.testbed import SlidingMass, Testbed
+from equipoise.model.testbed import Testbed
 
-PARALLEL = 0.99  # cosine, chosen
 FINER = 2.0  # -, chosen: below this ratio of steps masses are alike
 
 
@@ -46,12 +46,13 @@ def greatest_shift(testbed: Testbed) -> float:
 
 def greatest_slew(testbed: Testbed) -> float:
     """Return how fast (m/s) masses shift the centre of mass, whatever the direction."""
-    fastest = sorted(testbed.masses, key=lambda m: -m.mass * m.speed)
-    alone = list[SlidingMass]()
-    for mass in fastest:
-        if all(abs(float(mass.axis @ other.axis)) < PARALLEL for other in alone):
-            alone.append(mass)
-    return ball(replace(testbed, masses=tuple(alone)), np.array([m.speed for m in alone]))
+    fastest = one_a_direction(sorted(testbed.masses, key=lambda m: -m.mass * m.speed))
+    return ball(replace(testbed, masses=tuple(fastest)), np.array([m.speed for m in fastest]))
+
+
+def fastest_slew(testbed: Testbed) -> float:
+    """Return how fast (m/s) the fastest mass shifts the centre of mass along its rail."""
+    return max([m.mass * m.speed / testbed.body.mass for m in testbed.masses], default=0.0)
 
 
 def filling_time(testbed: Testbed) -> float:

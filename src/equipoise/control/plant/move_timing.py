@@ -4,11 +4,11 @@ A platform swings about where its centre of mass leans it. When masses level it,
 about level, with the amplitude that it has about level at that moment. Along a horizontal axis e,
 with n the vertical in body axes,
 
-    a^2 = (n.e)^2 + ((n x w).e)^2 / w_n^2           n' = n x w: what a body at rest sees turn
+    a^2 = (n.e)^2 + ((n x w).e)^2 / w_n^2           n' = n x w: its derivative in the body
 
 which is nothing for a platform let go from level, once in every swing. Swings along both axes are
-out of step, so each axis has a moment of its own. Watched are WATCH swings; an axis is levelled
-when its a comes NEAR the least of them again, and after PATIENCE swings in any case.
+out of step, so each axis has a moment of its own. The first WATCH swings are observed; an axis is
+levelled when its a comes NEAR the least of them again, and after PATIENCE swings in any case.
 
 (Coupling by products of inertia, and spin, are left out: they make a moment less good.)
 """
@@ -17,13 +17,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.maths.attitude import level, to_matrix
 from equipoise.model.arrays import Floats, Series, Vector3
 
-WATCH = 1.2  # swings, chosen: one, and a part for what was taken for one
+WATCH = 1.2  # swings, chosen: one, and a part for an error of the period
 NEAR = 1.15  # of the least amplitude, chosen: a moment as good
-SMALL = 0.003  # rad, chosen: and what the integral and coils soon take
+SMALL = 0.003  # rad, chosen: an amplitude that integral and coils soon remove
 PATIENCE = 2.5  # swings, chosen
 
 
@@ -43,7 +43,7 @@ def across(up: Vector3) -> Series:
 
 
 def amplitudes(sample: Sample, up: Vector3, swing: float) -> Floats:
-    """Return what the swings along both axes would be about level, (2,) rad."""
+    """Return the amplitudes of the swings along both axes about level, (2,) rad."""
     n = -sample.gravity / float(np.linalg.norm(sample.gravity))
     return np.hypot(across(up) @ n, across(up) @ np.cross(n, sample.rate) / swing)
 
@@ -51,7 +51,7 @@ def amplitudes(sample: Sample, up: Vector3, swing: float) -> Floats:
 def watched(
     waiting: Waiting, sample: Sample, up: Vector3, shift: Vector3
 ) -> tuple[Waiting, Vector3]:
-    """Return what is remembered, and the shift to ask for (m), ``shift`` being the last."""
+    """Return the wait after a sample, and the shift to request (m), ``shift`` being the last."""
     since = sample.t if waiting.since is None else waiting.since
     swings = (sample.t - since) * waiting.swing / (2 * np.pi)
     requested, least, done = shift, list(waiting.least), list(waiting.done)

@@ -1,4 +1,4 @@
-"""What a testbed says beforehand that loops which level a platform need: offsets, moments, steps.
+"""Bounds from a testbed's nominal values, for loops that level it: offsets, moments, steps.
 
 With P = E - up up^T and J about P, masses at home, LIKELY sd to be safe:
 
@@ -16,10 +16,12 @@ from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 
 LIKELY = 2.0  # sd, chosen: few offsets exceed it
+MOST = 1.0  # rad/s, chosen: above it a gyro's noise moves the masses more than the tilt does
+SAMPLED = 0.2  # rad, chosen: frequency times period, of at most 1
 
 
 def across(up: Vector3) -> Matrix3:
-    """Return what takes the part along ``up`` from a vector: E - up up^T."""
+    """Return the projection across ``up``: E - up up^T."""
     return np.eye(3) - np.outer(up, up)
 
 
@@ -31,7 +33,7 @@ def around(up: Vector3) -> Floats:
 
 
 def likely_offset(testbed: Testbed) -> float:
-    """Return how far (m) the centre of mass may well be off sideways, masses at home."""
+    """Return the likely sideways offset (m) of the centre of mass, masses at home."""
     P = across(testbed.up)
     return float(np.linalg.norm(P @ testbed.body.com) + LIKELY * np.linalg.norm(P @ testbed.com_sd))
 
@@ -42,7 +44,7 @@ def height_sd(testbed: Testbed) -> float:
 
 
 def likely_height(testbed: Testbed) -> float:
-    """Return how far (m) the centre of mass may well be above P, masses at home."""
+    """Return the likely height (m) of the centre of mass above P, masses at home."""
     return float(testbed.up @ testbed.body.com) + LIKELY * height_sd(testbed)
 
 
@@ -67,8 +69,14 @@ def within_reach(testbed: Testbed) -> None:
         )
 
 
-def refuse_unless_below(testbed: Testbed, least: float, most: float) -> None:
-    """Raise InputError where a loop's frequencies (rad/s) leave no band between them."""
+def greatest_frequency(testbed: Testbed, least: float, share: float, period: float) -> float:
+    """Return the greatest frequency (rad/s) of a loop with w |r| / v up to ``share``.
+
+    InputError where the masses may not reach over the offset, or where that is below ``least``.
+    """
+    within_reach(testbed)
+    offset = max(likely_offset(testbed), 1e-12)
+    most = min(MOST, SAMPLED / period, share * greatest_slew(testbed) / offset)
     if least > most:
         raise InputError(
             testbed.name,
@@ -77,10 +85,11 @@ def refuse_unless_below(testbed: Testbed, least: float, most: float) -> None:
             f"{most:.2g} rad/s, for masses and samples: a coarse balance first, faster or heavier "
             "masses, or a firmer com_sd",
         )
+    return most
 
 
 def about_masses(testbed: Testbed) -> str:
-    """Return the likely offset and what masses can do about it, in words."""
+    """Return the likely offset and the reach of the masses, in words."""
     return (
         f"a centre of mass that may be {likely_offset(testbed) / UM:.3g} um off sideways, and "
         f"masses that shift it by {greatest_slew(testbed) / UM:.3g} um/s and "

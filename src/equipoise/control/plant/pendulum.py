@@ -1,4 +1,4 @@
-"""A platform that hangs from its bearing, as a law that moves masses sees it.
+"""A platform that hangs from its bearing, as the plant of a law that moves masses.
 
 With u the body axis that points up when level and n = -g_B / g the vertical in body axes,
 
@@ -15,25 +15,26 @@ degrees of the swing, and a proportional part that is late drives it. Through a 
 demand has the greatest slope |w0 (p theta + d rate) + j (p rate - d w0^2 theta)|; it is scaled down
 to what masses can follow, in phase with the swing (``spared``).
 
-It hangs where r.u < 0. Masses first lower the centre of mass so far that it surely does, by the
-testbed's guess and its sd, and so far that what is left sideways tilts it by a part of the limit
-only. Sees nothing of a rotation about the vertical: a yaw rate far below w0 is taken for granted.
+It hangs where r.u < 0. Masses first lower the centre of mass until the nominal one is SURE sds
+below P, and until the sideways offset tilts the platform by a part of the limit only. Rotation
+about the vertical is not modelled: the yaw rate is assumed to be far below w0.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.control.law import Sample
 from equipoise.control.plant.actuator_limits import filling_time, greatest_shift, greatest_slew
 from equipoise.control.plant.swing_estimates import of_group
-from equipoise.control.sample import Sample
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.arrays import Floats, Series, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import UM
 
 SURE = 3.0  # sds of the height, chosen
-LIKELY = 2.0  # sds of what is left sideways, chosen
+LIKELY = 2.0  # sds of the sideways offset, chosen
 SHARE = 0.7  # of the tilt limit, chosen: where it then rests; let go level it swings to twice that
 SPARE = 0.7  # chosen: of the masses' speed for tilt and rate; the rest is the integral's
 ALONG = 0.5  # cosine, chosen: a rail nearer than 60 degrees counts for an axis
@@ -41,7 +42,7 @@ SHALLOWEST = 1e-4  # m, chosen: a swing of half a minute
 
 
 class Hanging(NamedTuple):
-    """The platform about two horizontal body axes, as guessed beforehand."""
+    """The platform about two horizontal body axes, by its nominal values."""
 
     up: Vector3  # unit vector u
     axes: Series  # (2, 3) horizontal unit vectors
@@ -52,23 +53,14 @@ class Hanging(NamedTuple):
     slew: float  # m/s, of a shift by the masses
     reach: float  # m
     step: float  # m, the finest that masses can shift it sideways
-    delay: float  # s, of what is seen
+    delay: float  # s, of the sensors
     filling: float  # s, that fine masses take over half a step of coarse ones
-    still: tuple[str, ...] = ()  # torques that a look takes for none: drift
+    still: tuple[str, ...] = ()  # torques that a measurement holds at none: drift
 
     @property
     def frequency(self) -> Floats:
         """The swing's w0 about both axes, rad/s."""
         return np.sqrt(self.gain * self.depth)
-
-
-def level_axes(up: Vector3) -> Series:
-    """Return two body axes that are horizontal when level, as rows; x and y for up = z."""
-    nearest: Vector3 = np.eye(3)[int(np.argmin(np.abs(up) + [0.0, 1e-9, 2e-9]))]
-    first: Vector3 = nearest - up * float(up @ nearest)
-    first = first / float(np.linalg.norm(first))
-    second: Vector3 = np.cross(up, first)
-    return np.vstack([first, second])
 
 
 def tilt_of(plant: Hanging, sample: Sample) -> Floats:
@@ -116,7 +108,7 @@ def finest_step(testbed: Testbed, axes: Series) -> float:
 
 
 def wanted_depth(testbed: Testbed) -> float:
-    """Return how deep (m) the centre of mass is to hang by the guess."""
+    """Return how deep (m) the nominal centre of mass is to hang."""
     up, sd = testbed.up, testbed.com_sd
     sideways: Vector3 = testbed.body.com - up * (up @ testbed.body.com)
     off = float(np.linalg.norm(sideways)) + LIKELY * float(np.linalg.norm(sd - up * (up @ sd)))
@@ -132,7 +124,7 @@ def hanging(testbed: Testbed) -> Hanging:
     if reach < -lowered or reach == 0:
         wanted = f"masses that shift it by {(depth + height) / UM:.3g} um, whatever the direction"
         raise InputError("balancing law", f"masses that shift it by {reach / UM:.3g} um", wanted)
-    axes = level_axes(up)
+    axes = axes_across(up)
     moments = np.einsum("ij,jk,ik->i", axes, body.inertia_P, axes)
     return Hanging(
         up, axes, body.mass * testbed.gravity / moments, -height - lowered, lowered,

@@ -1,14 +1,14 @@
-"""Has a loop come to rest? Means over a while, and how long they have been small.
+"""Whether masses and loop have come to rest.
 
-With f = h / T of a step h,
+Masses stand from the first sample on in which their shift no longer changes (``standing``). A loop
+is judged by exponential means, with f = h / T for a step h:
 
     m += f (x - m),     mean of tilt, of rate and of the shift s that the masses report
     M += f (m - M),     mean of the mean shift
 
-The loop is quiet where the mean tilt, the mean rate and m - M of the shift all stay within bounds;
-``since`` is when that began. The mean shift is what balances the platform; noise that the loop
-passes on to the masses is not in it.
-Tilt times depth is the offset that is left: a bound on it is the same on every platform.
+It is quiet while the mean tilt, the mean rate and m - M of the shift all stay within bounds, from
+``since`` on. The mean shift balances the platform, free of the noise that the loop passes on to the
+masses. Tilt times depth is the remaining offset: a bound on it is the same on every platform.
 """
 
 from dataclasses import dataclass, field, replace
@@ -16,23 +16,44 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.control.plant.pendulum import Hanging
+from equipoise.control.law import Sample
+from equipoise.control.plant.pendulum import Hanging, rate_of, tilt_of
 from equipoise.model.arrays import Floats, Vector3
+
+PERIOD = 0.25  # s, chosen: the step h, a fiftieth of a swing
+STANDS = 1e-10  # m, chosen: masses that shift the centre of mass by less stand
+MEMORY = 0.5  # swings, chosen: T, and the time for which all must stay within the bounds
+LEVEL = 1e-7  # m, chosen: an offset that counts as none, 1.4e-5 N m for 14 kg
+
+
+class Stand(NamedTuple):
+    """The last reported shift by the masses, and since when they stand."""
+
+    shift: Vector3 | None = None  # m; None: not reported yet
+    since: float = 0.0  # s
+
+
+UNREPORTED = Stand()
+
+
+def standing(before: Stand, sample: Sample) -> Stand:
+    """Return how the masses stand after a sample."""
+    still = before.shift is not None and np.linalg.norm(sample.shift - before.shift) <= STANDS
+    return Stand(sample.shift, before.since if still else sample.t)
 
 
 class Bounds(NamedTuple):
-    """What is quiet."""
+    """The bounds within which a loop counts as quiet."""
 
     tilt: float  # rad
     rate: float  # rad/s
     shift: float  # m
-    memory: float  # s, T of the means
-    hold: float  # s, for which all must stay within the bounds
+    memory: float  # s, T of the means, and for how long all must stay within the bounds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rest:
-    """The means so far."""
+    """The present means."""
 
     tilt: Floats = field(default_factory=lambda: np.full(2, np.inf))  # rad
     rate: Floats = field(default_factory=lambda: np.full(2, np.inf))  # rad/s
@@ -41,58 +62,52 @@ class Rest:
     since: float = np.inf  # s
 
 
-class Sums(NamedTuple):
-    """What goes into the means."""
-
-    t: float  # s
-    tilt: Floats
-    rate: Floats
-    shift: Vector3
-
-
-def bounds(plant: Hanging, offset: float, swings: float) -> Bounds:
-    """Return what is quiet where an offset (m) counts as none."""
+def bounds(plant: Hanging, offset: float) -> Bounds:
+    """Return the bounds for an offset (m) that counts as none."""
     tilt, w = offset / plant.depth, float(plant.frequency.min())
-    return Bounds(tilt, tilt * w, offset, swings * 2 * np.pi / w, swings * 2 * np.pi / w)
+    return Bounds(tilt, tilt * w, offset, MEMORY * 2 * np.pi / w)
+
+
+def finest_bounds(plant: Hanging) -> Bounds:
+    """Return the bounds for LEVEL, or for two steps of the masses where these are longer."""
+    return bounds(plant, max(LEVEL, 2 * plant.step))
 
 
 def at_depth(bounds: Bounds, before: float, now: float) -> Bounds:
-    """Return bounds for a depth (m) for a platform that now hangs at another: the offset is alike.
+    """Return the bounds for the same offset at another depth (m).
 
-    The same offset tilts a platform that hangs at half the depth twice as far.
+    An offset tilts a platform that hangs at half the depth twice as far.
     """
     share = before / now
     return bounds._replace(tilt=bounds.tilt * share, rate=bounds.rate * share**0.5)
 
 
-def settle(rest: Rest, now: Sums, step: float, bounds: Bounds, aim: Floats | None = None) -> Rest:
-    """Return the means after another step (s); ``aim`` is the tilt (rad) sought.
+def settle(rest: Rest, sample: Sample, plant: Hanging, bounds: Bounds, *, level: bool) -> Rest:
+    """Return the means after another step; ``level``: the platform should come to rest level.
 
-    Without one, any tilt will do, and any rate that goes with it: a tilted platform that turns
-    about the vertical does so at a steady rate in body axes. What swings about the means counts.
+    Otherwise any tilt is accepted with its rate: a tilted platform that turns about the vertical
+    has a steady rate in body axes. Only deviations from the means count then.
     """
+    tilt, rate = tilt_of(plant, sample), rate_of(plant, sample)
     if not np.isfinite(rest.tilt[0]):
-        return Rest(now.tilt, now.rate, now.shift, now.shift)
-    share = step / bounds.memory
+        return Rest(tilt, rate, sample.shift, sample.shift)
+    share = PERIOD / bounds.memory
     mean = replace(
         rest,
-        tilt=rest.tilt + share * (now.tilt - rest.tilt),
-        rate=rest.rate + share * (now.rate - rest.rate),
-        shift=rest.shift + share * (now.shift - rest.shift),
+        tilt=rest.tilt + share * (tilt - rest.tilt),
+        rate=rest.rate + share * (rate - rest.rate),
+        shift=rest.shift + share * (sample.shift - rest.shift),
         before=rest.before + share * (rest.shift - rest.before),
     )
-    if aim is None:
-        off, turning = now.tilt - mean.tilt, now.rate - mean.rate
-    else:
-        off, turning = mean.tilt - aim, mean.rate
+    off, turning = (mean.tilt, mean.rate) if level else (tilt - mean.tilt, rate - mean.rate)
     still = (
         float(np.linalg.norm(off)) <= bounds.tilt
         and float(np.linalg.norm(turning)) <= bounds.rate
         and float(np.linalg.norm(mean.shift - mean.before)) <= bounds.shift
     )
-    return replace(mean, since=min(rest.since, now.t) if still else np.inf)
+    return replace(mean, since=min(rest.since, sample.t) if still else np.inf)
 
 
 def is_quiet(rest: Rest, t: float, bounds: Bounds) -> bool:
     """Say whether all has been within the bounds for long enough."""
-    return t - rest.since >= bounds.hold
+    return t - rest.since >= bounds.memory

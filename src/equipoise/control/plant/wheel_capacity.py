@@ -1,15 +1,15 @@
-"""How much torque and momentum wheels and gyros can give, whichever way it is asked for.
+"""The torque and momentum that wheels and gyros can give in every direction.
 
-A set of boxes along axes a_k reaches sum_k |a_k.d| b_k in direction d; the least over d is what can
-be had in every direction:
+A set of boxes along axes a_k reaches sum_k |a_k.d| b_k in direction d. The least over d is
+available in every direction:
 
     wheel    a_k its axis,             b_k greatest torque, and inertia times greatest speed
     gyro     a_k = g x s at angle 0,   b_k momentum times greatest rate
              momentum (E - g g^T) d, of length sqrt(1 - (g.d)^2) times the rotor's
 
 For boxes the least is at right angles to two of the axes; directions about three degrees apart are
-looked at beside these, for the momentum of gyros.
-A gyro's is for its angle at the start; gyros in a singularity give less.
+evaluated beside these, for the momentum of gyros. A gyro's torque is that at its initial angle;
+gyros in a singularity give less.
 """
 
 from itertools import combinations
@@ -25,7 +25,7 @@ FLAT = 1e-3  # chosen: axes whose least singular value is smaller lie in a plane
 
 
 class Capacity(NamedTuple):
-    """What can be had in every direction."""
+    """The torque and momentum available in every direction."""
 
     torque: float  # N m
     momentum: float  # N m s

@@ -19,8 +19,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from equipoise.actuators.drive_errors import across, drive_names
+from equipoise.actuators.drive_errors import drive_names
 from equipoise.actuators.lost_motion import directions
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.arrays import Floats, Ints, Series1, Vector3
 from equipoise.model.estimate import Estimate, Parameter
 from equipoise.model.recording import Recording
@@ -72,14 +73,14 @@ def drives_of(
 def pull(drive: Drive, x: Floats) -> Vector3:
     """Return k, body axes."""
     g, v, w = (x[c] if c >= 0 else 0.0 for c in drive.columns[:3])
-    across_1, across_2 = across(drive.rail)
+    across_1, across_2 = axes_across(drive.rail)
     k: Vector3 = (1.0 + g) * drive.rail + v * across_1 + w * across_2
     return k
 
 
 def of_drive(drive: Drive, x: Floats) -> Floats:
     """Return gain, product, axis (3), across (2), backlash, (8,), SI, by the fit's parameters."""
-    k, u, (v, w) = pull(drive, x), drive.mass.axis, across(drive.mass.axis)
+    k, u, (v, w) = pull(drive, x), drive.mass.axis, axes_across(drive.mass.axis)
     size, b = np.sqrt(k @ k), drive.columns[3]
     gain = drive.mass.gain * (1.0 if drive.trusted else size)
     off = np.arctan2([k @ v, k @ w], k @ u)

@@ -9,7 +9,7 @@ that it begins in. So
     3. and when each has had its share of the trials, the best of those that have not settled
        goes on.
 
-The same seed finds the same. Cannot say that there is nothing better elsewhere.
+The same seed finds the same. There may be a better minimum elsewhere.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,7 +23,7 @@ from equipoise.model.arrays import Floats
 
 SIDE_BY_SIDE = 4  # chosen: of the best first choices, the best is seldom the one that ends best
 SHARE = 0.1  # of all trials, chosen: for each before the best goes on
-WIDTH = 0.08  # chosen: sd of first steps; at 0.2 what is good of a first choice was lost
+WIDTH = 0.08  # chosen: sd of first steps; at 0.2 the merit of a first choice was lost
 
 
 class Tried(NamedTuple):
@@ -69,7 +69,7 @@ def least(
     seed: int,
     on_progress: Callable[[float], None],
 ) -> Floats:
-    """Return the best numbers found; ``on_progress`` hears what share of the trials is done."""
+    """Return the best numbers found; ``on_progress`` receives the completed share of the trials."""
     tried: list[Tried] = []
     for numbers in first:
         tried.append(Tried(worth(numbers), numbers))

@@ -1,13 +1,13 @@
-"""How much is known of what is asked for, as one number, the less the better.
+"""The uncertainty of the requested parameters as one number, the less the better.
 
     A    1/2 ln mean_i (sd_i / size_i)^2        the average
     D    1/2n ln det(D C D), D = 1 / size       the volume
 
-Sizes are an error that is worth the same trouble in each: 1 % of a moment (of the geometric mean of
-two for a product), and 1 um of the centre of mass.
+Sizes are errors of equal weight: 1 % of a moment (of the geometric mean of two for a product), and
+1 um of the centre of mass.
 
-A gets the worst parameter right first; D does not depend on the sizes, and may leave one parameter
-badly known for the sake of the rest.
+A reduces the worst parameter first; D does not depend on the sizes, and may leave one parameter
+uncertain for the sake of the rest.
 """
 
 from typing import Literal
@@ -22,7 +22,7 @@ from equipoise.model.mass_properties import MassProperties
 Criterion = Literal["A", "D"]
 Quantity = Literal["J", "r", "both"]
 NAMES: dict[Quantity, tuple[str, ...]] = {"J": INERTIA, "r": COM, "both": (*INERTIA, *COM)}
-OF_MOMENT, OF_COM = 0.01, 1e-6  # -, m, chosen: what laboratories ask for
+OF_MOMENT, OF_COM = 0.01, 1e-6  # -, m, chosen: as laboratories require
 
 
 def sizes(body: MassProperties) -> Floats:

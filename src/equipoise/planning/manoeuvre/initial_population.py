@@ -1,4 +1,4 @@
-"""Where a search for a manoeuvre begins: choices of a kind that has told much before.
+"""Where a search for a manoeuvre begins: choices of a kind that gave much information before.
 
     start      tilted by some part of the limit in any direction, with some sway and spin
     masses     on level rails near home, those of each move near those of the last
@@ -33,7 +33,7 @@ def first_choices(space: Space, count: int, rng: np.random.Generator) -> list[Fl
 
 
 def likely(space: Space, rng: np.random.Generator) -> Floats:
-    """Return a choice of the kind that has told much before."""
+    """Return a choice of the kind that gave much information before."""
     angle, tilt = rng.uniform(0.0, 2 * np.pi), rng.uniform(*TILTED)
     lean = tilt * np.array([np.cos(angle), np.sin(angle)])
     push = rng.uniform(-1.0, 1.0, 3) * [SWAYED, SWAYED, SPUN]

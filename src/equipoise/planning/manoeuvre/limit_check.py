@@ -30,14 +30,14 @@ DENSE_CAMERA, DENSE_GYRO = 5.0, 10.0  # Hz, chosen: a swing of some 10 s is well
 
 
 class Peaks(NamedTuple):
-    """How far a motion goes."""
+    """The peaks of a motion."""
 
     tilt: float  # rad
     rate: float  # rad/s
 
 
 def for_search(testbed: Testbed) -> Testbed:
-    """Return the testbed with sensors that tell as much in fewer rows, and drives that are stiff.
+    """Return the testbed with sensors of equal information in fewer rows, and with stiff drives.
 
     N rows of noise s, while nothing changes, are as good as one row of noise s / sqrt(N).
     """
@@ -51,7 +51,7 @@ def for_search(testbed: Testbed) -> Testbed:
 
 
 def thinned(sensor: S, rate: float) -> S:
-    """Return a sensor of a lower rate (Hz) that tells as much."""
+    """Return a sensor of a lower rate (Hz) with equal information."""
     if sensor.rate <= rate:
         return sensor
     return replace(sensor, rate=rate, noise=sensor.noise * float(np.sqrt(rate / sensor.rate)))
@@ -98,7 +98,7 @@ def true_body(point: Unknowns, scenario: Scenario) -> Unknowns:
 
 
 def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:
-    """Return how far one platform goes."""
+    """Return the peaks of one platform."""
     problem = tried.problem
     body = truth.body(problem.mass)
     rigid = body_of(body.mass, problem.gravity, pack_symmetric(body.inertia_P), body.first_moment)
@@ -108,6 +108,6 @@ def peaks(tried: Rehearsal, truth: Unknowns) -> Peaks:
 
 
 def covariance_of(tried: Rehearsal, truth: Unknowns, known: Known | None) -> Square:
-    """Return the covariance of all unknowns; what is not seen is as wide as the fit's anchor."""
+    """Return the covariance of all unknowns; unobservable ones are as wide as the fit's anchor."""
     normal = informed(tried.problem, truth, known).at.normal
     return inverse_where(normal, ~tried.problem.prior.held)

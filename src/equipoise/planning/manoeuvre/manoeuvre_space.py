@@ -2,7 +2,7 @@
 
     lean of the start x, y     within a circle of the tilt limit
     rate of the start          spin about the axis that points up, sway about the level ones
-    a time for each move       in order, the last early enough to arrive and to look afterwards
+    a time for each move       in order, the last early enough to arrive and to swing afterwards
     where masses go            one share of the travel, or of what is in time, for each kind of
                                rail and each move
     waves                      amplitude and period for each wheel or gyro
@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench_requests import in_steps
 from equipoise.model.devices import ControlMomentGyro, ReactionWheel
@@ -25,7 +26,7 @@ from equipoise.model.units import DEG
 
 TILT_STEP, SIDE_STEP, RATE_STEP = 0.5 * DEG, 5 * DEG, 0.1 * DEG  # chosen: what a person reads
 SWAY = 1.0 * DEG  # rad/s, chosen: a greater push sideways does what a greater tilt does
-EARLY, LATE = 2.0, 0.9  # s, share of the time, chosen: a swing is to be seen before and after
+EARLY, LATE = 2.0, 0.9  # s, share of the time, chosen: a swing is recorded before and after
 MOST_MOMENTUM = 0.8  # of a wheel's, chosen: leaves room for what it holds against
 MOST_GIMBAL = 60 * DEG  # chosen: a gyro that has turned further gives less and less torque
 SHORTEST = 8.0  # s, of a wave, chosen: ten times the lag of a slow wheel
@@ -35,7 +36,7 @@ LEVEL = 0.5  # sine of a slope, chosen: rails that are less steep count as level
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Space:
-    """What may be chosen."""
+    """The testbed, and the limits of a choice."""
 
     testbed: Testbed
     duration: float  # s
@@ -106,21 +107,12 @@ def range_of(space: Space, mass: SlidingMass) -> tuple[float, float]:
     return max(low, now - aside), min(high, now + aside)
 
 
-def level_axes(up: Vector3) -> tuple[Vector3, Vector3]:
-    """Return two axes of the body that are level when it stands, nearest to its own."""
-    axis = np.eye(3)[int(np.argmin(np.abs(up)))]
-    aside: Vector3 = axis - float(axis @ up) * up
-    first: Vector3 = aside / float(np.linalg.norm(aside))
-    second: Vector3 = np.cross(up, first).astype(np.float64)
-    return first, second
-
-
 def lean_of(space: Space, two: Floats) -> tuple[float, Vector3]:
     """Return tilt (rad) and low side of two numbers: a disc, so that no direction is preferred."""
     x, y = (2 * float(number) - 1 for number in two)
     tilt = min(float(np.hypot(x, y)), 1.0) * space.tilt_limit
     angle = SIDE_STEP * round(float(np.arctan2(y, x)) / SIDE_STEP)
-    first, second = level_axes(space.testbed.up)
+    first, second = axes_across(space.testbed.up)
     return TILT_STEP * round(tilt / TILT_STEP), np.cos(angle) * first + np.sin(angle) * second
 
 
@@ -128,7 +120,7 @@ def rate_of(space: Space, three: Floats) -> Vector3:
     """Return the rate (rad/s) of three numbers: sway, sway, spin."""
     limits = np.array([SWAY, SWAY, space.rate_limit])
     sway_1, sway_2, spin = RATE_STEP * np.round((2 * three - 1) * limits / RATE_STEP)
-    first, second = level_axes(space.testbed.up)
+    first, second = axes_across(space.testbed.up)
     return sway_1 * first + sway_2 * second + spin * space.testbed.up
 
 

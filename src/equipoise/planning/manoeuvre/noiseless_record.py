@@ -1,8 +1,8 @@
-"""What a manoeuvre would look like to the testbed's sensors, had they no noise.
+"""The record of a manoeuvre by the testbed's sensors, without noise.
 
 The motion is that of the one propagator, masses travelling as the bench's do, devices following
-their waves. Rows come at the sensors' own times; masses stop where they are told, the camera
-stands level and the gyro has no bias, as an estimator expects them beforehand.
+their waves. Rows come at the sensors' own times; masses stop where commanded, the camera stands
+level and the gyro has no bias, as in an estimator's priors.
 
 Torques other than gravity's and the devices' are zero.
 """
@@ -45,7 +45,7 @@ class Imagined(NamedTuple):
 
 
 def mass_track(testbed: Testbed, manoeuvre: Manoeuvre) -> Samples | None:
-    """Return what would be reported of the masses (m); InputError or MoveRefused as at a bench."""
+    """Return the reports of the masses (m); InputError or MoveRefused as at a bench."""
     masses = testbed.masses
     if not masses:
         return None
@@ -60,7 +60,7 @@ def mass_track(testbed: Testbed, manoeuvre: Manoeuvre) -> Samples | None:
 
 
 def device_rows(testbed: Testbed, manoeuvre: Manoeuvre, t: Series1) -> Samples | None:
-    """Return what wheels and gyros would report at times (s) without noise; others stand at 0."""
+    """Return the noiseless reports of wheels and gyros at times (s); others stand at 0."""
     if not (testbed.wheels or testbed.cmgs):
         return None
     devices = started(testbed)
@@ -77,7 +77,7 @@ def row_times(sensor: Sensor | None, duration: float) -> Series1:
 
 
 def known_side(testbed: Testbed, manoeuvre: Manoeuvre) -> Recording:
-    """Return a recording with what is told of masses and devices, and no rows of sensors."""
+    """Return a recording with the reports of masses and devices, and no rows of sensors."""
     sensor = testbed.gyro or testbed.attitude
     devices = device_rows(testbed, manoeuvre, row_times(sensor, manoeuvre.duration))
     names = tuple(recorded_name(device) for device in testbed.devices)

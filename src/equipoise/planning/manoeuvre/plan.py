@@ -1,17 +1,18 @@
-"""Plan: the manoeuvre that tells most of what is asked for, whatever platform it is.
+"""Plan: the manoeuvre that determines the requested parameters best, over likely platforms.
 
     minimise  score(mean_k C_k) + STIFF (excess of tilt and rate over their limits)
 
-over ``choices``, C_k being the covariance of what is asked for and k platforms that may be there,
-let go by a hand that errs (``scenario``), by ``evolution``. The same seed finds the same plan.
+over the choices of ``manoeuvre_space``, C_k being the covariance of the requested parameters and k
+platforms that may be there, let go by a hand that errs (``scenario``), by ``cma_es``. The same seed
+finds the same plan.
 
 A limit is to be kept by mean + ``SIGMAS`` sd of the logarithm of the peaks of many more such
-platforms: a search finds the gaps between those that it is told of, and only a margin keeps the
+platforms: a search finds the gaps between the platforms that it uses, and only a margin keeps the
 others within. Peaks have a longer tail than a normal distribution, also of their logarithm:
 ``promise`` counts how many platforms keep the limit.
 
-Finds a good manoeuvre, not the best: with another seed the worst parameter was told a tenth better
-or worse. Cannot see what ``predicted`` cannot see.
+It finds a good manoeuvre, not the best: with another seed the sd of the worst parameter changed by
+a tenth. The limits of ``predicted_information`` apply.
 """
 
 from collections.abc import Callable, Sequence
@@ -39,20 +40,20 @@ from equipoise.planning.manoeuvre.manoeuvre_space import Space, chosen
 from equipoise.planning.manoeuvre.predicted_information import Known
 from equipoise.planning.manoeuvre.scenario import Prior, Scenario, scenarios
 
-SIGMAS = 4.0  # chosen: peaks of platforms not seen have a longer tail; with 3, 2 % of them passed
+SIGMAS = 4.0  # chosen: peaks of other platforms have a longer tail; with 3, 2 % of them passed
 STIFF = 30.0  # chosen: a thirtieth beyond a limit costs as much as sd that are e times as wide
 HOPELESS = 1.0  # chosen: an excess at which nothing else counts
-NOTHING = 20.0  # chosen: worse than any score, for what leaves the scale open
-SCENARIOS = 24  # chosen: with six, other platforms were told a half worse than these
-FIRST, GUARDED = 24, 96  # chosen: platforms whose peaks are looked at, the others if these keep to
+NOTHING = 20.0  # chosen: worse than any score, for a manoeuvre that leaves the scale open
+SCENARIOS = 24  # chosen: with six, the sd of other platforms was half as large again
+FIRST, GUARDED = 24, 96  # chosen: platforms whose peaks are computed, the others if these keep to
 # the limits; with 24 alone, 6 % of other platforms passed them
-FIRST_TRIED = 0.15  # of all trials, chosen: most pass the limits, which is soon seen
+FIRST_TRIED = 0.15  # of all trials, chosen: most pass the limits, which is soon computed
 TRIALS = 2400  # chosen: some two minutes for sputnix on one core of its own
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Wish:
-    """What is asked for, and what is known."""
+    """The requested parameters, the model and the priors."""
 
     requested: Quantity
     criterion: Criterion
@@ -63,7 +64,7 @@ class Wish:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Search:
-    """What does not change while manoeuvres are tried."""
+    """The constants of a search."""
 
     space: Space
     testbed: Testbed  # as for a search
@@ -73,7 +74,7 @@ class Search:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Return what is asked for, by name; what is held is not sought."""
+        """Return the requested parameters by name, without those that are held."""
         return tuple(n for n in NAMES[self.wish.requested] if n not in self.wish.params.hold)
 
 
@@ -104,7 +105,7 @@ def excess_of(search: Search, tried: Rehearsal) -> float:
 
 
 def merit(search: Search, manoeuvre: Manoeuvre) -> float:
-    """Return what is to be small of a manoeuvre."""
+    """Return the cost of a manoeuvre."""
     wish, names = search.wish, search.names
     expected = search.scenarios[0]
     tried = rehearsal(search.testbed, expected, manoeuvre, wish.params, wish.known)
@@ -120,18 +121,14 @@ def merit(search: Search, manoeuvre: Manoeuvre) -> float:
     return score(np.mean(each, axis=0), size, wish.criterion) + STIFF * beyond
 
 
-def silent(done: float) -> None:
-    """Hear how far a search is, and say nothing."""
-
-
 def planned(
     space: Space,
     wish: Wish,
     seed: int,
     trials: int = TRIALS,
-    on_progress: Callable[[float], None] = silent,
+    on_progress: Callable[[float], None] = lambda done: None,
 ) -> Manoeuvre:
-    """Return the best manoeuvre found; ``on_progress`` hears what share of the search is done."""
+    """Return the best manoeuvre found; ``on_progress`` receives the completed share."""
     search = search_for(space, wish, seed)
     first = first_choices(space, max(int(FIRST_TRIED * trials), 1), np.random.default_rng(seed))
 

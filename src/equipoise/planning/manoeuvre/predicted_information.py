@@ -1,15 +1,15 @@
-"""How well a manoeuvre will tell a body: the information of its recording, before there is one.
+"""How well a manoeuvre determines a body: the predicted information of its recording.
 
-    covariance = (sum S_k^T S_k / sd_k^2 + priors + what is known already)^-1
+    covariance = (sum S_k^T S_k / sd_k^2 + priors + information of earlier recordings)^-1
 
-at the true point of a noiseless recording (``noiseless_record``). Problem, information and what is
-not seen are those of a trajectory fit and of ``fisher_information``, of a recording that has to be
-fitted first: unknown attitude and rate at the start, where masses stop and how late and how far
-they hang, the camera's vertical and the gyro's zero count alike.
+at the true point of a noiseless recording (``noiseless_record``). Problem, information and
+unobservable directions are those of a trajectory fit and of ``fisher_information``, of a recording
+that has to be fitted first. Attitude and rate at the start, stops, lags and sags of masses, the
+camera's vertical and the gyro's bias are unknowns alike.
 
 It is the least that any unbiased method reaches when the model holds and the noise is white. A
-torque that wanders, a touch, a term that the record asks for and the testbed does not: all of that
-makes what is found worse, and cannot be seen here.
+torque that wanders, a contact, or a term that the record needs and the testbed does not state makes
+the estimate worse, and is not included here.
 """
 
 from dataclasses import dataclass, replace
@@ -18,7 +18,6 @@ import numpy as np
 
 from equipoise.dynamics.regressor import N_TORQUES
 from equipoise.estimation.information.information_matrix import bound_at, ended_at
-from equipoise.estimation.information.reference_motion import Followed
 from equipoise.estimation.output_error.free_vertical import with_free_vertical
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted
@@ -37,7 +36,7 @@ from equipoise.sensors.camera import N_SENSOR
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Known:
-    """What earlier recordings tell of some unknowns, by the names of the layout."""
+    """The information of earlier recordings on some unknowns, by the names of the layout."""
 
     names: tuple[str, ...]
     information: Square  # SI
@@ -45,12 +44,12 @@ class Known:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Predicted:
-    """What a manoeuvre will tell, in the order of ``names``, and how far it goes."""
+    """The predicted covariance of a manoeuvre, in the order of ``names``, and its peaks."""
 
     names: tuple[str, ...]
     units: tuple[str, ...]  # SI
-    sd: Floats  # SI; infinite: not seen; 0: held
-    covariance: Square  # of what is seen
+    sd: Floats  # SI; infinite: unobservable; 0: held
+    covariance: Square  # of what is observable
     hidden: Bools
     unobservable: tuple[Reason, ...]  # directions
     peak_tilt: float  # rad
@@ -68,25 +67,16 @@ def predicted(
     params: Params,
     known: Known | None = None,
 ) -> Predicted:
-    """Return what a manoeuvre of a platform with this body will tell."""
+    """Return the predicted covariance of a manoeuvre of a platform with this body."""
     observed = imagined(testbed, body, manoeuvre)
     problem = posed(observed, testbed, params, known)
     return prediction(at_truth(problem, observed, body, manoeuvre, known), observed, testbed)
 
 
-def followed_truth(
-    testbed: Testbed, body: MassProperties, manoeuvre: Manoeuvre, params: Params
-) -> Followed:
-    """Return the motion as ``fisher.observed_along`` takes it."""
-    observed = imagined(testbed, body, manoeuvre)
-    fitted = at_truth(posed(observed, testbed, params, None), observed, body, manoeuvre, None)
-    return Followed(fitted, testbed, params, ())
-
-
 def posed(observed: Imagined, testbed: Testbed, params: Params, known: Known | None) -> Problem:
     """Return the problem of a noiseless recording.
 
-    What is known already fixes the scale too; nothing is held then but what is asked.
+    Earlier information fixes the scale too; then only the requested parameters are held.
     """
     params = with_free_vertical(observed.recording, testbed, params)
     problem = problem_of(observed.recording, testbed, params)
@@ -111,7 +101,7 @@ def at_truth(
 def true_point(
     observed: Imagined, body: MassProperties, manoeuvre: Manoeuvre, layout: Layout
 ) -> Unknowns:
-    """Return the truth as a point of the search: masses where told, sensors without fault."""
+    """Return the truth as a point of the search: masses where commanded, sensors without error."""
     return Unknowns(
         observed.motion.q[0], manoeuvre.rate, pseudo_inertia.from_inertia(body.inertia_C), body.com,
         np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(len(layout.errors)), np.zeros(3),
@@ -119,7 +109,7 @@ def true_point(
 
 
 def informed(problem: Problem, point: Unknowns, known: Known | None) -> Fitted:
-    """Return the fit that ended at a point, with what is known already in its information."""
+    """Return the fit that ended at a point, with earlier information added."""
     fitted = ended_at(problem, point)
     if known is None:
         return fitted
@@ -131,8 +121,8 @@ def informed(problem: Problem, point: Unknowns, known: Known | None) -> Fitted:
 
 
 def prediction(fitted: Fitted, observed: Imagined, testbed: Testbed) -> Predicted:
-    """Return what a fit at the truth says of itself, with the limits of its motion."""
-    problem: Problem = fitted.problem
+    """Return the covariance of a fit at the truth, with the peaks of its motion."""
+    problem, stored = fitted.problem, observed.recording.momentum
     held = problem.prior.held
     bound = bound_at(fitted, np.zeros_like(held) if problem.scale_open else held)
     return Predicted(
@@ -143,10 +133,5 @@ def prediction(fitted: Fitted, observed: Imagined, testbed: Testbed) -> Predicte
         bound.view.hidden,
         bound.view.unobservable,
         float(tilt(observed.motion.q, testbed.up).max()),
-        0.0 if observed.recording.momentum is None else largest(observed.recording.momentum.values),
+        0.0 if stored is None else float(np.linalg.norm(stored.values, axis=1).max()),
     )
-
-
-def largest(vectors: Floats) -> float:
-    """Return the length of the longest of vectors."""
-    return float(np.linalg.norm(vectors, axis=1).max())

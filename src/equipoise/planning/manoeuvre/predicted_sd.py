@@ -1,16 +1,16 @@
-"""What a manoeuvre promises: sd of all that is asked for, over the platforms that may be there.
+"""The predicted sd of a manoeuvre: rms over the platforms that may be there.
 
     sd_i = rms over platforms k of sd_i,k
 
-each platform let go by a hand that errs. It is the error to expect, squared and averaged over what
-is not known, and so what a Monte Carlo over such platforms should find. What is not seen of one of
-them is not promised.
+each platform let go by a hand that errs. It is the expected error, squared and averaged over the
+uncertain platforms: a Monte Carlo over them should find the same. A parameter that is unobservable
+for one of them has no finite sd.
 
 Whether limits are kept is tried on more platforms, which takes no information. Where all n keep
 them, at least 1 - 3 / n of all platforms do (at 95 %).
 
-Promised is a fit in the model that the testbed states. Where ``identify`` takes a term more, of
-torque or camera, less is told.
+The sd is that of a fit in the model that the testbed states. Where ``identify`` adds a term, of
+torque or camera, it is larger.
 """
 
 from dataclasses import dataclass, replace
@@ -29,18 +29,18 @@ from equipoise.planning.manoeuvre.plan import Wish
 from equipoise.planning.manoeuvre.predicted_information import Predicted, predicted
 from equipoise.planning.manoeuvre.scenario import Scenario, scenarios
 
-PLATFORMS = 240  # chosen: of 60 the rms changed by up to a third, as a few are told least
+PLATFORMS = 240  # chosen: of 60 the rms changed by up to a third, by the few with the largest sd
 TRIED = 300  # chosen: if all keep the limits, then 99 % of all platforms do
-FRESH = 1  # added to the seed of a search: platforms that it did not see
+FRESH = 1  # added to the seed of a search: platforms that it did not use
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Promise:
-    """What to expect of a manoeuvre."""
+    """The prediction for a manoeuvre."""
 
     manoeuvre: Manoeuvre
     names: tuple[str, ...]
-    sds: Floats  # SI, (platforms, names); infinite: not seen of this one; 0: held
+    sds: Floats  # SI, (platforms, names); infinite: unobservable; 0: held
     body: MassProperties  # that is expected
     expected: Predicted  # of it, let go as planned
     tried: int  # platforms of which only the motion was followed
@@ -56,12 +56,8 @@ class Promise:
 
     @property
     def sd(self) -> Floats:
-        """Return the rms over platforms, SI; infinite: not seen of one of them; 0: held."""
+        """Return the rms over platforms, SI; infinite: unobservable for one of them; 0: held."""
         return np.sqrt(np.mean(self.sds**2, axis=0))
-
-    def sds_of(self, names: tuple[str, ...]) -> Floats:
-        """Return several sd of each platform, SI."""
-        return self.sds[:, [self.names.index(name) for name in names]]
 
     def sd_of(self, names: tuple[str, ...]) -> Floats:
         """Return several sd, SI."""
@@ -76,7 +72,7 @@ class Promise:
 def peaks_of(
     testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, rng: np.random.Generator
 ) -> list[Peaks]:
-    """Return how far platforms go that no search has seen."""
+    """Return the peaks of platforms that no search has used."""
     expected, *others = scenarios(wish.prior, TRIED + 1, rng)
     tried = rehearsal(for_search(testbed), expected, manoeuvre, wish.params, wish.known)
     return [peaks(tried, started(tried, scenario)) for scenario in others]
@@ -100,7 +96,7 @@ def met(manoeuvre: Manoeuvre, scenario: Scenario, up: Vector3) -> Manoeuvre:
 def promise(
     testbed: Testbed, manoeuvre: Manoeuvre, wish: Wish, seed: int, rate_limit: float
 ) -> Promise:
-    """Return what to expect of a manoeuvre on platforms that no search has seen.
+    """Return the prediction for a manoeuvre on platforms that no search has used.
 
     ``rate_limit`` in rad/s; the limit of tilt is the testbed's.
     """
@@ -127,7 +123,7 @@ def promise(
 
 
 def times_better(before: Promise, after: Promise, names: tuple[str, ...]) -> Floats:
-    """Return how many times less the second promises; held on both sides: 1."""
+    """Return the ratio of the first sd to the second; held on both sides: 1."""
     first, second = before.sd_of(names), after.sd_of(names)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(first == second, 1.0, first / second)

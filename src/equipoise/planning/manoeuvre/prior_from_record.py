@@ -1,10 +1,10 @@
-"""What an earlier recording tells, as knowledge for the next manoeuvre.
+"""The posterior of an earlier recording, as the prior of the next manoeuvre.
 
     information of (J, r, where masses stand) = covariance of its estimate ^-1
 
-The masses stand where that recording left them. Where they really stopped is one unknown of both
-recordings, so what is known of it goes along: ``error_x1_2`` at the end of the first is
-``error_x1_1`` at the beginning of the next.
+The masses stand where that recording left them. The error of a stop is one unknown of both
+recordings, so its information is kept: ``error_x1_2`` at the end of the first is ``error_x1_1`` at
+the beginning of the next.
 """
 
 from typing import NamedTuple
@@ -24,7 +24,7 @@ BODY = (*INERTIA, *COM)
 
 
 class RecordPrior(NamedTuple):
-    """What is known after a recording."""
+    """The prior after a recording."""
 
     prior: Prior
     known: Known
@@ -32,7 +32,7 @@ class RecordPrior(NamedTuple):
 
 
 def record_prior(recording: Recording, estimate: Estimate, testbed: Testbed) -> RecordPrior:
-    """Return what a recording tells; InputError where its estimate is not usable.
+    """Return the prior from a recording; InputError where its estimate is not usable.
 
     The estimate is to have the testbed's body as prior: then all of it has a covariance.
     """

@@ -1,9 +1,9 @@
-"""The platforms that may be there, and how a hand may let them go: what a plan must stand.
+"""The platforms that may be there, and how a hand may let them go: the scenarios of a plan.
 
-    body    centre of mass and moments drawn from what is known, again until a body can have them
+    body    centre of mass and moments drawn from the prior, again until they are consistent
     start   the planned one, with a hand's error
 
-The first of several is what is expected: no error anywhere.
+The first of several is the expected one: no error anywhere.
 """
 
 from dataclasses import dataclass
@@ -16,12 +16,12 @@ from equipoise.model.arrays import Floats, Square, Vector3
 from equipoise.model.mass_properties import MassProperties, is_possible
 from equipoise.model.testbed import Testbed
 
-TRIES = 1000  # chosen: draws of a body before what is known counts as impossible
+TRIES = 1000  # chosen: draws of a body before the prior counts as impossible
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Prior:
-    """What is known of inertia and centre of mass: a normal distribution in ``unknowns.CORE``."""
+    """The prior of inertia and centre of mass: a normal distribution."""
 
     body: MassProperties
     covariance: Square  # (9, 9) SI
@@ -37,13 +37,13 @@ class Scenario:
 
 
 def stated_prior(testbed: Testbed) -> Prior:
-    """Return what a testbed states of its platform."""
+    """Return the prior by a testbed's nominal values."""
     inertia_sd = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
     return Prior(testbed.body, np.diag(np.concatenate([inertia_sd, testbed.com_sd]) ** 2))
 
 
 def scenarios(prior: Prior, count: int, rng: np.random.Generator) -> list[Scenario]:
-    """Return what is expected, and further draws."""
+    """Return the expected scenario, and further draws."""
     zero = np.zeros(3)
     drawn = [
         Scenario(drawn_body(prior, rng), rng.standard_normal(3), rng.standard_normal(3))

@@ -1,1 +1,1 @@
-"""What a mass system and its sensors can reach: the error budget."""
+"""Reach and error budget of a mass system and its sensors."""

@@ -1,21 +1,22 @@
-"""What will be left of torque after looks and moves, line by line.
+"""The expected residual torque after measurements and moves, line by line.
 
     tau^2 = (m g)^2 tr( mean(e e^T) mean(E - n n^T) ) + sum of the squares of all else
 
-root mean square over directions n of gravity within a tilt of level, e being the offsets that looks
-and moves leave. Their causes are told line by line; they are related, so their squares may come to
-a little more or less than those of e.
+root mean square over directions n of gravity within a tilt of level, e being the offsets that
+measurements and moves leave. Each cause has a line; the causes are correlated, so their squares may
+sum to a little more or less than those of e.
 
-Platforms as the testbed states them are looked at for as long as a record lasts and moved, so many
-times (``one_move``). A look of covariance P at offsets of covariance L finds f of an offset e,
+Platforms as the testbed states them are measured for the length of a record and moved, so many
+times (``move_error``). A measurement of covariance P of offsets of covariance L estimates an offset
+e by
 
-    f = (1 - P / L) e + noise,    so that e - f has the covariance P and tells no more of e
+    f = (1 - P / L) e + noise,    so that e - f has the covariance P and is uncorrelated with f
 
-the first time f = e + noise, as hardly anything was known before. Lines are the mean squares of
-what the last look and the last move leave, and what room, deck and bearing add (``surroundings``).
+the first time by f = e + noise, as the prior is wide. Lines are the mean squares of the errors of
+the last measurement and the last move, and the effects of room, deck and bearing (``environment``).
 Platforms that the masses cannot bring to the target are left out; ``within`` is how many they can.
 
-Assumes that looks err by what a fit of their record alone is said to, and only by that.
+Measurements are assumed to have the error that a fit of their record predicts, and no other.
 """
 
 from dataclasses import dataclass, replace
@@ -25,9 +26,8 @@ import numpy as np
 
 from equipoise.model.arrays import Bools, Matrix3, Series, Series3
 from equipoise.planning.sizing.case import Case
-from equipoise.planning.sizing.contribution import REQUESTED, TESTBED, Line
 from equipoise.planning.sizing.environment import surrounding_lines
-from equipoise.planning.sizing.expected_torque import expected_torque
+from equipoise.planning.sizing.expected_torque import REQUESTED, TESTBED, Line, expected_torque
 from equipoise.planning.sizing.likely_offsets import (
     even_normals,
     share_within,
@@ -39,12 +39,12 @@ from equipoise.planning.sizing.measurement_bound import MeasurementBound, first_
 from equipoise.planning.sizing.move_error import Left, Standing, at_home, move
 from equipoise.planning.sizing.reachable_set import Reach, reach_of, tolerance
 
-MANY, SOME = 13, 9  # powers of 2, chosen: offsets to say how many are within reach; to move
-FEWEST = 32  # chosen: offsets within reach that tell what a move leaves
+MANY, SOME = 13, 9  # powers of 2, chosen: offsets to count those within reach; to move
+FEWEST = 32  # chosen: offsets within reach by which a move is judged
 
 
 class Balanced(NamedTuple):
-    """Looks, and what the last of the moves left of each platform."""
+    """Measurements, and what the last of the moves left of each platform."""
 
     first: MeasurementBound
     last: MeasurementBound
@@ -54,7 +54,7 @@ class Balanced(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Budget:
-    """What is left, and of which platforms."""
+    """The residual torque, and the share of platforms within reach."""
 
     lines: tuple[Line, ...]  # the largest first
     torque: float  # N m, rms, of all together
@@ -66,7 +66,7 @@ class Budget:
 
 
 def budget_of(case: Case) -> Budget:
-    """Return what is left after all looks and moves."""
+    """Return the budget after all measurements and moves."""
     testbed = case.testbed
     reach = reach_of(testbed.masses, testbed.body.mass)
     along, across = spans(reach)
@@ -74,7 +74,7 @@ def budget_of(case: Case) -> Budget:
     left, beyond = done.left, done.standing.error @ across
     of_offsets = [
         offset_line(case, "out of reach", "What no mass can shift", mean_square(beyond)),
-        offset_line(case, "measurement", "What the sensors tell of the centre of mass",
+        offset_line(case, "measurement", "The error of the measured centre of mass",
                     along @ done.last.com @ along),
         offset_line(case, "steps", "The least step of the masses", mean_square(left.steps @ along)),
         offset_line(case, "stops", "The accuracy with which masses stop", mean_square(left.stops)),
@@ -101,7 +101,7 @@ def mean_square(rows: Series3) -> Matrix3:
 
 
 def balanced(case: Case, reach: Reach) -> Balanced:
-    """Return what the looks tell, and what the last move leaves."""
+    """Return the measurements, and what the last move leaves."""
     testbed, k = case.testbed, len(case.testbed.masses)
     normals = even_normals(SOME, 3 + 2 * k + case.moves * (3 + k))
     start, rest = normals[:, : 3 + 2 * k], normals[:, 3 + 2 * k :]
@@ -120,7 +120,7 @@ def balanced(case: Case, reach: Reach) -> Balanced:
 
 
 def estimated(error: Series3, before: Matrix3, after: Matrix3, normals: Series) -> Series3:
-    """Return what a look finds of errors of one covariance that leaves them another, m^2."""
+    """Return the estimates of errors of a prior and a posterior covariance, m^2."""
     share: Matrix3 = np.eye(3) - np.linalg.solve(before, after)
     return error @ share + with_covariance(normals, after @ share)
 
@@ -128,7 +128,7 @@ def estimated(error: Series3, before: Matrix3, after: Matrix3, normals: Series) 
 def platforms(case: Case, reach: Reach, normals: Series) -> tuple[Bools, Series3]:
     """Return which rows are platforms within reach, and their offsets from the target (m).
 
-    Where hardly any is, platforms within half of what can be undone stand for them.
+    Where hardly any is, platforms within half of the reach stand for them.
     """
     offsets = stated_offsets(case, normals)
     kept = within_reach(reach, offsets)

@@ -1,4 +1,4 @@
-"""What a design is judged by: a testbed, how it will be used, and where."""
+"""The case of a design: a testbed, its use and its surroundings."""
 
 from dataclasses import dataclass, field
 

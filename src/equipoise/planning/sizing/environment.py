@@ -1,15 +1,15 @@
-"""What room, deck and bearing do to a balanced platform, as torque within a tilt of level.
+"""Effects of room, deck and bearing on a balanced platform, as torque within a tilt of level.
 
     warmth        |dr| = alpha L dT a        of a body that grows lopsidedly by the share a
-    sag           C = c u u^T,  c = s g / (2 pi f)^2, u up: what the best trim leaves of it
+    sag           C = c u u^T,  c = s g / (2 pi f)^2, u up: the rest after the best trim
     sphericity    m g delta                  the centre of rotation wanders by the form error
     buoyancy      |dr| = x rho V l / m       air that V displaces at a lever l grows denser by x
     Earth         3 (g / R) n x J n          gradient of gravity, n along it
                   |J w| Omega                gyroscopic, at a rate w; the greatest moment counts
-    air           as told
+    air           as stated
 
 g / (2 pi f)^2 is how far a mass sinks that swings at f on its spring; s is the share of it that the
-centre of mass takes part in. Shifts dr may have any direction. What is zero is left out.
+centre of mass takes part in. Shifts dr may have any direction. Zero terms are left out.
 
 Sizes of these on tables of some 14 kg: 0.7 um per K for 0.3 m of aluminium; 25 um at 100 Hz; form
 errors of 0.1 to 0.5 um; air and bearing 0.4 to 3 uN m, as measured on a platform of 2.7 kg.
@@ -23,8 +23,14 @@ import numpy as np
 from equipoise.dynamics.sag_trim import downs, residual_torque, trimmed_com
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.testbed import Testbed
-from equipoise.planning.sizing.contribution import ASSUMED, PARTLY, REQUESTED, TESTBED, Line
-from equipoise.planning.sizing.expected_torque import expected_torque
+from equipoise.planning.sizing.expected_torque import (
+    ASSUMED,
+    PARTLY,
+    REQUESTED,
+    TESTBED,
+    Line,
+    expected_torque,
+)
 
 EARTH_RADIUS = 6.371e6  # m, mean
 EARTH_RATE = 7.292e-5  # rad/s
@@ -33,7 +39,7 @@ AIR_DENSITY = 1.2  # kg/m^3, at 20 C and 1013 hPa
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What a platform is exposed to between the last look and the experiment. Zero: not stated."""
+    """The surroundings between the last measurement and the experiment. Zero: not stated."""
 
     temperature: float = 0.0  # K, change of
     expansion: float = 23e-6  # 1/K, aluminium
@@ -46,20 +52,23 @@ class Surroundings:
     volume: float = 0.0  # m^3, of the platform
     lever: float = 0.05  # m, chosen: from the centre of that volume to the bearing
     slew: float = 0.0  # rad/s, at which the platform is turned
-    air: float = 1e-6  # N m, rms, chosen: what others measured
+    air: float = 1e-6  # N m, rms, chosen: as others measured
 
 
 PLAIN = Surroundings()
 
 
 def surrounding_lines(testbed: Testbed, around: Surroundings, tilt: float) -> Iterator[Line]:
-    """Yield what is stated, and what is there anyhow; ``tilt`` in rad."""
+    """Yield the lines of what is stated, and of what always acts; ``tilt`` in rad."""
     weight = testbed.body.mass * testbed.gravity
     warm = basis_of(around, "expansion", "length", "lopsided")
     drift = any_way(testbed, warmth(around), tilt)
     yield Line("warmth", "The warmth of the room", *drift, warm)
     if around.bending > 0:
-        left, cause = sag_left(testbed, around, tilt), "What the best trim leaves of the deck's sag"
+        left, cause = (
+            sag_left(testbed, around, tilt),
+            "The rest of the deck's sag after the best trim",
+        )
         yield Line("sag", cause, left, None, basis_of(around, "bending_share"))
     form = weight * around.form_error
     yield Line("sphericity", "The form error of the bearing", form, None, REQUESTED)
@@ -83,7 +92,7 @@ def basis_of(around: Surroundings, *names: str) -> str:
 
 
 def not_stated(around: Surroundings) -> tuple[str, ...]:
-    """Return what nothing was stated of, and what therefore does not count."""
+    """Return the effects that were not stated, and therefore do not count."""
     stated = {
         "warmth": around.temperature,
         "sag of the deck": around.bending,
@@ -95,7 +104,7 @@ def not_stated(around: Surroundings) -> tuple[str, ...]:
 
 
 def any_way(testbed: Testbed, size: float, tilt: float) -> tuple[float, Matrix3]:
-    """Return torque and moment of a centre of mass that moves by ``size`` (m) any way."""
+    """Return torque and moment of a centre of mass that moves by ``size`` (m) in any direction."""
     moment: Matrix3 = size**2 / 3 * np.eye(3)
     return expected_torque(testbed, moment, tilt), moment
 
@@ -111,14 +120,14 @@ def sag_of(testbed: Testbed, around: Surroundings) -> float:
 
 
 def sag_left(testbed: Testbed, around: Surroundings, tilt: float) -> float:
-    """Return the torque (N m) that is left of a deck's sag once it is trimmed best."""
+    """Return the residual torque (N m) of a deck's sag after the best trim."""
     sag: Matrix3 = sag_of(testbed, around) * np.outer(testbed.up, testbed.up)
     trim: Vector3 = trimmed_com(sag, testbed.up, tilt)
     return testbed.body.mass * testbed.gravity * residual_torque(trim, sag, testbed.up, tilt)
 
 
 def buoyancy(testbed: Testbed, around: Surroundings) -> float:
-    """Return the shift (m) of the centre of mass that does what denser air does."""
+    """Return the shift (m) of the centre of mass that is equivalent to denser air."""
     displaced = AIR_DENSITY * around.volume * around.air_change
     return displaced * around.lever / testbed.body.mass
 

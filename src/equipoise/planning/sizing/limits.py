@@ -5,14 +5,13 @@ import numpy as np
 from equipoise.model.arrays import Vector3
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
-from equipoise.model.testbed import SlidingMass
 from equipoise.model.units import MM, PERCENT, UM, UN_M
 from equipoise.model.verdict import Verdict
 from equipoise.planning.sizing.budget import Budget
 from equipoise.planning.sizing.case import Case
-from equipoise.planning.sizing.contribution import Line
+from equipoise.planning.sizing.expected_torque import Line
 from equipoise.planning.sizing.reachable_set import Reach, tolerance, unreachable
-from equipoise.planning.sizing.sensitivity import Bettered
+from equipoise.planning.sizing.sensitivity import MASS_LENGTHS, Bettered
 
 ENOUGH = 0.95  # of platforms as stated, chosen: as many as a law has to balance in ``compare``
 NOTABLE = 0.01  # of the torque, chosen: a change that brings less is not worth a line
@@ -20,7 +19,7 @@ WAYS = ("nothing", "one line", "a plane")
 
 
 def limit_sentence(case: Case, budget: Budget, better: tuple[Bettered, ...]) -> str:
-    """Say which line is the largest, and what would become of the result if it were better."""
+    """Say which line is the largest, and the result if it were better."""
     line, total = budget.lines[0], plain(budget.torque / UN_M)
     text = (
         f"{line.cause}{detail(case, line)} limits the result: {plain(line.torque / UN_M)} of "
@@ -37,12 +36,8 @@ def limit_sentence(case: Case, budget: Budget, better: tuple[Bettered, ...]) -> 
 
 def detail(case: Case, line: Line) -> str:
     """Return numbers of the masses that a line is about, in brackets, or nothing."""
-    if line.name == "steps":
-        return f" ({mass_figures(case, 'resolution')})"
-    if line.name == "stops":
-        return f" ({mass_figures(case, 'accuracy')})"
-    if line.name == "backlash":
-        return f" ({mass_figures(case, 'backlash')})"
+    if line.name in MASS_LENGTHS:
+        return f" ({mass_figures(case, MASS_LENGTHS[line.name])})"
     return f" in {case.measurement_time:g} s" if line.name == "measurement" else ""
 
 
@@ -50,15 +45,8 @@ def mass_figures(case: Case, quantity: str) -> str:
     """Return a length of each mass in mm, those of one length together."""
     groups: dict[float, list[str]] = {}
     for mass in case.testbed.masses:
-        groups.setdefault(length(mass, quantity), []).append(mass.name)
+        groups.setdefault(getattr(mass, quantity), []).append(mass.name)
     return ", ".join(f"{size / MM:.3g} mm of {', '.join(names)}" for size, names in groups.items())
-
-
-def length(mass: SlidingMass, quantity: str) -> float:
-    """Return one of the lengths (m) that say how well a mass can be placed."""
-    return {"resolution": mass.resolution, "accuracy": mass.accuracy, "backlash": mass.backlash}[
-        quantity
-    ]
 
 
 def plain(value: float) -> str:
@@ -72,7 +60,7 @@ def capital(text: str) -> str:
 
 
 def reach_sentence(reach: Reach, within: float) -> str:
-    """Say what masses can correct, and of how many platforms that is enough."""
+    """Return the correctable offset as a sentence, and the share of platforms within it."""
     share = f"{within / PERCENT:.3g} % of the platforms that the testbed states"
     size = plain(tolerance(reach) / UM)
     if reach.rank == 3:
@@ -110,7 +98,7 @@ def verdict(budget: Budget, required: float | None, better: tuple[Bettered, ...]
 
 
 def worth_listing(budget: Budget, better: tuple[Bettered, ...]) -> tuple[Bettered, ...]:
-    """Return the changes that bring something: less torque, or more platforms within reach."""
+    """Return the changes with an effect: less torque, or more platforms within reach."""
     return tuple(
         change
         for change in better

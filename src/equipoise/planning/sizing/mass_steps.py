@@ -1,10 +1,10 @@
-"""The least that each mass can do: a step of its motor, as shift and as torque.
+"""The resolution of each mass: a step of its motor, as shift and as torque.
 
     |shift| = m_i delta_i / M          (da Silva 2021 Eq. 7 with the least displacement)
     |torque| = m_i g delta_i           when gravity acts across the rail
 
-A mass goes to the nearest step, so what is left is at most half of that along its rail, and
-1 / sqrt(12) of it root mean square (R27).
+A mass goes to the nearest step. So the rest is at most half of that along its rail, and its root
+mean square is 1 / sqrt(12) of it (R27).
 """
 
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class MassStep:
 
 
 def mass_steps(testbed: Testbed, tilt: float) -> tuple[MassStep, ...]:
-    """Return the least step of each mass, and what is left of torque within a tilt (rad)."""
+    """Return the least step of each mass, and its torque within a tilt (rad)."""
     return tuple(step_of(testbed, mass, tilt) for mass in testbed.masses)
 
 

@@ -1,14 +1,15 @@
-"""What a look will tell of the centre of mass and of inertia: the bound for a length of record.
+"""How well a record of a length determines centre of mass and inertia: the bound of its covariance.
 
-The first look is a free swing of the platform as stated, with the usual move (``usual_swing``).
-It tells the centre of mass with the masses as they stand at its end; where they really stopped is
-part of what is not known, and so is the scale, by which a platform that hangs low is off most.
+The first measurement is a free swing of the platform as stated, with the usual move
+(``usual_swing``). It determines the centre of mass with the masses as they stand at its end. The
+errors of their stops are part of its uncertainty, and so is the scale, which counts most for a
+platform that hangs low.
 
-A later look is a free swing at the target, without a move, when the inertia is known from the first
-and the centre of mass as well as looks and moves before have left it.
+A later measurement is a free swing at the target, without a move. Its priors are the inertia of the
+first one and the centre of mass as left by the measurements and moves before.
 
-Both as a fit would see them that knows what the testbed states (``predicted``). Where a record does
-not show the centre of mass, what was known before is what is known of it.
+Both are bounds of a fit with the testbed's values as prior (``predicted_information``). Where a
+record does not determine the centre of mass, its prior remains.
 """
 
 from dataclasses import dataclass, replace
@@ -34,13 +35,12 @@ from equipoise.planning.manoeuvre.predicted_information import (
     predicted,
     prediction,
 )
-from equipoise.planning.manoeuvre.reference_manoeuvre import usual
-from equipoise.planning.manoeuvre.reference_swing import gentle_swing, usual_swing
+from equipoise.planning.manoeuvre.reference_manoeuvre import gentle_swing, usual, usual_swing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeasurementBound:
-    """What a record of a length tells."""
+    """How well a record of a length determines centre of mass and inertia."""
 
     duration: float  # s
     com: Matrix3  # m^2, covariance, masses as they stand at the end
@@ -56,12 +56,12 @@ class MeasurementBound:
 
     @property
     def inertia_sd(self) -> Floats:
-        """Return one sd of each element, kg m^2; infinite: not all are seen."""
+        """Return one sd of each element, kg m^2; infinite: not all are observable."""
         return np.sqrt(np.diag(self.inertia)) if self.inertia_observable else np.full(6, np.inf)
 
 
 def first_bound(testbed: Testbed, duration: float) -> MeasurementBound:
-    """Return what a record of this length (s) with a known move will tell."""
+    """Return the bound for a record of this length (s) with a known move."""
     swing = usual_swing(testbed, duration)
     problem = posed(swing.observed, testbed, sought(testbed), None)
     fitted = at_truth(problem, swing.observed, testbed.body, swing.manoeuvre, None)
@@ -75,7 +75,7 @@ def first_bound(testbed: Testbed, duration: float) -> MeasurementBound:
 
 
 def shortening(testbed: Testbed, manoeuvre: Manoeuvre) -> tuple[Reason, ...]:
-    """Return that the usual move was shortened, as longer records then need not tell more."""
+    """Return that the usual move was shortened: longer records then need not be better."""
     length = longest(manoeuvre)
     if length >= longest(usual(testbed, manoeuvre.duration, {})):
         return ()
@@ -90,9 +90,9 @@ def longest(manoeuvre: Manoeuvre) -> float:
 def later_bound(
     testbed: Testbed, duration: float, target: Vector3, before: MeasurementBound
 ) -> MeasurementBound:
-    """Return what a record of this length (s) will tell of a platform near the target (m).
+    """Return the bound for a record of this length (s) of a platform near the target (m).
 
-    ``before`` is what is known of it: inertia from a look, centre of mass after a move.
+    ``before`` is the prior: inertia from a measurement, centre of mass after a move.
     """
     body = from_centre(testbed.body.mass, target, testbed.body.inertia_C)
     names = (*COM, *INERTIA) if before.inertia_observable else COM
@@ -105,7 +105,7 @@ def later_bound(
 
 
 def sought(testbed: Testbed) -> Params:
-    """Return what a fit seeks: what the testbed considers, but for sag, as ``balance`` does.
+    """Return the model of a fit: what the testbed considers, but for sag, as in ``balance``.
 
     At small tilts a deck that sags is a stiff one with another centre of mass.
     """
@@ -121,7 +121,7 @@ def rows_of(reported: Predicted, names: tuple[str, ...]) -> Floats:
 def bound_of(
     testbed: Testbed, duration: float, reported: Predicted, com: Floats, before: Matrix3
 ) -> MeasurementBound:
-    """Return a look; ``com`` leads from all unknowns to the centre of mass, known ``before``."""
+    """Return a bound; ``com`` maps all unknowns to the centre of mass, of the prior ``before``."""
     unseen = bool(np.any(np.abs(com[:, reported.hidden]) > 0))
     moments = rows_of(reported, INERTIA)
     return MeasurementBound(
@@ -135,7 +135,7 @@ def bound_of(
 
 
 def cautions(reported: Predicted, testbed: Testbed, unseen: bool) -> tuple[Reason, ...]:
-    """Return what is not observable, and whether the platform would touch on its way."""
+    """Return unobservable quantities, and whether the platform would pass its tilt limit."""
     found = one_reason(RecordCaution.COM_UNOBSERVABLE) if unseen else ()
     if reported.peak_tilt > testbed.tilt_limit:
         numbers = {"tilt": reported.peak_tilt, "limit": testbed.tilt_limit}

@@ -1,29 +1,30 @@
-"""What one move does to platforms that stand somewhere, and what it leaves of each, by its cause.
+"""The effect of one move on platforms, and the offset that it leaves of each, by cause.
 
-A look found a platform's centre of mass off by f where it is off by e. Whole steps are allocated to
-the masses as in a feedback loop (``actuators.mass_allocation``), which changes what they were told
-by D; with g_i = (m_i / M) u_i, what is left is
+A measurement found a platform's centre of mass off by f where it is off by e. Whole steps are
+allocated to the masses as in a feedback loop (``actuators.mass_allocation``), which changes their
+commands by D; with g_i = (m_i / M) u_i, the remaining offset is
 
-    e + sum g_i (D_i + dp_i + ds_i) + rails  =  (e - f)      look
+    e + sum g_i (D_i + dp_i + ds_i) + rails  =  (e - f)      measurement
                                               + (f + sum g_i D_i)      steps
                                               + sum g_i ds_i           stops
                                               + sum g_i dp_i           backlash
                                               + rails
 
     p     where a carriage stands in its play: p -> clip(p - D, -b/2, b/2); b backlash
-    s     by how much a mass stopped elsewhere: drawn anew, with the accuracy, for each that was
-          taken along. Its last error goes with it, although f may have told of it.
+    s     the error of a stop: drawn anew, with the accuracy, for each mass that was taken along.
+          Its last error goes with it, although f may include it.
     rails sum D_i m_i / M times the lean of rail i, a small vector across it, the same for all moves
 
-A move that is expected to leave more than there is, is not made; what it would have undone counts
-with the stops. A mass that has stopped before is expected to change by the errors of two stops.
+A move that is expected to leave more than the present offset is not made; the offset that it would
+have undone counts with the stops. A mass that has stopped before is expected to change by the
+errors of two stops.
 
 On rails at right angles whose finest steps shift by q, steps leave q / sqrt(12) along each. Several
 equal masses on one rail are no finer than one; a fine one beside a coarse one is, as far as it
 goes. ``balance`` moves fewer masses, and finds better combinations of steps on skew rails: it
 leaves somewhat less; but it moves coarse masses where laws move fine ones, which leaves more.
 
-Cannot see a mass that lags, hangs, or is not as heavy as stated: the next look sees those.
+Lag, sag and mass errors are not modelled: they show in the next measurement.
 """
 
 from typing import NamedTuple
@@ -32,7 +33,7 @@ import numpy as np
 from scipy.linalg import null_space
 
 from equipoise.actuators.mass_allocation import allocate, rails_of
-from equipoise.actuators.sliding_masses import mass_maps
+from equipoise.actuators.sliding_masses import shift_by_travel
 from equipoise.model.arrays import Bools, Floats, Series, Series1, Series3
 from equipoise.model.testbed import Testbed
 
@@ -41,14 +42,14 @@ class Standing(NamedTuple):
     """Platforms and their masses as they stand, one row each."""
 
     error: Series3  # m, centre of mass from where it is wanted
-    commanded: Series  # (n, k) m, where masses were told to go
+    commanded: Series  # (n, k) m, where masses were commanded to go
     play: Series  # (n, k) m, where they stand in their play
-    slip: Series  # (n, k) m, by how much they stopped elsewhere
+    slip: Series  # (n, k) m, the errors of their stops
     lean: Floats  # (n, k, 3) -, shift of the centre of mass across each rail, by travel
 
 
 class Left(NamedTuple):
-    """What a move left of each platform's offset, m, by its cause; look apart."""
+    """The offset that a move left of each platform, m, by cause; without the measurement."""
 
     steps: Series3
     stops: Series3
@@ -67,16 +68,11 @@ def at_home(testbed: Testbed, error: Series3, normals: Series, rail_lean: float)
     return Standing(error, still, still, still, lean)
 
 
-def gains(testbed: Testbed) -> Series3:
-    """Return how far each mass shifts the centre of mass, by its travel."""
-    return mass_maps(testbed.masses).first_moment / testbed.body.mass
-
-
 def move(
     testbed: Testbed, now: Standing, found: Series3, normals: Series, rail_lean: float
 ) -> tuple[Standing, Left]:
-    """Return platforms after a move that should undo what was ``found`` (m), and what it left."""
-    gain = gains(testbed)
+    """Return platforms after a move that should undo offsets ``found`` (m), and what it left."""
+    gain = shift_by_travel(testbed)
     best = allocated(testbed, now.commanded, found)
     change = best * is_worth_it(testbed, now, found, best, rail_lean)[:, None]
     half = 0.5 * np.array([mass.backlash for mass in testbed.masses])
@@ -96,8 +92,9 @@ def move(
 
 
 def allocated(testbed: Testbed, reported: Series, found: Series3) -> Series:
-    """Return the changes (m) of where masses are told to go that undo what was found best."""
-    rails, wanted = rails_of(testbed.masses, testbed.body.mass), reported @ gains(testbed) - found
+    """Return the changes (m) of the commands that best undo the offsets found."""
+    rails = rails_of(testbed.masses, testbed.body.mass)
+    wanted = reported @ shift_by_travel(testbed) - found
     goals = [allocate(rails, here, shift) for here, shift in zip(reported, wanted, strict=True)]
     return np.array(goals) - reported
 
@@ -106,7 +103,7 @@ def is_worth_it(
     testbed: Testbed, now: Standing, found: Series3, change: Series, rail_lean: float
 ) -> Bools:
     """Say of each platform whether a change (m) is expected to leave less than was found."""
-    gain = gains(testbed)
+    gain = shift_by_travel(testbed)
     size: Series1 = np.sum(gain**2, axis=1)
     accuracy = np.array([mass.accuracy for mass in testbed.masses])
     draws = (change != 0) * (1.0 + (now.slip != 0))

@@ -2,7 +2,7 @@
 
     s(d) = sum_i g_i d_i,     g_i = (m_i / M) u_i,     low_i <= d_i <= high_i
 
-is a zonotope: a box seen along its diagonals. Its support function and its facets are exact:
+is a zonotope: a box in projection. Its support function and its facets are exact:
 
     h(n)      = n.c + sum_i |n.e_i|,     c = sum g_i (low + high) / 2,  e_i = g_i (high - low) / 2
     facets    n of every pair of rails, +-(e_i x e_j), at h(n)
@@ -13,7 +13,7 @@ with d_i from end to end; counted from the middle of its rail, a mass corrects h
 either side.) Where all rails lie in a plane or along a line, it is a polygon or a line segment
 there, and nothing can be shifted across it: ``rank`` 2 or 1.
 
-Assumes rails where the testbed says that they are; steps of the motors are ``last_move``'s.
+Rails are assumed as the testbed states them; steps of the motors are counted in ``move_error``.
 """
 
 from collections.abc import Sequence
@@ -32,7 +32,7 @@ HAIR = 1e-12  # m, chosen: a shift that is outside by less is on the surface
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reach:
-    """What can be reached, in body axes; shifts are from masses at home."""
+    """The reachable set, in body axes; shifts are from masses at home."""
 
     centre: Vector3  # m, of the zonotope
     edges: Series3  # (k, 3) m, half an edge for each mass
@@ -47,7 +47,7 @@ class Reach:
 
 
 def reach_of(masses: Sequence[SlidingMass], total_mass: float) -> Reach:
-    """Return what masses can reach on a platform of this mass (kg), they included."""
+    """Return the reachable set on a platform of this mass (kg), the masses included."""
     travel = np.array([mass.travel for mass in masses]).reshape(-1, 2)
     gain = mass_maps(masses).first_moment / total_mass
     centre: Vector3 = 0.5 * travel.sum(axis=1) @ gain
@@ -61,7 +61,7 @@ def reach_of(masses: Sequence[SlidingMass], total_mass: float) -> Reach:
 
 
 def span_of(edges: Series3) -> Floats:
-    """Return an orthonormal basis of what vectors span, one column a direction."""
+    """Return an orthonormal basis of the span of vectors, one column a direction."""
     _, sizes, rows = np.linalg.svd(edges, full_matrices=False)
     return rows[sizes > FLAT * max(sizes.max(initial=0.0), HAIR)].T
 
@@ -71,16 +71,11 @@ def facet_directions(edges: Floats) -> Floats:
     rank = edges.shape[1]
     if rank < 2:
         return np.ones((rank, rank))
-    found = edges[:, ::-1] * [1.0, -1.0] if rank == 2 else crosses(edges)
-    size = np.linalg.norm(found, axis=1)
-    stands = size > FLAT * size.max()
-    return distinct(found[stands] / size[stands, None])
-
-
-def crosses(edges: Floats) -> Floats:
-    """Return the cross products of all pairs of vectors."""
     first, second = np.triu_indices(len(edges), 1)
-    return np.cross(edges[first], edges[second])
+    pairs = edges[:, ::-1] * [1.0, -1.0] if rank == 2 else np.cross(edges[first], edges[second])
+    size = np.linalg.norm(pairs, axis=1)
+    stands = size > FLAT * size.max()
+    return distinct(pairs[stands] / size[stands, None])
 
 
 def distinct(directions: Floats) -> Floats:
@@ -99,16 +94,11 @@ def contains(reach: Reach, shifts: Series3) -> Bools:
 
 def furthest(reach: Reach, direction: Vector3) -> float:
     """Return how far (m) the centre of mass can be shifted straight along a unit vector."""
-    if not on_span(reach, direction):
+    if np.linalg.norm(direction - reach.span @ (reach.span.T @ direction)) >= FLAT:
         return 0.0
     towards = reach.normals @ direction
     out = towards > FLAT
     return float(np.min(reach.heights[out] / towards[out]))
-
-
-def on_span(reach: Reach, direction: Vector3) -> bool:
-    """Say whether a unit vector lies among the directions that can be shifted along."""
-    return bool(np.linalg.norm(direction - reach.span @ (reach.span.T @ direction)) < FLAT)
 
 
 def tolerance(reach: Reach) -> float:
@@ -117,7 +107,7 @@ def tolerance(reach: Reach) -> float:
 
 
 def weakest(reach: Reach) -> Vector3:
-    """Return the unit vector of the span along which least can be corrected."""
+    """Return the unit vector of the span with the least correctable offset."""
     return reach.normals[int(np.argmin(reach.heights))]
 
 
@@ -128,13 +118,13 @@ def unreachable(reach: Reach) -> Floats:
 
 
 def volume(reach: Reach) -> float:
-    """Return the volume (m^3) of all that can be reached; 0 where that is flat."""
+    """Return the volume (m^3) of the reachable set; 0 where that is flat."""
     triples = combinations(reach.edges, 3)
     return 8.0 * float(sum(abs(np.linalg.det(np.array(three))) for three in triples))
 
 
 def outline(reach: Reach, plane: tuple[int, int]) -> Floats:
-    """Return the corners (n, 2) m of what is reached, seen along the third axis, in order.
+    """Return the corners (n, 2) m of the reachable set, projected along the third axis, in order.
 
     The shadow of a zonotope is a zonogon: its edges, sorted by direction.
     """

@@ -1,11 +1,11 @@
-"""What limits the result, and what would become of it if one thing were better.
+"""What limits the result, and the result if one thing were better.
 
-Each change makes one thing half as bad, or adds one that is missing, and the whole budget is told
-anew, the look with it. Half is chosen so that changes compare; what it costs is the reader's to
-judge.
+Each change makes one thing half as bad, or adds one that is missing, and the whole budget is
+computed anew, with the measurement. Half is chosen so that changes compare; their cost is for the
+reader to judge.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -16,6 +16,9 @@ from equipoise.planning.sizing.budget import budget_of
 from equipoise.planning.sizing.case import Case
 
 HALF = 0.5
+MASS_LENGTHS = {"steps": "resolution", "stops": "accuracy", "backlash": "backlash"}  # by line
+BETTER_MASSES = {"steps": "steps half as long", "stops": "masses that stop twice as accurately",
+                 "backlash": "half the backlash"}  # fmt: skip
 GYRO = Gyro(100.0, np.radians(0.05), np.radians(0.1))  # chosen: 0.005 deg/s/rtHz, a good MEMS gyro
 
 
@@ -29,7 +32,7 @@ class Change(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bettered:
-    """A change and what is left then."""
+    """A change and the result with it."""
 
     name: str
     line: str
@@ -37,28 +40,26 @@ class Bettered:
     within: float  # share of the platforms within reach
 
 
-def with_masses(case: Case, changed: Callable[[SlidingMass], SlidingMass]) -> Case:
-    """Return the case with every mass changed."""
-    masses = tuple(changed(mass) for mass in case.testbed.masses)
-    return replace(case, testbed=replace(case.testbed, masses=masses))
+def with_masses(case: Case, masses: Iterable[SlidingMass]) -> Case:
+    """Return the case with other masses."""
+    return replace(case, testbed=replace(case.testbed, masses=tuple(masses)))
+
+
+def with_half(case: Case, length: str) -> Case:
+    """Return the case with half of one length of every mass."""
+    masses = case.testbed.masses
+    return with_masses(case, (replace(m, **{length: HALF * getattr(m, length)}) for m in masses))
 
 
 def mass_changes(case: Case) -> Iterator[Change]:
     """Yield better masses and rails."""
-    masses = case.testbed.masses
-    if any(mass.resolution > 0 for mass in masses):
-        finer = with_masses(case, lambda m: replace(m, resolution=HALF * m.resolution))
-        yield Change("steps half as long", "steps", finer)
-    if any(mass.accuracy > 0 for mass in masses):
-        truer = with_masses(case, lambda m: replace(m, accuracy=HALF * m.accuracy))
-        yield Change("masses that stop twice as accurately", "stops", truer)
-    if any(mass.backlash > 0 for mass in masses):
-        tighter = with_masses(case, lambda m: replace(m, backlash=HALF * m.backlash))
-        yield Change("half the backlash", "backlash", tighter)
+    for line, length in MASS_LENGTHS.items():
+        if any(getattr(mass, length) > 0 for mass in case.testbed.masses):
+            yield Change(BETTER_MASSES[line], line, with_half(case, length))
     if case.rail_lean > 0:
         yield Change("rails twice as true", "rails", replace(case, rail_lean=HALF * case.rail_lean))
-    longer = with_masses(case, lambda m: replace(m, travel=(2 * m.travel[0], 2 * m.travel[1])))
-    yield Change("twice the travel", "out of reach", longer)
+    longer = [replace(m, travel=(2 * m.travel[0], 2 * m.travel[1])) for m in case.testbed.masses]
+    yield Change("twice the travel", "out of reach", with_masses(case, longer))
     yield Change("one move more", "stops", replace(case, moves=case.moves + 1))
 
 
@@ -110,13 +111,10 @@ def changes(case: Case) -> Iterator[Change]:
     yield from surrounding_changes(case)
 
 
-def bettered(change: Change) -> Bettered:
-    """Return what is left after a change."""
-    found = budget_of(change.case)
-    return Bettered(change.name, change.line, found.torque, found.within)
-
-
 def what_to_buy(case: Case) -> tuple[Bettered, ...]:
     """Return all changes, the one that leaves least first; of equals the one with more reach."""
-    found = [bettered(change) for change in changes(case)]
+    found = list[Bettered]()
+    for change in changes(case):
+        budget = budget_of(change.case)
+        found.append(Bettered(change.name, change.line, budget.torque, budget.within))
     return tuple(sorted(found, key=lambda b: (b.torque, -b.within)))

@@ -1,6 +1,6 @@
-"""A design told whole: reach, steps, looks of several lengths, budget, what limits it, what to buy.
+"""A whole design: reach, steps, records of several lengths, budget, limits, and what to buy.
 
-The budget, and what would better it, is for the shortest record; the others are told beside it.
+The budget and its possible improvements are those of the shortest record; the others stand beside.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from equipoise.planning.sizing.sensitivity import Bettered, what_to_buy
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Sizing(Plotted):
-    """What masses and sensors of a testbed are good for."""
+    """The result for the masses and sensors of a testbed."""
 
     case: Case
     required: float | None  # N m

@@ -1,9 +1,9 @@
-"""A law's Command carried out by the devices that a testbed has.
+"""Allocation of a law's Command to the devices of a testbed.
 
-Masses go to whole motor steps as near as they can to the shift that is wanted, wheels share a
-torque, gyros without wheels are steered by the generalised singularity-robust inverse, coils make
-what of a torque lies across the field, jets make whole pulses. Whatever is beyond a limit is cut
-here, as a bench refuses it; the law sees in its next Sample what was done.
+Masses go to the whole motor steps nearest to the requested shift, wheels share a torque, gyros
+without wheels are steered by the generalised singularity-robust inverse, coils make the part of a
+torque across the field, jets make whole pulses. Inputs beyond a limit are reduced here, as a bench
+refuses them; the next Sample reports what the devices did.
 """
 
 from collections.abc import Mapping, Sequence
@@ -28,7 +28,7 @@ Inputs = dict[str, float]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hands:
-    """What was last asked of the devices."""
+    """The last requests to the devices."""
 
     rails: Rails
     goal: Floats  # m, (k,) where the masses were sent
@@ -37,7 +37,7 @@ class Hands:
 
 
 def opened_hands(testbed: Testbed, here: Floats) -> Hands:
-    """Return hands that have done nothing; masses stand where they are, m."""
+    """Return the beginning, before any request; masses stand where they are, m."""
     steady = (*testbed.wheels, *testbed.cmgs, *testbed.magnetorquers)
     off = dict.fromkeys((device.name for device in steady), 0.0)
     rails = rails_of(testbed.masses, testbed.body.mass)
@@ -45,7 +45,7 @@ def opened_hands(testbed: Testbed, here: Floats) -> Hands:
 
 
 def carry_out(bench: Bench, command: Command, eyes: Eyes, hands: Hands, period: float) -> Hands:
-    """Do what a command asks for, until the next one ``period`` seconds later."""
+    """Carry a command out, until the next one ``period`` seconds later."""
     if command.shift is not None:
         hands = send(bench, command.shift, eyes.displacement, hands)
     testbed = bench.testbed
@@ -61,7 +61,7 @@ def carry_out(bench: Bench, command: Command, eyes: Eyes, hands: Hands, period: 
 
 
 def send(bench: Bench, shift: Vector3, here: Floats, hands: Hands) -> Hands:
-    """Send the masses from ``here`` (m) to where the centre of mass is shifted so (m)."""
+    """Send the masses from ``here`` (m) to where they shift the centre of mass so (m)."""
     masses = bench.testbed.masses
     goal = without_delay(hands.rails, hands.goal, here, shift)
     changed = np.flatnonzero(goal != hands.goal)
@@ -100,7 +100,7 @@ def magnetising(testbed: Testbed, torque: Vector3 | None, field: Vector3 | None)
 def pulsing(
     testbed: Testbed, impulse: Vector3 | None, left: Vector3, period: float
 ) -> tuple[Inputs, Vector3]:
-    """Return pulses (N m s) for an impulse and what was left of the last, and what is left now.
+    """Return pulses (N m s) for an impulse and the remainder of the last, and the new remainder.
 
     No pulse is longer than the period: the next one would end it.
     """

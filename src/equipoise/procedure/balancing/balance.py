@@ -1,12 +1,12 @@
-"""Balance: look, move, look, until the verdict passes or there is a reason to stop.
+"""Balance: measure, move, measure, until the verdict passes or there is a reason to stop.
 
-One fit runs through the whole record, moves included, so that every look adds to the last. A move
-is made when the centre of mass is known well enough for it to help, or when waiting would let the
-platform tilt too far. (Ivanov 2021 section 5 moves every 25 s; this moves when it pays.)
+One fit uses the whole record, moves included, so that every measurement adds to the last. A move is
+made when the estimate is precise enough for it to help, or when waiting would let the platform tilt
+too far. (Ivanov 2021 section 5 moves every 25 s; this moves when it pays.)
 """
 
 from collections.abc import Generator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,22 +19,20 @@ from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.choose_move import DOWN, Option, good_moment, option_for, safest
 from equipoise.procedure.steps.joint_fit import Knowledge, learn, shifted, without_stops
+from equipoise.procedure.steps.plain_steps import measurement_step
 from equipoise.procedure.steps.planned_move import planned_move
 from equipoise.procedure.steps.tilt_guard import tilted
 from equipoise.procedure.steps.tilt_prediction import Outlook, state_now
-from equipoise.procedure.steps.verify import at, fresh_enough, is_within, verdict
+from equipoise.procedure.steps.verify import Aim, at, fresh_enough, is_within, verdict
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class BalanceOptions:
-    """Where the centre of mass should go, and what may be spent on it."""
+class BalanceOptions(Aim):
+    """The aim, and the moves and the time that may be spent."""
 
-    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
-    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
     max_moves: int = 3
     max_time: float = 120.0  # s on the bench's clock
 
@@ -48,10 +46,10 @@ INFORMED = 0.3  # of the offset: a sideways sd at which the direction of a move 
 FIRM = 0.99  # probability of being within tolerance at which to leave a move unused
 SPENT = 0.97  # the same with no move left, or no time for one
 TRIM = 0.3  # of the tolerance: an offset that the last move, when its time comes, is spent on
-LATEST = 0.97  # of the time, less the look after: when the last move is made at the latest
+LATEST = 0.97  # of the time, less SETTLE: when the last move is made at the latest
 LAST = 0.25  # of the tolerance: the same for the last move
-HELPS = 0.9  # of the tilt that is ahead, chosen: what a move against tilting must bring it to
-SETTLE = 20.0  # s to keep for the look after the last move
+HELPS = 0.9  # of the predicted tilt, chosen: that a move against tilting must reach
+SETTLE = 20.0  # s to keep for the measurement after the last move
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,15 +67,15 @@ def balance(
 ) -> Generator[Step, None, Knowledge]:
     """Yield Steps; the last is a verification, or a stop that says why, with a verdict.
 
-    What this bench has recorded ``before`` counts with what is seen from now on. What is known in
-    the end is the generator's return value.
+    The record that this bench made ``before`` counts with what is recorded from now on. The
+    generator returns the final knowledge.
     """
     began = bench.time
     fresh = bench.read(FIRST_MEASUREMENT)
     if before is not None:
         fresh = join(before, fresh)
     progress = Progress(learn(None, fresh, bench.testbed), still_since=began)
-    yield measurement_step(bench, fresh)
+    yield measurement_step(bench.time, fresh)
     while True:
         why = reason_to_stop(bench, progress, options, began)
         if why is not None:
@@ -102,7 +100,7 @@ def balance(
         knowledge = learn(progress.knowledge, fresh, bench.testbed)
         still = bench.time - MEASUREMENT
         progress = Progress(knowledge, (*progress.moves, move), still, option.brake)
-        yield measurement_step(bench, fresh)
+        yield measurement_step(bench.time, fresh)
 
 
 def reason_to_stop(
@@ -132,7 +130,7 @@ def reason_to_stop(
 def decide(
     bench: Bench, progress: Progress, options: BalanceOptions, began: float
 ) -> Option | None:
-    """Return a move to make now, or None to look on."""
+    """Return a move to make now, or None to go on measuring."""
     left = options.max_moves - len(progress.moves)
     knowledge, testbed = progress.knowledge, bench.testbed
     if left == 0 or not testbed.masses:
@@ -155,10 +153,11 @@ def decide(
 def worth_learning(
     knowledge: Knowledge, testbed: Testbed, left: int, options: BalanceOptions
 ) -> bool:
-    """Say whether to go below the target: at first, and again while its height is not known.
+    """Say whether to go below the target: at first, and again while the height is uncertain.
 
-    The masses stop as far off in a long move as in a short one, so long ones tell the scale best.
-    The last move is the way back: from where it is low already, a last one to trim is worth more.
+    The masses stop with the same error in a long move as in a short one, so long moves determine
+    the scale best. The last move is the way back; when the platform is low already, it is kept for
+    the trim.
     """
     up, first = testbed.up, left == options.max_moves
     low = float((knowledge.com - options.target) @ up) < -NOTABLE
@@ -169,8 +168,8 @@ def worth_learning(
 def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:
     """Return a place (m) well below both the target and the present centre of mass.
 
-    It makes the platform stiffer, and the known changes on the way there and back are what the
-    scale of inertia and centre of mass is learnt from.
+    It makes the platform stiffer, and the known changes on the way there and back determine the
+    scale of inertia and centre of mass.
     """
     depth = max(DOWN, DEEPER - float((knowledge.com - target) @ testbed.up))
     return target - depth * testbed.up
@@ -179,8 +178,8 @@ def below(knowledge: Knowledge, target: Vector3, testbed: Testbed) -> Vector3:
 def urgent(view: Outlook, target: Vector3, may_brake: bool) -> bool:
     """Say whether to move because of the tilt.
 
-    When staying would pass the guard: if so would going straight one look later; but as long as
-    little is known, only if even the safest move, one look later, would pass the limit.
+    When staying would pass the guard: if a direct move one measurement later would pass it too; but
+    while the estimate is uncertain, only if even the safest move then would pass the limit.
     """
     knowledge, up = view.knowledge, view.testbed.up
     later, hopeful = replace(view, wait=MEASUREMENT), replace(view, cautious=False)
@@ -219,16 +218,9 @@ def reason_of(
 
 
 def announced(move: Move) -> tuple[Reason, ...]:
-    """Return why masses are moved, and what that should leave."""
+    """Return why masses are moved, and the predicted result."""
     com = axes_of("com", move.predicted_com)
     return one_reason(move.reason, **com, travel=move.travel, duration=move.duration)
-
-
-def measurement_step(bench: Bench, fresh: Recording) -> Step:
-    """Return the step of a look."""
-    start, end = fresh.span
-    reasons = one_reason(StepReason.OBSERVED, duration=end - start)
-    return Step("measurement", bench.time, reasons, recording=fresh)
 
 
 def estimate_step(bench: Bench, progress: Progress) -> Step:

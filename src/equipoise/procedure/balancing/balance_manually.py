@@ -1,17 +1,17 @@
-"""Balance by hand: let go, record, place the weights that are asked for, until the verdict passes.
+"""Balance by hand: let go, record, place the requested weights, until the verdict passes.
 
 For platforms without actuators. Every recording is a free swing of its own, from a hand that lets
-go to one that catches; what it says is added to the posterior (``manual_estimate``), and the
-weights of the next placing are those that should bring the centre of mass to the target
-(``actuators.weight_choice``). The last placing is judged by a recording made after it.
+go to one that catches. It is added to the posterior (``manual_estimate``), and the weights of the
+next placing should bring the centre of mass to the target (``actuators.weight_choice``). The last
+placing is judged by a recording made after it.
 
-A recording that does not fit where the weights should have left the centre of mass counts alone:
-a weight is not where it was asked for, or something slipped.
+A recording that contradicts the predicted centre of mass counts alone: a weight is not where it was
+requested, or something slipped.
 """
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from equipoise.actuators.placed_weights import load_of
 from equipoise.actuators.weight_choice import Wanted, chosen
 from equipoise.estimation.information.single_record_information import Shown, shown_by
 from equipoise.maths.attitude import tilt
-from equipoise.model.arrays import Ints, Vector3
+from equipoise.model.arrays import Ints
 from equipoise.model.errors import InputError
 from equipoise.model.hands import Hands
 from equipoise.model.mass_properties import MassProperties
@@ -29,7 +29,6 @@ from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.model.weights import places_of, unloaded
 from equipoise.procedure.balancing.manual_estimate import (
@@ -41,25 +40,24 @@ from equipoise.procedure.balancing.manual_estimate import (
     taught,
 )
 from equipoise.procedure.steps.joint_fit import as_if_stiff
-from equipoise.procedure.steps.verify import CONTRADICTION, at, judged, unusable
+from equipoise.procedure.steps.plain_steps import measurement_step
+from equipoise.procedure.steps.verify import CONTRADICTION, Aim, at, judged, unusable
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class HandOptions:
-    """Where the centre of mass should go, and what may be spent on it."""
+class HandOptions(Aim):
+    """The aim, and the placings that may be made."""
 
-    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
-    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
     max_rounds: int = 4  # placings
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Progress:
-    """What is believed after a recording."""
+    """The posterior after a recording."""
 
     posterior: Posterior
     shown: Shown
-    astray: bool = False  # not where the weights should have left it
+    astray: bool = False  # the recording contradicts the prediction
 
 
 def check(testbed: Testbed) -> None:
@@ -72,19 +70,13 @@ def check(testbed: Testbed) -> None:
 
 
 def balance_by_hand(hands: Hands, options: HandOptions) -> Iterator[Step]:
-    """Yield Steps: look, estimate, place, ... ; the last has the verdict."""
+    """Yield Steps: measurement, estimate, place, ... ; the last has the verdict."""
     testbed = as_if_stiff(hands.testbed)
     check(testbed)
     posterior, loading = first_posterior(testbed), unloaded(testbed.grids, testbed.weights)
     for left in range(options.max_rounds, -1, -1):
         fresh = caught(hands.swing(), testbed)
-        start, end = fresh.span
-        yield Step(
-            "measurement",
-            hands.time,
-            one_reason(StepReason.OBSERVED, duration=end - start),
-            recording=fresh,
-        )
+        yield measurement_step(hands.time, fresh)
         observed = learnt(posterior, fresh, loading, testbed)
         posterior, verdict = observed.posterior, verdict_on(observed, options)
         yield estimate_step(hands, observed, fresh)
@@ -108,7 +100,7 @@ def caught(recording: Recording, testbed: Testbed) -> Recording:
 
 
 def learnt(posterior: Posterior, fresh: Recording, loading: Ints, testbed: Testbed) -> Progress:
-    """Return what is believed with a recording added, or by it alone where the two disagree."""
+    """Return the posterior with a recording added, or by it alone where the two disagree."""
     added = load_of(testbed, loading)
     drawn = testbed.body.inertia_P + added.inertia_P
     known = replace(testbed, body=MassProperties(posterior.mass, posterior.com, drawn))
@@ -123,12 +115,9 @@ def learnt(posterior: Posterior, fresh: Recording, loading: Ints, testbed: Testb
 
 
 def verdict_on(observed: Progress, options: HandOptions) -> Verdict:
-    """Return the verdict on what is believed after a recording."""
-    com, sd, outcome = (
-        observed.posterior.com,
-        observed.posterior.sd,
-        observed.shown.estimate.outcome,
-    )
+    """Return the verdict after a recording."""
+    com, sd = observed.posterior.com, observed.posterior.sd
+    outcome = observed.shown.estimate.outcome
     if not outcome.usable:
         return unusable(outcome, com, sd)
     return judged(com, sd, options.target, options.tolerance)
@@ -154,7 +143,7 @@ def estimate_step(hands: Hands, observed: Progress, fresh: Recording) -> Step:
 
 
 def requested_of(placing: Placing, testbed: Testbed, options: HandOptions) -> tuple[Reason, ...]:
-    """Return a placing as what to do, what it should leave, and what it cannot reach."""
+    """Return the instructions of a placing, its predicted result, and what it cannot reach."""
     sd = np.sqrt(np.diag(placing.predicted_covariance))
     leaves = at(placing.predicted_com, sd)
     if not placing.handled:

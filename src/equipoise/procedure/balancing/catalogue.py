@@ -18,33 +18,32 @@ from equipoise.simulation.carried_out import carried_out
 
 OWN = LawCard(
     name="measure_and_move",
-    idea="Fits the whole record, moves when that pays, and proves it on what comes after.",
+    idea="Fits the whole record, moves when that pays, and verifies it on the record after.",
     source="Equipoise; Ivanov 2021 section 5, with the trajectory fit instead of a filter",
     needs=("masses", "attitude"),
-    leaves="what the motor steps leave; elastic sag only if the testbed considers it",
+    leaves="the motor steps; elastic sag only if the testbed considers it",
     stable="open loop between moves: always; it brakes a platform that would pass its tilt limit",
     period=0.0,
 )
-LEISURE = 10.0  # s, chosen: for the first sight, before the masses follow
+LEISURE = 10.0  # s, chosen: for the first measurement, before the masses follow
 CARDS: dict[str, LawCard] = {OWN.name: OWN, **{name: law.card for name, law in LAWS.items()}}
 
 
 def balanced_by(
     name: str, bench: Bench, options: BalanceOptions, max_time: float | None
 ) -> Iterator[Step]:
-    """Return the steps of a law; InputError for a testbed that has not what it needs."""
+    """Return the steps of a law; InputError for a testbed that lacks what it needs."""
     check(CARDS[name], bench.testbed)
     if name == OWN.name:
         return balance(bench, options)
     own = LawOptions(options.target, options.tolerance)
-    longest = own.max_time if max_time is None else max_time
-    return run_law(bench, LAWS[name], LawOptions(own.target, own.tolerance, longest))
+    return run_law(bench, LAWS[name], own if max_time is None else replace(own, max_time=max_time))
 
 
 def balanced_and_followed(
     name: str, bench: Bench, options: BalanceOptions, max_time: float | None, duration: float
 ) -> Iterator[Step]:
-    """Yield the steps of a law and, if its verdict passes, of masses that follow what it found.
+    """Yield the steps of a law and, if its verdict passes, of masses that follow sag and drift.
 
     They follow for ``duration`` seconds; another swing proves where they leave the platform.
     """

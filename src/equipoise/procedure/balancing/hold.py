@@ -1,7 +1,7 @@
-"""Hold: keep the centre of mass where it is, while the platform warms up and drifts.
+"""Hold: keep the centre of mass at its target, while the platform warms up and drifts.
 
-The tracker goes on from what balancing found, inertia and its uncertainty included; the masses
-follow whenever a step of theirs brings the centre of mass closer.
+The tracker starts from the estimate of balancing, inertia and its uncertainty included; the masses
+follow whenever one of their steps brings the centre of mass closer.
 """
 
 from collections.abc import Iterator
@@ -9,15 +9,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import com_shift, displacements_for, mass_maps
+from equipoise.actuators.sliding_masses import displacements_for, shift_by
 from equipoise.estimation.tracker import tracker
 from equipoise.estimation.tracker.predict_correct import COM
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Matrix3, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.estimate import INERTIA
-from equipoise.model.move import Move
-from equipoise.model.reasons.reason import Reason, axes_of, one_reason
+from equipoise.model.reasons.reason import axes_of, one_reason
 from equipoise.model.reasons.step_reasons import MoveReason
 from equipoise.model.reasons.verdict_reasons import VerdictReason
 from equipoise.model.step import Step
@@ -33,11 +32,11 @@ from equipoise.procedure.steps.tilt_prediction import state_now
 
 MEASUREMENT = 5.0  # s between decisions
 FINER = 1 / 3  # of the tolerance, chosen: how closely to balance first
-FIRST_MOVES, FIRST_TIME = 10, 600.0  # s, chosen: what balancing may take before a hold
+FIRST_MOVES, FIRST_TIME = 10, 600.0  # s, chosen: allowed to the balancing before a hold
 ACT = 0.25  # of the tolerance, chosen: an offset from which a move is considered
 PRESSING = 0.6  # of the tolerance: an offset that is not kept waiting
 WIDE = 0.6  # of the tilt limit: a swing that corrections should calm
-GAIN = 0.1  # of the tolerance: what a move must better the worst axis by
+GAIN = 0.1  # of the tolerance: the least improvement of the worst axis by a move
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,10 +49,10 @@ class HoldOptions:
 
     @property
     def balancing(self) -> BalanceOptions:
-        """Return how best to balance before.
+        """Return the options of the balancing before the hold.
 
         An inertia wrong by 1 % is a height wrong by 1 um at 100 um, for as long as the hold lasts:
-        so there are moves to learn it by, and tolerance is left for what the masses cannot follow.
+        so there are moves to estimate it by, and tolerance is left for drift between the moves.
         """
         return BalanceOptions(self.target, FINER * self.tolerance, FIRST_MOVES, FIRST_TIME)
 
@@ -73,9 +72,9 @@ def balance_and_hold(
 
 
 def first_posterior(knowledge: Knowledge, testbed: Testbed) -> tracker.State:
-    """Return the tracker's belief at the end of what balancing recorded."""
+    """Return the tracker's prior: the estimate at the end of the record of balancing."""
     q, rate = state_now(knowledge, testbed)
-    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, knowledge.displacement)
+    shift = shift_by(testbed, knowledge.displacement)
     t = float(knowledge.fitted.problem.line.t[-1])
     inertia_P = knowledge.fitted.point.body(testbed.body.mass).inertia_P
     covariance = knowledge.estimate.covariance_of((*knowledge.standing, *INERTIA))
@@ -87,7 +86,7 @@ def standing(
     state: tracker.State, testbed: Testbed, displacement: Floats
 ) -> tuple[Vector3, Vector3]:
     """Return the centre of mass with the masses as they stand, and its sd (m)."""
-    shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, displacement)
+    shift = shift_by(testbed, displacement)
     return state.com + shift, np.sqrt(np.diag(state.covariance)[COM])
 
 
@@ -96,7 +95,7 @@ def before_moving(
 ) -> tuple[Vector3, Matrix3]:
     """Return the centre of mass (m, m^2) less the stops' errors of masses about to move to a goal.
 
-    The tracker knows no stop by itself, so nothing but their accuracy is known of them.
+    The tracker does not estimate single stops, so only their accuracy is known.
     """
     com, _ = standing(state, testbed, displacement)
     leaving = (goal != displacement) & (displacement != 0)  # at home a mass has no error
@@ -112,7 +111,7 @@ def correction(
         return None
     masses, total = testbed.masses, testbed.body.mass
     goal = displacements_for(masses, total, displacement, options.target - com)
-    change = com_shift(mass_maps(masses), total, goal - displacement)
+    change = shift_by(testbed, goal - displacement)
     then = np.abs(com + change - options.target) / options.tolerance
     return goal if then.max() < now.max() - GAIN else None
 
@@ -148,11 +147,6 @@ def timely(state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed)
     return not outlying or calming(state, shift, testbed)
 
 
-def pressing(com: Vector3, options: HoldOptions) -> bool:
-    """Say whether an offset is too near the tolerance to be kept waiting."""
-    return bool(np.any(np.abs(com - options.target) > PRESSING * options.tolerance))
-
-
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:
     """Yield a move whenever one is made, and a verdict at the end."""
     testbed, end = bench.testbed, bench.time + options.duration
@@ -171,12 +165,14 @@ def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[S
         goal = correction(com, displacement, testbed, options)
         if goal is None:
             continue
-        shift = com_shift(mass_maps(testbed.masses), testbed.body.mass, goal - displacement)
-        if pressing(com, options) or timely(state, com, shift, testbed):
+        shift = shift_by(testbed, goal - displacement)
+        pressing = np.any(np.abs(com - options.target) > PRESSING * options.tolerance)
+        if pressing or timely(state, com, shift, testbed):
             posterior = before_moving(state, testbed, displacement, goal)
             move = planned_move(testbed, displacement, goal, posterior, MoveReason.DRIFT)
             bench.move(move.targets)
-            yield Step("move", bench.time, drifted(move, com), fresh, move=move)
+            why = one_reason(move.reason, **axes_of("was", com), travel=move.travel)
+            yield Step("move", bench.time, why, fresh, move=move)
     last = standing(state, testbed, displacement)
     yield verdict_step(bench, options, last, worst, bench.time < end - 1e-9)
 
@@ -188,11 +184,6 @@ def without_drift(torque: Floats) -> Floats:
     return kept
 
 
-def drifted(move: Move, com: Vector3) -> tuple[Reason, ...]:
-    """Return why a correction was made, and how large it was."""
-    return one_reason(move.reason, **axes_of("was", com), travel=move.travel)
-
-
 def verdict_step(
     bench: Bench,
     options: HoldOptions,
@@ -200,7 +191,7 @@ def verdict_step(
     worst: Vector3,
     tilted_out: bool,
 ) -> Step:
-    """Return the verdict on the whole hold; the belief is a centre of mass and its sd (m)."""
+    """Return the verdict on the whole hold; ``posterior`` is a centre of mass and its sd (m)."""
     if tilted_out:
         reasons = one_reason(VerdictReason.TILTED)
     else:

@@ -1,11 +1,11 @@
-"""What is believed of a platform from recording to recording, weights being placed in between.
+"""The posterior of a platform from recording to recording, weights being placed in between.
 
 Inertia and centre of mass with their joint covariance. A recording adds its information
 (``estimation.single_record``); weights of known first moment change both by a known step,
 
     r <- (M r + dmu) / M',   J <- J + dJ,   cov(r) grows by cov(dmu) / M'^2
 
-and it is this known step between two free swings that tells the scale of J and r.
+and this known step between two free swings determines the scale of J and r.
 """
 
 from dataclasses import dataclass
@@ -48,12 +48,12 @@ class Posterior:
 
     @property
     def body(self) -> MassProperties:
-        """The mean as a body; nothing here says that it can exist."""
+        """The mean as a body, which need not be physically consistent."""
         return MassProperties(self.mass, self.com, unpack_symmetric(self.mean[J]))
 
 
 def first_posterior(testbed: Testbed) -> Posterior:
-    """Return what the testbed's description says."""
+    """Return the prior by the testbed's nominal values."""
     body = testbed.body
     sd = np.append(testbed.inertia_sd * element_sizes(body.inertia_P), testbed.com_sd)
     mean = np.append(pack_symmetric(body.inertia_P), body.com)
@@ -61,7 +61,7 @@ def first_posterior(testbed: Testbed) -> Posterior:
 
 
 def reloaded(posterior: Posterior, testbed: Testbed, before: Ints, after: Ints) -> Posterior:
-    """Return what is believed when weights have been placed."""
+    """Return the posterior after weights have been placed."""
     old, new = load_of(testbed, before), load_of(testbed, after)
     mass = posterior.mass + new.mass - old.mass
     moment = posterior.mass * posterior.com + new.first_moment - old.first_moment
@@ -73,12 +73,12 @@ def reloaded(posterior: Posterior, testbed: Testbed, before: Ints, after: Ints) 
 
 
 def taught(posterior: Posterior, shown: Shown) -> Posterior:
-    """Return what is believed with a recording added."""
+    """Return the posterior with a recording added."""
     return _added(posterior, inverse_spd(posterior.covariance), shown)
 
 
 def alone(posterior: Posterior, shown: Shown) -> Posterior:
-    """Return what a recording says by itself of the centre of mass, the inertia as believed."""
+    """Return the posterior by a recording without the prior of the centre of mass."""
     information = np.zeros((9, 9))
     information[J, J] = inverse_spd(posterior.covariance[J, J])
     return _added(posterior, information, shown)
@@ -91,7 +91,7 @@ def _added(posterior: Posterior, information: Square, shown: Shown) -> Posterior
 
 
 def as_estimate(posterior: Posterior, latest: Estimate) -> Estimate:
-    """Return a belief as an estimate, which explains the latest recording as told there."""
+    """Return a posterior as an estimate, with outcome and residual of the latest recording."""
     order = [*range(R.start, R.stop), *range(J.start, J.stop)]
     mean, covariance = posterior.mean[order], posterior.covariance[np.ix_(order, order)]
     names = [*((name, "m") for name in COM), *((name, "kg m2") for name in INERTIA)]

@@ -1,33 +1,29 @@
 """Run a balancing law on a bench, step by step, and prove what it reached on fresh data.
 
-Every ``card.period`` seconds the law is shown a Sample and its Command is carried out; when it asks
-for a look, masses and devices rest, the platform swings, and the law is given the Estimate. When
-it has finished, or its time is used up, the platform is left to swing once more and judged by that
-record alone. A platform that tilts beyond its limit is halted, with the reason.
+Every ``card.period`` seconds the law receives a Sample and its Command is carried out. When it
+requests a measurement, masses and devices rest, the platform swings, and the law receives the
+Estimate. When it has finished, or its time is used up, the platform swings once more and is judged
+by that record alone. A platform that tilts beyond its limit is stopped, with the reason.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from equipoise.actuators.control_moment_gyros import gyros_span
-from equipoise.actuators.jets import axes_of
-from equipoise.actuators.reaction_wheels import span, wheels_span
+from equipoise.actuators.reaction_wheels import axes_of, span
 from equipoise.actuators.stored_momentum import with_known_inputs
-from equipoise.control.law import Law
-from equipoise.control.sample import Sample
+from equipoise.control.law import Law, Sample
 from equipoise.estimation.method_contract import Options, estimated
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
-from equipoise.model.arrays import Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Estimate
-from equipoise.model.following import Following
 from equipoise.model.law_card import NEEDS, LawCard, Need
 from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.reasons.step_reasons import StepReason
@@ -36,25 +32,22 @@ from equipoise.model.recording import Recording, joined, window
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import TERMS, among
-from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.balancing.allocation import Hands, carry_out, let_rest, opened_hands
-from equipoise.procedure.balancing.balance import measurement_step
 from equipoise.procedure.steps.joint_fit import as_if_stiff, learn, without
+from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step
 from equipoise.procedure.steps.sampler import Eyes, opened, sample_of, sampled
 from equipoise.procedure.steps.tilt_guard import guarded, tilted
 from equipoise.procedure.steps.verification_swing import watched_swing
-from equipoise.procedure.steps.verify import verdict
+from equipoise.procedure.steps.verify import Aim, verdict
 
 SETTLE = 1.0  # s, chosen: after it the filter's rate and attitude can be used
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LawOptions:
-    """Where the centre of mass should go, and what may be spent on it."""
+class LawOptions(Aim):
+    """The aim, and the time that may be spent."""
 
-    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
-    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
     max_time: float = 600.0  # s on the bench's clock, the proof included
     proof: float = 40.0  # s of swinging by which the result is judged
 
@@ -69,10 +62,10 @@ class Session:
 
 
 def lacking(card: LawCard, testbed: Testbed) -> list[Need]:
-    """Return what a law needs and a testbed has not."""
+    """Return what a law needs and a testbed lacks."""
     has: dict[Need, bool] = {
         "masses": bool(testbed.masses),
-        "momentum": wheels_span(testbed.wheels) or gyros_span(testbed.cmgs),
+        "momentum": span(axes_of(testbed.wheels)) or gyros_span(testbed.cmgs),
         "magnetorquers": bool(testbed.magnetorquers) and testbed.magnetic_field is not None,
         "jets": span(axes_of(testbed.jets)),
         "gyro": testbed.gyro is not None,
@@ -82,7 +75,7 @@ def lacking(card: LawCard, testbed: Testbed) -> list[Need]:
 
 
 def check(card: LawCard, testbed: Testbed) -> None:
-    """Raise InputError for a testbed that has not what a law needs."""
+    """Raise InputError for a testbed that lacks what a law needs."""
     missing = [NEEDS[need] for need in lacking(card, testbed)]
     if missing:
         found = f"a testbed without {' and without '.join(missing)}"
@@ -114,14 +107,14 @@ def run_law(bench: Bench, law: Law[Any, Any], options: LawOptions) -> Iterator[S
             why = one_reason(StepReason.TIME_USED_UP)
             break
         if command.measurement is not None:
-            session, recording, estimate = measurement(bench, session, command.measurement)
-            observed = estimate
-            yield measurement_step(bench, recording)
-            yield estimate_step(bench, estimate)
+            session, recording, observed = measurement(bench, session, command.measurement)
+            yield measurement_step(bench.time, recording)
+            yield estimate_step(bench.time, observed)
         else:
             session, observed, recording = control(bench, session, command, law.card.period)
         why = reason_to_stop(bench, recording, end)
-    yield control_step(bench, law.card, began, why, following)
+    ran = one_reason(StepReason.LAW_RAN, law.card.name, duration=bench.time - began)
+    yield Step("control", bench.time, (*ran, *why), following=following)
     if any(reason.code is StepReason.TILTED for reason in why):
         bench.stop()
         yield stop_step(bench)
@@ -137,7 +130,7 @@ def reason_to_stop(bench: Bench, recording: Recording, end: float) -> tuple[Reas
 
 
 def first_sight(bench: Bench) -> tuple[Session, Sample]:
-    """Return the session and the first sample, when the platform was seen for a moment."""
+    """Return the session and the first sample, after SETTLE seconds of record."""
     testbed, fresh = bench.testbed, bench.read(SETTLE)
     before = opened(testbed)
     eyes = sampled(before, fresh, testbed)
@@ -151,7 +144,7 @@ def first_sight(bench: Bench) -> tuple[Session, Sample]:
 def control(
     bench: Bench, session: Session, command: Command, period: float
 ) -> tuple[Session, Sample, Recording]:
-    """Carry a command out and return what is seen a period later."""
+    """Carry a command out and return the sample a period later."""
     testbed = bench.testbed
     hands = carry_out(bench, command, session.eyes, session.hands, period)
     fresh = bench.read(period)
@@ -164,7 +157,7 @@ def control(
 def measurement(
     bench: Bench, session: Session, requested: Measurement
 ) -> tuple[Session, Recording, Estimate]:
-    """Let everything rest, read, and return what a method makes of it."""
+    """Let everything rest, record, and return the estimate of the requested method."""
     testbed = bench.testbed
     hands, wait = let_rest(bench, session.eyes, session.hands)
     before = guarded(bench, wait) if wait > 0 else None
@@ -181,7 +174,7 @@ def measurement(
 
 
 def measured_estimate(recording: Recording, testbed: Testbed, requested: Measurement) -> Estimate:
-    """Return what a method makes of a record, within the patience of somebody at a bench.
+    """Return the estimate of a method, computed quickly enough for a person at a bench.
 
     The trajectory fit is taken without the survey that it makes of a recording from elsewhere.
     """
@@ -189,7 +182,7 @@ def measured_estimate(recording: Recording, testbed: Testbed, requested: Measure
     options = Options(requested.terms, requested.hold, use_prior=requested.use_prior)
     if requested.method != trajectory.METHOD:
         return estimated(METHODS[requested.method], recording, testbed, options)
-    # A torque that is held is none: the trajectory fit is told of it by leaving it out.
+    # A held torque is zero: the trajectory fit leaves it out.
     terms = among({*testbed.disturbances, *requested.terms} - set(requested.hold))
     hold = tuple(name for name in requested.hold if name not in TERMS)
     params = trajectory.Params(terms, use_prior=requested.use_prior, hold=hold)
@@ -198,7 +191,7 @@ def measured_estimate(recording: Recording, testbed: Testbed, requested: Measure
 
 
 def since(parts: tuple[Recording, ...], start: float) -> Recording:
-    """Return what was recorded from a time (s) on, as one."""
+    """Return the record from a time (s) on."""
     recent = [part for part in parts if part.span[1] >= start]
     return window(joined(recent), start, np.inf)
 
@@ -227,21 +220,3 @@ def stop_step(bench: Bench) -> Step:
     """Return the stop of a run whose platform tilts too much."""
     verdict = Verdict(one_reason(VerdictReason.TILTED))
     return Step("stop", bench.time, verdict.reasons, verdict=verdict)
-
-
-def control_step(
-    bench: Bench,
-    card: LawCard,
-    began: float,
-    why: tuple[Reason, ...],
-    following: Following | None,
-) -> Step:
-    """Return the step that says how long a law was at work and how it ended."""
-    ran = one_reason(StepReason.LAW_RAN, card.name, duration=bench.time - began)
-    return Step("control", bench.time, (*ran, *why), following=following)
-
-
-def estimate_step(bench: Bench, estimate: Estimate) -> Step:
-    """Return the step of an estimate."""
-    reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
-    return Step("estimate", bench.time, reasons, estimate=estimate)

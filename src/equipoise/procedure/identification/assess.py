@@ -1,15 +1,15 @@
 """Assess: what a record proves about a platform as its masses stand, as Steps.
 
-The trajectory fit, in the model that the record supports, says where the centre of mass is and how
-surely; the testbed's inertia is knowledge, its centre of mass is not, and torques that the testbed
-considers are as large as benches have them where the record does not show them. From that follow
-the torque of gravity over a range of tilts, with sag, and the verdict on a requirement.
+The trajectory fit, in the model that the record supports, estimates the centre of mass and its sd.
+The testbed's inertia is a prior, its centre of mass is not, and torques that the testbed considers
+have the typical sd of benches where the record does not determine them. From that follow the torque
+of gravity over a range of tilts, with sag, and the verdict on a requirement.
 
 Simple metrics stand beside it: torque, energy, periods (``swing_metrics``), each with its own sd,
-all at the inertia that the fit found. Where they disagree, something is wrong with one of them.
+all at the inertia of the fit. Where they disagree, one of them is wrong.
 
-Cannot see what happens at tilts far from those recorded; nor the part of r along gravity that no
-swing shows, whose uncertainty goes into every number.
+Tilts well outside the recorded range are not assessed. The part of r along gravity that no swing
+shows is unobservable; its uncertainty goes into every number.
 """
 
 from collections.abc import Generator
@@ -34,23 +34,20 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import among
 from equipoise.model.verdict import Verdict, VerdictOutcome, outcome_of
-from equipoise.procedure.identification.requirement import (
-    Judged,
-    Requirement,
-    judged,
-)
+from equipoise.procedure.identification.requirement import Judged, Requirement, judged
 from equipoise.procedure.identification.swing_metrics import SwingMetrics, swing_metrics
 from equipoise.procedure.steps.clean_record import sound
+from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step
 
-UNKNOWN_COM = 1e-3  # m, chosen: one sd of where a centre of mass may be that is to be proven
+UNKNOWN_COM = 1e-3  # m, chosen: one sd of the prior of a centre of mass that is to be proven
 RANGE = np.radians(20.0)
-DOUBTFUL = 0.02  # chosen: an inertia known no better widens every bound
-Fit = tuple[Estimate, tuple[tuple[Parameter, ...], Square]]  # and what ``spread_of`` says
+DOUBTFUL = 0.02  # chosen: an inertia of a larger sd widens every bound
+Fit = tuple[Estimate, tuple[tuple[Parameter, ...], Square]]  # and the result of ``spread_of``
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AssessOptions:
-    """What is asked."""
+    """The target, the requirements and the model."""
 
     target: Vector3 = field(default_factory=lambda: np.zeros(3))  # m, where com is wanted
     tilt: float = float(RANGE)  # rad, of the range over which torque counts
@@ -62,7 +59,7 @@ class AssessOptions:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Assessment:
-    """What a record proves."""
+    """The assessment of a record."""
 
     testbed: Testbed
     recording: Recording
@@ -100,13 +97,11 @@ def assess(
     recording: Recording, testbed: Testbed, options: AssessOptions
 ) -> Generator[Step, None, Assessment]:
     """Yield Steps; the last has the verdict if there is a requirement. Returns the Assessment."""
-    start, end = recording.span
-    reasons = one_reason(StepReason.RECORDING_READ, duration=end - start)
-    yield Step("measurement", end, reasons, recording=recording)
+    end = recording.span[1]
+    yield measurement_step(end, recording, StepReason.RECORDING_READ)
     fit = fit_of(recording, testbed, options)
     estimate = fit[0]
-    reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
-    yield Step("estimate", end, reasons, estimate=estimate)
+    yield estimate_step(end, estimate)
     body = testbed.body
     if estimate.outcome.usable:
         body = replace(body, com=estimate.com, inertia_P=estimate.inertia_P)
@@ -116,7 +111,7 @@ def assess(
 
 
 def fit_of(recording: Recording, testbed: Testbed, options: AssessOptions) -> Fit:
-    """Return what the trajectory fit makes of a record, the testbed's inertia being known."""
+    """Return the trajectory fit of a record, with the testbed's inertia as prior."""
     recording, testbed = sound(arranged(recording, testbed.mass_names), testbed)
     params = Params(
         among({*testbed.disturbances, *options.terms}),
@@ -172,7 +167,7 @@ def inertia_doubt(parameters: tuple[Parameter, ...], covariance: Square) -> floa
 
 
 def answers_of(options: AssessOptions, torque: InRange, offset: Bounded) -> tuple[Judged, ...]:
-    """Return the answers to what is required."""
+    """Return the answers to the requirements."""
     found = list[Judged]()
     if options.require_torque is not None:
         limit = Requirement("torque", options.require_torque, options.tilt)
@@ -183,7 +178,7 @@ def answers_of(options: AssessOptions, torque: InRange, offset: Bounded) -> tupl
 
 
 def verification(found: Assessment, time: float) -> Step:
-    """Return the last step: the verdict on what is required, or that nothing is."""
+    """Return the last step: the verdict on the requirements, or that there are none."""
     sd = np.sqrt(np.diag(found.com_covariance))
     outcome, options = found.estimate.outcome, found.options
     requested = options.require_torque is not None or options.require_offset is not None

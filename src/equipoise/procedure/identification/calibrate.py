@@ -1,4 +1,4 @@
-"""Calibrate: from a recording of commanded moves to drives and sensors as they are."""
+"""Calibrate: from a recording of commanded moves to the parameters of drives and sensors."""
 
 from equipoise.estimation.calibration import calibration
 from equipoise.estimation.calibration.calibration import CalibrateOptions
@@ -9,6 +9,6 @@ from equipoise.procedure.steps.clean_record import sound
 
 
 def calibrate(recording: Recording, testbed: Testbed, options: CalibrateOptions) -> Estimate:
-    """Return the calibration by what of a recording is sound."""
+    """Return the calibration by the sound rows of a recording."""
     recording, testbed = sound(recording, testbed)
     return calibration.calibrate(recording, testbed, options)

@@ -7,12 +7,12 @@ home, and stands for half a swing after each:
 
 Half and whole on both sides show the gain (sum of d^2: 5/2 d_max^2), stops at half way and at home
 that are reached from either side the backlash, and six stops against three unknowns along the rail
-the scatter. d_max is as far as the rail goes and the platform, as it is guessed, may lean at rest:
-``LEAN`` of its limit, because it swings about as far beyond, and not above ``HEIGHT`` of its depth
-nor below ``DEPTH`` of it: a heavy mass on a long rail would make another pendulum of the platform,
-whose swings no fit follows from the guess.
+the scatter. d_max is limited by the rail and by the nominal platform at rest. It leans by at most
+``LEAN`` of its limit, because it swings about as much beyond, and hangs between ``HEIGHT`` and
+``DEPTH`` of its depth: a heavy mass on a long rail would make another pendulum of the platform, to
+which no fit converges from the nominal values.
 
-Cannot see how far the guess is off: identify and balance roughly first.
+The error of the nominal values is not considered: identify and balance roughly first.
 """
 
 import math
@@ -25,8 +25,9 @@ from equipoise.model.errors import InputError
 from equipoise.model.testbed import SlidingMass, Testbed
 
 COURSE = (0.5, 1.0, 0.0, -1.0, -0.5, 0.0)
-LEAN = 0.4  # of the tilt limit, chosen: twice that in the swing, and some for a rough guess
-HEIGHT = 0.5  # of the guessed depth of com below P, chosen: that is left at least
+TURNS_OVER = math.pi / 3  # rad, chosen: the limit of a table that could turn over
+LEAN = 0.4  # of the tilt limit, chosen: twice that in the swing, and some for nominal errors
+HEIGHT = 0.5  # of the nominal depth of com below P, chosen: that is left at least
 DEPTH = 2.0  # of the same, chosen: that is reached at most, a period shorter by as much
 SHARES = 0.85 ** np.arange(50)  # of the travel, chosen: tried from all of it to 0.03 %
 ROUND = 5.0  # s, chosen: times a person can follow
@@ -37,7 +38,7 @@ Moves = list[tuple[float, dict[str, float]]]
 def calibration_moves(testbed: Testbed, names: tuple[str, ...] = ()) -> tuple[Moves, float]:
     """Return times (s) and targets (m), and the time to record; all masses unless named.
 
-    InputError for a platform whose guessed centre of mass does not hang.
+    InputError for a platform whose nominal centre of mass does not hang.
     """
     moves, t = Moves(), stand(testbed)
     for mass in testbed.masses:
@@ -51,7 +52,7 @@ def calibration_moves(testbed: Testbed, names: tuple[str, ...] = ()) -> tuple[Mo
 
 
 def stand(testbed: Testbed) -> float:
-    """Return half a period of swing as guessed, s, in whole ROUNDs."""
+    """Return half a nominal period of swing, s, in whole ROUNDs."""
     body = testbed.body
     depth = -float(body.com @ testbed.up)
     if depth <= 0:
@@ -66,30 +67,22 @@ def course_of(mass: SlidingMass, testbed: Testbed) -> list[float]:
     """Return the targets of one mass, m, in whole steps."""
     low, high = (share_of(mass, end, testbed) * end for end in mass.travel)
     ends = [high if share > 0 else -low for share in COURSE]
-    goals = [in_steps(share * end, mass) for share, end in zip(COURSE, ends, strict=True)]
+    goals = [share * end for share, end in zip(COURSE, ends, strict=True)]
+    if mass.resolution > 0:  # towards home
+        goals = [math.trunc(goal / mass.resolution) * mass.resolution for goal in goals]
     return [goal for k, goal in enumerate(goals) if goal != (goals[k - 1] if k else 0.0)]
 
 
 def share_of(mass: SlidingMass, end: float, testbed: Testbed) -> float:
-    """Return the greatest share of the way to one end of the rail at which the guess hangs well."""
+    """Return the greatest share of the way to one end of a rail with which the platform hangs."""
     shift: Vector3 = mass_maps([mass]).first_moment[0] * end / testbed.body.mass
     return next((float(f) for f in SHARES if hangs(f * shift, testbed)), 0.0)
 
 
 def hangs(shift: Vector3, testbed: Testbed) -> bool:
-    """Say whether the guessed platform leans little enough with its centre of mass shifted (m)."""
+    """Say whether the nominal platform leans little enough with its centre of mass shifted (m)."""
     com, up = testbed.body.com + shift, testbed.up
     depth, before = -float(com @ up), -float(testbed.body.com @ up)
     aside = float(np.linalg.norm(com + depth * up))
-    leans = aside > math.tan(LEAN * lean_limit(testbed)) * depth
+    leans = aside > math.tan(LEAN * min(testbed.tilt_limit, TURNS_OVER)) * depth
     return HEIGHT * before <= depth <= DEPTH * before and not leans
-
-
-def lean_limit(testbed: Testbed) -> float:
-    """Return the tilt limit, or that of a table that could turn over, rad."""
-    return min(testbed.tilt_limit, math.pi / 3)
-
-
-def in_steps(goal: float, mass: SlidingMass) -> float:
-    """Return a target in whole steps, towards home."""
-    return goal if mass.resolution == 0 else math.trunc(goal / mass.resolution) * mass.resolution

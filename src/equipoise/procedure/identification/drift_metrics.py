@@ -1,11 +1,11 @@
-"""Looks at the centre of mass one after the other along a record, and how it wanders.
+"""The centre of mass in successive parts of a record, and how it wanders.
 
-Each look is a trajectory fit of its own stretch, as a stiff platform that does not drift within it;
-looks share no row. The inertia is what the whole record showed, or, where that could not be used,
-the testbed's with its sd; an error of it is in all looks alike, and not in their scatter.
-(``assessment.allan`` says what they come to.)
+Each part has a trajectory fit of its own, as a stiff platform that does not drift within it; parts
+share no row. The inertia is that of the whole record, or, where that is not usable, the testbed's
+with its sd. Its error is common to all parts, and absent from their scatter (evaluated by
+``assessment.metrics.allan``).
 
-Cannot see what is quicker than a look; a look whose fit is not usable is left out.
+Changes quicker than a part are unobservable; a part whose fit is not usable is left out.
 """
 
 from dataclasses import dataclass, replace
@@ -26,19 +26,19 @@ from equipoise.procedure.steps.joint_fit import as_if_stiff, without
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OverHours:
-    """Looks, and what they say together."""
+    """The centre of mass by parts, and its wander."""
 
     t: Series1  # s, the middle of each
     com: Series3  # m, as the masses stood
     sd: Series3  # m
-    left_out: int  # looks that were not usable
-    wander: Wander | None  # None: too few looks
+    left_out: int  # parts whose fits were not usable
+    wander: Wander | None  # None: too few parts
 
 
 def metrics_over_hours(
     recording: Recording, testbed: Testbed, seconds: float, inertia_known: bool
 ) -> OverHours:
-    """Return looks of ``seconds`` each; the testbed's inertia counts as known, or as a prior."""
+    """Return metrics of parts of ``seconds`` each; the inertia counts as known, or as a prior."""
     recording = arranged(recording, testbed.mass_names)
     bed = replace(without(as_if_stiff(testbed), "drift"), com_sd=np.full(3, UNKNOWN_COM))
     held = INERTIA if inertia_known else ()
@@ -62,7 +62,7 @@ def metrics_over_hours(
 
 
 def spread_of(measurement: Estimate) -> Vector3:
-    """Return the sd of a look's centre of mass but for the inertia, whose error all looks share."""
+    """Return the sd of a part's centre of mass but for the inertia, whose error all parts share."""
     own, J = (
         [measurement.index(name) for name in names] for names in (measurement.standing, INERTIA)
     )
@@ -70,7 +70,7 @@ def spread_of(measurement: Estimate) -> Vector3:
 
 
 def metric_of(part: Recording, testbed: Testbed, params: trajectory.Params) -> Estimate | None:
-    """Return a look at a stretch; None where its fit cannot be used or does not show all."""
+    """Return the fit of a part; None where it is not usable or does not show all of com."""
     rows = max((len(c) for c in (part.attitude, part.rate) if c is not None), default=0)
     if rows < trajectory.FEW_ROWS:
         return None

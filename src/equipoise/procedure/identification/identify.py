@@ -1,8 +1,8 @@
 """Identify: from a recording to mass properties, coarse to fine, as Steps.
 
-What the record allows decides: rest positions, if there are any, give a first centre of mass; the
-linear momentum integral a first inertia; the trajectory fit, which does not need either, the
-answer. A single method can be asked for instead.
+The record decides: rest positions, if there are any, give a first centre of mass; the linear
+momentum integral a first inertia; the trajectory fit, which needs neither, the answer. A single
+method can be requested instead.
 """
 
 from collections.abc import Iterator
@@ -11,18 +11,17 @@ from dataclasses import dataclass
 from equipoise.estimation.method_contract import Options, estimated, heeded
 from equipoise.estimation.methods.registry import METHODS
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.estimate import Estimate
-from equipoise.model.reasons.reason import one_reason
 from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 from equipoise.procedure.steps.clean_record import sound
+from equipoise.procedure.steps.plain_steps import estimate_step, measurement_step
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class IdentifyOptions:
-    """What is asked for."""
+    """The requested method and model."""
 
     method: str = "auto"
     terms: tuple[str, ...] = ()  # torques to estimate, beside the testbed's own
@@ -32,30 +31,23 @@ class IdentifyOptions:
 
     @property
     def requested(self) -> Options:
-        """Return what is asked of the method itself."""
+        """Return the options of the method itself."""
         return Options(self.terms, self.hold, self.use_prior, self.robust)
 
 
 COARSE_TO_FINE = ("equilibrium", "momentum_laboratory", "trajectory")
 
 
-def step_of(recording: Recording, estimate: Estimate) -> Step:
-    """Return the step that reports an estimate."""
-    reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
-    return Step("estimate", recording.span[1], reasons, estimate=estimate)
-
-
 def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -> Iterator[Step]:
-    """Yield a look, then one estimate for each method that the record allows; the last counts.
+    """Yield a measurement, then one estimate for each possible method; the last counts.
 
     Raises InputError for a method or a held parameter that does not exist.
     """
     if options.method not in ("auto", *METHODS):
         wanted = nearest(options.method, ["auto", *METHODS])
         raise InputError("method", f"'{options.method}'", wanted)
-    start, end = recording.span
-    reasons = one_reason(StepReason.RECORDING_READ, duration=end - start)
-    yield Step("measurement", end, reasons, recording=recording)
+    end = recording.span[1]
+    yield measurement_step(end, recording, StepReason.RECORDING_READ)
     recording, testbed = sound(recording, testbed)
     chosen = COARSE_TO_FINE if options.method == "auto" else (options.method,)
     for name in chosen:
@@ -65,4 +57,4 @@ def identify(recording: Recording, testbed: Testbed, options: IdentifyOptions) -
         )
         estimate = estimated(method, recording, testbed, requested)
         if estimate.parameters or name == chosen[-1]:
-            yield step_of(recording, estimate)
+            yield estimate_step(recording.span[1], estimate)

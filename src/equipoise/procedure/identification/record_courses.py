@@ -1,4 +1,4 @@
-"""What estimates say along the records that they were made of: motions and courses for figures.
+"""Estimates along the records that they were made of: motions and courses for figures.
 
     fit        the motion that the testbed predicts, and the one that the estimate predicts
     steps      the motion that the estimate of a step predicts along the step's own record
@@ -39,7 +39,7 @@ class FitMotions:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrackedCourses:
-    """What the tracker has along a record."""
+    """The courses of the tracker along a record."""
 
     rate: Course  # rad/s, body axes
     com: Course  # m, body axes, masses at home
@@ -86,7 +86,7 @@ def balancing_courses(
 
 
 def fit_motions(recording: Recording, testbed: Testbed, estimate: Estimate) -> FitMotions | None:
-    """Return the motions of a fit; None where the estimate does not say how the record began."""
+    """Return the motions of a fit; None where the estimate has no initial state."""
     if not predicts_motion(estimate):
         return None
     return FitMotions(before(recording, testbed), predict(recording, testbed, estimate))
@@ -105,7 +105,7 @@ def step_motions(steps: Sequence[Step], testbed: Testbed) -> Mapping[Step, Predi
 
 
 def predicts_motion(estimate: Estimate | None) -> TypeGuard[Estimate]:
-    """Say whether an estimate tells how its record began, so that the model can be run along it."""
+    """Say whether an estimate holds the initial state, so that the model can be run along it."""
     names = (*COM, *INERTIA, *RATE, *ATTITUDE)
     return estimate is not None and all(map(estimate.has, names)) and estimate.method != TRACKER
 
@@ -118,7 +118,7 @@ def has_attitude(recording: Recording | None) -> TypeGuard[Recording]:
 def tracked_courses(
     recording: Recording, testbed: Testbed, estimate: Estimate | None, compare: bool = False
 ) -> TrackedCourses:
-    """Return what the tracker has along a record with attitude rows.
+    """Return the courses of the tracker along a record with attitude rows.
 
     ``compare`` runs it a second time, without the commanded moves.
     """

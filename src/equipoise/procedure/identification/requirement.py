@@ -1,8 +1,8 @@
-"""Whether a platform meets a requirement: passed, failed, or the record cannot tell.
+"""Whether a platform meets a requirement: passed, failed, or undecided by the record.
 
     passed        the 97.5 % upper bound is within the limit
     failed        the lower bound of the 95 % interval is beyond it
-    cannot tell   neither; with the floor, the least value that this record could have proven
+    undecided     neither; with the floor, the least value that this record could have proven
 
 A platform just at its limit passes in at most 2.5 % of records, however good or poor they are:
 bounds are of a length, which counts every direction in which the centre of mass may be off
@@ -30,7 +30,7 @@ TOO_NEAR_LIMIT = {"torque": Why.TORQUE_TOO_NEAR_LIMIT, "offset": Why.OFFSET_TOO_
 
 @dataclass(frozen=True, slots=True)
 class Requirement:
-    """What must not be exceeded, in SI."""
+    """A limit that must not be exceeded, in SI."""
 
     quantity: Quantity  # gravity's torque, rms over a range of tilts, or com's distance from target
     limit: float  # N m or m
@@ -39,7 +39,7 @@ class Requirement:
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """A requirement, and what a record says of it."""
+    """A requirement, and the answer of a record."""
 
     requirement: Requirement
     found: Bounded
@@ -69,7 +69,7 @@ def judged(requirement: Requirement, found: Bounded) -> Judged:
 
 
 def doubt(requirement: Requirement, found: Bounded) -> Reason:
-    """Return why a record cannot tell."""
+    """Return why a record does not decide."""
     beyond = found.floor > requirement.limit
     codes = FLOOR_BEYOND_LIMIT if beyond else TOO_NEAR_LIMIT
     return Reason(codes[requirement.quantity], (), {"floor": found.floor})

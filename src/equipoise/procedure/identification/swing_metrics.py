@@ -1,14 +1,12 @@
-"""What simple looks at a free swing say of the centre of mass, each with its own uncertainty.
+"""Simple metrics of a free swing: the centre of mass by each, with its own uncertainty.
 
     torque    balance of torques by a Savitzky-Golay filter as long as the swing allows
     energy    balance of energy
     period    h from the period of each swing; ``spectrum`` shows where they were sought
 
-All take the inertia as it is given: what it is off by is off in all of them alike. They see what
-happened after the last mass had stopped. Beside the trajectory fit they are worth what an
-independent look is worth: none of them shares its model of the sensors.
-
-Cannot see what their files say of themselves.
+All take the inertia as given: its error is common to all of them. They use the record after the
+last mass had stopped. They are an independent check of the trajectory fit: none of them shares its
+model of the sensors. Their limits are those that their own files state.
 """
 
 from dataclasses import dataclass, replace
@@ -41,14 +39,14 @@ from equipoise.model.testbed import Testbed
 SHARP = 0.99  # chosen: of a swing, what a filter must leave
 LONGEST = 0.25  # of the record, the longest window
 SHORTEST = 0.51  # s, the window of ``torque_savitzky_golay``
-FOR_NOISE = 8  # pairs of draws, chosen: the sd of what is felt is known to a fifth
+FOR_NOISE = 8  # pairs of draws, chosen: the sd of the residual torque is known to a fifth
 STANDS = 5e-4  # m, chosen: a soft drive that gives way by less stands still
 FEWEST = 12  # rows, as for every linear method
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SwingMetrics:
-    """What the looks found; None where the record has too little for one."""
+    """The metrics; None where the record has too little for one."""
 
     duration: float  # s, since masses stood still
     window: float  # s, of the filter
@@ -92,7 +90,7 @@ def is_driven(recording: Recording) -> bool:
 
 
 def swing_metrics(recording: Recording, testbed: Testbed) -> SwingMetrics:
-    """Return what simple looks say; the testbed's inertia counts as known."""
+    """Return the metrics; the testbed's inertia counts as known."""
     part = standing_part(arranged(recording, testbed.mass_names))
     start, end = part.span
     posed = posed_of(*as_one_body(part, testbed), Options())
@@ -117,7 +115,7 @@ def swing_metrics(recording: Recording, testbed: Testbed) -> SwingMetrics:
 
 
 def blunted(observed: NoiseCorrectedSeries) -> NoiseCorrectedSeries:
-    """Return a torque with what the filter may have left out of it in its sd."""
+    """Return a torque with the filter's possible loss in its sd."""
     return replace(observed, rms_sd=float(np.hypot(observed.rms_sd, (1 - SHARP) * observed.rms)))
 
 
@@ -127,7 +125,7 @@ def fit(name: str, formulation: Formulation, posed: Posed, draws: Draws) -> Esti
 
 
 def periods(posed: Posed) -> tuple[tuple[Hanging, ...], Spectrum, str]:
-    """Return what the swings say, their spectrum, and why there are none."""
+    """Return the heights by the swings, their spectrum, and why there are none."""
     motion, inertia_P = posed.motion, posed.testbed.body.inertia_P
     n = -to_matrix(motion.q)[:, 2, :]
     down = n.mean(axis=0) / np.linalg.norm(n.mean(axis=0))
@@ -155,7 +153,7 @@ def window_for(found: tuple[Hanging, ...], duration: float, posed: Posed) -> flo
 
 
 def gain(seconds: float, period: float, frequency: float) -> float:
-    """Return what share of a sine's slope a cubic through a window gives."""
+    """Return the share of a sine's slope that a cubic through a window gives."""
     rows = max(round(seconds / period) // 2 * 2 + 1, 2 * DEGREE - 1)
     weights = savgol_coeffs(rows, DEGREE, deriv=1, delta=period, use="dot")
     at = period * (np.arange(rows) - rows // 2)

@@ -8,9 +8,7 @@ else the one with the least tilt.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from equipoise.actuators.sliding_masses import (
-    displacements_for,
-)
+from equipoise.actuators.sliding_masses import displacements_for
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.procedure.steps.tilt_prediction import Outlook
 
@@ -48,7 +46,7 @@ def good_moment(view: Outlook, option: Option) -> bool:
 
 
 def catches(view: Outlook, target: Vector3, may_brake: bool) -> Iterator[Option]:
-    """Yield hasty moves that stop the platform from falling, the mildest first.
+    """Yield hasty moves that stop the platform from falling, the smallest first.
 
     They go to below the target, then to below and beyond it.
     """
@@ -60,7 +58,7 @@ def catches(view: Outlook, target: Vector3, may_brake: bool) -> Iterator[Option]
 
 
 def safest(view: Outlook, target: Vector3, may_brake: bool) -> Option:
-    """Return the mildest move that keeps the tilt within the guard, else the least tilting one."""
+    """Return the smallest move that keeps the tilt within the guard, else the least tilting one."""
     options: list[Option] = []
     for option in catches(view, target, may_brake):
         options.append(option)

@@ -1,9 +1,9 @@
-"""A recording without the rows that stand out, and the sensors as its rows show them.
+"""A recording without its odd rows, and the sensors as its rows show them.
 
-Rows that lie off the motion of their neighbours, or repeat the one before, say nothing about the
-platform. Rows that are means of several frames are predicted as means, when the testbed does not
-say how long they are. What is rounded is noisier than stated, and a sensor that the testbed does
-not have is as noisy as its rows.
+Rows that lie off the motion of their neighbours, or repeat the one before, hold no information on
+the platform. Rows that are means of several frames are predicted as means, when the testbed does
+not state their length. Rounded rows are noisier than stated, and a sensor that the testbed does not
+have is as noisy as its rows.
 """
 
 from dataclasses import replace
@@ -27,7 +27,7 @@ def kept(channel: Samples, mask: Bools) -> Samples:
 
 
 def sound(recording: Recording, testbed: Testbed) -> tuple[Recording, Testbed]:
-    """Return what an estimator should be given."""
+    """Return the recording and the testbed that an estimator should use."""
     attitude, rate = recording.attitude, recording.rate
     reported = row_averaging(attitude, recording.attitude_norm)
     if attitude is not None and len(attitude) >= FEWEST:

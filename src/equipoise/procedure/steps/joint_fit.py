@@ -1,10 +1,10 @@
-"""What a procedure knows so far: everything recorded, and the one fit through all of it."""
+"""The knowledge of a procedure so far: the whole record, and the one fit to it."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.actuators.sliding_masses import shift_by, shift_by_travel
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude
 from equipoise.estimation.output_error.solution import Fitted
@@ -18,7 +18,7 @@ from equipoise.model.torque_terms import GROUPS
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Knowledge:
-    """The record so far and what it says."""
+    """The record so far and its estimate."""
 
     recording: Recording
     fitted: Fitted
@@ -60,8 +60,8 @@ def carried(point: Unknowns, old: Layout, new: Layout) -> Unknowns:
 def as_if_stiff(testbed: Testbed) -> Testbed:
     """Return the testbed without elastic sag among what is estimated.
 
-    At small tilts nothing tells it from the centre of mass, which then is that of a stiff platform
-    that behaves alike.
+    At small tilts its effect is that of another centre of mass: that of a stiff platform which
+    behaves alike.
     """
     return without(testbed, "sag")
 
@@ -73,7 +73,7 @@ def without(testbed: Testbed, group: str) -> Testbed:
 
 
 def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowledge:
-    """Return what is known with a fresh record added; the testbed's values are the prior."""
+    """Return the knowledge with a fresh record added; the testbed's values are the prior."""
     testbed = as_if_stiff(testbed)
     params = trajectory.Params(testbed.disturbances, use_prior=True)
     if before is None:
@@ -88,17 +88,16 @@ def learn(before: Knowledge | None, fresh: Recording, testbed: Testbed) -> Knowl
 
 def shifted(knowledge: Knowledge, testbed: Testbed, targets: Floats) -> Vector3:
     """Return where the centre of mass should be with the masses at ``targets`` (m)."""
-    change = targets - knowledge.displacement
-    return knowledge.com + com_shift(mass_maps(testbed.masses), testbed.body.mass, change)
+    return knowledge.com + shift_by(testbed, targets - knowledge.displacement)
 
 
 def without_stops(knowledge: Knowledge, testbed: Testbed, moving: Bools) -> tuple[Vector3, Matrix3]:
     """Return ``com`` and its covariance (m, m^2) less the stops' errors of masses about to move.
 
-    They leave with the masses. The fit knows something of them, and they are part of ``com``.
+    They leave with the masses. The fit estimates them in part, and they are part of ``com``.
     """
     estimate = knowledge.estimate
-    gain = mass_maps(testbed.masses).first_moment / testbed.body.mass
+    gain = shift_by_travel(testbed)
     rows = np.eye(len(estimate.parameters))[[estimate.index(name) for name in knowledge.standing]]
     for i in np.flatnonzero(moving):
         for error in stops_of(estimate, testbed.masses[i].name)[-1:]:

@@ -8,7 +8,7 @@ of where the centre of mass is found to be, and leaves with the mass. A mass at 
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import com_shift, com_shift_covariance, mass_maps
+from equipoise.actuators.sliding_masses import com_shift_covariance, mass_maps, shift_by
 from equipoise.model.arrays import Bools, Floats, Matrix3, Vector3
 from equipoise.model.move import Move
 from equipoise.model.reasons.step_reasons import MoveReason
@@ -27,16 +27,21 @@ def planned_move(
     ``posterior`` is the centre of mass as the masses stand, less the errors e_i of those that move,
     and its covariance (m, m^2); what the accuracy of the new stops adds is part of the prediction.
     """
-    masses, change = testbed.masses, targets - now
-    speed = np.array([mass.speed for mass in masses])
+    change = targets - now
+    speed = np.array([mass.speed for mass in testbed.masses])
     return Move(
-        targets={mass.name: float(d) for mass, d in zip(masses, targets, strict=True)},
+        targets=by_name(testbed, targets),
         travel=float(np.abs(change).sum()),
         duration=float((np.abs(change) / speed).max()),
-        predicted_com=posterior[0] + com_shift(mass_maps(masses), testbed.body.mass, change),
+        predicted_com=posterior[0] + shift_by(testbed, change),
         predicted_covariance=posterior[1] + stops_covariance(testbed, change != 0),
         reason=reason,
     )
+
+
+def by_name(testbed: Testbed, displacement: Floats) -> dict[str, float]:
+    """Return displacements (m) by mass."""
+    return dict(zip(testbed.mass_names, map(float, displacement), strict=True))
 
 
 def stops_covariance(testbed: Testbed, which: Bools) -> Matrix3:

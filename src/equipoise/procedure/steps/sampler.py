@@ -1,12 +1,12 @@
-"""From what a bench recorded to what a law looks at."""
+"""From the record of a bench to the Sample that a law receives."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from equipoise.actuators.jets import on_platform
-from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.control.sample import Sample
+from equipoise.actuators.sliding_masses import shift_by
+from equipoise.control.law import Sample
 from equipoise.estimation.motion.attitude_filter import AttitudeState, followed
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Vector3
@@ -16,7 +16,7 @@ from equipoise.model.testbed import Testbed
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Eyes:
-    """What is remembered from one sample to the next."""
+    """The state that is carried from one sample to the next."""
 
     attitude: AttitudeState | None
     displacement: Floats  # m, (k,) as last reported
@@ -27,7 +27,7 @@ class Eyes:
 
 
 def opened(testbed: Testbed) -> Eyes:
-    """Return eyes that have seen nothing."""
+    """Return the state before the first record."""
     masses, devices = len(testbed.masses), len(testbed.devices)
     return Eyes(None, np.zeros(masses), np.zeros(devices), np.zeros(3), 0.0, None)
 
@@ -38,7 +38,7 @@ def last_row(channel: Samples | None, before: Floats) -> Floats:
 
 
 def sampled(eyes: Eyes, fresh: Recording, testbed: Testbed) -> Eyes:
-    """Return the eyes after a fresh record."""
+    """Return the state after a fresh record."""
     stored, attitude = fresh.momentum, followed(eyes.attitude, fresh, testbed)
     return Eyes(
         attitude,
@@ -51,7 +51,7 @@ def sampled(eyes: Eyes, fresh: Recording, testbed: Testbed) -> Eyes:
 
 
 def sample_of(before: Eyes, now: Eyes, fresh: Recording, testbed: Testbed) -> Sample | None:
-    """Return what a law sees after a fresh record; None until an attitude was seen."""
+    """Return the sample after a fresh record; None before the first attitude."""
     if now.attitude is None:
         return None
     vertical = to_matrix(now.attitude.q).T @ np.array([0.0, 0.0, 1.0])
@@ -62,7 +62,7 @@ def sample_of(before: Eyes, now: Eyes, fresh: Recording, testbed: Testbed) -> Sa
         q=now.attitude.q,
         rate=now.attitude.rate,
         gravity=-testbed.gravity * vertical,
-        shift=com_shift(mass_maps(testbed.masses), testbed.body.mass, now.displacement),
+        shift=shift_by(testbed, now.displacement),
         momentum=now.momentum,
         torque=torque,
         impulse=impulse_of(fresh, testbed),

@@ -1,4 +1,4 @@
-"""Is the platform beyond its tilt limit? Asked by every procedure after every look, and within."""
+"""Whether the platform is beyond its tilt limit: checked during and after every record."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 
-OFTEN = 1.0  # s, chosen: how often a long look asks
+OFTEN = 1.0  # s, chosen: how often a long record is checked
 
 
 def guarded(bench: Bench, duration: float) -> Recording:

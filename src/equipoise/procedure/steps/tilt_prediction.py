@@ -1,4 +1,4 @@
-"""How far the platform will tilt if the masses go where a plan says."""
+"""The predicted tilt of the platform for planned targets of the masses."""
 
 from dataclasses import dataclass
 
@@ -49,7 +49,7 @@ def likely_coms(knowledge: Knowledge, testbed: Testbed) -> list[Vector3]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Outlook:
-    """From where a move would start, and how it is judged."""
+    """The state from which a move would start, and how it is judged."""
 
     knowledge: Knowledge
     testbed: Testbed

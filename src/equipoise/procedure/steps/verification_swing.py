@@ -1,4 +1,4 @@
-"""Prove a balance on a fresh swing; a platform that stands still is set swinging first.
+"""Verify a balance on a fresh swing; a platform that stands still is set swinging first.
 
 A platform that hangs still in one attitude shows nothing of the centre of mass along gravity. Its
 finest masses, which come back nearest to where they were, go out and back once:
@@ -13,16 +13,18 @@ import numpy as np
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.estimation.motion.attitude_filter import AttitudeState
 from equipoise.maths.attitude import to_matrix
+from equipoise.maths.axes_across import axes_across
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording, join
 from equipoise.model.testbed import SlidingMass, Testbed
+from equipoise.procedure.steps.planned_move import by_name
 from equipoise.procedure.steps.sampler import Eyes, last_row
 from equipoise.procedure.steps.tilt_guard import guarded
 
 STILL = np.deg2rad(0.1)  # rad/s, chosen: slower than this it hangs still, as far as a proof goes
 WANTED = np.deg2rad(0.2)  # rad/s, chosen: 8 deg in a proof of 40 s, where sag hardly bends yet
-BEFORE = 1.0  # s, chosen: seen before a push
+BEFORE = 1.0  # s, chosen: recorded before a push
 ALIKE = 2.0  # -, chosen: masses that err by up to so many times the least are the finest
 
 
@@ -43,11 +45,6 @@ def watched_swing(bench: Bench, eyes: Eyes, duration: float) -> Recording:
 def swinging(now: AttitudeState) -> float:
     """Return the rate (rad/s) at which the vertical turns in the body: no spin about it."""
     return float(np.linalg.norm(np.cross(now.rate, to_matrix(now.q)[2])))
-
-
-def by_name(testbed: Testbed, displacement: Floats) -> dict[str, float]:
-    """Return displacements (m) by mass."""
-    return dict(zip(testbed.mass_names, map(float, displacement), strict=True))
 
 
 def slowest(testbed: Testbed) -> float:
@@ -81,11 +78,7 @@ def direction(testbed: Testbed, eyes: Eyes) -> Vector3:
     up, vertical = testbed.up, to_matrix(eyes.attitude.q)[2]
     lean = vertical - (vertical @ up) * up
     size = float(np.linalg.norm(lean))
-    if size > 1e-3:
-        return lean / size
-    any_axis = np.eye(3)[int(np.argmin(np.abs(up)))]
-    across = any_axis - (any_axis @ up) * up
-    return across / float(np.linalg.norm(across))
+    return lean / size if size > 1e-3 else axes_across(up)[0]
 
 
 def within(masses: list[SlidingMass], now: Floats, way: Floats) -> Floats:

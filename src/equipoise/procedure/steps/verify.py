@@ -1,20 +1,32 @@
-"""Verify that the centre of mass is where it was wanted, on data since the last move."""
+"""Verify that the centre of mass is at its target, on data since the last move."""
+
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.special import ndtr
 
+from equipoise.control.plant.swing_estimates import drift_of
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import NORMAL_95
 from equipoise.model.move import Move
 from equipoise.model.outcome import Outcome
 from equipoise.model.reasons.reason import Reason, axes_of
 from equipoise.model.reasons.verdict_reasons import VerdictReason as Why
+from equipoise.model.units import UM
 from equipoise.model.verdict import Verdict
 from equipoise.procedure.steps.joint_fit import Knowledge
 
 SURE = 0.95  # probability that each axis is within its tolerance
 CONTRADICTION = 4.0  # sd between what a move predicted and what was found
 FRESH = 8.0  # s, chosen: least record since the last move for a verdict
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Aim:
+    """Where the centre of mass should go, and how closely."""
+
+    target: Vector3 = field(default_factory=lambda: np.array([0.0, 0.0, -100 * UM]))  # m
+    tolerance: Vector3 = field(default_factory=lambda: np.array([2 * UM, 2 * UM, 3 * UM]))  # m
 
 
 def probability_within(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Vector3:
@@ -44,9 +56,7 @@ def fresh_misfit(knowledge: Knowledge, since: float) -> float:
 
 def drift_since(knowledge: Knowledge, since: float) -> Vector3:
     """Return how far the centre of mass has drifted (m) since a time (s), as far as is known."""
-    names = ("drift_x", "drift_y", "drift_z")
-    rate = [knowledge.estimate.values((n,))[0] if knowledge.estimate.has(n) else 0.0 for n in names]
-    return (knowledge.recording.span[1] - since) * np.array(rate)
+    return (knowledge.recording.span[1] - since) * drift_of(knowledge.estimate)
 
 
 def verdict(
@@ -80,7 +90,7 @@ def judged(com: Vector3, sd: Vector3, target: Vector3, tolerance: Vector3) -> Ve
     """Return the verdict on a centre of mass.
 
     Passed where each axis is within its tolerance for sure, failed where the 95 % interval of one
-    lies outside. Between them nobody can tell, however far off the value found is.
+    lies outside. Between them it is undecided, however large the estimated offset is.
     """
     found = at(com, sd)
     sure = probability_within(com, sd, target, tolerance)

@@ -13,7 +13,7 @@ import numpy as np
 from equipoise.actuators.cmg_steering import limited_rates, singularity_robust
 from equipoise.actuators.control_moment_gyros import jacobian, singularity_measure
 from equipoise.control.elements.attitude_pid import Gains, Pid, at_rest, torque, unwound
-from equipoise.control.sample import Sample
+from equipoise.control.law import Sample
 from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Series4
 from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed

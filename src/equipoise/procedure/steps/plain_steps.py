@@ -1,0 +1,21 @@
+"""Steps that procedures report alike: a record that was made, an estimate from one."""
+
+from equipoise.model.estimate import Estimate
+from equipoise.model.reasons.reason import one_reason
+from equipoise.model.reasons.step_reasons import StepReason
+from equipoise.model.recording import Recording
+from equipoise.model.step import Step
+
+
+def measurement_step(
+    time: float, recording: Recording, code: StepReason = StepReason.OBSERVED
+) -> Step:
+    """Return the step of a record at a time, s."""
+    start, end = recording.span
+    return Step("measurement", time, one_reason(code, duration=end - start), recording=recording)
+
+
+def estimate_step(time: float, estimate: Estimate) -> Step:
+    """Return the step of an estimate at a time, s."""
+    reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
+    return Step("estimate", time, reasons, estimate=estimate)
