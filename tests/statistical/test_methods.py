@@ -11,6 +11,8 @@ from tests.support import thorough
 from verification import compared, method_intervals, method_table, real_methods, robustness
 from verification.real_record import RECORD
 
+PREDICTING = ["ekf_9", "trajectory", "smoother", "momentum_corrected"]
+
 
 @thorough.whole
 def test_intervals_of_every_method_hold_or_it_says_that_they_do_not():
