@@ -143,11 +143,7 @@ def test_the_inertia_that_is_known_is_that_of_the_testbed():
 
 
 def test_measurements_over_time_show_a_drift():
-<<<<<<< HEAD
     """1 um/min along x for nine measurements of 40 s; the height stays."""
-=======
-    """1 um/min along x for nine parts of 40 s; the height stays. Twice as late, twice as far."""
->>>>>>> slim-e
     bed = read_preset("sputnix")
     truth = replace(bed.truth, com=np.array([-3e-6, 2e-6, -60e-6]), torque={"drift_x": 1e-6 / 60})
     record = SimulatedBench(replace(bed, truth=truth), 4).read(360.0)
