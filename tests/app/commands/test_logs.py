@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from mcap.reader import make_reader
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.resolve import fitting_recording_of
+from equipoise.app.arguments.inputs import fitting_recording_of
+from equipoise.app.arguments.options import WHOLE, Reading
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.mcap.mcap_recording import stored_testbed
 from equipoise.io.recording.recording_file import read_recording

@@ -72,8 +72,7 @@ def assess(
     bed, requested = testbed_from(testbed), options_from(terms, hold)
     for name, limit in (("require_torque", require_torque), ("require_offset", require_offset),
                         ("windows", windows)):  # fmt: skip
-        if limit is not None:
-            positive(name, limit)
+        positive(name, limit)
     goal, angle = vector("target", target, 1.0), between("tilt", tilt, 0.0, math.pi / 2)
     options = AssessOptions(
         goal, angle, require_torque, require_offset, requested.terms, requested.hold

@@ -2,9 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag, Triple
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Reading, Seeking, Triple
 from equipoise.app.console.terminal import busy
 
 
@@ -52,22 +50,18 @@ def assess(
     out
         Folder for figures, report.html and assess.json.
     """
-    from equipoise.app.arguments.checks import between, positive, vector
-    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import between, check_outputs, positive, vector
+    from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
     from equipoise.model.units import DEG, UM, in_si
 
-    bed, seeking = testbed_of(testbed), spelt_out(seeking)
-    torque, offset = require_torque, require_offset_um
-    if torque is not None:
-        positive("--require-torque", torque)
-    if offset is not None:
-        offset = in_si(positive("--require-offset-um", offset), UM)
-    windows = None if windows_s is None else positive("--windows-s", windows_s)
+    bed, of_fit = testbed_from(testbed), options_of(seeking)
+    torque = positive("--require-torque", require_torque)
+    offset = positive("--require-offset-um", require_offset_um)
+    offset = None if offset is None else in_si(offset, UM)
+    windows = positive("--windows-s", windows_s)
     tilt = in_si(between("--tilt-deg", tilt_deg, 0.0, 90.0), DEG)
     goal = vector("--target-um", target_um, UM)
-    if out is not None:
-        check_folder(out)
+    check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
     earlier = None if before is None else fitting_recording_of(before, WHOLE, bed)
     with busy("assessing", announce=False):
@@ -77,7 +71,7 @@ def assess(
         from equipoise.app.views.assess_json import output_of
         from equipoise.procedure.identification.assess import AssessOptions
 
-        options = AssessOptions(goal, tilt, torque, offset, seeking.term, seeking.hold)
+        options = AssessOptions(goal, tilt, torque, offset, of_fit.terms, of_fit.hold)
     done = run(Recordings(recording, earlier, windows), bed, options, AT_TERMINAL)
     hand_over(output_of(done), json, out)
     verdict = done.verdict

@@ -5,8 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag, Triple, Whole
+from equipoise.app.arguments.options import WHOLE, Flag, Reading, Triple, Whole
 from equipoise.app.commands.by_hand import (
     MOVED,
     Manual,
@@ -85,9 +84,8 @@ def balance(
     out
         Folder for report, figures and balance.json; else one of its own in equipoise-runs.
     """
-    from equipoise.app.arguments.checks import one_of, seed_of
-    from equipoise.app.arguments.resolve import testbed_of
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import check_outputs, one_of, seed_of
+    from equipoise.app.arguments.inputs import testbed_from
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
@@ -99,10 +97,9 @@ def balance(
 
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
-    bed, seed = testbed_of(testbed), seed_of(seed)
+    bed, seed = testbed_from(testbed), seed_of(seed)
     planned = None if plan is None else _planned(plan, bed)
-    if out is not None:
-        check_folder(out)
+    check_outputs(out)
     with busy("preparing the bench", announce=False):
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.balancing import Goal, Limits, run
@@ -134,9 +131,12 @@ def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> 
     from equipoise.app.arguments.checks import not_negative, positive
     from equipoise.model.units import MINUTE
 
-    moves = None if max_moves is None else int(not_negative("--max-moves", max_moves))
-    longest = None if max_time_s is None else positive("--max-time-s", max_time_s)
-    return moves, longest, not_negative("--hold-min", hold_min) * MINUTE
+    not_negative("--max-moves", max_moves)
+    return (
+        max_moves,
+        positive("--max-time-s", max_time_s),
+        not_negative("--hold-min", hold_min) * MINUTE,
+    )
 
 
 def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:

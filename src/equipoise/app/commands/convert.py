@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.options import WHOLE, Reading
 from equipoise.app.console.terminal import show_paths
 
 
@@ -18,7 +18,7 @@ def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
     out
         File to write: .csv, .parquet, .mcap or .mat.
     """
-    from equipoise.app.arguments.resolve import recording_of
+    from equipoise.app.arguments.inputs import recording_of
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.blocks import items
     from equipoise.io.files.atomic_file import check_writable

@@ -4,7 +4,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.types import Flag, Whole
+from equipoise.app.arguments.options import Flag, Whole
 from equipoise.app.console.terminal import busy, stdout
 from equipoise.model.errors import InputError
 
@@ -69,8 +69,8 @@ def dashboard(
 
 def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Opening":
     """Return what to begin with: a run's folder, a recording, or a testbed."""
-    from equipoise.app.arguments.recording_window import WHOLE
-    from equipoise.app.arguments.resolve import fitting_recording_of, testbed_of
+    from equipoise.app.arguments.inputs import fitting_recording_of, testbed_from
+    from equipoise.app.arguments.options import WHOLE
     from equipoise.app.bench.emulation import hardware_of
     from equipoise.app.dashboard.protocol.data_folder import data_folder
     from equipoise.app.dashboard.runner.runner_process import Opening
@@ -83,13 +83,13 @@ def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Openin
     if testbed is None and _is_recording(path):
         raise InputError("--testbed", "none", f"the testbed of which {shown} is a recording")
     if testbed is None:
-        bed = testbed_of(shown)
+        bed = testbed_from(shown)
         if bench:
             hardware_of(bed)
         return Opening(bed, data_folder(), seed, bench)
     if bench:
         raise InputError("--bench", "a recording", "a testbed")
-    bed = testbed_of(testbed)
+    bed = testbed_from(testbed)
     return Opening(bed, data_folder(), seed, False, fitting_recording_of(shown, WHOLE, bed), shown)
 
 

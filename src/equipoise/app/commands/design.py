@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.environment import NOTHING_STATED, Exposure, surroundings_of
-from equipoise.app.arguments.types import Flag, Several, Triple, Whole
+from equipoise.app.arguments.options import Flag, Several, Triple, Whole
 from equipoise.app.console.terminal import busy
 
 
@@ -47,9 +47,8 @@ def design(
     out
         Folder for report, figures and design.json.
     """
-    from equipoise.app.arguments.checks import not_negative, positive, vector
+    from equipoise.app.arguments.checks import check_outputs, not_negative, positive, vector
     from equipoise.app.arguments.inputs import testbed_with_masses
-    from equipoise.io.files.atomic_folder import check_folder
     from equipoise.model.units import DEG, UM, in_si
 
     lengths = [positive("--record-s", length) for length in record_s]
@@ -57,11 +56,9 @@ def design(
     tilt = in_si(positive("--tilt-deg", tilt_deg), DEG)
     count = int(positive("--moves", moves))
     lean = in_si(not_negative("--misalignment-deg", misalignment_deg), DEG)
-    if require_torque is not None:
-        positive("--require-torque", require_torque)
+    positive("--require-torque", require_torque)
     around, bed = surroundings_of(exposure), testbed_with_masses(testbed)
-    if out is not None:
-        check_folder(out)
+    check_outputs(out)
     with busy("reckoning"):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.views.design_views import output_of

@@ -1,6 +1,6 @@
 """`equipoise devices`: what is connected to this computer."""
 
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import Flag
 
 
 def devices(*, json: Flag = False) -> int:

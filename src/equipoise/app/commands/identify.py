@@ -4,9 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Reading, Seeking
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
@@ -49,14 +47,12 @@ def identify(
     out
         Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
     """
-    from equipoise.app.arguments.checks import one_of
-    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
+    from equipoise.app.arguments.checks import check_outputs, one_of
+    from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
     from equipoise.io.documents.plan_file import read_plan
-    from equipoise.io.files.atomic_folder import check_folder
 
-    bed, seeking = testbed_of(testbed), spelt_out(seeking)
-    if out is not None:
-        check_folder(out)
+    bed, of_fit = testbed_from(testbed), options_of(seeking)
+    check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
     planned = None if plan is None else read_plan(plan, bed)
     with busy("identifying", announce=False):
@@ -70,7 +66,7 @@ def identify(
         from equipoise.procedure.identification.identify import IdentifyOptions
 
     one_of("--method", method, ["auto", *METHODS])
-    options = IdentifyOptions(method, seeking.term, seeking.hold, seeking.prior, robust)
+    options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust)
 
     def on_findings(found: "Sequence[Finding]") -> None:
         if not json:

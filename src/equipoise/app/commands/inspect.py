@@ -3,8 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import WHOLE, Flag, Reading
 from equipoise.app.console.terminal import show_paths
 
 if TYPE_CHECKING:
@@ -37,14 +36,14 @@ def inspect(
     figure
         Page with the record and its findings to write, such as record.png.
     """
-    from equipoise.app.arguments.resolve import recording_of, testbed_of
+    from equipoise.app.arguments.inputs import recording_of, testbed_from
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.json_document import dump, recording_json
     from equipoise.app.text.run_blocks import finding_items
     from equipoise.assessment.findings.event_findings import NOT_SOUGHT
     from equipoise.assessment.findings.record_findings import findings
 
-    bed = None if testbed is None else testbed_of(testbed)
+    bed = None if testbed is None else testbed_from(testbed)
     recording = recording_of(file, reading)
     found = [*findings(recording, bed)]
     found += [NOT_SOUGHT] if bed is None else _happened(file, reading, bed)
@@ -64,7 +63,7 @@ def inspect(
 
 def _happened(file: str, reading: Reading, testbed: "Testbed") -> "list[Finding]":
     """Return what a fit of the record stepped over, and how well it explains the rest."""
-    from equipoise.app.arguments.resolve import fitting_recording_of
+    from equipoise.app.arguments.inputs import fitting_recording_of
     from equipoise.app.console.terminal import watched
     from equipoise.assessment.findings.event_findings import event_findings
     from equipoise.model.finding import Finding

@@ -1,6 +1,6 @@
 """`equipoise laws`: how a platform can be balanced."""
 
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import Flag
 
 
 def laws(name: str | None = None, /, *, json: Flag = False) -> int:

@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from equipoise.app.arguments.options import Flag, Listed
 from equipoise.app.arguments.run_filter import LATEST, WantedRuns, condition
-from equipoise.app.arguments.types import Flag, Listed
 from equipoise.app.console.terminal import busy, complain, show_paths, stderr
 
 if TYPE_CHECKING:

@@ -1,6 +1,6 @@
 """`equipoise methods`: what there is to choose from."""
 
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import Flag
 
 
 def methods(name: str | None = None, /, *, json: Flag = False) -> int:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from cyclopts import Parameter
 
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import busy, stderr
 from equipoise.model.errors import InputError
 

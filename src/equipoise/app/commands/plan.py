@@ -3,9 +3,7 @@
 from pathlib import Path
 from typing import Literal
 
-from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
-from equipoise.app.arguments.recording_window import WHOLE
-from equipoise.app.arguments.types import Flag, Whole
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Seeking, Whole
 
 
 def plan(
@@ -59,29 +57,22 @@ def plan(
     out
         Folder for report and plan.json.
     """
-    from equipoise.app.arguments.checks import not_negative, positive, seed_of
-    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
-    from equipoise.io.files.atomic_file import check_writable
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import check_outputs, not_negative, positive, seed_of
+    from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
     from equipoise.model.units import DEG, in_si
 
-    bed, seeking, seed = testbed_of(testbed), spelt_out(seeking), seed_of(seed)
+    bed, requested, seed = testbed_from(testbed), options_of(seeking), seed_of(seed)
     duration = positive("--duration-s", duration_s)
     rate = in_si(positive("--max-rate-deg-s", max_rate_deg_s), DEG)
     count = int(not_negative("--moves", moves))
     tries = int(positive("--trials", trials))
-    if write is not None:
-        check_writable(write)
-    if out is not None:
-        check_folder(out)
+    check_outputs(out, write)
     earlier = None if prior_record is None else fitting_recording_of(str(prior_record), WHOLE, bed)
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.runs.planning import Request, plan_file_of, run
     from equipoise.app.runs.terminal_waiting import AT_TERMINAL
     from equipoise.app.views.plan_views import output_of
-    from equipoise.estimation.method_contract import Options
 
-    requested = Options(seeking.term, seeking.hold, seeking.prior)
     request = Request(
         bed, duration, quantity, criterion, count, rate, requested, earlier, tries, seed
     )

@@ -2,8 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import WHOLE, Flag, Reading
 from equipoise.app.console.terminal import stdout
 
 if TYPE_CHECKING:
@@ -37,11 +36,11 @@ def replay(
     from contextlib import ExitStack
 
     from equipoise.app.arguments.checks import not_negative
-    from equipoise.app.arguments.resolve import fitting_recording_of, testbed_of
+    from equipoise.app.arguments.inputs import fitting_recording_of, testbed_from
     from equipoise.app.live.replay import replayed, shown_lines
 
     not_negative("--speed", speed)
-    bed = testbed_of(testbed)
+    bed = testbed_from(testbed)
     recording = fitting_recording_of(file, reading, bed)
     with ExitStack() as stack:
         onlookers: list[Onlooker] = [stack.enter_context(shown_lines(bed))]

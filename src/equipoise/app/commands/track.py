@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import counted, show_paths
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def track(
         The board lies level, face up: print which way is up for the camera, to put into settings.
     """
     from equipoise.app.arguments.checks import positive
-    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.runs import camera_tracking
     from equipoise.io.files.atomic_file import check_writable
@@ -62,11 +62,11 @@ def track(
     if out is not None:
         format_to_write(out)
         check_writable(out)
-    bed = None if testbed is None else testbed_of(testbed)
+    bed = None if testbed is None else testbed_from(testbed)
     unit = camera_tracking.unit_of(
         bed, [file for file in (board, lens) if file is not None], source
     )
-    rate = None if rate_hz is None else positive("--rate-hz", rate_hz)
+    rate = positive("--rate-hz", rate_hz)
     duration = positive("--duration-s", duration_s)
     with counted("tracking") as on_progress:
         if source.startswith(CAMERAS):
