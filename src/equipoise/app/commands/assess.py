@@ -68,7 +68,7 @@ def assess(
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.assessment import Recordings, run
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL
-        from equipoise.app.views.assess_json import output_of
+        from equipoise.app.views.assess_views import output_of
         from equipoise.procedure.identification.assess import AssessOptions
 
         options = AssessOptions(goal, tilt, torque, offset, of_fit.terms, of_fit.hold)

@@ -113,7 +113,7 @@ def balance(
         prepare(bed, goal, limits, on_bench)
     with let_go(bed, on_bench) if on_bench.bench else _simulated(bed, planned, seed) as bench:
         done = run(bench, goal, limits, None if json else show_step, at_terminal(bed))
-    hand_over_run(output_of(done, seed), json, out, bed.name)
+    hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.verdict.passed else 1
 
 

@@ -28,5 +28,5 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
         from equipoise.app.views.demo_views import output_of
 
     shown = run_demo(bed, seed, show_step)
-    hand_over(output_of(shown, seed), json=False, out=out, below=True)
+    hand_over(output_of(shown), json=False, out=out, below=True)
     return 0 if shown.balancing.verdict.passed else 1

@@ -37,8 +37,8 @@ def inspect(
         Page with the record and its findings to write, such as record.png.
     """
     from equipoise.app.arguments.inputs import recording_of, testbed_from
-    from equipoise.app.console.rich_blocks import show
-    from equipoise.app.text.json_document import dump, recording_json
+    from equipoise.app.logbook.output import print_result
+    from equipoise.app.text.json_document import recording_json
     from equipoise.app.text.run_blocks import finding_items
     from equipoise.assessment.findings.event_findings import NOT_SOUGHT
     from equipoise.assessment.findings.record_findings import findings
@@ -52,11 +52,8 @@ def inspect(
         from equipoise.app.figures.recording.record import draw
 
         write_figure(draw(recording, found, None if bed is None else bed.up), figure)
-    if json:
-        print(dump(recording_json(recording, found)))
-        return 0
-    show(finding_items(found))
-    if figure is not None:
+    print_result(recording_json(recording, found), finding_items(found), json)
+    if figure is not None and not json:
         show_paths([figure])
     return 0
 

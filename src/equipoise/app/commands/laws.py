@@ -15,16 +15,7 @@ def laws(name: str | None = None, /, *, json: Flag = False) -> int:
     json
         Print one JSON document instead.
     """
-    from equipoise.app.arguments.checks import one_of
-    from equipoise.app.console.rich_blocks import show
-    from equipoise.app.text.json_document import dump
-    from equipoise.app.views.study.law_views import blocks, laws_json
+    from equipoise.app.commands.methods import print_cards
     from equipoise.procedure.balancing.catalogue import CARDS
 
-    chosen = list(CARDS) if name is None else [one_of("law", name, list(CARDS))]
-    cards = [CARDS[each] for each in chosen]
-    if json:
-        print(dump(laws_json(cards)))
-        return 0
-    show(blocks(cards))
-    return 0
+    return print_cards("law", CARDS, name, json)

@@ -1,6 +1,14 @@
 """`equipoise methods`: what there is to choose from."""
 
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
 from equipoise.app.arguments.options import Flag
+
+if TYPE_CHECKING:
+    from equipoise.app.views.card_views import CardKind
+    from equipoise.model.law_card import LawCard
+    from equipoise.model.method_card import Card
 
 
 def methods(name: str | None = None, /, *, json: Flag = False) -> int:
@@ -15,16 +23,21 @@ def methods(name: str | None = None, /, *, json: Flag = False) -> int:
     json
         Print one JSON document instead.
     """
-    from equipoise.app.arguments.checks import one_of
-    from equipoise.app.console.rich_blocks import show
-    from equipoise.app.text.json_document import dump
-    from equipoise.app.views.method_views import blocks, methods_json
     from equipoise.estimation.methods.registry import METHODS
 
-    chosen = list(METHODS) if name is None else [one_of("method", name, list(METHODS))]
-    cards = [METHODS[each].card for each in chosen]
-    if json:
-        print(dump(methods_json(cards)))
-        return 0
-    show(blocks(cards))
+    return print_cards("method", {key: method.card for key, method in METHODS.items()}, name, json)
+
+
+def print_cards(
+    kind: "CardKind", every: "Mapping[str, Card] | Mapping[str, LawCard]", name: str | None,
+    json: bool,
+) -> int:  # fmt: skip
+    """Print the card of a name, or all of them."""
+    from equipoise.app.arguments.checks import one_of
+    from equipoise.app.logbook.output import print_result
+    from equipoise.app.views.card_views import blocks, document
+
+    names = list(every) if name is None else [one_of(kind, name, list(every))]
+    cards = [every[each] for each in names]
+    print_result(document(kind, cards), blocks(kind, cards), json)
     return 0

@@ -68,12 +68,12 @@ def document(estimate: Estimate) -> View:
 def table(estimate: Estimate) -> Table:
     """Return a row a parameter."""
     keys = ("name", "unit", "value", "sd", "low95", "high95", "observable")
-    return Table("name", {key: [getattr(p, key) for p in estimate.parameters] for key in keys})
+    return {key: [getattr(p, key) for p in estimate.parameters] for key in keys}
 
 
 def arrays(estimate: Estimate) -> Arrays:
     """Return values, sd and covariance along the names; units stand beside the values."""
-    rows, along = table(estimate).columns, ("name",)
+    rows, along = table(estimate), ("name",)
     found = {key: Variable(along, rows[key])
              for key in ("unit", "value", "sd", "low95", "high95", "observable")}  # fmt: skip
     found["covariance"] = Variable(("name", "name_2"), estimate.covariance)

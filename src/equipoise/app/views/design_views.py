@@ -40,7 +40,7 @@ AXES = ("x", "y", "z")
 
 def output_of(found: Sizing) -> Output:
     """Return all that is handed over."""
-    return Output("design", design_json(found), blocks(found), lambda: record_of(found))
+    return Output("design", document(found), blocks(found), lambda: record_of(found))
 
 
 def blocks(found: Sizing) -> Blocks:
@@ -237,7 +237,7 @@ def lengths_with(reason: Reason, measurements: Sequence[MeasurementBound]) -> li
     )
 
 
-def design_json(found: Sizing) -> View:
+def document(found: Sizing) -> View:
     """Return a design as JSON, SI units."""
     return DESIGN.write({
         "found": found,

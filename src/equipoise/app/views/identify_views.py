@@ -23,7 +23,7 @@ def output_of(done: Identification) -> Output:
     """Return all that is handed over."""
     return Output(
         "estimate",
-        document_of(done),
+        document(done),
         blocks(done),
         lambda: record_of(done, done.courses()),
         logged_of(done),
@@ -44,7 +44,7 @@ def blocks(done: Identification) -> Blocks:
     )
 
 
-def document_of(done: Identification) -> View:
+def document(done: Identification) -> View:
     """Return the estimate as JSON, with the findings."""
     checked = None if done.plan is None else kept_json(done.plan, done.estimate)
     return estimate_json(done.estimate, done.findings, checked)

@@ -34,8 +34,7 @@ Texts = tuple[str, str, str, str, str]
 
 def output_of(done: Observation) -> Output:
     """Return all that is handed over."""
-    document = observe_json(done)
-    return Output("observe", document, blocks(done), lambda: record_of(done))
+    return Output("observe", document(done), blocks(done), lambda: record_of(done))
 
 
 def blocks(done: Observation) -> Blocks:
@@ -162,7 +161,7 @@ def rank_claim(information: Observability) -> Claim:
     )
 
 
-def observe_json(done: Observation) -> View:
+def document(done: Observation) -> View:
     """Return what a recording can show as JSON, SI units."""
     recording, information, filters = done.recording, done.bounds, done.filters
     return OBSERVE.write({

@@ -42,7 +42,7 @@ UPRIGHT = 0.999  # cosine, chosen: a body's z that counts as upright
 
 def output_of(done: Planning) -> Output:
     """Return all that is handed over."""
-    return Output("plan", plan_json(done), blocks(done), lambda: record_of(done))
+    return Output("plan", document(done), blocks(done), lambda: record_of(done))
 
 
 def blocks(done: Planning) -> Blocks:
@@ -214,7 +214,7 @@ def verdict(done: Planning) -> str:
     return f"{text} The limits are kept by {kept} platforms only; {advice}."
 
 
-def plan_json(done: Planning) -> View:
+def document(done: Planning) -> View:
     """Return a plan as JSON, SI units."""
     return PLAN.write({
         "done": done,

@@ -1,45 +1,13 @@
-"""Cards of laws, and laws compared, for terminal, JSON and CSV."""
+"""Laws compared, for terminal, JSON and CSV."""
 
-from collections.abc import Sequence
-
-from equipoise.app.text.blocks import Blocks, Column, Pairs, Table, number, prose, table
+from equipoise.app.text.blocks import Column, Table, number, table
 from equipoise.app.text.csv_lines import csv_lines
-from equipoise.app.text.json_lists import COMPARE_LAWS, LAWS
+from equipoise.app.text.json_lists import COMPARE_LAWS
 from equipoise.app.text.json_shape import View
-from equipoise.model.law_card import NEEDS, LawCard
 from equipoise.model.units import DEG, MM, PERCENT, UM, UN_M
 from equipoise.study.compare_laws import Comparison, LawSummary, Middle, halted
 from equipoise.study.law_run import LawRun
 from equipoise.study.recommend import advised_law
-
-
-def blocks(cards: Sequence[LawCard]) -> Blocks:
-    """Return one line a law; of one alone all that its card says."""
-    if len(cards) == 1:
-        return (card_pairs(cards[0]),)
-    columns = (Column("law"), *map(prose, ("idea", "needs", "source")))
-    rows = ((card.name, card.idea, ", ".join(card.needs), card.source) for card in cards)
-    return (table("", columns, rows),)
-
-
-def card_pairs(card: LawCard) -> Pairs:
-    """Return all that a card says."""
-    needs = ", ".join(NEEDS[need] for need in card.needs)
-    period = f"{card.period:g} s between steps" if card.period > 0 else "as the record allows"
-    return Pairs((
-        ("law", card.name),
-        ("idea", card.idea),
-        ("source", card.source),
-        ("needs", needs),
-        ("leaves", card.leaves),
-        ("stable", card.stable),
-        ("pace", period),
-    ))  # fmt: skip
-
-
-def laws_json(cards: Sequence[LawCard]) -> View:
-    """Return cards as JSON."""
-    return LAWS.write({"laws": cards})
 
 
 def both(values: Middle, unit: float, digits: int = 2) -> str:
