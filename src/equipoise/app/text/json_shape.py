@@ -5,7 +5,7 @@ neither can say what the other does not. A key ends in the SI unit of its number
 ``unit`` stands beside it.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -72,14 +72,27 @@ def key(name: str, kind: Kind, read: Read, optional: bool = False) -> Key:
     return Key(name, kind, read, optional)
 
 
-def fields(names: str, kind: Kind) -> tuple[Key, ...]:
-    """Return keys that are called as the fields of the record are."""
-    return tuple(Key(name, kind, _field(name)) for name in names.split())
+def fields(names: str, kind: Kind, at: str = "", optional: bool = False) -> tuple[Key, ...]:
+    """Return keys that are called as the fields of the record are, else ``time_s=time``.
+
+    A field may be one of a part of the record, ``limit=requirement.limit``, or stand below ``at``;
+    of a part that is None there is None.
+    """
+    above = at.split(".") if at else []
+    named = (each.partition("=")[::2] for each in names.split())
+    return tuple(
+        Key(name, kind, _field([*above, *(path or name).split(".")]), optional)
+        for name, path in named
+    )
 
 
-def _field(name: str) -> Read:
+def _field(path: Sequence[str]) -> Read:
     def read(record: Any) -> Any:
-        return record[name] if hasattr(record, "keys") else getattr(record, name)
+        for name in path:
+            if record is None:
+                return None
+            record = record[name] if hasattr(record, "keys") else getattr(record, name)
+        return record
 
     return read
 

@@ -243,7 +243,7 @@ def document(found: Sizing) -> View:
         "found": found,
         "reach": reach_of_masses(found),
         "not_stated": uncounted(found.case),
-        "cautions": cautions(found),
+        "cautions": [{"reason": reason, "records_s": s} for reason, s in cautions(found)],
     })  # fmt: skip
 
 
