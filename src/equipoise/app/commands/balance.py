@@ -1,7 +1,6 @@
 """`equipoise balance`: look, move, look again, until the verdict passes."""
 
-from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,20 +13,11 @@ from equipoise.app.commands.by_hand import (
     check_by_hand,
     is_by_hand,
 )
-from equipoise.app.commands.on_bench import (
-    SIMULATED,
-    OnBench,
-    check_on_bench,
-    let_go,
-    prepare,
-)
+from equipoise.app.commands.on_bench import SIMULATED, OnBench, check_on_bench, let_go, prepare
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
     from equipoise.model.arrays import Vector3
-    from equipoise.model.bench import Bench
-    from equipoise.model.manoeuvre import Manoeuvre
-    from equipoise.model.testbed import Testbed
 
 Until = tuple[int | None, float | None, float]  # moves, s, s of holding
 
@@ -85,7 +75,7 @@ def balance(
         Folder for report, figures and balance.json; else one of its own in equipoise-runs.
     """
     from equipoise.app.arguments.checks import check_outputs, one_of, seed_of
-    from equipoise.app.arguments.inputs import testbed_from
+    from equipoise.app.arguments.inputs import plan_from, testbed_from
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
@@ -98,20 +88,22 @@ def balance(
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
     bed, seed = testbed_from(testbed), seed_of(seed)
-    planned = None if plan is None else _planned(plan, bed)
+    planned = None if plan is None else plan_from(plan, bed).manoeuvre
     check_outputs(out)
     with busy("preparing the bench", announce=False):
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.balancing import Goal, Limits, run
+        from equipoise.app.runs.simulation import bench_of
         from equipoise.app.runs.terminal_waiting import at_terminal, show_step
         from equipoise.app.views.balance_views import output_of
         from equipoise.procedure.balancing.catalogue import CARDS
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
         goal = Goal(*where)
-    if on_bench.bench:
+        simulated = None if on_bench.bench else bench_of(bed, seed, planned)
+    if simulated is None:
         prepare(bed, goal, limits, on_bench)
-    with let_go(bed, on_bench) if on_bench.bench else _simulated(bed, planned, seed) as bench:
+    with let_go(bed, on_bench) if simulated is None else nullcontext(simulated) as bench:
         done = run(bench, goal, limits, None if json else show_step, at_terminal(bed))
     hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.verdict.passed else 1
@@ -146,20 +138,3 @@ def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:
               "--max-time-s": longest is not None, "--hold-min": hold > 0,
               "--plan": plan is not None}  # fmt: skip
     return [name for name, given in others.items() if given]
-
-
-def _planned(plan: Path, bed: "Testbed") -> "Manoeuvre":
-    """Return the manoeuvre of a plan file."""
-    from equipoise.io.documents.plan_file import read_plan
-
-    return read_plan(plan, bed).manoeuvre
-
-
-@contextmanager
-def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Generator[Bench]":
-    """Return the simulated platform, let go as planned if there is a plan."""
-    with busy("preparing the bench", announce=False):
-        from equipoise.app.runs.simulation import bench_of
-
-        bench = bench_of(bed, seed, planned)
-    yield bench

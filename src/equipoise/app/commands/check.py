@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Flag
-from equipoise.app.console.terminal import busy
+from equipoise.app.console.terminal import agreed, busy
 
 if TYPE_CHECKING:
     from equipoise.app.bench.bench_check import CheckResult
@@ -26,7 +26,6 @@ def check(testbed: str, /, *, yes: Flag = False) -> int:
     """
     from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.bench.bench_check import checked_bench
-    from equipoise.app.console.confirm import agreed
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.blocks import items
 

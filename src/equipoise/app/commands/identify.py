@@ -48,13 +48,17 @@ def identify(
         Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
     """
     from equipoise.app.arguments.checks import check_outputs, one_of
-    from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
-    from equipoise.io.documents.plan_file import read_plan
+    from equipoise.app.arguments.inputs import (
+        fitting_recording_of,
+        options_of,
+        plan_from,
+        testbed_from,
+    )
 
     bed, of_fit = testbed_from(testbed), options_of(seeking)
     check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
-    planned = None if plan is None else read_plan(plan, bed)
+    planned = None if plan is None else plan_from(plan, bed)
     with busy("identifying", announce=False):
         from equipoise.app.console.rich_blocks import show
         from equipoise.app.logbook.output import hand_over_run

@@ -54,6 +54,15 @@ def complain(sentence: str) -> None:
         stderr().print(Text.assemble(("equipoise:", "bold red"), f" {line}"))
 
 
+def agreed(question: str) -> bool:
+    """Ask a person; anything but yes is no, and so is nobody there."""
+    stderr().print(f"{question} [y/n] ", end="", markup=False)
+    try:
+        return input().strip().lower() in ("y", "yes")
+    except EOFError:
+        return False
+
+
 @contextmanager
 def busy(
     what: str, announce: bool = True, above: "RenderableType | None" = None

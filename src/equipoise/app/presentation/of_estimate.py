@@ -51,12 +51,11 @@ def _values(estimate: Estimate, names: Sequence[str]) -> str:
 
 def blocks(estimate: Estimate) -> Blocks:
     """Return the outcome, a table a group, what is unobservable, and the residual."""
-    residual = "" if estimate.residual is None else residual_line(estimate.residual)
     return (
         outcome_claim(estimate),
         *estimate_tables(estimate),
         *unobservable_items(estimate),
-        *paragraphs(residual),
+        *paragraphs(residual_line(estimate.residual)),
     )
 
 

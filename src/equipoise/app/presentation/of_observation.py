@@ -24,12 +24,6 @@ def lines(done: Observation) -> Iterator[str]:
 
 def table(done: Observation) -> Table:
     """Return a row a parameter."""
-    bounds = done.bounds
-    return {
-        "name": list(bounds.names),
-        "unit": list(bounds.units),
-        "sd": bounds.sd.tolist(),
-        "testbed_sd": bounds.before.tolist(),
-        "observable": (~bounds.hidden).tolist(),
-        "held": bounds.held.tolist(),
-    }
+    from equipoise.app.views.observe_views import columns_of
+
+    return columns_of(done.bounds)

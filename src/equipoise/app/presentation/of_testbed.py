@@ -5,12 +5,10 @@ from collections.abc import Iterator
 
 from equipoise.app.presentation import of_mass_properties
 from equipoise.app.presentation.tables import Table
-from equipoise.app.text.blocks import Blocks, Column, number
-from equipoise.app.text.blocks import table as text_table
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_shape import View
 from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.testbed import Testbed
-from equipoise.model.units import GRAM, MM
 
 SCHEMA = "equipoise/testbed/1"
 
@@ -29,14 +27,9 @@ def lines(bed: Testbed) -> Iterator[str]:
 
 def blocks(bed: Testbed) -> Blocks:
     """Return the body and the masses."""
-    rows = (
-        (mass.name, f"{mass.mass / GRAM:.4g}",
-         f"{mass.travel[0] / MM:g} to {mass.travel[1] / MM:g}", f"{mass.resolution / MM:g}",
-         f"{mass.accuracy / MM:.3g}") for mass in bed.masses
-    )  # fmt: skip
-    units = number("mass", "g"), Column("travel", "mm"), number("step", "mm")
-    columns = Column("name"), *units, number("accuracy", "mm")
-    return (*of_mass_properties.blocks(bed.body), text_table("Sliding masses", columns, rows))
+    from equipoise.app.report.build import masses_table
+
+    return (*of_mass_properties.blocks(bed.body), masses_table("Sliding masses", bed.masses))
 
 
 def document(bed: Testbed) -> View:

@@ -1,6 +1,6 @@
 """The report of a run, as a document of blocks. It adds no number of its own."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.report.run_record import RunRecord
@@ -14,6 +14,7 @@ from equipoise.app.text.blocks import (
     Pairs,
     Paragraph,
     Section,
+    Table,
     number,
     paragraphs,
     table,
@@ -23,12 +24,10 @@ from equipoise.app.text.run_blocks import finding_items, moment_of
 from equipoise.model.estimate import Estimate
 from equipoise.model.finding import Finding
 from equipoise.model.step import Step
-from equipoise.model.testbed import Testbed
+from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.model.units import DEG, GRAM, MM
 
 ALL_OBSERVED = "Every quantity above was seen in the data or given beforehand."
-MASSES = (Column("sliding mass"), number("mass", "g"), number("travel", "mm"),
-          number("step", "mm"), number("accuracy (1 sd)", "mm"))  # fmt: skip
 
 
 def report(record: RunRecord) -> Document:
@@ -66,11 +65,10 @@ def estimate_sections(estimate: Estimate | None, *more: Block) -> tuple[Section,
     """Return the mass properties, what else is to be said of them, and what was not seen."""
     if estimate is None:
         return ()
-    residual = "" if estimate.residual is None else residual_line(estimate.residual)
     found: Blocks = (
         Paragraph(estimate.outcome.sentence),
         *estimate_tables(estimate),
-        *paragraphs(residual),
+        *paragraphs(residual_line(estimate.residual)),
         *more,
     )
     unobserved = unobservable_items(estimate) or (Paragraph(ALL_OBSERVED),)
@@ -85,20 +83,22 @@ def figure_of(picture: Picture) -> Figure:
 def _platform(bed: Testbed) -> Iterator[Block]:
     yield _pairs(_platform_pairs(bed))
     if bed.masses:
-        rows = (
-            (
-                mass.name,
-                f"{mass.mass / GRAM:.4g}",
-                f"{mass.travel[0] / MM:g} to {mass.travel[1] / MM:g}",
-                f"{mass.resolution / MM:g}",
-                f"{mass.accuracy / MM:g}",
-            )
-            for mass in bed.masses
-        )
-        yield table("", MASSES, rows)
+        yield masses_table("", bed.masses)
     if bed.assumed:
         yield Heading("Assumed, not measured")
         yield _pairs(bed.assumed)
+
+
+def masses_table(title: str, masses: Iterable[SlidingMass]) -> Table:
+    """Return what is stated of sliding masses."""
+    columns = (Column("sliding mass"), number("mass", "g"), number("travel", "mm"),
+               number("step", "mm"), number("accuracy (1 sd)", "mm"))  # fmt: skip
+    rows = (
+        (mass.name, f"{mass.mass / GRAM:.4g}",
+         f"{mass.travel[0] / MM:g} to {mass.travel[1] / MM:g}", f"{mass.resolution / MM:g}",
+         f"{mass.accuracy / MM:g}") for mass in masses
+    )  # fmt: skip
+    return table(title, columns, rows)
 
 
 def _platform_pairs(bed: Testbed) -> dict[str, str]:

@@ -57,8 +57,10 @@ def outcome_claim(estimate: Estimate) -> Claim:
     return Claim(estimate.outcome.sentence, "good" if estimate.outcome.usable else "bad")
 
 
-def residual_line(residual: Residual) -> str:
+def residual_line(residual: Residual | None) -> str:
     """Return what the model leaves, and what it predicted of rows that it was not shown."""
+    if residual is None:
+        return ""
     if residual.error_index is not None:
         return _linear_line(residual)
     attitude = residual.attitude_rms is not None

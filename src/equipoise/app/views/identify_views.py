@@ -33,13 +33,12 @@ def output_of(done: Identification) -> Output:
 def blocks(done: Identification) -> Blocks:
     """Return what was done, the tables, what was not seen, and the sentence that sums it up."""
     estimate = done.estimate
-    residual = "" if estimate.residual is None else residual_line(estimate.residual)
     return (
         *moments(done.steps),
         *estimate_tables(estimate),
         *plan_blocks(done.plan, estimate),
         *unobservable_items(estimate),
-        *paragraphs(residual),
+        *paragraphs(residual_line(estimate.residual)),
         outcome_claim(estimate),
     )
 

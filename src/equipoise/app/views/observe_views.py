@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from equipoise.app.report.run_record import Output, RunRecord, origin
 from equipoise.app.runs.observation import Observation
@@ -163,23 +164,24 @@ def rank_claim(information: Observability) -> Claim:
 
 def document(done: Observation) -> View:
     """Return what a recording can show as JSON, SI units."""
-    recording, information, filters = done.recording, done.bounds, done.filters
+    recording, columns = done.recording, columns_of(done.bounds)
+    rows = zip(*columns.values(), strict=True)
     return OBSERVE.write({
         "source": recording.source,
         "sha256": recording.sha256,
-        "found": information,
-        "parameters": [bound_of(information, k) for k in range(len(information.names))],
-        "filters": filters,
+        "found": done.bounds,
+        "parameters": [dict(zip(columns, row, strict=True)) for row in rows],
+        "filters": done.filters,
     })  # fmt: skip
 
 
-def bound_of(information: Observability, k: int) -> View:
-    """Return one bound, SI."""
+def columns_of(information: Observability) -> dict[str, list[Any]]:
+    """Return the bounds as columns, SI."""
     return {
-        "name": information.names[k],
-        "unit": information.units[k],
-        "sd": float(information.sd[k]),
-        "testbed_sd": float(information.before[k]),
-        "observable": not bool(information.hidden[k]),
-        "held": bool(information.held[k]),
+        "name": list(information.names),
+        "unit": list(information.units),
+        "sd": information.sd.tolist(),
+        "testbed_sd": information.before.tolist(),
+        "observable": (~information.hidden).tolist(),
+        "held": information.held.tolist(),
     }
