@@ -17,7 +17,7 @@ from equipoise.app.text.blocks import (
     Table,
     number,
     paragraphs,
-    table,
+    tabulated,
 )
 from equipoise.app.text.estimate_text import estimate_tables, residual_line, unobservable_items
 from equipoise.app.text.run_blocks import finding_items, moment_of
@@ -91,14 +91,16 @@ def _platform(bed: Testbed) -> Iterator[Block]:
 
 def masses_table(title: str, masses: Iterable[SlidingMass]) -> Table:
     """Return what is stated of sliding masses."""
-    columns = (Column("sliding mass"), number("mass", "g"), number("travel", "mm"),
-               number("step", "mm"), number("accuracy (1 sd)", "mm"))  # fmt: skip
-    rows = (
-        (mass.name, f"{mass.mass / GRAM:.4g}",
-         f"{mass.travel[0] / MM:g} to {mass.travel[1] / MM:g}", f"{mass.resolution / MM:g}",
-         f"{mass.accuracy / MM:g}") for mass in masses
+    return tabulated(
+        title,
+        masses,
+        (Column("sliding mass"), lambda mass: mass.name),
+        (number("mass", "g"), lambda mass: f"{mass.mass / GRAM:.4g}"),
+        (number("travel", "mm"),
+         lambda mass: f"{mass.travel[0] / MM:g} to {mass.travel[1] / MM:g}"),
+        (number("step", "mm"), lambda mass: f"{mass.resolution / MM:g}"),
+        (number("accuracy (1 sd)", "mm"), lambda mass: f"{mass.accuracy / MM:g}"),
     )  # fmt: skip
-    return table(title, columns, rows)
 
 
 def _platform_pairs(bed: Testbed) -> dict[str, str]:

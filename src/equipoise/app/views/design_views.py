@@ -19,6 +19,7 @@ from equipoise.app.text.blocks import (
     number,
     paragraphs,
     table,
+    tabulated,
 )
 from equipoise.app.text.json_results import DESIGN
 from equipoise.app.text.json_shape import View
@@ -115,41 +116,33 @@ def reach_table(found: Sizing) -> Table:
 
 def steps_table(steps: Sequence[MassStep], tilt: float) -> Table:
     """Return what each mass does with one step, and how truly it stops."""
-    rows = [
-        (
-            step.mass.name,
-            plain(step.mass.mass / GRAM),
-            plain(step.mass.resolution / MM),
-            plain(step.shift / UM),
-            plain(step.torque / UN_M),
-            plain(step.within_tilt / UN_M),
-            plain(step.stop_sd / UM),
-        )
-        for step in steps
-    ]
-    within = f"rms within {tilt / DEG:.3g} deg"
-    columns = (Column("mass"), number("", "g"), number("step", "mm"), number("step", "um"),
-               number("step", "uN m"), number(within, "uN m"),
-               number("stop's sd", "um"))  # fmt: skip
-    return table("The least that each mass can do", columns, rows)
+    return tabulated(
+        "The least that each mass can do",
+        steps,
+        (Column("mass"), lambda step: step.mass.name),
+        (number("", "g"), lambda step: plain(step.mass.mass / GRAM)),
+        (number("step", "mm"), lambda step: plain(step.mass.resolution / MM)),
+        (number("step", "um"), lambda step: plain(step.shift / UM)),
+        (number("step", "uN m"), lambda step: plain(step.torque / UN_M)),
+        (number(f"rms within {tilt / DEG:.3g} deg", "uN m"),
+         lambda step: plain(step.within_tilt / UN_M)),
+        (number("stop's sd", "um"), lambda step: plain(step.stop_sd / UM)),
+    )  # fmt: skip
 
 
 def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Table:
     """Return what records of several lengths tell, and what is left after them."""
     moments = np.diag(inertia_P)
-    rows = [
-        (
-            f"{budget.first.duration:g} s",
-            triple(budget.first.com_sd / UM),
-            triple(budget.first.inertia_sd[:3] / PERCENT / moments),
-            triple(budget.last.com_sd / UM),
-            plain(budget.torque / UN_M),
-        )
-        for budget in budgets
-    ]
-    columns = (Column("record"), number("com first", "um"), number("J first", "%"),
-               number("com last", "um"), number("left", "uN m"))  # fmt: skip
-    return table("Least sd of a free swing with one move, and of the last look", columns, rows)
+    return tabulated(
+        "Least sd of a free swing with one move, and of the last look",
+        budgets,
+        (Column("record"), lambda budget: f"{budget.first.duration:g} s"),
+        (number("com first", "um"), lambda budget: triple(budget.first.com_sd / UM)),
+        (number("J first", "%"),
+         lambda budget: triple(budget.first.inertia_sd[:3] / PERCENT / moments)),
+        (number("com last", "um"), lambda budget: triple(budget.last.com_sd / UM)),
+        (number("left", "uN m"), lambda budget: plain(budget.torque / UN_M)),
+    )  # fmt: skip
 
 
 def triple(values: Floats) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from equipoise.app.text.blocks import Column, Table, number, table
+from equipoise.app.text.blocks import Column, Table, number, table, tabulated
 from equipoise.app.text.csv_lines import csv_lines
 from equipoise.app.text.json_lists import COMPARE_METHODS
 from equipoise.app.text.json_shape import View
@@ -76,42 +76,35 @@ def tables(found: MethodComparison) -> Iterator[Table]:
 
 def overview(found: MethodComparison) -> Table:
     """Return accuracy and honesty, one line a method."""
-    headings = ("com", "J", "bias", "holds", "NEES", "wrong", "warned", "failed")
-    lines = [overview_cells(method) for method in shown_order(found)]
-    title = f"RMSE / bound of {len(found.seeds)} records of {found.scene.testbed.name}"
-    notes = (*scale_remark(found), READ, *failures(found))
-    return table(title, (Column(), *map(number, headings)), lines, notes)
-
-
-def overview_cells(method: MethodSummary) -> list[str]:
-    """Return one method as cells."""
-    return [
-        method.method,
-        ratio_text(method.com),
-        ratio_text(method.inertia),
-        figure(method.com.bias),
-        percent(method.coverage),
-        figure(method.nees),
-        some(method.confident_wrong),
-        some(method.warned),
-        some(method.failed),
-    ]
+    return tabulated(
+        f"RMSE / bound of {len(found.seeds)} records of {found.scene.testbed.name}",
+        shown_order(found),
+        (Column(), lambda method: method.method),
+        (number("com"), lambda method: ratio_text(method.com)),
+        (number("J"), lambda method: ratio_text(method.inertia)),
+        (number("bias"), lambda method: figure(method.com.bias)),
+        (number("holds"), lambda method: percent(method.coverage)),
+        (number("NEES"), lambda method: figure(method.nees)),
+        (number("wrong"), lambda method: some(method.confident_wrong)),
+        (number("warned"), lambda method: some(method.warned)),
+        (number("failed"), lambda method: some(method.failed)),
+        notes=(*scale_remark(found), READ, *failures(found)),
+    )
 
 
 def cost_table(found: MethodComparison) -> Table:
     """Return what a record takes of those that were not refused, the quickest first."""
-    ran = sorted((m for m in found.methods if np.isfinite(m.time)), key=lambda m: m.time)
-    lines = [
-        [
-            method.method,
-            figure(method.time / MS),
-            "-" if method.memory is None else figure(method.memory / MEGABYTE),
-            "-" if method.settled is None else seconds(method.settled),
-        ]
-        for method in ran
-    ]
-    columns = (Column(), number("", "ms"), number("", "MB"), number("settles", "s"))
-    return table("What one record takes", columns, lines, (TAKES,))
+    return tabulated(
+        "What one record takes",
+        sorted((m for m in found.methods if np.isfinite(m.time)), key=lambda m: m.time),
+        (Column(), lambda method: method.method),
+        (number("", "ms"), lambda method: figure(method.time / MS)),
+        (number("", "MB"),
+         lambda method: "-" if method.memory is None else figure(method.memory / MEGABYTE)),
+        (number("settles", "s"),
+         lambda method: "-" if method.settled is None else seconds(method.settled)),
+        notes=(TAKES,),
+    )  # fmt: skip
 
 
 def seconds(value: float) -> str:
