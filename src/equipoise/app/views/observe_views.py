@@ -18,6 +18,7 @@ from equipoise.app.text.blocks import (
     paragraphs,
     prose,
     table,
+    tabulated,
 )
 from equipoise.app.text.json_results import OBSERVE
 from equipoise.app.text.json_shape import View
@@ -117,27 +118,27 @@ def _tone(information: Observability, name: str) -> Tone:
 
 def ratio_table(ratios: Sequence[Parameter]) -> Table:
     """Return bounds of what does not need the scale."""
-    units = [unit_for(ratio.name, ratio.unit) for ratio in ratios]
-    rows = (
-        (ratio.name, with_sd(0.0, ratio.sd / unit.size)[1], unit.name)
-        for ratio, unit in zip(ratios, units, strict=True)
+    unit = {ratio.name: unit_for(ratio.name, ratio.unit) for ratio in ratios}
+    return tabulated(
+        "Ratios, which do not need the scale",
+        ratios,
+        (Column(), lambda ratio: ratio.name),
+        (number("least sd"), lambda ratio: with_sd(0.0, ratio.sd / unit[ratio.name].size)[1]),
+        (Column("unit"), lambda ratio: unit[ratio.name].name),
     )
-    columns = (Column(), number("least sd"), Column("unit"))
-    return table("Ratios, which do not need the scale", columns, rows)
 
 
 def filter_table(filters: Sequence[FilterView]) -> Table:
-    """Return what filters see of their state."""
-    columns = (Column(), number("exact sensors"), number("these sensors"), prose())
-    return table("What filters see of their state along this motion", columns,
-                 map(filter_row, filters))  # fmt: skip
-
-
-def filter_row(view: FilterView) -> tuple[str, ...]:
-    """Return how much of its state a filter sees, and what it does not."""
-    with_noise = f"no {view.measures}" if view.rank is None else f"{view.rank} of {view.size}"
-    sees = f"{view.possible} of {view.size}"
-    return view.name, sees, with_noise, "\n".join(reason.sentence for reason in view.unobservable)
+    """Return how much of its state each filter sees, and what it does not."""
+    return tabulated(
+        "What filters see of their state along this motion",
+        filters,
+        (Column(), lambda view: view.name),
+        (number("exact sensors"), lambda view: f"{view.possible} of {view.size}"),
+        (number("these sensors"), lambda view: (
+            f"no {view.measures}" if view.rank is None else f"{view.rank} of {view.size}")),
+        (prose(), lambda view: "\n".join(reason.sentence for reason in view.unobservable)),
+    )  # fmt: skip
 
 
 def sweep_line(information: Observability) -> str:
