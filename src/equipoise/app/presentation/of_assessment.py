@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from equipoise.app.presentation import of_estimate
-from equipoise.app.presentation.tables import Arrays, Table
 from equipoise.app.runs.assessment import AssessedPlatform
 
 if TYPE_CHECKING:
@@ -15,16 +14,6 @@ def lines(shown: AssessedPlatform) -> Iterator[str]:
     """Yield the last sentence, and the parameters."""
     yield f"Assessment of {shown.done.testbed.name}: {shown.steps[-1].sentence}"
     yield from of_estimate.parameter_lines(shown.estimate)
-
-
-def table(shown: AssessedPlatform) -> Table:
-    """Return a row a parameter of the estimate."""
-    return of_estimate.table(shown.estimate)
-
-
-def arrays(shown: AssessedPlatform) -> Arrays:
-    """Return the estimate's arrays."""
-    return of_estimate.arrays(shown.estimate)
 
 
 def figure(shown: AssessedPlatform) -> "Figure | None":

@@ -13,8 +13,9 @@ from equipoise.model.presentation import Shown
 
 HERE, VIEWS = "equipoise.app.presentation", "equipoise.app.views"
 # The module here that shows a record, and the module of the command that prints it. A module here
-# has ``lines`` and ``table``; ``arrays`` unless they are the table's columns; ``figure`` if there
-# is one; ``blocks`` and ``document`` unless the command's are meant. None computes a number.
+# has ``lines``; ``table`` unless it is the estimate's; ``arrays`` unless they are the table's
+# columns; ``figure`` if there is one; ``blocks`` and ``document`` unless the command's are meant.
+# None computes a number.
 KINDS = {
     "Recording": ("of_recording", ""),
     "Estimate": ("of_estimate", ""),
@@ -67,15 +68,20 @@ def document(record: Shown) -> dict[str, Any]:
     return finite(viewed(record, "document"))
 
 
+def tabled(record: Any) -> Any:
+    """Return the record that a table is of: itself, or the estimate of one without its own."""
+    return record.estimate if view_of(record, "table") is None else record
+
+
 def table(record: Shown) -> Table:
     """Return columns, SI."""
-    return viewed(record, "table")
+    return viewed(tabled(record), "table")
 
 
 def arrays(record: Shown) -> Arrays:
     """Return named arrays with their dimensions, SI: a table's columns unless there are others."""
-    view = view_of(record, "arrays")
-    return of_table(table(record)) if view is None else view(record)
+    view = view_of(tabled(record), "arrays")
+    return of_table(table(record)) if view is None else view(tabled(record))
 
 
 def frame(record: Shown) -> Any:

@@ -11,7 +11,6 @@ from typing import Any
 
 View = dict[str, Any]
 Read = Callable[[Any], Any]
-DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,8 +125,3 @@ def document(name: str, *keys: Key) -> Kind:
 def name_of(kind: Kind) -> str:
     """Return the name of a document, such as equipoise/balance/2."""
     return kind.schema["properties"]["schema"]["const"]
-
-
-def json_schema(kind: Kind) -> View:
-    """Return the JSON Schema of a document."""
-    return {"$schema": DIALECT, "title": name_of(kind), **kind.schema}
