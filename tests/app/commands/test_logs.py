@@ -96,7 +96,7 @@ def test_what_is_no_mcap_is_refused(equipoise, tmp_path):
 
 
 def test_a_replay_prints_time_tilt_and_masses_each_second(equipoise, record_file):
-    """The known move of the record is seen: x1 goes to -10 mm at 60 s."""
+    """The known move of the record is shown: x1 goes to -10 mm at 60 s."""
     reported = equipoise("replay", record_file, "--testbed", "sputnix", "--speed", 0)
     assert reported.code == 0
     lines = reported.out.splitlines()

@@ -1,4 +1,4 @@
-"""The report stands alone and tells all that was done."""
+"""The report stands alone and shows all that was done."""
 
 import re
 from html.parser import HTMLParser
@@ -53,7 +53,7 @@ def test_the_demo_writes_every_figure_of_the_paper(folder):
 
 
 def test_figures_of_steps_say_where_the_masses_are(folder):
-    """What is identified is told with the masses at home, as every method does; a balance is not.
+    """An identification states com with the masses at home, as every method does; a balance does not.
 
     The linear method and the fit stand beside each other, by name.
     """

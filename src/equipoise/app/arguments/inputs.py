@@ -107,7 +107,7 @@ def part_of(recording: Recording, start: float | None, end: float | None) -> Rec
     """Return the part between two times (s); one that is left out stands for the end there is.
 
     A bench's own record begins where the platform was let go, unless another time is given.
-    What is known of times that no sensor saw is left out: a move behind the last row, say.
+    What lies outside of the sensors' rows is left out, such as a move after the last one.
     """
     first, last = recording.span
     start = recording.free_from if start is None else start

@@ -16,7 +16,7 @@ class OuterBench:
 
     @property
     def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
+        """What is known of it a priori."""
         return self._bench.testbed
 
     @property
@@ -45,7 +45,7 @@ class RecordedBench(OuterBench):
         self._parts: list[Recording] = []
 
     def read(self, duration: float) -> Recording:
-        """Read and remember, also what was heard before the bench was stopped."""
+        """Read and keep, also what arrived before the bench was stopped."""
         try:
             self._parts.append(self._bench.read(duration))
         except BenchStopped:

@@ -24,7 +24,7 @@ def assess(
 ) -> int:
     """Say what gravity still does to a platform, how surely, and whether that is good enough.
 
-    Ends with 1 when the platform does not meet what is required, or the recording cannot tell.
+    Ends with 1 when the platform does not meet what is required, or the recording cannot decide it.
 
     Parameters
     ----------
@@ -43,8 +43,8 @@ def assess(
     require_offset_um
         Distance of the centre of mass from its target that is allowed.
     windows_s
-        Look again and again, so many seconds each: drift, walk and Allan deviation of the centre
-        of mass over a long recording.
+        Assess windows of so many seconds along the recording too: drift, walk and Allan deviation
+        of the centre of mass.
     json
         Print one JSON document instead.
     out

@@ -1,4 +1,4 @@
-"""`equipoise balance`: look, move, look again, until the verdict passes."""
+"""`equipoise balance`: estimate, move, estimate again, until the verdict passes."""
 
 from contextlib import nullcontext
 from pathlib import Path
@@ -40,7 +40,7 @@ def balance(
     json: Flag = False,
     out: Path | None = None,
 ) -> int:
-    """Balance a platform: look, move masses, look again; then test the result.
+    """Balance a platform: estimate, move masses, estimate again; then test the result.
 
     The platform is simulated, or with --bench the real one that the testbed's [hardware] declares.
     With --manual a person places weights instead of masses that move, on a real platform if a

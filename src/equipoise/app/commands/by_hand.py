@@ -23,7 +23,7 @@ class Manual:
     Attributes
     ----------
     manual
-        Tell a person which weights to put where, recording by recording. Without --session the
+        Instruct a person which weights to put where, recording by recording. Without --session the
         person is simulated.
     session
         File in which a real balancing by hand is kept; it is made if there is none.

@@ -25,7 +25,7 @@ def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
     from equipoise.io.recording.format_registry import format_to_write
     from equipoise.io.recording.recording_file import write_recording
 
-    format_to_write(out)  # a suffix that is not written is told before anything is read
+    format_to_write(out)  # refuses a suffix before anything is read
     check_writable(out)
     recording = recording_of(file, reading)
     write_recording(recording, out)

@@ -27,7 +27,7 @@ def dashboard(
 ) -> int:
     """Show a bench live in a browser, balance it from there, replay recordings.
 
-    Whoever opens the page looks on; to command takes the token that is printed here, and one page
+    Whoever opens the page can watch; commanding takes the token that is printed here, and one page
     at a time has it. Closing the page changes nothing on the bench. Ctrl-C ends the dashboard and
     halts every mass.
 
@@ -46,7 +46,7 @@ def dashboard(
         Port of this computer; 0: any that is free.
     expose
         Address of this computer at which others may open the page, such as 192.168.1.5. The token
-        is then needed to look on, too. Left out: this computer alone.
+        is then needed to watch, too. Left out: this computer alone.
     """
     from equipoise.app.arguments.checks import seed_of
 

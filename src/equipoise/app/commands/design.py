@@ -21,7 +21,7 @@ def design(
     json: Flag = False,
     out: Path | None = None,
 ) -> int:
-    """Tell what masses and sensors of a testbed are good for: reach, steps, bounds, what is left.
+    """Say what masses and sensors of a testbed are good for: reach, steps, bounds, what is left.
 
     The budget is for the shortest record. Ends with 1 when a required torque cannot be met.
 
@@ -30,13 +30,13 @@ def design(
     testbed
         Testbed file, or a preset's name.
     record_s
-        Lengths of the records that the centre of mass is looked at for, s.
+        Lengths of the records that the centre of mass is estimated from, s.
     target_um
         Where the centre of mass is wanted, from the centre of rotation, body axes.
     tilt_deg
         Torque counts over directions within so many degrees of level.
     moves
-        How often it is looked and moved.
+        How often the centre of mass is estimated and the masses are moved.
     misalignment_deg
         How far rails lean from where the testbed has them, one sd about both axes across.
     require_torque

@@ -38,7 +38,7 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
 
     bed, drawn = testbed_from(testbed), seed_of(seed)
     with busy("preparing the platform", announce=False):
-        SimulatedBench(bed, drawn).read(1.0)  # compiles: a device that pauses looks unplugged
+        SimulatedBench(bed, drawn).read(1.0)  # compiles: a device that pauses seems unplugged
     longest = positive("--max-time-s", max_time_s) or float("inf")
     bench = emulated(bed, drawn)
     try:

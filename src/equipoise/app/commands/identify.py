@@ -39,7 +39,7 @@ def identify(
     method
         auto, or one of those that `equipoise methods` lists.
     robust
-        Give rows that stand far off less weight.
+        Give outliers less weight.
     plan
         Plan file that the recording was made by: what it predicted is compared with what is found.
     json

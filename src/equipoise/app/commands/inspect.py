@@ -29,8 +29,8 @@ def inspect(
     file
         Recording, as CSV or Parquet.
     testbed
-        Testbed file or preset: adds what only it can tell, such as which axis is up, and what
-        happened during the record: touches, parts that shifted.
+        Testbed file or preset: adds what depends on it, such as which axis is up, and events of
+        the record: touches, parts that shifted.
     json
         Print one JSON document instead.
     figure
@@ -67,7 +67,7 @@ def _happened(file: str, reading: Reading, testbed: "Testbed") -> "list[Finding]
     from equipoise.procedure.identification.identify import IdentifyOptions, identify
 
     recording = fitting_recording_of(file, reading, testbed)
-    *_, last = watched(identify(recording, testbed, IdentifyOptions("trajectory")), "looking")
+    *_, last = watched(identify(recording, testbed, IdentifyOptions("trajectory")), "fitting")
     if last.estimate is None:
         return []
     outcome = last.estimate.outcome

@@ -4,14 +4,14 @@ from equipoise.app.arguments.options import Flag
 
 
 def laws(name: str | None = None, /, *, json: Flag = False) -> int:
-    """List the laws of `equipoise balance --law`, or tell all about one of them.
+    """List the laws of `equipoise balance --law`, or show the whole card of one.
 
     Errata that a source names are entries of docs/errata.md.
 
     Parameters
     ----------
     name
-        Law to tell about. Left out: list them all.
+        Law to show. Left out: list them all.
     json
         Print one JSON document instead.
     """

@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
 
 def methods(name: str | None = None, /, *, json: Flag = False) -> int:
-    """List the methods of `equipoise identify`, or tell all about one of them.
+    """List the methods of `equipoise identify`, or show the whole card of one.
 
     Errata that a source names are entries of docs/errata.md.
 
     Parameters
     ----------
     name
-        Method to tell about. Left out: list them all.
+        Method to show. Left out: list them all.
     json
         Print one JSON document instead.
     """

@@ -1,4 +1,4 @@
-"""`equipoise observe`: what a recording can and cannot show, before any estimate is believed."""
+"""`equipoise observe`: what a recording can and cannot show, before anything is estimated."""
 
 from pathlib import Path
 

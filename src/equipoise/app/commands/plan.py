@@ -1,4 +1,4 @@
-"""`equipoise plan`: the manoeuvre that will tell most."""
+"""`equipoise plan`: the most informative manoeuvre."""
 
 from pathlib import Path
 from typing import Literal
@@ -27,8 +27,8 @@ def plan(
 
     Chosen are tilt and rate at the start, times and sizes of moves, and square waves for wheels and
     gyros where there are any. Limits are kept on platforms drawn from what is known, let go by a
-    hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep them. The sd
-    told are those of a fit in the model that the testbed states.
+    hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep them.
+    Predicted sd are those of a fit in the model that the testbed states.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def plan(
     max_rate_deg_s
         Greatest rate of the platform.
     prior_record
-        A recording that was made before: what it tells is known, masses stand where it left them.
+        A recording that was made before: what it shows is known, masses stand where it left them.
     trials
         How many manoeuvres to try.
     seed

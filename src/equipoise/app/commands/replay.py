@@ -1,4 +1,4 @@
-"""`equipoise replay`: a recording as if it were seen now."""
+"""`equipoise replay`: a recording played back."""
 
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,7 @@ def replay(
     foxglove: Flag = False,
     reading: Reading = WHOLE,
 ) -> int:
-    """Show a recording as it was seen: time, tilt and where the masses are.
+    """Play a recording back: time, tilt and where the masses are.
 
     Cut off from a terminal, a line is printed for every second of the recording.
 

@@ -42,7 +42,7 @@ def track(
     testbed
         Testbed file whose camera's settings and alignment are taken; --board and --lens go before.
     rate_hz
-        Pictures per second, of a folder, or of a video that tells it wrongly.
+        Pictures per second, of a folder, or of a video that states it wrongly.
     duration_s
         How long to watch a camera.
     level
@@ -97,7 +97,7 @@ def _track_blocks(found: "Track") -> "Blocks":
     median = math.degrees(float(np.median(found.sds))) if found.sds else 0.0
     return (
         *paragraphs(
-            f"the board was seen in {len(found.t)} of {found.pictures} pictures",
+            f"the board was found in {len(found.t)} of {found.pictures} pictures",
             f"stated error of an attitude: {median:.4f} deg per axis, median" if found.sds else "",
         ),
         *items((f"{count} pictures {what}" for count, what in counts if count), "quiet"),

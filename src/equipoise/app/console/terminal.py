@@ -69,7 +69,7 @@ def busy(
 ) -> Generator[None]:
     """Show on stderr that something is being done, and when it is the compiler that takes long.
 
-    Cut off from a terminal, ``announce`` says whether it is told that it begins, and what would
+    Cut off from a terminal, ``announce`` says whether its beginning is printed, and what would
     stand ``above`` is not shown.
     """
     from equipoise.app.console.compile_notice import compiler_notices
@@ -125,7 +125,7 @@ class _SignOfLife:
 
 @contextmanager
 def counted(what: str) -> "Generator[Callable[[float], None]]":
-    """Show on stderr what share of something is done, as the function is told that it yields."""
+    """Show progress on stderr; the function that is yielded takes the share that is done."""
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
 
     console = stderr()

@@ -119,7 +119,7 @@ def _by_name(book: Logbook, run: LoggedRun) -> dict[str, Parameter]:
 
 def _separation(parameter: Parameter, other: Parameter) -> str:
     outlying = normalised_difference(parameter, other)
-    return f"{outlying:+.1f}" if math.isfinite(outlying) and outlying else "not seen"
+    return f"{outlying:+.1f}" if math.isfinite(outlying) and outlying else "unobservable"
 
 
 def runs_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:

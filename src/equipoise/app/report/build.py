@@ -27,7 +27,7 @@ from equipoise.model.step import Step
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.model.units import DEG, GRAM, MM
 
-ALL_OBSERVED = "Every quantity above was seen in the data or given beforehand."
+ALL_OBSERVED = "The data or a prior determine every quantity above."
 
 
 def report(record: RunRecord) -> Document:
@@ -62,7 +62,7 @@ def steps_section(title: str, steps: Sequence[Step], figures: Mapping[Step, Pict
 
 
 def estimate_sections(estimate: Estimate | None, *more: Block) -> tuple[Section, ...]:
-    """Return the mass properties, what else is to be said of them, and what was not seen."""
+    """Return the mass properties, what else is to be said of them, and what is unobservable."""
     if estimate is None:
         return ()
     found: Blocks = (

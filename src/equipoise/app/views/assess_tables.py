@@ -49,12 +49,12 @@ def bounds(found: Bounded, unit: float) -> tuple[str, str, str]:
 
 
 def measurements_table(done: Assessment) -> Table:
-    """Return the centre of mass as the fit and the simple looks have it."""
+    """Return the centre of mass by the fit and by simpler methods."""
     lines = [list(row) for row in metric_rows(done)]
     metrics = done.metrics
     remarks = [
         "All at the inertia that the fit found. Off: from the fit, in sd of the difference.",
-        f"The looks see {metrics.duration:.3g} s of swing since the masses stopped"
+        f"The others use {metrics.duration:.3g} s of swing since the masses stopped"
         + (f"; no period: {metrics.quiet}." if metrics.quiet else "."),
     ]
     for fit in (metrics.torque_fit, metrics.energy_fit):
@@ -62,12 +62,12 @@ def measurements_table(done: Assessment) -> Table:
             remarks.append(f"{fit.method}: {fit.outcome.sentence}")
     columns = (Column(), number("com x", "um"), number("y"), number("z"),
                number("distance from P", "um"), number("off"))  # fmt: skip
-    title = "Centre of mass, as the masses stand, by several looks"
+    title = "Centre of mass, as the masses stand, by several methods"
     return table(title, columns, lines, remarks)
 
 
 def metric_rows(done: Assessment) -> Iterator[Row]:
-    """Yield a row a look."""
+    """Yield a row a method."""
     yield ("trajectory fit", *components(done.com, done.com_unscaled),
            length_text(*distance(done.com, done.com_unscaled)), "")  # fmt: skip
     metrics = done.metrics
@@ -116,7 +116,10 @@ def torque_table(done: Assessment) -> Table:
     """Return torque and energy along the record, with their noise."""
     lines = list[list[str]]()
     metrics = done.metrics
-    series = (("torque felt", metrics.torque, "uN m"), ("energy of motion", metrics.energy, "uJ"))
+    series = (
+        ("residual torque", metrics.torque, "uN m"),
+        ("energy of motion", metrics.energy, "uJ"),
+    )
     for name, observed, unit in series:
         if observed is not None:
             value, sd = with_sd(observed.rms / UN_M, observed.rms_sd / UN_M)
@@ -157,11 +160,11 @@ def change_table(before: Assessment, after: Assessment) -> Table:
 
 
 def hours_table(hours: OverHours) -> Table:
-    """Return drift, walk and Allan deviation of looks along a recording."""
-    title, wander = f"The centre of mass over time, by {len(hours.t)} looks", hours.wander
-    left_out = f"{hours.left_out} looks could not be used."
+    """Return drift, walk and Allan deviation of measurements along a recording."""
+    title, wander = f"The centre of mass over time, by {len(hours.t)} measurements", hours.wander
+    left_out = f"{hours.left_out} measurements could not be used."
     if wander is None:
-        few = f"{len(hours.t)} looks are too few: drift and Allan deviation need {FEWEST}."
+        few = f"{len(hours.t)} are too few: drift and Allan deviation need {FEWEST}."
         return table(title, (), (), (few, left_out) if hours.left_out else (few,))
     per_minute, root = UM / MINUTE, UM / MINUTE**0.5
     lines = [
@@ -175,14 +178,14 @@ def hours_table(hours: OverHours) -> Table:
         texts = (f"{d / UM:.2g} ({a / UM:.2g})" for d, a in zip(deviation, alone, strict=True))
         name, spread = f"Allan deviation, {span:.4g} s", f"{error / PERCENT:.0f} %"
         lines.append([name, *texts, "um", spread])
-    remarks = ["In brackets: what looks that only err would leave."]
+    remarks = ["In brackets: what the errors of the measurements alone would leave."]
     remarks += [left_out] if hours.left_out else []
     columns = (Column(), *map(number, "xyz"), Column("unit"), number("relative sd"))
     return table(title, columns, lines, remarks)
 
 
 def fall(before: Bounded, after: Bounded) -> str:
-    """Say by how much a value fell or rose, as far as both bounds tell."""
+    """Say by how much a value fell or rose, as far as both bounds show it."""
     if after.high < before.low:
         least, most = before.low / after.high, before.high / max(after.low, 1e-300)
         return f"fell {least:.3g} times at least" + (f", {most:.3g} at most" if after.low else "")

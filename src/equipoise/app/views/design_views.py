@@ -87,7 +87,7 @@ def record_of(found: Sizing) -> RunRecord:
         "target": f"({', '.join(f'{x / UM:g}' for x in case.target)}) um",
         "range of tilts": f"{case.tilt / DEG:.3g} deg",
         "records": ", ".join(f"{budget.first.duration:g} s" for budget in found.budgets),
-        "looks and moves": str(case.moves),
+        "measurements and moves": str(case.moves),
     }
     return RunRecord(
         title="What masses and sensors are good for",
@@ -131,10 +131,10 @@ def steps_table(steps: Sequence[MassStep], tilt: float) -> Table:
 
 
 def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Table:
-    """Return what records of several lengths tell, and what is left after them."""
+    """Return the least sd from records of several lengths, and the torque left after them."""
     moments = np.diag(inertia_P)
     return tabulated(
-        "Least sd of a free swing with one move, and of the last look",
+        "Least sd of a free swing with one move, and of the last measurement",
         budgets,
         (Column("record"), lambda budget: f"{budget.first.duration:g} s"),
         (number("com first", "um"), lambda budget: triple(budget.first.com_sd / UM)),
@@ -151,9 +151,9 @@ def triple(values: Floats) -> str:
 
 
 def two_digits(value: float) -> str:
-    """Return a number with two digits, if it is not too small to matter or not seen."""
+    """Return a number with two digits, unless it is unobservable or too small to matter."""
     if not math.isfinite(value):
-        return "not seen"
+        return "unobservable"
     return "<0.001" if value < 0.001 else f"{value:.2g}"
 
 

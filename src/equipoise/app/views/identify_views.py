@@ -31,7 +31,7 @@ def output_of(done: Identification) -> Output:
 
 
 def blocks(done: Identification) -> Blocks:
-    """Return what was done, the tables, what was not seen, and the sentence that sums it up."""
+    """Return steps, tables, unobservable directions, and the sentence that sums the estimate up."""
     estimate = done.estimate
     return (
         *moments(done.steps),

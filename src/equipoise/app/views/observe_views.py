@@ -40,7 +40,7 @@ def output_of(done: Observation) -> Output:
 
 
 def blocks(done: Observation) -> Blocks:
-    """Return bounds, filters, and what is not seen."""
+    """Return bounds, filters, and what is unobservable."""
     found = done.bounds
     return (
         *bound_tables(found),
@@ -84,7 +84,7 @@ def record_of(done: Observation) -> RunRecord:
 
 
 def rows_of(information: Observability, names: Sequence[str]) -> Iterator[Texts]:
-    """Return name, bound, its share of J, what is stated beforehand, and unit."""
+    """Return name, bound, its share of J, prior sd, and unit."""
     sizes = dict(zip(INERTIA, element_sizes(information.inertia_P), strict=True))
     for name in names:
         k = information.names.index(name)
@@ -129,9 +129,9 @@ def ratio_table(ratios: Sequence[Parameter]) -> Table:
 
 
 def filter_table(filters: Sequence[FilterView]) -> Table:
-    """Return how much of its state each filter sees, and what it does not."""
+    """Return how much of its state each filter observes, and what it does not."""
     return tabulated(
-        "What filters see of their state along this motion",
+        "What filters observe of their state along this motion",
         filters,
         (Column(), lambda view: view.name),
         (number("exact sensors"), lambda view: f"{view.possible} of {view.size}"),
@@ -152,7 +152,7 @@ def sweep_line(information: Observability) -> str:
 
 
 def rank_claim(information: Observability) -> Claim:
-    """Say how much of what is sought is seen."""
+    """Say how much of what is sought is observable."""
     condition = (
         f"{information.condition:.2g}" if math.isfinite(information.condition) else "infinite"
     )

@@ -1,4 +1,4 @@
-"""Whether a record told what its plan had promised."""
+"""Whether a record reached the sd that its plan predicted."""
 
 from collections.abc import Iterator
 

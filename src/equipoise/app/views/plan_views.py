@@ -57,7 +57,7 @@ def what_to_do(done: Planning) -> Blocks:
 
 
 def limits_of(done: Planning) -> Blocks:
-    """Return what stays unseen, and how far both manoeuvres go."""
+    """Return what stays unobservable, and how far both manoeuvres go."""
     return (
         *reason_items(done.planned.unobservable),
         Paragraph(limits_line(done.usual, done.request, "The usual manoeuvre"), "quiet"),
@@ -95,7 +95,7 @@ def record_of(done: Planning) -> RunRecord:
 def promise_table(done: Planning) -> Table:
     """Return predicted sd of the usual manoeuvre and of the plan, and their ratio."""
     columns = (Column(), *map(number, ("usual", "planned", "times better")), Column("unit"))
-    after = ", known what was seen" if done.request.earlier else ""
+    after = ", given the earlier recording" if done.request.earlier else ""
     title = f"Predicted sd over {done.planned.platforms} platforms that may be there{after}"
     return table(title, columns, (promise_row(done, name) for name in (*COM, *INERTIA)))
 
@@ -193,11 +193,11 @@ def verdict(done: Planning) -> str:
     """Say what the plan gains, and whether its limits are kept."""
     (name, before), (other, after) = (worst_of(p, done) for p in (done.usual, done.planned))
     if math.isinf(after):
-        text = f"Not all is seen with this plan either: {other}."
+        text = f"This plan does not make all of it observable either: {other}."
     elif math.isinf(before):
         text = f"The usual manoeuvre does not show {name}; the plan shows all that is asked for."
     elif before < after:
-        text = "The usual manoeuvre would tell more, and goes further than it may."
+        text = "The usual manoeuvre would be more informative, but it exceeds the limits."
     else:
         gain = f"{before / after:.2g} times better"
         which = name if other == name else f"{name}, then {other}"

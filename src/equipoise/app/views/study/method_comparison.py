@@ -150,7 +150,7 @@ def com_table(found: MethodComparison) -> Table:
             lines.append([method.method, *(figure(float(x)) for x in columns.ravel()), whole])
     remark = (
         "sd: of the errors over the runs. RMSE: of the vector, of what is stated of it. Bounds are "
-        "root mean squares over the records. Masses at home; a method that tells com only as the "
+        "root mean squares over the records. Masses at home; a method that states com only as the "
         "masses stand at the end, such as the tracker, is judged by that, and by its bound."
     )
     columns = (Column(), *map(number, headings))
@@ -178,7 +178,7 @@ def inertia_table(found: MethodComparison) -> Table:
 
 def observed_text(bound: float) -> str:
     """Return a bound; infinite: some records do not show it, nan: it was held."""
-    return "not seen" if np.isinf(bound) else "held" if np.isnan(bound) else figure(bound)
+    return "unobservable" if np.isinf(bound) else "held" if np.isnan(bound) else figure(bound)
 
 
 def methods_json(found: MethodComparison) -> View:
