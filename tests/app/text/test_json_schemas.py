@@ -11,9 +11,9 @@ from equipoise.app.text.json_shape import (
     MATRIX,
     NUMBER,
     TEXT,
+    Key,
     document,
     fields,
-    key,
     many,
     maybe,
     name_of,
@@ -71,8 +71,8 @@ def test_a_document_says_what_it_is_and_in_which_version(kind):
 
 BODY = shape(
     *fields("name", TEXT),
-    key("com_m", maybe(MATRIX), lambda body: body.com),
-    key("note", TEXT, lambda body: body.note, optional=True),
+    Key("com_m", maybe(MATRIX), lambda body: body.com),
+    Key("note", TEXT, lambda body: body.note, optional=True),
 )
 MADE = document("equipoise/made/1", *fields("bodies", many(BODY)), *fields("size", NUMBER))
 

@@ -90,10 +90,11 @@ def compare(
     out
         Folder for the report, figures, compare.json, and methods.csv or laws.csv, a line a run.
     """
-    from equipoise.app.arguments.checks import check_outputs, positive
+    from equipoise.app.arguments.checks import check_outputs, positive, seed_of
     from equipoise.app.arguments.inputs import move_of, options_of, testbed_from
 
-    bed, seeds = testbed_from(testbed), _seeds(seed, runs)
+    bed, first = testbed_from(testbed), seed_of(seed)
+    seeds = range(first, first + int(positive("--runs", runs)))
     moves = [move_of(text, bed) for text in move]
     duration, options = positive("--duration-s", duration_s), options_of(seeking)
     many = int(positive("--workers", workers))
@@ -110,14 +111,6 @@ def compare(
     done = run_all(Contest(names, scene, seeds, goal), many, AT_TERMINAL)
     hand_over(output_of(done), json, out)
     return _code(done)
-
-
-def _seeds(seed: int, runs: int) -> range:
-    """Return the platforms' seeds, checked."""
-    from equipoise.app.arguments.checks import positive, seed_of
-
-    first = seed_of(seed)
-    return range(first, first + int(positive("--runs", runs)))
 
 
 def _goal(judging: JudgingLaws) -> "LawGoal":

@@ -17,7 +17,6 @@ from equipoise.app.text.json_shape import (
     by_name,
     document,
     fields,
-    key,
     many,
     maybe,
     shape,
@@ -75,8 +74,8 @@ OUTCOME = shape(
 
 # One move of a schedule: when masses are sent, and where to from home.
 SENT = shape(
-    key("time_s", NUMBER, lambda move: move[0]),
-    key("targets_m", NUMBERS, lambda move: move[1]),
+    Key("time_s", NUMBER, lambda move: move[0]),
+    Key("targets_m", NUMBERS, lambda move: move[1]),
 )
 
 PARAMETER = shape(
@@ -90,7 +89,7 @@ EVENT = shape(
     *fields("kind", TEXT),
     *fields("kind_unclear=unclear", FLAG),
     *fields("time_s=t time_sd_s=t_sd", NUMBER),
-    key("unit", TEXT, lambda e: UNITS[e.kind]),
+    Key("unit", TEXT, lambda e: UNITS[e.kind]),
     *fields("size", VECTOR),
     *fields("covariance", MATRIX),
     *fields("chi_square=surprise azimuth_rad=azimuth", NUMBER),
@@ -133,9 +132,9 @@ ESTIMATE = document(
     *fields("ratios", many(PARAMETER)),
     *fields("possible", FLAG),
     *fields("course", maybe(COURSE)),
-    key("findings", many(FINDING), lambda _: ()),  # see ``estimate_json``
+    Key("findings", many(FINDING), lambda _: ()),  # see ``estimate_json``
     *fields("provenance", by_name(TEXT)),
-    key("plan", PLAN_CHECK, lambda _: None, optional=True),
+    Key("plan", PLAN_CHECK, lambda _: None, optional=True),
 )
 
 RECORDING = document(

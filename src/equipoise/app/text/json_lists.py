@@ -8,10 +8,10 @@ from equipoise.app.text.json_shape import (
     NUMBER,
     TEXT,
     VECTOR,
+    Key,
     by_name,
     document,
     fields,
-    key,
     many,
     maybe,
     shape,
@@ -156,7 +156,7 @@ MASS_PROPERTIES = document(
     *fields("mass_kg=mass", NUMBER),
     *fields("com_m=com", VECTOR),
     *fields("inertia_P_kg_m2=inertia_P", MATRIX),
-    key("possible", FLAG, is_possible),
+    Key("possible", FLAG, is_possible),
 )
 
 # Rows of one channel; values are in SI, a column for each of ``columns``.

@@ -17,10 +17,10 @@ from equipoise.app.text.json_shape import (
     NUMBER,
     TEXT,
     VECTOR,
+    Key,
     Kind,
     document,
     fields,
-    key,
     many,
     maybe,
     shape,
@@ -43,7 +43,7 @@ def along_record(unit: str) -> Kind:
 SWING = shape(
     *fields("mode", TEXT),
     *fields("frequency_hz=frequency frequency_sd_hz=sd", NUMBER, "swing"),
-    key("period_s", NUMBER, lambda found: 1 / found["swing"].frequency),
+    Key("period_s", NUMBER, lambda found: 1 / found["swing"].frequency),
     *fields("amplitude_rad=amplitude decay_1_s=decay", NUMBER, "swing"),
     *fields("distance_m=distance distance_sd_m=distance_sd", NUMBER),
 )
@@ -72,7 +72,7 @@ PLATFORM = (
     *fields("com=done", COM),
     *fields("torque_in_range=done.torque", TORQUE_IN_RANGE),
     *fields("inertia_sd", NUMBER, "done"),
-    key("metrics", METRICS, lambda found: found),
+    Key("metrics", METRICS, lambda found: found),
 )
 
 
@@ -113,7 +113,7 @@ ASSESS = document(
 
 # What a manoeuvre is expected to show; sd by parameter, SI.
 PROMISE = shape(
-    key("sd", NUMBERS, lambda p: dict(zip(p.names, map(float, p.sd), strict=True))),
+    Key("sd", NUMBERS, lambda p: dict(zip(p.names, map(float, p.sd), strict=True))),
     *fields("platforms platforms_tried_for_limits=tried within_limits=kept", COUNT),
     *fields("greatest_tilt_rad=greatest_tilt greatest_rate_rad_s=greatest_rate", NUMBER),
     *fields("peak_momentum_N_m_s=peak_momentum", NUMBER, "expected"),

@@ -66,11 +66,6 @@ def by_name(kind: Kind) -> Kind:
     return Kind(schema, lambda named: {name: kind.write(each) for name, each in named.items()})
 
 
-def key(name: str, kind: Kind, read: Read, optional: bool = False) -> Key:
-    """Return a key and what of the record stands there."""
-    return Key(name, kind, read, optional)
-
-
 def fields(names: str, kind: Kind, at: str = "", optional: bool = False) -> tuple[Key, ...]:
     """Return keys that are called as the fields of the record are, else ``time_s=time``.
 
@@ -119,7 +114,7 @@ def _object(keys: tuple[Key, ...], record: Any) -> View:
 def document(name: str, *keys: Key) -> Kind:
     """Return the kind of a whole document, which says by its key ``schema`` what it is."""
     constant = Kind({"const": name}, _as_it_is)
-    return shape(key("schema", constant, lambda _: name), *keys)
+    return shape(Key("schema", constant, lambda _: name), *keys)
 
 
 def name_of(kind: Kind) -> str:

@@ -32,7 +32,6 @@ from equipoise.planning.sizing.contribution import Line
 from equipoise.planning.sizing.environment import not_stated
 from equipoise.planning.sizing.limits import plain, worth_listing
 from equipoise.planning.sizing.mass_steps import MassStep
-from equipoise.planning.sizing.measurement_bound import MeasurementBound
 from equipoise.planning.sizing.reachable_set import furthest, tolerance, volume, weakest
 from equipoise.planning.sizing.sizing import Sizing
 
@@ -65,9 +64,13 @@ def remarks_of(found: Sizing) -> Blocks:
     missing = ", ".join(uncounted(found.case))
     uncounted_text = f"Not stated, and not counted: {missing}."
     quiet: tuple[Block, ...] = (Paragraph(uncounted_text, "quiet"),) if missing else ()
+    odd = (
+        f"Records of {', '.join(f'{length:g}' for length in lengths)} s: {reason.sentence}"
+        for reason, lengths in cautions(found)
+    )
     return (
         *quiet,
-        *items(map(caution_text, cautions(found)), "caution"),
+        *items(odd, "caution"),
         *paragraphs(found.reached, found.limit),
     )
 
@@ -160,7 +163,16 @@ def two_digits(value: float) -> str:
 def budget_table(found: Sizing) -> Table:
     """Return the lines of the budget, the largest first."""
     budget = found.budget
-    rows = [(*line_cells(line), share(line, budget), line.basis) for line in budget.lines]
+    rows = [
+        (
+            line.cause,
+            rms_text(line.moment),
+            plain(line.torque / UN_M),
+            share(line, budget),
+            line.basis,
+        )
+        for line in budget.lines
+    ]
     rows.append(("together", "", plain(budget.torque / UN_M), "", ""))
     columns = (Column(), number("x  y  z rms", "um"), number("rms", "uN m"),
                number("of squares"), Column("from"))  # fmt: skip
@@ -172,15 +184,9 @@ def budget_table(found: Sizing) -> Table:
     return table(title, columns, rows)
 
 
-def line_cells(line: Line) -> tuple[str, str, str]:
-    """Return cause, offset and torque."""
-    offset = "" if line.moment is None else triple(rms(line.moment) / UM)
-    return line.cause, offset, plain(line.torque / UN_M)
-
-
-def rms(moment: Matrix3) -> Floats:
-    """Return the root mean square of each component, m."""
-    return np.sqrt(np.diag(moment))
+def rms_text(moment: Matrix3 | None) -> str:
+    """Return the root mean square of each component, um."""
+    return "" if moment is None else triple(np.sqrt(np.diag(moment)) / UM)
 
 
 def share(line: Line, budget: Budget) -> str:
@@ -200,12 +206,6 @@ def better_table(found: Sizing) -> Table:
     return table("What to buy next, the best first", columns, rows)
 
 
-def caution_text(caution: tuple[Reason, list[float]]) -> str:
-    """Return what is odd, with the lengths of its records."""
-    reason, lengths = caution
-    return f"Records of {', '.join(f'{length:g}' for length in lengths)} s: {reason.sentence}"
-
-
 def uncounted(case: Case) -> tuple[str, ...]:
     """Return what nothing was stated of, and what therefore does not count."""
     rails = () if case.rail_lean > 0 else ("lean of the rails",)
@@ -218,16 +218,10 @@ def cautions(found: Sizing) -> list[tuple[Reason, list[float]]]:
         measurement for budget in found.budgets for measurement in (budget.first, budget.last)
     ]
     reasons = distinct(reason for measurement in measurements for reason in measurement.cautions)
-    return [(reason, lengths_with(reason, measurements)) for reason in reasons]
-
-
-def lengths_with(reason: Reason, measurements: Sequence[MeasurementBound]) -> list[float]:
-    """Return how long the records are of which a reason holds, s."""
-    return list(
-        dict.fromkeys(
-            measurement.duration for measurement in measurements if reason in measurement.cautions
-        )
-    )
+    return [
+        (reason, list(dict.fromkeys(m.duration for m in measurements if reason in m.cautions)))
+        for reason in reasons
+    ]
 
 
 def document(found: Sizing) -> View:

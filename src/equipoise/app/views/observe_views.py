@@ -13,7 +13,6 @@ from equipoise.app.text.blocks import (
     Row,
     Section,
     Table,
-    Tone,
     number,
     paragraphs,
     prose,
@@ -89,15 +88,11 @@ def rows_of(information: Observability, names: Sequence[str]) -> Iterator[Texts]
     for name in names:
         k = information.names.index(name)
         unit, sd = unit_for(name, information.units[k]), float(information.sd[k])
-        share = shared(sd, sizes[name]) if name in sizes else ""
+        shown = name in sizes and 0 < sd < math.inf
+        share = f"{sd / PERCENT / sizes[name]:.2g} %" if shown else ""
         before = float(information.before[k])
         stated = with_sd(0.0, before / unit.size)[1] if math.isfinite(before) else ""
         yield name, with_sd(0.0, sd / unit.size)[1], share, stated, unit.name
-
-
-def shared(sd: float, size: float) -> str:
-    """Return an sd as a share of a moment of inertia."""
-    return f"{sd / PERCENT / size:.2g} %" if 0 < sd < math.inf else ""
 
 
 def bound_table(title: str, information: Observability, names: Sequence[str]) -> Table:
@@ -105,15 +100,12 @@ def bound_table(title: str, information: Observability, names: Sequence[str]) ->
     columns = (Column(), *map(number, ("least sd", "of J", "testbed's sd")), Column("unit"))
     rows = list(rows_of(information, names))
     shown = [k for k in range(len(columns)) if k == 0 or any(row[k] for row in rows)]
+    hidden = dict(zip(information.names, information.hidden, strict=True))
     return table(
         title,
         (columns[k] for k in shown),
-        (Row(tuple(row[k] for k in shown), _tone(information, row[0])) for row in rows),
+        (Row(tuple(row[k] for k in shown), "quiet" if hidden[row[0]] else "plain") for row in rows),
     )
-
-
-def _tone(information: Observability, name: str) -> Tone:
-    return "quiet" if information.hidden[information.names.index(name)] else "plain"
 
 
 def ratio_table(ratios: Sequence[Parameter]) -> Table:

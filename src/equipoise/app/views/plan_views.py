@@ -27,7 +27,7 @@ from equipoise.app.text.json_results import PLAN
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.run_blocks import reason_items
-from equipoise.app.text.units import Unit, unit_for
+from equipoise.app.text.units import unit_for
 from equipoise.model.arrays import Vector3
 from equipoise.model.devices import ReactionWheel
 from equipoise.model.estimate import COM, INERTIA
@@ -103,15 +103,11 @@ def promise_table(done: Planning) -> Table:
 def promise_row(done: Planning, name: str) -> Row:
     """Return one parameter; quiet where it is not wanted."""
     unit = unit_for(name, "m" if name in COM else "kg m2")
-    texts = [sd_text(p, name, unit) for p in (done.usual, done.planned)]
+    sds = (float(p.sd_of((name,))[0]) / unit.size for p in (done.usual, done.planned))
+    texts = [with_sd(0.0, sd)[1] for sd in sds]
     ratio = float(times_better(done.usual, done.planned, (name,))[0])
     shown = f"{ratio:.2g}" if math.isfinite(ratio) and "held" not in texts else ""
     return Row((name, *texts, shown, unit.name), "plain" if name in done.request.names else "quiet")
-
-
-def sd_text(promise: Promise, name: str, unit: Unit) -> str:
-    """Return a predicted sd."""
-    return with_sd(0.0, float(promise.sd_of((name,))[0]) / unit.size)[1]
 
 
 def steps_of(manoeuvre: Manoeuvre, testbed: Testbed) -> Iterator[tuple[str, str]]:

@@ -75,7 +75,8 @@ def tables(found: MethodComparison) -> Iterator[Table]:
 
 
 def overview(found: MethodComparison) -> Table:
-    """Return accuracy and honesty, one line a method."""
+    """Return accuracy and honesty, one line a method; say where an open scale forbids both."""
+    unscaled = () if np.any(np.isfinite(found.bound)) else (OPEN,)
     return tabulated(
         f"RMSE / bound of {len(found.seeds)} records of {found.scene.testbed.name}",
         shown_order(found),
@@ -88,7 +89,7 @@ def overview(found: MethodComparison) -> Table:
         (number("wrong"), lambda method: some(method.confident_wrong)),
         (number("warned"), lambda method: some(method.warned)),
         (number("failed"), lambda method: some(method.failed)),
-        notes=(*scale_remark(found), READ, *failures(found)),
+        notes=(*unscaled, READ, *failures(found)),
     )
 
 
@@ -116,11 +117,6 @@ def ratio_text(ratios: Ratios) -> str:
     """Return RMSE / bound; with a mark where a method states only part of what is shown."""
     part = ratios.stated.part < ratios.stated.of
     return figure(ratios.rmse) + ("*" if part and ratios.stated.part else "")
-
-
-def scale_remark(found: MethodComparison) -> tuple[str, ...]:
-    """Say that nothing can be compared where the scale is open."""
-    return () if np.any(np.isfinite(found.bound)) else (OPEN,)
 
 
 def failures(found: MethodComparison) -> Iterator[str]:

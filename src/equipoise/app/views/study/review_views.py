@@ -7,7 +7,7 @@ from equipoise.app.views.study.method_comparison import percent, seconds
 from equipoise.model.units import MEGABYTE, MS, UM, UN_M
 from equipoise.study.compare_laws import LawSummary
 from equipoise.study.compare_methods import MethodSummary
-from equipoise.study.review_tables import MethodRow, Span, law_rows, method_rows
+from equipoise.study.review_tables import Span, law_rows, method_rows
 
 SOURCE = "da Silva et al. 2021"
 TABLE_2 = (
@@ -35,6 +35,7 @@ def spread_text(span: Span, unit: float = 1.0) -> str:
 def methods_table(methods: Sequence[MethodSummary], testbed: str) -> Table:
     """Return Table 2, measured."""
     rows = method_rows(methods)
+    members = "; ".join(f"{row.printed.name}: {', '.join(row.methods)}" for row in rows)
     return tabulated(
         f"As the review's Table 2, measured on {testbed}",
         rows,
@@ -47,13 +48,8 @@ def methods_table(methods: Sequence[MethodSummary], testbed: str) -> Table:
         (number("settles"), lambda row: spread_text(row.settled)),
         (number("failed"), lambda row: percent(row.failed)),
         (number("wrong"), lambda row: percent(row.wrong)),
-        notes=(TABLE_2, members(rows)),
+        notes=(TABLE_2, f"{members}."),
     )
-
-
-def members(rows: Sequence[MethodRow]) -> str:
-    """Say which methods are in which row."""
-    return "; ".join(f"{row.printed.name}: {', '.join(row.methods)}" for row in rows) + "."
 
 
 def laws_table(laws: Sequence[LawSummary], testbed: str) -> Table:
