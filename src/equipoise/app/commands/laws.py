@@ -15,7 +15,7 @@ def laws(name: str | None = None, /, *, json: Flag = False) -> int:
     json
         Print one JSON document instead.
     """
+    from equipoise.app.api import catalogues
     from equipoise.app.commands.methods import print_cards
-    from equipoise.procedure.balancing.catalogue import CARDS
 
-    return print_cards("law", CARDS, name, json)
+    return print_cards(catalogues.laws(), name, json)

@@ -1,14 +1,11 @@
 """`equipoise methods`: what there is to choose from."""
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from equipoise.app.arguments.options import Flag
 
 if TYPE_CHECKING:
-    from equipoise.app.views.card_views import CardKind
-    from equipoise.model.law_card import LawCard
-    from equipoise.model.method_card import Card
+    from equipoise.app.api.catalogues import Catalogue
 
 
 def methods(name: str | None = None, /, *, json: Flag = False) -> int:
@@ -23,21 +20,16 @@ def methods(name: str | None = None, /, *, json: Flag = False) -> int:
     json
         Print one JSON document instead.
     """
-    from equipoise.estimation.methods.registry import METHODS
+    from equipoise.app.api import catalogues
 
-    return print_cards("method", {key: method.card for key, method in METHODS.items()}, name, json)
+    return print_cards(catalogues.methods(), name, json)
 
 
-def print_cards(
-    kind: "CardKind", every: "Mapping[str, Card] | Mapping[str, LawCard]", name: str | None,
-    json: bool,
-) -> int:  # fmt: skip
+def print_cards(catalogue: "Catalogue", name: str | None, json: bool) -> int:
     """Print the card of a name, or all of them."""
-    from equipoise.app.arguments.checks import one_of
     from equipoise.app.logbook.output import print_result
     from equipoise.app.views.card_views import blocks, document
 
-    names = list(every) if name is None else [one_of(kind, name, list(every))]
-    cards = [every[each] for each in names]
-    print_result(document(kind, cards), blocks(kind, cards), json)
+    cards = list(catalogue.cards.values()) if name is None else [catalogue[name]]
+    print_result(document(catalogue.kind, cards), blocks(catalogue.kind, cards), json)
     return 0
