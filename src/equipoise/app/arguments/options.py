@@ -24,6 +24,7 @@ def _whole(_kind: Any, tokens: Sequence[Token]) -> int:
 
 
 Flag = Annotated[bool, Parameter(show_default=False)]
+Json = Annotated[bool, Parameter(show_default=False, help="Print one JSON document instead.")]
 Names = Annotated[tuple[str, ...], Parameter(show_default=False)]
 Listed = Annotated[tuple[str, ...], Parameter(show_default=False, consume_multiple=True)]
 Triple = Annotated[tuple[float, float, float], Parameter(show_default=_plain)]

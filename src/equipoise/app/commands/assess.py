@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Reading, Seeking, Triple
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Json, Reading, Seeking, Triple
 from equipoise.app.console.terminal import busy
 
 
@@ -19,7 +19,7 @@ def assess(
     windows_s: float | None = None,
     seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Say what gravity still does to a platform, how surely, and whether that is good enough.
@@ -45,8 +45,6 @@ def assess(
     windows_s
         Assess windows of so many seconds along the recording too: drift, walk and Allan deviation
         of the centre of mass.
-    json
-        Print one JSON document instead.
     out
         Folder for figures, report.html and assess.json.
     """

@@ -4,7 +4,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import WHOLE, Flag, Reading, Triple, Whole
+from equipoise.app.arguments.options import WHOLE, Json, Reading, Triple, Whole
 from equipoise.app.commands.by_hand import (
     MOVED,
     Manual,
@@ -37,7 +37,7 @@ def balance(
     by_hand: Manual = MOVED,
     reading: Reading = WHOLE,
     on_bench: OnBench = SIMULATED,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Balance a platform: estimate, move masses, estimate again; then test the result.
@@ -69,8 +69,6 @@ def balance(
         Then follow the drift and hold the balance for so many minutes. After measure_and_move,
         which balances to a third of the tolerance before, since its errors stay; after
         momentum_buildup, whose masses follow the tilt too, by the sag that it found.
-    json
-        Print one JSON document instead.
     out
         Folder for report, figures and balance.json; else one of its own in equipoise-runs.
     """

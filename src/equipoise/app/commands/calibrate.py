@@ -3,7 +3,15 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Names, Reading, Seeking
+from equipoise.app.arguments.options import (
+    NOTHING_STATED,
+    WHOLE,
+    Flag,
+    Json,
+    Names,
+    Reading,
+    Seeking,
+)
 from equipoise.app.console.terminal import busy, show_paths
 from equipoise.model.errors import InputError
 from equipoise.model.units import MM
@@ -24,7 +32,7 @@ def calibrate(
     seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
     write: Path | None = None,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Calibrate masses by a recording of commanded moves: gain, rail, backlash; sensors too.
@@ -43,8 +51,6 @@ def calibrate(
         Mass whose weight and steps you trust, which fixes the scale. May be repeated.
     write
         Testbed file to write with what was found; comments of the old one stay.
-    json
-        Print one JSON document instead.
     out
         Folder for report and calibrate.json.
     """

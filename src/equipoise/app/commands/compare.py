@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING
 
 from cyclopts import Parameter
 
-from equipoise.app.arguments.options import NOTHING_STATED, Flag, Names, Seeking, Triple, Whole
+from equipoise.app.arguments.options import (
+    NOTHING_STATED,
+    Flag,
+    Json,
+    Names,
+    Seeking,
+    Triple,
+    Whole,
+)
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
@@ -56,7 +64,7 @@ def compare(
     seeking: Seeking = NOTHING_STATED,
     judging: JudgingLaws = AS_THEY_ARE,
     workers: Whole = 2,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Run methods on the same records, or laws on the same platforms, and say which to take.
@@ -85,8 +93,6 @@ def compare(
         Methods: move of masses, "seconds: mass=mm mass=mm" from home. May be repeated.
     workers
         Processes to spread the runs over.
-    json
-        Print one JSON document instead.
     out
         Folder for the report, figures, compare.json, and methods.csv or laws.csv, a line a run.
     """

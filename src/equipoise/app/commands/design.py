@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.environment import NOTHING_STATED, Exposure, surroundings_of
-from equipoise.app.arguments.options import Flag, Several, Triple, Whole
+from equipoise.app.arguments.options import Json, Several, Triple, Whole
 from equipoise.app.console.terminal import busy
 
 
@@ -18,7 +18,7 @@ def design(
     misalignment_deg: float = 0.0,
     exposure: Exposure = NOTHING_STATED,
     require_torque: float | None = None,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Say what masses and sensors of a testbed are good for: reach, steps, bounds, what is left.
@@ -42,8 +42,6 @@ def design(
     require_torque
         Torque that may be left at most, rms over that range, N m; with 95 % of the platforms that
         the testbed states within reach of the masses.
-    json
-        Print one JSON document instead.
     out
         Folder for report, figures and design.json.
     """

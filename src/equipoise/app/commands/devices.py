@@ -1,16 +1,10 @@
 """`equipoise devices`: what is connected to this computer."""
 
-from equipoise.app.arguments.options import Flag
+from equipoise.app.arguments.options import Json
 
 
-def devices(*, json: Flag = False) -> int:
-    """List the serial ports of this computer, as a testbed file names them.
-
-    Parameters
-    ----------
-    json
-        Print one JSON document instead.
-    """
+def devices(*, json: Json = False) -> int:
+    """List the serial ports of this computer, as a testbed file names them."""
     from equipoise.app.logbook.output import print_result
     from equipoise.app.text.blocks import paragraphs
     from equipoise.app.text.json_lists import DEVICES

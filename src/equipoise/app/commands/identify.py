@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Reading, Seeking
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Json, Reading, Seeking
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def identify(
     plan: Path | None = None,
     seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Estimate centre of mass and inertia from a recording, and say what it cannot show.
@@ -42,8 +42,6 @@ def identify(
         Give outliers less weight.
     plan
         Plan file that the recording was made by: what it predicted is compared with what is found.
-    json
-        Print one JSON document instead.
     out
         Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
     """

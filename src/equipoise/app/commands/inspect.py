@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import WHOLE, Flag, Reading
+from equipoise.app.arguments.options import WHOLE, Json, Reading
 from equipoise.app.console.terminal import show_paths
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ def inspect(
     *,
     testbed: str | None = None,
     reading: Reading = WHOLE,
-    json: Flag = False,
+    json: Json = False,
     figure: Path | None = None,
 ) -> int:
     """Say what a recording holds, and what is wrong with it.
@@ -31,8 +31,6 @@ def inspect(
     testbed
         Testbed file or preset: adds what depends on it, such as which axis is up, and events of
         the record: touches, parts that shifted.
-    json
-        Print one JSON document instead.
     figure
         Page with the record and its findings to write, such as record.png.
     """

@@ -1,9 +1,9 @@
 """`equipoise laws`: how a platform can be balanced."""
 
-from equipoise.app.arguments.options import Flag
+from equipoise.app.arguments.options import Json
 
 
-def laws(name: str | None = None, /, *, json: Flag = False) -> int:
+def laws(name: str | None = None, /, *, json: Json = False) -> int:
     """List the laws of `equipoise balance --law`, or show the whole card of one.
 
     Errata that a source names are entries of docs/errata.md.
@@ -12,8 +12,6 @@ def laws(name: str | None = None, /, *, json: Flag = False) -> int:
     ----------
     name
         Law to show. Left out: list them all.
-    json
-        Print one JSON document instead.
     """
     from equipoise.app.api import catalogues
     from equipoise.app.commands.methods import print_cards

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import Flag, Listed
+from equipoise.app.arguments.options import Flag, Json, Listed
 from equipoise.app.arguments.run_filter import LATEST, WantedRuns, condition
 from equipoise.app.console.terminal import busy, complain, show_paths, stderr
 
@@ -21,7 +21,7 @@ def logbook(
     builds: Flag = False,
     trend: Path | None = None,
     export: Path | None = None,
-    json: Flag = False,
+    json: Json = False,
 ) -> int:
     """List the runs that balance and identify have kept.
 
@@ -41,8 +41,6 @@ def logbook(
         testbed file marked; against temperature too where that was recorded.
     export
         Table to write (.csv or .parquet): a line a run, SI units.
-    json
-        Print one JSON document instead.
     """
     from equipoise.app.logbook.run_folder import USUAL, runs_folder
     from equipoise.io.documents.logbook import open_logbook

@@ -2,13 +2,13 @@
 
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.options import Flag
+from equipoise.app.arguments.options import Json
 
 if TYPE_CHECKING:
     from equipoise.app.api.catalogues import Catalogue
 
 
-def methods(name: str | None = None, /, *, json: Flag = False) -> int:
+def methods(name: str | None = None, /, *, json: Json = False) -> int:
     """List the methods of `equipoise identify`, or show the whole card of one.
 
     Errata that a source names are entries of docs/errata.md.
@@ -17,8 +17,6 @@ def methods(name: str | None = None, /, *, json: Flag = False) -> int:
     ----------
     name
         Method to show. Left out: list them all.
-    json
-        Print one JSON document instead.
     """
     from equipoise.app.api import catalogues
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Reading, Seeking
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Json, Reading, Seeking
 from equipoise.app.console.terminal import busy
 
 
@@ -13,7 +13,7 @@ def observe(
     testbed: str,
     seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Say what a recording can and cannot show: the least sd that any method can reach.
@@ -26,8 +26,6 @@ def observe(
         Recording, as CSV or Parquet.
     testbed
         Testbed file, or a preset's name; its sensors' noise counts.
-    json
-        Print one JSON document instead.
     out
         Folder for report and observe.json.
     """

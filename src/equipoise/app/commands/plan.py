@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Literal
 
-from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Seeking, Whole
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Json, Seeking, Whole
 
 
 def plan(
@@ -20,7 +20,7 @@ def plan(
     trials: Whole = 2400,
     seed: Whole = 1,
     write: Path | None = None,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Plan how to let a platform go and what to move meanwhile, to learn most from the record.
@@ -52,8 +52,6 @@ def plan(
         Seed of the search and of the platforms: the same seed plans the same.
     write
         Plan file to write; simulate, identify and balance take it with --plan.
-    json
-        Print one JSON document instead.
     out
         Folder for report and plan.json.
     """
