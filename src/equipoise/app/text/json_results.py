@@ -144,15 +144,15 @@ PLAN = document(
 
 # What the masses can reach; facets are normal . shift <= height.
 REACH = shape(
-    *fields("rank", COUNT),
+    *fields("rank", COUNT, "found.reach"),
     *fields("low_m high_m", VECTOR),
     *fields("tolerance_m", NUMBER),
     *fields("weakest_direction", VECTOR),
     *fields("volume_m3", NUMBER),
-    *fields("facet_normals", MATRIX),
-    *fields("facet_heights_m", VECTOR),
-    *fields("share_within", NUMBER),
-    *fields("sentence", TEXT),
+    *fields("facet_normals=normals", MATRIX, "found.reach"),
+    *fields("facet_heights_m=heights", VECTOR, "found.reach"),
+    *fields("share_within=within", NUMBER, "found.budget"),
+    *fields("sentence=reached", TEXT, "found"),
 )
 
 # The least step of a mass.

@@ -32,10 +32,8 @@ from equipoise.planning.sizing.contribution import Line
 from equipoise.planning.sizing.environment import not_stated
 from equipoise.planning.sizing.limits import plain, worth_listing
 from equipoise.planning.sizing.mass_steps import MassStep
-from equipoise.planning.sizing.reachable_set import furthest, tolerance, volume, weakest
+from equipoise.planning.sizing.reachable_set import Reach, furthest, tolerance, volume, weakest
 from equipoise.planning.sizing.sizing import Sizing
-
-AXES = ("x", "y", "z")
 
 
 def output_of(found: Sizing) -> Output:
@@ -106,13 +104,11 @@ def record_of(found: Sizing) -> RunRecord:
 
 def reach_table(found: Sizing) -> Table:
     """Return how far the centre of mass can be shifted, and how far it has to be."""
-    bed, reach = found.case.testbed, found.reach
-    rows: list[tuple[str, ...]] = []
-    for k, axis in enumerate(np.eye(3)):
-        needed, sd = found.case.target[k] - bed.body.com[k], bed.com_sd[k]
-        ends = [-furthest(reach, -axis) + 0.0, furthest(reach, axis)]
-        wanted = f"{plain(needed / UM)} +/- {plain(sd / UM)}"
-        rows.append((AXES[k], *(plain(end / UM) for end in ends), wanted))
+    bed = found.case.testbed
+    needed = zip(found.case.target - bed.body.com, bed.com_sd, strict=True)
+    wanted = (f"{plain(way / UM)} +/- {plain(sd / UM)}" for way, sd in needed)
+    shown = ([plain(end / UM) for end in side] for side in ends(found.reach))
+    rows = zip("xyz", *shown, wanted, strict=True)
     columns = (Column("along"), *(number(heading, "um") for heading in ("from", "to", "needed")))
     return table("Shifts of the centre of mass that the masses can make from home", columns, rows)
 
@@ -236,16 +232,19 @@ def document(found: Sizing) -> View:
 
 def reach_of_masses(found: Sizing) -> View:
     """Return what the masses can reach."""
-    reach, axes = found.reach, np.eye(3)
+    low, high = ends(found.reach)
     return {
-        "rank": reach.rank,
-        "low_m": [-furthest(reach, -axis) + 0.0 for axis in axes],
-        "high_m": [furthest(reach, axis) for axis in axes],
-        "tolerance_m": tolerance(reach),
-        "weakest_direction": weakest(reach),
-        "volume_m3": volume(reach),
-        "facet_normals": reach.normals,
-        "facet_heights_m": reach.heights,
-        "share_within": found.budget.within,
-        "sentence": found.reached,
+        "found": found,
+        "low_m": low,
+        "high_m": high,
+        "tolerance_m": tolerance(found.reach),
+        "weakest_direction": weakest(found.reach),
+        "volume_m3": volume(found.reach),
     }
+
+
+def ends(reach: Reach) -> tuple[list[float], list[float]]:
+    """Return the shifts farthest against and along each axis, m."""
+    axes = np.eye(3)
+    low = [-furthest(reach, -axis) + 0.0 for axis in axes]
+    return low, [furthest(reach, axis) for axis in axes]
