@@ -57,7 +57,7 @@ def design(
     positive("--require-torque", require_torque)
     around, bed = surroundings_of(exposure), testbed_with_masses(testbed)
     check_outputs(out)
-    with busy("reckoning"):
+    with busy("computing"):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.views.design_views import output_of
         from equipoise.planning.sizing.case import Case
