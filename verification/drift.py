@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
-from equipoise.app.bench.recorded_bench import RecordedBench
+from equipoise.app.bench.bench_proxy import RecordedBench
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.recording import Recording, join
 from equipoise.model.step import Step

@@ -7,7 +7,7 @@ is loaded when it is first used, so that the import itself takes no time.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from equipoise.model.presentation import Presenter, present_with
+from equipoise.model.presentation import present_with
 from equipoise.model.version import __version__
 
 if TYPE_CHECKING:
@@ -28,21 +28,13 @@ if TYPE_CHECKING:
     from equipoise.model.recording import Recording
     from equipoise.simulation.bench import SimulatedBench
 
-HOMES = {
+VERBS = ("identify", "assess", "observe", "balance", "plan", "design", "calibrate", "compare",
+         "simulate", "open_bench")  # fmt: skip
+HOMES = {verb: f"equipoise.app.api.{verb}" for verb in VERBS} | {
     "read_testbed": "equipoise.app.api.files",
     "preset": "equipoise.app.api.files",
     "read_recording": "equipoise.app.api.files",
     "write_recording": "equipoise.app.api.files",
-    "identify": "equipoise.app.api.identify",
-    "assess": "equipoise.app.api.assess",
-    "observe": "equipoise.app.api.observe",
-    "balance": "equipoise.app.api.balance",
-    "plan": "equipoise.app.api.plan",
-    "design": "equipoise.app.api.design",
-    "calibrate": "equipoise.app.api.calibrate",
-    "compare": "equipoise.app.api.compare",
-    "simulate": "equipoise.app.api.simulate",
-    "open_bench": "equipoise.app.api.open_bench",
     "methods": "equipoise.app.api.catalogues",
     "laws": "equipoise.app.api.catalogues",
     "SimulatedBench": "equipoise.simulation.bench",
@@ -90,7 +82,7 @@ def __dir__() -> list[str]:
     return sorted(__all__)
 
 
-def _presenter() -> Presenter:
+def _presenter() -> Any:
     """Return what shows records; it is loaded when a record is first shown."""
     from equipoise.app.presentation import presenter
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from equipoise.app.cli import run
-from equipoise.app.text.json_schemas import FOLDER, file_of
 from tests.support.schema_check import faults
+from tests.support.write_schemas import FOLDER, file_of
 
 KNOWN_MOVE = "60: x1=-10 y1=-10 z1=-50"
 

@@ -91,10 +91,10 @@ def test_options_of_observe_are_checked_before_anything_is_printed(
 
 
 def test_a_recording_that_shows_little_ends_with_0(equipoise, free_file):
-    """What cannot be seen is the answer, not a failure."""
+    """What is unobservable is the answer, not a failure."""
     done = equipoise("observe", free_file, "--testbed", "sputnix")
     assert done.code == 0
-    assert "not seen" in done.out
+    assert "unobservable" in done.out
     assert "scale" in done.out
     assert "ekf [w, J, mu]" in done.out
     assert "11 of 12" in done.out

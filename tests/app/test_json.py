@@ -115,7 +115,7 @@ def test_bounds_are_what_identify_states(equipoise, record_file, strict_json):
 
 
 def test_what_an_open_scale_leaves(equipoise, free_file, strict_json):
-    """Without a move: null for what is not seen, and bounds of ratios; held, all is seen."""
+    """Without a move: null for the unobservable, and bounds of ratios; held, all is observable."""
     words = ("observe", free_file, "--testbed", "sputnix", "--json")
     document = strict_json(equipoise(*words).out)
     com = next(p for p in document["parameters"] if p["name"] == "com_z")

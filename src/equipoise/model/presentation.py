@@ -6,47 +6,18 @@ which is loaded when a record is first shown.
 """
 
 from collections.abc import Callable
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
+
+# What is lent: a module with ``text``, ``html``, ``document``, ``frame``, ``dataset``, ``figure``.
+_lent: list[Callable[[], Any]] = []
 
 
-@runtime_checkable
-class Presenter(Protocol):
-    """What shows a record of any kind."""
-
-    def text(self, record: "Shown", /) -> str:
-        """Return a few lines."""
-        ...
-
-    def html(self, record: "Shown", /) -> str:
-        """Return tables as HTML."""
-        ...
-
-    def document(self, record: "Shown", /) -> dict[str, Any]:
-        """Return a document of plain values."""
-        ...
-
-    def frame(self, record: "Shown", /) -> Any:
-        """Return a pandas DataFrame."""
-        ...
-
-    def dataset(self, record: "Shown", /) -> Any:
-        """Return an xarray Dataset."""
-        ...
-
-    def figure(self, record: "Shown", /) -> Any:
-        """Return a matplotlib Figure."""
-        ...
-
-
-_lent: list[Callable[[], Presenter]] = []
-
-
-def present_with(presenter: Callable[[], Presenter]) -> None:
+def present_with(presenter: Callable[[], Any]) -> None:
     """Let records be shown by what the function returns when the first of them is shown."""
     _lent[:] = [presenter]
 
 
-def _presenter() -> Presenter:
+def _presenter() -> Any:
     return _lent[-1]()
 
 

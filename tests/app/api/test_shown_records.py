@@ -70,9 +70,8 @@ def test_a_document_is_json_with_its_schema(kind, returned):
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_table_has_columns_of_one_length(kind, returned):
     record = returned.results[kind]
-    table = presenter.kind_of(record).table(record)
-    assert table.index in table.columns
-    assert len({len(column) for column in table.columns.values()}) == 1
+    table = presenter.table(record)
+    assert len({len(column) for column in table.values()}) == 1
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -80,17 +79,16 @@ def test_pandas_takes_the_table(kind, returned):
     pytest.importorskip("pandas", reason="pandas is not pinned yet: make pins")
     record = returned.results[kind]
     frame = record.to_pandas()
-    table = presenter.kind_of(record).table(record)
-    assert frame.index.name == table.index
-    assert list(frame.columns) == [name for name in table.columns if name != table.index]
-    assert len(frame) == len(table.columns[table.index])
+    table = presenter.table(record)
+    assert [frame.index.name, *frame.columns] == list(table)
+    assert len(frame) == len(table[frame.index.name])
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_xarray_takes_the_arrays(kind, returned):
     pytest.importorskip("xarray", reason="xarray is not pinned yet: make pins")
     record = returned.results[kind]
-    arrays = presenter.kind_of(record).arrays(record)
+    arrays = presenter.arrays(record)
     dataset = record.to_xarray()
     for name, variable in arrays.variables.items():
         assert dataset[name].dims == variable.dims
@@ -100,7 +98,7 @@ def test_xarray_takes_the_arrays(kind, returned):
 @pytest.mark.parametrize("kind", KINDS)
 def test_arrays_fit_their_dimensions(kind, returned):
     record = returned.results[kind]
-    arrays = presenter.kind_of(record).arrays(record)
+    arrays = presenter.arrays(record)
     sizes = {name: len(of.values) for name, of in arrays.coordinates.items()}
     for variable in arrays.variables.values():
         assert np.shape(variable.values) == tuple(sizes[dim] for dim in variable.dims)
@@ -154,7 +152,7 @@ def test_channels_of_different_times_share_a_table():
     gyro = Samples(np.array([0.0, 1.0]), np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]))
     mass = Samples(np.array([0.5]), np.array([[0.01]]))
     recording = Recording(rate=gyro, mass_names=("x1",), masses=mass)
-    columns = presenter.kind_of(recording).table(recording).columns
+    columns = presenter.table(recording)
     np.testing.assert_array_equal(columns["time_s"], [0.0, 0.5, 1.0])
     np.testing.assert_array_equal(columns["rate_x_rad_s"], [1.0, np.nan, 4.0])
     np.testing.assert_array_equal(columns["masses_x1_m"], [np.nan, 0.01, np.nan])
@@ -163,7 +161,7 @@ def test_channels_of_different_times_share_a_table():
 def test_a_devices_column_has_the_unit_of_its_kind():
     rows = Samples(np.array([0.0, 1.0]), np.ones((2, 2)))
     recording = Recording(device_names=("wheel:x", "dipole:y"), devices=rows)
-    columns = presenter.kind_of(recording).table(recording).columns
+    columns = presenter.table(recording)
     assert list(columns) == ["time_s", "wheel:x_rad_s", "dipole:y_A_m2"]
 
 

@@ -79,18 +79,18 @@ def offered(address):
 
 
 def test_record_writes_its_rows_while_other_clients_watch(bench):
-    """Ctrl-C ends it early, and what was seen is there, with how well each device spoke."""
-    command = begun(bench, "record", "there.toml", "--out", "seen.mcap", "--foxglove",
+    """Ctrl-C ends it early; the rows are kept, and how well each device communicated."""
+    command = begun(bench, "record", "there.toml", "--out", "kept.mcap", "--foxglove",
                     "--duration-s", 600)  # fmt: skip
     assert {"/attitude", "/rate"} <= offered(ADDRESS)
     time.sleep(2.0)
     command.send_signal(signal.SIGINT)
     code, out, err = ended(command)
-    assert (code, "wrote seen.mcap" in out) == (0, True)
-    rows = read_recording(bench / "seen.mcap").attitude
+    assert (code, "wrote kept.mcap" in out) == (0, True)
+    rows = read_recording(bench / "kept.mcap").attitude
     assert len(rows) > 40  # 40 Hz, stated
     assert "sensor imu: " in err
-    assert {"health", "start"} <= {event.kind for event in events_of(bench / "seen.mcap")}
+    assert {"health", "start"} <= {event.kind for event in events_of(bench / "kept.mcap")}
 
 
 def test_record_shows_at_a_terminal_what_it_sees(bench):

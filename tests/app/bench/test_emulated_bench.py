@@ -74,7 +74,7 @@ def test_rows_are_those_of_the_sensors_and_a_move_is_recorded_as_it_happened():
         assert x[-1] == pytest.approx(4 * MM, abs=2e-6)
         going = np.flatnonzero(np.diff(x) > 0)
         taken = observed.masses.t[going[-1] + 1] - observed.masses.t[going[0]]
-        assert taken == pytest.approx(0.5, abs=0.06)  # 4 mm at 8 mm/s, told every 50 ms
+        assert taken == pytest.approx(0.5, abs=0.06)  # 4 mm at 8 mm/s, reported every 50 ms
 
 
 def with_sensor(driver):
@@ -239,7 +239,7 @@ class FullDisk:
 
 
 def test_ctrl_c_at_the_moment_of_an_interlock_ends_with_the_account(monkeypatch):
-    """Whichever is told last, the run ends with what was seen and with what stopped it."""
+    """Whichever is reported last, the run keeps its rows and ends with what stopped it."""
     with lab(BED) as found:
 
         def interrupted(_duration):
@@ -302,7 +302,7 @@ def test_who_homes_holds_the_platform_as_at_first():
 
 
 def test_a_hand_leads_the_platform_back_at_its_own_rate():
-    """0.5 rad/s about one axis, as the gyro says too; a jump would look like a rate that stops."""
+    """0.5 rad/s about one axis, as the gyro says too; a jump would be a rate that stops."""
     with lab() as found:
         found.bench.read(4.0)
         q0 = found.emulated._observed[1]

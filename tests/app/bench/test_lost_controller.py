@@ -143,7 +143,7 @@ def test_a_keeper_that_says_nothing_more_is_not_waited_for():
 
 
 def test_a_record_that_cannot_be_completed_is_reported_in_words(tmp_path, capsys):
-    """As on a disk that is full at the very end: nobody is there any more who could be told."""
+    """As on a disk that is full at the very end: nobody is left to report it to."""
     there = emulate(without_switches(), 1)
     kept = KeptBench(Wanted(there.testbed(), tmp_path / "run.mcap"))
     kept._held.push(lambda *_: fail())

@@ -29,7 +29,7 @@ def test_tables_end_with_a_verdict(records, capsys):
         "torque, slopes over",
         "energy",
         "swing",
-        "torque felt",
+        "residual torque",
         "Error indices",
         "Failed: the centre of mass",
     ):
@@ -39,7 +39,7 @@ def test_tables_end_with_a_verdict(records, capsys):
 def test_measurements_along_a_recording_are_reported_and_plotted(records, tmp_path, capsys):
     assert assess(records[0], "--windows-s", "11", "--out", str(tmp_path / "o")) == 0
     text = capsys.readouterr().out
-    assert "The centre of mass over time, by 4 looks" in text
+    assert "The centre of mass over time, by 4 measurements" in text
     assert "Allan deviation, 22 s" in text
     assert (tmp_path / "o" / "figures" / "com_over_hours.png").exists()
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from mcap.reader import make_reader
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.resolve import fitting_recording_of
+from equipoise.app.arguments.inputs import fitting_recording_of
+from equipoise.app.arguments.options import WHOLE, Reading
 from equipoise.io.mcap.live_recording import LiveRecording, Opening
 from equipoise.io.mcap.mcap_salvage import salvaged
 from equipoise.io.recording.recording_file import read_recording
@@ -97,7 +97,7 @@ def test_what_is_no_mcap_is_refused(equipoise, tmp_path):
 
 
 def test_a_replay_prints_time_tilt_and_masses_each_second(equipoise, record_file):
-    """The known move of the record is seen: x1 goes to -10 mm at 60 s."""
+    """The known move of the record is shown: x1 goes to -10 mm at 60 s."""
     reported = equipoise("replay", record_file, "--testbed", "sputnix", "--speed", 0)
     assert reported.code == 0
     lines = reported.out.splitlines()

@@ -76,7 +76,7 @@ def test_a_session_resumed_with_every_recording_is_the_run_in_one_go(equipoise, 
 
 
 def test_the_session_file_may_be_corrected_to_the_actual_placement(equipoise, swings):
-    """A pile that was not put on, and is taken out of the file: the next look fits."""
+    """A pile that was not put on, and is taken out of the file: the next recording fits."""
     files, steps = swings
     equipoise(*WORDS, "--session", "s.toml", "--recording", files[0])
     text = Path("s.toml").read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""`plan` and what takes its file: from a recording to a plan, a record by it, and what it told."""
+"""`plan` and what takes its file: from a recording to a plan, a record by it, and its estimate."""
 
 from equipoise.app.cli import run
 from equipoise.model.estimate import COM, INERTIA

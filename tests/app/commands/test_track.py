@@ -61,7 +61,7 @@ def test_a_video_becomes_a_recording(equipoise, tmp_path, pictures):
     writer.release()
     done = equipoise("track", "run.avi", "--testbed", "sputnix", "--out", "run.csv")
     assert done.code == 0, done.err
-    assert "seen in 11 of 12 pictures" in done.out
+    assert "found in 11 of 12 pictures" in done.out
     assert "~ 1 pictures without the board" in done.out
     assert "deg per axis" in done.out
     observed_rightly(tmp_path / "run.csv")

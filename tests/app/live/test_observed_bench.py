@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from equipoise.app.bench.recorded_bench import RecordedBench
+from equipoise.app.bench.bench_proxy import RecordedBench
 from equipoise.app.live.observed_bench import WatchedBench
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import BenchStopped

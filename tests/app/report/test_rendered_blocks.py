@@ -166,7 +166,7 @@ def test_a_printed_table_has_typeset_units_and_the_terminal_plain_ones():
 
 def test_tables_stand_separation_and_sentences_together(capsys):
     one = table("One", (Column(),), (("cell",),))
-    show((Moment("1 s", "measurement", "Seen."), one, Paragraph("First."), Paragraph("Second.")))
+    show((Moment("1 s", "measurement", "Read."), one, Paragraph("First."), Paragraph("Second.")))
     lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
     assert lines[1:] == ["", "One", "cell", "", "First.", "Second."]
 

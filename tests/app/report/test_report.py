@@ -1,4 +1,4 @@
-"""The report stands alone and tells all that was done."""
+"""The report stands alone and shows all that was done."""
 
 import re
 from html.parser import HTMLParser
@@ -53,7 +53,7 @@ def test_the_demo_writes_every_figure_of_the_paper(folder):
 
 
 def test_figures_of_steps_say_where_the_masses_are(folder):
-    """What is identified is told with the masses at home, as every method does; a balance is not.
+    """Identification states com with the masses at home, as every method does; balance does not.
 
     The linear method and the fit stand beside each other, by name.
     """
@@ -70,7 +70,7 @@ def test_figures_of_steps_say_where_the_masses_are(folder):
 def test_every_measurement_or_estimate_step_has_its_figure(folder):
     page = (folder / "report.html").read_text(encoding="utf-8")
     drawn = sorted(path.stem for path in folder.glob("figures/*.png"))
-    measurements = page.count("<b>look<") + page.count("<b>verify<")
+    measurements = page.count("<b>measurement<") + page.count("<b>verify<")
     assert len(drawn) >= len(PAPER) + measurements > len(PAPER)
 
 

@@ -1,4 +1,4 @@
-"""What a verdict's record cannot tell from none, by hand."""
+"""The offsets that a verdict's record cannot distinguish from zero, by hand."""
 
 import math
 
@@ -19,7 +19,7 @@ def test_the_floor_is_the_half_interval():
 def test_an_unobservable_axis_has_no_noise_floor():
     sd = np.array([1e-6, 5e-7, math.inf])
     line = noise_floor_line(undecided(np.zeros(3), sd))
-    assert "x 2.0 um, y 0.98 um, z not seen" in line
+    assert "x 2.0 um, y 0.98 um, z unobservable" in line
 
 
 def test_a_verdict_without_numbers_says_nothing():

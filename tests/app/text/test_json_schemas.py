@@ -7,28 +7,27 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from equipoise.app.text.json_schemas import DOCUMENTS, FOLDER, schema_files
 from equipoise.app.text.json_shape import (
     MATRIX,
     NUMBER,
     TEXT,
+    Key,
     document,
     fields,
-    json_schema,
-    key,
     many,
     maybe,
     name_of,
     shape,
 )
 from tests.support.schema_check import faults
+from tests.support.write_schemas import FOLDER, declared, json_schema, schema_files
 
 # deg Celsius, hertz and a share are SI; a byte is no quantity of the SI.
 NOT_SI = re.compile(
     r".*_(um2?|mm2?|cm|nm|km|um_min|mm_s|cm_s|deg|deg_s|rpm|mrad|g|mg|g_cm|kg_cm|min|h|ms|us|ns|"
     r"uT|nT|mT|mN_m|uN_m|uJ|percent|ppm|khz|l)"
 )
-every_document = pytest.mark.parametrize("kind", DOCUMENTS, ids=name_of)
+every_document = pytest.mark.parametrize("kind", declared().values(), ids=name_of)
 
 
 def keys_of(schema):
@@ -72,8 +71,8 @@ def test_a_document_says_what_it_is_and_in_which_version(kind):
 
 BODY = shape(
     *fields("name", TEXT),
-    key("com_m", maybe(MATRIX), lambda body: body.com),
-    key("note", TEXT, lambda body: body.note, optional=True),
+    Key("com_m", maybe(MATRIX), lambda body: body.com),
+    Key("note", TEXT, lambda body: body.note, optional=True),
 )
 MADE = document("equipoise/made/1", *fields("bodies", many(BODY)), *fields("size", NUMBER))
 

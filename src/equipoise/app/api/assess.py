@@ -3,14 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 
-from equipoise.app.arguments.checks import between, positive, vector
-from equipoise.app.arguments.inputs import (
-    AnyRecording,
-    AnyTestbed,
-    options_from,
-    recording_from,
-    testbed_from,
-)
+from equipoise.app.arguments import checks, inputs
 from equipoise.app.runs import assessment
 from equipoise.app.runs.assessment import AssessedPlatform, Recordings
 from equipoise.app.runs.waiting import passing_on
@@ -21,10 +14,10 @@ TILT = math.radians(20.0)
 
 
 def assess(
-    recording: AnyRecording,
-    testbed: AnyTestbed,
+    recording: inputs.AnyRecording,
+    testbed: inputs.AnyTestbed,
     *,
-    before: AnyRecording | None = None,
+    before: inputs.AnyRecording | None = None,
     tilt: float = TILT,
     target: tuple[float, float, float] = (0.0, 0.0, 0.0),
     require_torque: float | None = None,
@@ -69,15 +62,18 @@ def assess(
         For files that cannot be read, unknown names, limits that are not above zero, and a
         recording that does not fit the testbed.
     """
-    bed, requested = testbed_from(testbed), options_from(terms, hold)
+    bed, requested = inputs.testbed_from(testbed), inputs.options_from(terms, hold)
     for name, limit in (("require_torque", require_torque), ("require_offset", require_offset),
                         ("windows", windows)):  # fmt: skip
-        if limit is not None:
-            positive(name, limit)
-    goal, angle = vector("target", target, 1.0), between("tilt", tilt, 0.0, math.pi / 2)
+        checks.positive(name, limit)
     options = AssessOptions(
-        goal, angle, require_torque, require_offset, requested.terms, requested.hold
+        checks.vector("target", target, 1.0),
+        checks.between("tilt", tilt, 0.0, math.pi / 2),
+        require_torque,
+        require_offset,
+        requested.terms,
+        requested.hold,
     )
-    earlier = None if before is None else recording_from(before, bed)
-    of = Recordings(recording_from(recording, bed), earlier, windows)
+    earlier = None if before is None else inputs.recording_from(before, bed)
+    of = Recordings(inputs.recording_from(recording, bed), earlier, windows)
     return assessment.run(of, bed, options, passing_on(on_step))

@@ -63,7 +63,7 @@ def balance(
     """
     limits = Limits(
         None if max_moves is None else int(checks.not_negative("max_moves", max_moves)),
-        None if max_time is None else checks.positive("max_time", max_time),
+        checks.positive("max_time", max_time),
         checks.not_negative("hold", hold),
         checks.one_of("law", law, list(CARDS)),
     )

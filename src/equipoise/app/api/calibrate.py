@@ -2,21 +2,15 @@
 
 from collections.abc import Sequence
 
-from equipoise.app.arguments.inputs import (
-    AnyRecording,
-    AnyTestbed,
-    options_from,
-    recording_from,
-    testbed_from,
-)
+from equipoise.app.arguments import inputs
 from equipoise.estimation.calibration.calibration import CalibrateOptions
 from equipoise.model.estimate import Estimate
 from equipoise.procedure.identification import calibrate as procedure
 
 
 def calibrate(
-    recording: AnyRecording,
-    testbed: AnyTestbed,
+    recording: inputs.AnyRecording,
+    testbed: inputs.AnyTestbed,
     *,
     reference: Sequence[str] = (),
     terms: Sequence[str] = (),
@@ -47,6 +41,6 @@ def calibrate(
     InputError
         For files that cannot be read, unknown names, and a recording that does not fit the testbed.
     """
-    bed, requested = testbed_from(testbed), options_from(terms, hold, use_prior)
+    bed, requested = inputs.testbed_from(testbed), inputs.options_from(terms, hold, use_prior)
     options = CalibrateOptions(tuple(reference), requested.terms, requested.hold, use_prior)
-    return procedure.calibrate(recording_from(recording, bed), bed, options)
+    return procedure.calibrate(inputs.recording_from(recording, bed), bed, options)

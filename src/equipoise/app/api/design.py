@@ -55,8 +55,7 @@ def design(
         masses or sensors.
     """
     lengths = [positive("durations", length) for length in durations]
-    if require_torque is not None:
-        positive("require_torque", require_torque)
+    positive("require_torque", require_torque)
     case = Case(
         testbed_with_masses(testbed),
         vector("target", target, 1.0),

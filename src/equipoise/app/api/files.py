@@ -3,12 +3,10 @@
 from dataclasses import replace
 from pathlib import Path
 
-from equipoise.app.arguments.inputs import part_of
-from equipoise.io.columns.column_map_file import read_column_map
+from equipoise.app.arguments.inputs import layout_of, part_of
 from equipoise.io.recording import recording_file
 from equipoise.io.testbed import testbed_file
 from equipoise.io.testbed.presets import read_preset
-from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -65,10 +63,7 @@ def read_recording(
         For what cannot be read, with file, line or column; for ``dialect`` beside ``columns``; for
         times that leave fewer than three rows.
     """
-    if dialect is not None and columns is not None:
-        raise InputError("dialect and columns", "both", "one of them")
-    layout = dialect if columns is None else read_column_map(columns)
-    recording = recording_file.read_recording(path, layout)
+    recording = recording_file.read_recording(path, layout_of(dialect, columns))
     if start is None and end is None:
         return recording
     part = part_of(recording, start, end)

@@ -3,15 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from equipoise.app.arguments.inputs import (
-    AnyPlan,
-    AnyRecording,
-    AnyTestbed,
-    options_from,
-    plan_from,
-    recording_from,
-    testbed_from,
-)
+from equipoise.app.arguments import inputs
 from equipoise.app.runs import identification
 from equipoise.app.runs.identification import Identification
 from equipoise.app.runs.waiting import passing_on
@@ -20,15 +12,15 @@ from equipoise.procedure.identification.identify import IdentifyOptions
 
 
 def identify(
-    recording: AnyRecording,
-    testbed: AnyTestbed,
+    recording: inputs.AnyRecording,
+    testbed: inputs.AnyTestbed,
     *,
     method: str = "auto",
     terms: Sequence[str] = (),
     hold: Sequence[str] = (),
     use_prior: bool = False,
     robust: bool = False,
-    plan: AnyPlan | None = None,
+    plan: inputs.AnyPlan | None = None,
     on_step: Callable[[Step], None] | None = None,
 ) -> Identification:
     """Estimate centre of mass (m) and inertia about P (kg m^2), and say what cannot be observed.
@@ -62,9 +54,12 @@ def identify(
     InputError
         For files that cannot be read, unknown names, and a recording that does not fit the testbed.
     """
-    bed, requested = testbed_from(testbed), options_from(terms, hold, use_prior, robust)
-    planned = None if plan is None else plan_from(plan, bed)
+    bed, requested = (
+        inputs.testbed_from(testbed),
+        inputs.options_from(terms, hold, use_prior, robust),
+    )
+    planned = None if plan is None else inputs.plan_from(plan, bed)
     options = IdentifyOptions(method, requested.terms, requested.hold, use_prior, robust)
-    rows = recording_from(recording, bed)
+    rows = inputs.recording_from(recording, bed)
     done = identification.run(rows, bed, options, passing_on(on_step))
     return replace(done, plan=planned)

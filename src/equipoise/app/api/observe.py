@@ -2,20 +2,14 @@
 
 from collections.abc import Sequence
 
-from equipoise.app.arguments.inputs import (
-    AnyRecording,
-    AnyTestbed,
-    options_from,
-    recording_from,
-    testbed_from,
-)
+from equipoise.app.arguments import inputs
 from equipoise.app.runs import observation
 from equipoise.app.runs.observation import Observation
 
 
 def observe(
-    recording: AnyRecording,
-    testbed: AnyTestbed,
+    recording: inputs.AnyRecording,
+    testbed: inputs.AnyTestbed,
     *,
     terms: Sequence[str] = (),
     hold: Sequence[str] = (),
@@ -44,6 +38,6 @@ def observe(
     InputError
         For files that cannot be read, unknown names, and a recording that does not fit the testbed.
     """
-    bed = testbed_from(testbed)
-    requested = options_from(terms, hold, use_prior)
-    return observation.run(recording_from(recording, bed), bed, requested)
+    bed = inputs.testbed_from(testbed)
+    requested = inputs.options_from(terms, hold, use_prior)
+    return observation.run(inputs.recording_from(recording, bed), bed, requested)

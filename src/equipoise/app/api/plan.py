@@ -4,14 +4,7 @@ import math
 from collections.abc import Sequence
 from typing import Literal
 
-from equipoise.app.arguments.checks import not_negative, positive, seed_of
-from equipoise.app.arguments.inputs import (
-    AnyRecording,
-    AnyTestbed,
-    options_from,
-    recording_from,
-    testbed_from,
-)
+from equipoise.app.arguments import checks, inputs
 from equipoise.app.runs import planning
 from equipoise.app.runs.planning import Planning, Request
 
@@ -19,14 +12,14 @@ RATE = math.radians(10.0)
 
 
 def plan(
-    testbed: AnyTestbed,
+    testbed: inputs.AnyTestbed,
     *,
     duration: float = 120.0,
     quantity: Literal["J", "r", "both"] = "both",
     criterion: Literal["A", "D"] = "A",
     moves: int = 3,
     max_rate: float = RATE,
-    earlier: AnyRecording | None = None,
+    earlier: inputs.AnyRecording | None = None,
     terms: Sequence[str] = (),
     hold: Sequence[str] = (),
     use_prior: bool = False,
@@ -71,17 +64,17 @@ def plan(
         For files that cannot be read, unknown names, a testbed without a sensor, and an earlier
         recording whose estimate is not usable.
     """
-    bed, requested = testbed_from(testbed), options_from(terms, hold, use_prior)
+    bed, requested = inputs.testbed_from(testbed), inputs.options_from(terms, hold, use_prior)
     request = Request(
         bed,
-        positive("duration", duration),
+        checks.positive("duration", duration),
         quantity,
         criterion,
-        int(not_negative("moves", moves)),
-        positive("max_rate", max_rate),
+        int(checks.not_negative("moves", moves)),
+        checks.positive("max_rate", max_rate),
         requested,
-        None if earlier is None else recording_from(earlier, bed),
-        int(positive("trials", trials)),
-        seed_of(seed),
+        None if earlier is None else inputs.recording_from(earlier, bed),
+        int(checks.positive("trials", trials)),
+        checks.seed_of(seed),
     )
     return planning.run(request)

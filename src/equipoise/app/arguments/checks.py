@@ -1,21 +1,25 @@
-"""Numbers given as options, checked where the command line can still be named."""
+"""Options checked before work begins, in an error that names the option."""
 
 import math
+from pathlib import Path
+from typing import TypeVar
 
 from equipoise.model.arrays import Vector3
 from equipoise.model.errors import InputError, nearest
 
+MaybeNumber = TypeVar("MaybeNumber", float, float | None)
 
-def positive(option: str, value: float) -> float:
-    """Return a number above zero."""
-    if not (0 < value < math.inf):
+
+def positive(option: str, value: MaybeNumber) -> MaybeNumber:
+    """Return a number above zero; None, for an option that was not given, stays None."""
+    if value is not None and not (0 < value < math.inf):
         raise InputError(option, f"{value:g}", "a number above 0")
     return value
 
 
-def not_negative(option: str, value: float) -> float:
-    """Return a number of at least zero."""
-    if not (0 <= value < math.inf):
+def not_negative(option: str, value: MaybeNumber) -> MaybeNumber:
+    """Return a number of at least zero; None stays None."""
+    if value is not None and not (0 <= value < math.inf):
         raise InputError(option, f"{value:g}", "a number of at least 0")
     return value
 
@@ -55,3 +59,15 @@ def tolerance(option: str, values: tuple[float, float, float], unit: float) -> V
     for value in values:
         positive(option, value)
     return vector(option, values, unit)
+
+
+def check_outputs(folder: Path | None, *files: Path | None) -> None:
+    """Raise InputError now for what cannot be written, before work is lost on it."""
+    from equipoise.io.files.atomic_file import check_writable
+    from equipoise.io.files.atomic_folder import check_folder
+
+    for file in files:
+        if file is not None:
+            check_writable(file)
+    if folder is not None:
+        check_folder(folder)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True)
 class Exposure:
-    """What happens to the platform between the last look and the experiment.
+    """What happens to the platform between the last measurement and the experiment.
 
     Attributes
     ----------

@@ -1,15 +1,19 @@
-"""What verbs take, resolved: testbeds, recordings and plans as records, or where to find them."""
+"""What verbs and commands take, resolved: testbeds, recordings, plans, options of a fit, moves."""
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from equipoise.actuators.stored_momentum import with_known_inputs
 from equipoise.app.arguments.checks import one_of
 from equipoise.estimation.method_contract import Options
+from equipoise.io.columns.column_map import ColumnMap
+from equipoise.io.columns.column_map_file import read_column_map
 from equipoise.io.documents.plan_file import read_plan
 from equipoise.io.recording.frame_check import check_frame
 from equipoise.io.recording.recording_file import check_names, read_recording
-from equipoise.io.testbed.presets import preset_names, read_preset
+from equipoise.io.testbed.presets import preset_names, preset_text, read_preset
 from equipoise.io.testbed.testbed_file import read_testbed
 from equipoise.model.errors import InputError, nearest
 from equipoise.model.estimate import COM, INERTIA
@@ -17,11 +21,17 @@ from equipoise.model.manoeuvre import Plan
 from equipoise.model.recording import Recording, arranged, arranged_devices, window
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import expand
+from equipoise.model.units import MM
+
+if TYPE_CHECKING:
+    from equipoise.app.arguments.options import Reading, Seeking
 
 AnyTestbed = Testbed | str | Path  # a path goes before a preset's name
 AnyRecording = Recording | str | Path
 AnyPlan = Plan | str | Path
 FEWEST = 3  # rows of a sensor that a window must leave, as when a file is read
+MOVE = re.compile(r"\s*(?P<time>[^:\s]+)\s*:\s*(?P<goals>\S+=\S+(?:[\s,]+\S+=\S+)*)\s*")
+WANTED_MOVE = "'seconds: mass=mm mass=mm', such as '60: x1=-10 z1=-50'"
 
 
 def testbed_from(testbed: AnyTestbed) -> Testbed:
@@ -35,6 +45,11 @@ def testbed_from(testbed: AnyTestbed) -> Testbed:
         wanted = f"a testbed file, or a preset ({nearest(name, list(preset_names()))})"
         raise InputError("testbed", f"'{name}', which is no file", wanted)
     return read_testbed(path)
+
+
+def testbed_text_of(name: str) -> str:
+    """Return the text of a testbed that ``testbed_from`` has read."""
+    return Path(name).read_text(encoding="utf-8") if Path(name).exists() else preset_text(name)
 
 
 def testbed_with_masses(testbed: AnyTestbed) -> Testbed:
@@ -54,6 +69,29 @@ def recording_from(recording: AnyRecording, testbed: Testbed) -> Recording:
     return part_of(fitted(recording, testbed), None, None)
 
 
+def recording_of(file: str, reading: "Reading") -> Recording:
+    """Return a recording as it is, or the part that is asked for."""
+    recording = read_recording(file, layout_of(reading.dialect, reading.columns, "--"))
+    whole = reading.from_s is None and reading.to_s is None
+    return recording if whole else part_of(recording, reading.from_s, reading.to_s)
+
+
+def fitting_recording_of(file: str, reading: "Reading", testbed: Testbed) -> Recording:
+    """Return the part asked for of a recording that fits a testbed."""
+    layout = layout_of(reading.dialect, reading.columns, "--")
+    recording = fitted(read_recording(file, layout, testbed), testbed)
+    return part_of(recording, reading.from_s, reading.to_s)
+
+
+def layout_of(
+    dialect: str | None, columns: str | Path | None, dashes: str = ""
+) -> str | ColumnMap | None:
+    """Return how a table is read; ``dashes`` stand before the options' names in an error."""
+    if dialect is not None and columns is not None:
+        raise InputError(f"{dashes}dialect and {dashes}columns", "both", "one of them")
+    return dialect if columns is None else read_column_map(columns)
+
+
 def fitted(recording: Recording, testbed: Testbed) -> Recording:
     """Return a recording that fits a testbed: masses and devices are its, gravity points down.
 
@@ -69,7 +107,7 @@ def part_of(recording: Recording, start: float | None, end: float | None) -> Rec
     """Return the part between two times (s); one that is left out stands for the end there is.
 
     A bench's own record begins where the platform was let go, unless another time is given.
-    What is known of times that no sensor saw is left out: a move behind the last row, say.
+    What lies outside of the sensors' rows is left out, such as a move after the last one.
     """
     first, last = recording.span
     start = recording.free_from if start is None else start
@@ -86,9 +124,40 @@ def plan_from(plan: AnyPlan, testbed: Testbed) -> Plan:
 
 
 def options_from(
-    terms: Sequence[str], hold: Sequence[str], use_prior: bool = False, robust: bool = False
+    terms: Sequence[str],
+    hold: Sequence[str],
+    use_prior: bool = False,
+    robust: bool = False,
+    named: tuple[str, str] = ("terms", "hold"),
 ) -> Options:
     """Return the options of a fit, composed terms spelt out; unknown names are refused."""
+    of_terms, of_hold = named
     for name in hold:
-        one_of("hold", name, [*COM, *INERTIA])
-    return Options(expand(tuple(terms), "terms"), tuple(hold), use_prior, robust)
+        one_of(of_hold, name, [*COM, *INERTIA])
+    return Options(expand(tuple(terms), of_terms), tuple(hold), use_prior, robust)
+
+
+def options_of(seeking: "Seeking") -> Options:
+    """Return the options of a fit, as a command's options have them."""
+    return options_from(seeking.term, seeking.hold, seeking.prior, named=("--term", "--hold"))
+
+
+def move_of(text: str, testbed: Testbed) -> tuple[float, dict[str, float]]:
+    """Return time (s) and displacements from home (m) of a move such as '60: x1=-10 z1=-50'."""
+    read = MOVE.fullmatch(text)
+    if read is None:
+        raise InputError("--move", f"'{text}'", WANTED_MOVE)
+    pairs = [goal.split("=", 1) for goal in re.split(r"[\s,]+", read["goals"])]
+    known = [mass.name for mass in testbed.masses]
+    for name, _ in pairs:
+        if name not in known:
+            wanted = nearest(name, known) if known else "no move: the testbed has no masses"
+            raise InputError(f"--move '{text}'", f"mass '{name}'", wanted)
+    return _number(read["time"], text), {n: _number(mm, text) * MM for n, mm in pairs}
+
+
+def _number(word: str, text: str) -> float:
+    try:
+        return float(word)
+    except ValueError as error:
+        raise InputError(f"--move '{text}'", f"'{word}'", "a number") from error

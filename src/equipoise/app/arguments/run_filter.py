@@ -6,7 +6,7 @@ from typing import Any, get_args
 
 from cyclopts import Parameter
 
-from equipoise.app.arguments.types import Whole
+from equipoise.app.arguments.options import Whole
 
 
 @Parameter(name="*")

@@ -26,7 +26,7 @@ A_LITTLE = 1e-3  # m: out and back
 UPSIDE = 90.0  # deg, chosen: no bench lets a platform tilt so far
 SLOW = 0.7  # of the stated rate of rows, chosen: below it a sensor is slower than stated
 LISTED = "; `equipoise devices` lists serial ports"
-ARRIVE, MEASUREMENT = 1.0, 0.05  # s, chosen: beyond the time that the way takes; between looks
+ARRIVE, MEASUREMENT = 1.0, 0.05  # s, chosen: beyond the time that the way takes; between readings
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ def _started(
 
 
 def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[CheckResult]:
-    """Tell for each sensor how many rows came, what was wrong with them, how its clock goes."""
+    """Report for each sensor how many rows came, what was wrong with them, how its clock goes."""
     for link in keeper.links.sensors:
         for channel in link.unit.gives:
             rows = recording.attitude if channel == "attitude" else recording.rate
@@ -86,12 +86,12 @@ def _streams(keeper: Keeper, recording: Recording, streamed: float) -> Iterator[
             slow = count < SLOW * wanted
             yield CheckResult(not slow, f"{text}, {wanted:.0f} are stated" if slow else text)
         health = link.health
-        hint = "; look at cable and baud rate" if health.counts.corrupt else ""
+        hint = "; check cable and baud rate" if health.counts.corrupt else ""
         yield CheckResult(not health.wrong, health.sentence + hint)
 
 
 def _frames(recording: Recording, testbed: Testbed) -> Iterator[CheckResult]:
-    """Tell whether the platform is upright, and what else its rows show to be wrong."""
+    """Report whether the platform is upright, and what else its rows show to be wrong."""
     if recording.attitude is not None:
         leaning = float(np.median(tilt(recording.attitude.values, testbed.up))) / DEG
         text = f"the axis that should point up is {leaning:.1f} deg from up"
@@ -105,7 +105,7 @@ def _frames(recording: Recording, testbed: Testbed) -> Iterator[CheckResult]:
 def _moved(
     bench: RealBench, keeper: Keeper, mass: SlidingMass, agreed: Callable[[str], bool]
 ) -> Iterator[CheckResult]:
-    """Move a mass out and back, and tell whether its board says that it went."""
+    """Move a mass out and back, and report whether its board says that it went."""
     if not agreed(f"Move mass {mass.name} by {A_LITTLE / MM:g} mm and back?"):
         yield CheckResult(True, f"mass {mass.name}: not moved")
         return
@@ -120,5 +120,5 @@ def _moved(
             found = f"sent to {goal / MM:g} mm, its board says {at / MM:.2f} mm"
             raise BenchStopped(f"mass {mass.name}: {found}")
     yield CheckResult(
-        True, f"mass {mass.name}: went 1 mm out and back, as its board says; look at it"
+        True, f"mass {mass.name}: went 1 mm out and back, as its board says; check it by eye"
     )

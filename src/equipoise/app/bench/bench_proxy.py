@@ -1,8 +1,10 @@
-"""A bench that stands before another one and passes on what it does not do itself."""
+"""A bench that stands before another one and passes on what it does not do itself; a memory."""
 
 from collections.abc import Mapping
 
 from equipoise.model.bench import Bench
+from equipoise.model.errors import BenchStopped
+from equipoise.model.recording import Recording, joined
 from equipoise.model.testbed import Testbed
 
 
@@ -14,7 +16,7 @@ class OuterBench:
 
     @property
     def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
+        """What is known of it a priori."""
         return self._bench.testbed
 
     @property
@@ -33,3 +35,24 @@ class OuterBench:
     def stop(self) -> None:
         """Halt every mass and device."""
         self._bench.stop()
+
+
+class RecordedBench(OuterBench):
+    """A bench of which every row is kept, whatever a procedure passes on."""
+
+    def __init__(self, bench: Bench) -> None:
+        super().__init__(bench)
+        self._parts: list[Recording] = []
+
+    def read(self, duration: float) -> Recording:
+        """Read and keep, also what arrived before the bench was stopped."""
+        try:
+            self._parts.append(self._bench.read(duration))
+        except BenchStopped:
+            self._parts.append(self._bench.read(0.0))
+            raise
+        return self._parts[-1]
+
+    def recording(self) -> Recording | None:
+        """Return all that was read, as one; None if nothing was."""
+        return joined(self._parts) if self._parts else None

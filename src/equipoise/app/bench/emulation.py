@@ -1,7 +1,7 @@
 """A whole bench emulated: a simulated platform behind devices that speak their real protocols.
 
 The platform is the simulator's; masses go where the emulated boards lead them, and the emulated
-sensors say what it shows. Time is told from outside, so that a bench can run as fast as it likes
+sensors say what it shows. Time is set from outside, so that a bench can run as fast as it likes
 or as the clock on the wall.
 """
 
@@ -23,7 +23,7 @@ from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 from equipoise.simulation.bench import SimulatedBench
 
-AT_HOME = 2e-6  # m, chosen: boards tell positions to 1 um
+AT_HOME = 2e-6  # m, chosen: boards report positions to 1 um
 
 Device = TypeVar("Device")
 
@@ -52,14 +52,14 @@ class EmulatedBench:
         self._make, self.boards, self.sensors = platform, boards, sensors
         self.time = 0.0  # s, of the devices
         self._let_go = 0.0  # s, when
-        self.leaning = 0.0  # rad, as last seen
-        self._observed: tuple[float, Quaternion] | None = None  # s, the attitude last seen
+        self.leaning = 0.0  # rad, as last observed
+        self._observed: tuple[float, Quaternion] | None = None  # s, the attitude last observed
         self.catch()
         if not boards:
             self._held = None
 
     def run(self, t: float) -> None:
-        """Let time pass up to ``t`` s; what the host has sent is heard first."""
+        """Let time pass up to ``t`` s; what the host has sent is received first."""
         self._receive()
         if t <= self.time:
             return

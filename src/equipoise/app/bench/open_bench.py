@@ -33,7 +33,7 @@ HAND = 1.0  # s, chosen: for a hand to leave the platform
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Wanted:
-    """What the keeper's process is told when it begins."""
+    """What the keeper's process is given when it begins."""
 
     testbed: Testbed
     record: Path | None  # MCAP file to write; None: no record
@@ -64,11 +64,11 @@ class KeptBench:
             keeper.listen(self._held.enter_context(LiveRecording(wanted.record, opening)))
         if wanted.live:
             keeper.listen(self._held.enter_context(LiveView(zero_ns)))
-        self._held.callback(keeper.close)  # comes first: masses stop, and the record tells it
+        self._held.callback(keeper.close)  # comes first: masses stop, and the record has it
         return keeper
 
     def close(self) -> None:
-        """Stop every mass, close ports, end the record; what fails then is told in a sentence."""
+        """Stop every mass, close ports, end the record; report in a sentence what fails then."""
         try:
             self._held.close()
         except EquipoiseError as error:

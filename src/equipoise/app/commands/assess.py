@@ -2,9 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag, Triple
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Json, Reading, Seeking, Triple
 from equipoise.app.console.terminal import busy
 
 
@@ -21,12 +19,12 @@ def assess(
     windows_s: float | None = None,
     seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Say what gravity still does to a platform, how surely, and whether that is good enough.
 
-    Ends with 1 when the platform does not meet what is required, or the recording cannot tell.
+    Ends with 1 when the platform does not meet what is required, or the recording cannot decide it.
 
     Parameters
     ----------
@@ -45,39 +43,33 @@ def assess(
     require_offset_um
         Distance of the centre of mass from its target that is allowed.
     windows_s
-        Look again and again, so many seconds each: drift, walk and Allan deviation of the centre
-        of mass over a long recording.
-    json
-        Print one JSON document instead.
+        Assess windows of so many seconds along the recording too: drift, walk and Allan deviation
+        of the centre of mass.
     out
         Folder for figures, report.html and assess.json.
     """
-    from equipoise.app.arguments.checks import between, positive, vector
-    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import between, check_outputs, positive, vector
+    from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
     from equipoise.model.units import DEG, UM, in_si
 
-    bed, seeking = testbed_of(testbed), spelt_out(seeking)
-    torque, offset = require_torque, require_offset_um
-    if torque is not None:
-        positive("--require-torque", torque)
-    if offset is not None:
-        offset = in_si(positive("--require-offset-um", offset), UM)
-    windows = None if windows_s is None else positive("--windows-s", windows_s)
+    bed, of_fit = testbed_from(testbed), options_of(seeking)
+    torque = positive("--require-torque", require_torque)
+    offset = positive("--require-offset-um", require_offset_um)
+    offset = None if offset is None else in_si(offset, UM)
+    windows = positive("--windows-s", windows_s)
     tilt = in_si(between("--tilt-deg", tilt_deg, 0.0, 90.0), DEG)
     goal = vector("--target-um", target_um, UM)
-    if out is not None:
-        check_folder(out)
+    check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
     earlier = None if before is None else fitting_recording_of(before, WHOLE, bed)
     with busy("assessing", announce=False):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.assessment import Recordings, run
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL
-        from equipoise.app.views.assess_json import output_of
+        from equipoise.app.views.assess_views import output_of
         from equipoise.procedure.identification.assess import AssessOptions
 
-        options = AssessOptions(goal, tilt, torque, offset, seeking.term, seeking.hold)
+        options = AssessOptions(goal, tilt, torque, offset, of_fit.terms, of_fit.hold)
     done = run(Recordings(recording, earlier, windows), bed, options, AT_TERMINAL)
     hand_over(output_of(done), json, out)
     verdict = done.verdict

@@ -1,12 +1,10 @@
-"""`equipoise balance`: look, move, look again, until the verdict passes."""
+"""`equipoise balance`: estimate, move, estimate again, until the verdict passes."""
 
-from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag, Triple, Whole
+from equipoise.app.arguments.options import WHOLE, Json, Reading, Triple, Whole
 from equipoise.app.commands.by_hand import (
     MOVED,
     Manual,
@@ -15,20 +13,11 @@ from equipoise.app.commands.by_hand import (
     check_by_hand,
     is_by_hand,
 )
-from equipoise.app.commands.on_bench import (
-    SIMULATED,
-    OnBench,
-    check_on_bench,
-    let_go,
-    prepare,
-)
+from equipoise.app.commands.on_bench import SIMULATED, OnBench, check_on_bench, let_go, prepare
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
     from equipoise.model.arrays import Vector3
-    from equipoise.model.bench import Bench
-    from equipoise.model.manoeuvre import Manoeuvre
-    from equipoise.model.testbed import Testbed
 
 Until = tuple[int | None, float | None, float]  # moves, s, s of holding
 
@@ -48,10 +37,10 @@ def balance(
     by_hand: Manual = MOVED,
     reading: Reading = WHOLE,
     on_bench: OnBench = SIMULATED,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Balance a platform: look, move masses, look again; then test the result.
+    """Balance a platform: estimate, move masses, estimate again; then test the result.
 
     The platform is simulated, or with --bench the real one that the testbed's [hardware] declares.
     With --manual a person places weights instead of masses that move, on a real platform if a
@@ -80,14 +69,11 @@ def balance(
         Then follow the drift and hold the balance for so many minutes. After measure_and_move,
         which balances to a third of the tolerance before, since its errors stay; after
         momentum_buildup, whose masses follow the tilt too, by the sag that it found.
-    json
-        Print one JSON document instead.
     out
         Folder for report, figures and balance.json; else one of its own in equipoise-runs.
     """
-    from equipoise.app.arguments.checks import one_of, seed_of
-    from equipoise.app.arguments.resolve import testbed_of
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import check_outputs, one_of, seed_of
+    from equipoise.app.arguments.inputs import plan_from, testbed_from
 
     where = _where(target_um, tolerance_um)
     until = _until(max_moves, max_time_s, hold_min)
@@ -99,24 +85,25 @@ def balance(
 
         goal, seed = Goal(*where), seed_of(seed)
         return balance_by_hand(Request(testbed, goal, seed, by_hand, reading, json, out))
-    bed, seed = testbed_of(testbed), seed_of(seed)
-    planned = None if plan is None else _planned(plan, bed)
-    if out is not None:
-        check_folder(out)
+    bed, seed = testbed_from(testbed), seed_of(seed)
+    planned = None if plan is None else plan_from(plan, bed).manoeuvre
+    check_outputs(out)
     with busy("preparing the bench", announce=False):
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.balancing import Goal, Limits, run
+        from equipoise.app.runs.simulation import bench_of
         from equipoise.app.runs.terminal_waiting import at_terminal, show_step
         from equipoise.app.views.balance_views import output_of
         from equipoise.procedure.balancing.catalogue import CARDS
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
         goal = Goal(*where)
-    if on_bench.bench:
+        simulated = None if on_bench.bench else bench_of(bed, seed, planned)
+    if simulated is None:
         prepare(bed, goal, limits, on_bench)
-    with let_go(bed, on_bench) if on_bench.bench else _simulated(bed, planned, seed) as bench:
+    with let_go(bed, on_bench) if simulated is None else nullcontext(simulated) as bench:
         done = run(bench, goal, limits, None if json else show_step, at_terminal(bed))
-    hand_over_run(output_of(done, seed), json, out, bed.name)
+    hand_over_run(output_of(done), json, out, bed.name)
     return 0 if done.verdict.passed else 1
 
 
@@ -134,9 +121,12 @@ def _until(max_moves: int | None, max_time_s: float | None, hold_min: float) -> 
     from equipoise.app.arguments.checks import not_negative, positive
     from equipoise.model.units import MINUTE
 
-    moves = None if max_moves is None else int(not_negative("--max-moves", max_moves))
-    longest = None if max_time_s is None else positive("--max-time-s", max_time_s)
-    return moves, longest, not_negative("--hold-min", hold_min) * MINUTE
+    not_negative("--max-moves", max_moves)
+    return (
+        max_moves,
+        positive("--max-time-s", max_time_s),
+        not_negative("--hold-min", hold_min) * MINUTE,
+    )
 
 
 def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:
@@ -146,20 +136,3 @@ def _of_moving_masses(law: str, plan: Path | None, until: Until) -> list[str]:
               "--max-time-s": longest is not None, "--hold-min": hold > 0,
               "--plan": plan is not None}  # fmt: skip
     return [name for name, given in others.items() if given]
-
-
-def _planned(plan: Path, bed: "Testbed") -> "Manoeuvre":
-    """Return the manoeuvre of a plan file."""
-    from equipoise.io.documents.plan_file import read_plan
-
-    return read_plan(plan, bed).manoeuvre
-
-
-@contextmanager
-def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Generator[Bench]":
-    """Return the simulated platform, let go as planned if there is a plan."""
-    with busy("preparing the bench", announce=False):
-        from equipoise.app.runs.simulation import bench_of
-
-        bench = bench_of(bed, seed, planned)
-    yield bench

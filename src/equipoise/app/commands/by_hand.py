@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from cyclopts import Parameter
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag, Whole
+from equipoise.app.arguments.options import WHOLE, Flag, Reading, Whole
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ class Manual:
     Attributes
     ----------
     manual
-        Tell a person which weights to put where, recording by recording. Without --session the
+        Instruct a person which weights to put where, recording by recording. Without --session the
         person is simulated.
     session
         File in which a real balancing by hand is kept; it is made if there is none.
@@ -77,16 +76,14 @@ def check_by_hand(by: Manual, reading: Reading, others: list[str]) -> None:
 
 def balance_by_hand(requested: Request) -> int:
     """Carry a balancing by hand out, or one step of it, and return the exit code."""
-    from equipoise.app.arguments.checks import positive
-    from equipoise.app.arguments.resolve import testbed_of
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import check_outputs, positive
+    from equipoise.app.arguments.inputs import testbed_from
     from equipoise.procedure.balancing.balance_manually import check
 
     rounds = int(positive("--max-rounds", requested.by.max_rounds))
-    bed = testbed_of(requested.testbed)
+    bed = testbed_from(requested.testbed)
     check(bed)
-    if requested.out is not None:
-        check_folder(requested.out)
+    check_outputs(requested.out)
     if requested.by.session is not None:
         return _a_persons(requested, requested.by.session, bed, rounds)
     with busy("preparing the bench", announce=False):

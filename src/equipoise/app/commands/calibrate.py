@@ -3,9 +3,15 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag, Names
+from equipoise.app.arguments.options import (
+    NOTHING_STATED,
+    WHOLE,
+    Flag,
+    Json,
+    Names,
+    Reading,
+    Seeking,
+)
 from equipoise.app.console.terminal import busy, show_paths
 from equipoise.model.errors import InputError
 from equipoise.model.units import MM
@@ -26,7 +32,7 @@ def calibrate(
     seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
     write: Path | None = None,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Calibrate masses by a recording of commanded moves: gain, rail, backlash; sensors too.
@@ -45,30 +51,24 @@ def calibrate(
         Mass whose weight and steps you trust, which fixes the scale. May be repeated.
     write
         Testbed file to write with what was found; comments of the old one stay.
-    json
-        Print one JSON document instead.
     out
         Folder for report and calibrate.json.
     """
-    from equipoise.app.arguments.resolve import spelt_out, testbed_of
+    from equipoise.app.arguments.checks import check_outputs
+    from equipoise.app.arguments.inputs import options_of, testbed_from
     from equipoise.estimation.calibration.calibration import CalibrateOptions
-    from equipoise.io.files.atomic_file import check_writable
-    from equipoise.io.files.atomic_folder import check_folder
 
-    bed = testbed_of(testbed)
+    bed = testbed_from(testbed)
     if moves:
         return _report_moves(bed, testbed)
     if file is None:
         raise InputError("calibrate", "no recording", "a file, or --moves to see which to make")
-    if write is not None:
-        check_writable(write)
-    if out is not None:
-        check_folder(out)
+    check_outputs(out, write)
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.views.calibration_views import output_of
 
-    seeking = spelt_out(seeking)
-    options = CalibrateOptions(reference, seeking.term, seeking.hold, seeking.prior)
+    of_fit = options_of(seeking)
+    options = CalibrateOptions(reference, of_fit.terms, of_fit.hold, of_fit.use_prior)
     found = _carried_out(file, bed, reading, options)
     hand_over(output_of(found), json, out)
     if not found.estimate.outcome.usable:
@@ -82,7 +82,7 @@ def _carried_out(
     file: str, bed: "Testbed", reading: Reading, options: "CalibrateOptions"
 ) -> "Calibrated":
     """Return the calibration."""
-    from equipoise.app.arguments.resolve import fitting_recording_of
+    from equipoise.app.arguments.inputs import fitting_recording_of
 
     recording = fitting_recording_of(file, reading, bed)
     with busy("calibrating"):
@@ -94,7 +94,7 @@ def _carried_out(
 
 def _write(found: "Calibrated", name: str, path: Path, quiet: bool) -> None:
     """Write the calibrated testbed."""
-    from equipoise.app.arguments.resolve import testbed_text_of
+    from equipoise.app.arguments.inputs import testbed_text_of
     from equipoise.app.views.calibration_views import remarks_of
     from equipoise.estimation.calibration.calibration import calibrated
     from equipoise.io.files.atomic_file import write_whole

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.types import Whole
+from equipoise.app.arguments.options import Whole
 from equipoise.app.console.terminal import counted, show_paths
 from equipoise.model.units import MM
 
@@ -50,7 +50,7 @@ def calibrate_camera(
     check_writable(out)
     square, marker = positive("--square-mm", square_mm), positive("--marker-mm", marker_mm)
     board = Charuco(dictionary, columns, rows, square * MM, marker * MM)
-    with counted("looking") as on_progress:
+    with counted("finding the board") as on_progress:
         found = lens_from_files(pictures, board, on_progress)
     write_camera_keys(settings_of_lens(found.lens), out)
     lens, sd = found.lens, found.focal_sd

@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import busy
+from equipoise.app.arguments.options import Flag
+from equipoise.app.console.terminal import agreed, busy
 
 if TYPE_CHECKING:
     from equipoise.app.bench.bench_check import CheckResult
@@ -24,13 +24,12 @@ def check(testbed: str, /, *, yes: Flag = False) -> int:
     yes
         Move masses without asking.
     """
-    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.bench.bench_check import checked_bench
-    from equipoise.app.console.confirm import agreed
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.blocks import items
 
-    bed = testbed_of(testbed)
+    bed = testbed_from(testbed)
     reported: list[CheckResult] = []
     with busy("talking to the devices", announce=False):
         steps = checked_bench(bed, STREAMED, (lambda _: True) if yes else agreed)

@@ -6,15 +6,19 @@ from typing import TYPE_CHECKING
 
 from cyclopts import Parameter
 
-from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
-from equipoise.app.arguments.types import Flag, Names, Triple, Whole
+from equipoise.app.arguments.options import (
+    NOTHING_STATED,
+    Flag,
+    Json,
+    Names,
+    Seeking,
+    Triple,
+    Whole,
+)
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
     from equipoise.app.runs.comparison import Compared, LawGoal
-    from equipoise.model.testbed import Testbed
-    from equipoise.simulation.record import Moves
-    from equipoise.study.method_record import Scene
 
 
 @Parameter(name="*")
@@ -60,7 +64,7 @@ def compare(
     seeking: Seeking = NOTHING_STATED,
     judging: JudgingLaws = AS_THEY_ARE,
     workers: Whole = 2,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Run methods on the same records, or laws on the same platforms, and say which to take.
@@ -89,48 +93,30 @@ def compare(
         Methods: move of masses, "seconds: mass=mm mass=mm" from home. May be repeated.
     workers
         Processes to spread the runs over.
-    json
-        Print one JSON document instead.
     out
         Folder for the report, figures, compare.json, and methods.csv or laws.csv, a line a run.
     """
-    from equipoise.app.arguments.checks import positive
-    from equipoise.app.arguments.resolve import move_of, spelt_out, testbed_of
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import check_outputs, positive, seed_of
+    from equipoise.app.arguments.inputs import move_of, options_of, testbed_from
 
-    bed, seeds = testbed_of(testbed), _seeds(seed, runs)
+    bed, first = testbed_from(testbed), seed_of(seed)
+    seeds = range(first, first + int(positive("--runs", runs)))
     moves = [move_of(text, bed) for text in move]
-    duration, seeking = positive("--duration-s", duration_s), spelt_out(seeking)
+    duration, options = positive("--duration-s", duration_s), options_of(seeking)
     many = int(positive("--workers", workers))
-    if out is not None:
-        check_folder(out)
+    check_outputs(out)
     with busy("preparing", announce=False):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.comparison import Contest, names_of, run_all
         from equipoise.app.runs.terminal_waiting import AT_TERMINAL
         from equipoise.app.views.study.comparison_report import output_of
+        from equipoise.study.method_record import Scene
 
         goal, names = _goal(judging), names_of(bed, only, methods, laws)
-        scene = _scene(bed, duration, moves, seeking)
+        scene = Scene(bed, duration, moves, options)
     done = run_all(Contest(names, scene, seeds, goal), many, AT_TERMINAL)
     hand_over(output_of(done), json, out)
     return _code(done)
-
-
-def _seeds(seed: int, runs: int) -> range:
-    """Return the platforms' seeds, checked."""
-    from equipoise.app.arguments.checks import positive, seed_of
-
-    first = seed_of(seed)
-    return range(first, first + int(positive("--runs", runs)))
-
-
-def _scene(bed: "Testbed", duration: float, moves: "Moves", seeking: Seeking) -> "Scene":
-    """Return what methods are compared on, and what they are asked."""
-    from equipoise.estimation.method_contract import Options
-    from equipoise.study.method_record import Scene
-
-    return Scene(bed, duration, moves, Options(seeking.term, seeking.hold, seeking.prior))
 
 
 def _goal(judging: JudgingLaws) -> "LawGoal":

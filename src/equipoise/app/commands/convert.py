@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
+from equipoise.app.arguments.options import WHOLE, Reading
 from equipoise.app.console.terminal import show_paths
 
 
@@ -18,14 +18,14 @@ def convert(file: str, out: Path, /, *, reading: Reading = WHOLE) -> int:
     out
         File to write: .csv, .parquet, .mcap or .mat.
     """
-    from equipoise.app.arguments.resolve import recording_of
+    from equipoise.app.arguments.inputs import recording_of
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.text.blocks import items
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.format_registry import format_to_write
     from equipoise.io.recording.recording_file import write_recording
 
-    format_to_write(out)  # a suffix that is not written is told before anything is read
+    format_to_write(out)  # refuses a suffix before anything is read
     check_writable(out)
     recording = recording_of(file, reading)
     write_recording(recording, out)

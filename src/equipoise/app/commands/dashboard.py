@@ -4,7 +4,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.types import Flag, Whole
+from equipoise.app.arguments.options import Flag, Whole
 from equipoise.app.console.terminal import busy, stdout
 from equipoise.model.errors import InputError
 
@@ -27,7 +27,7 @@ def dashboard(
 ) -> int:
     """Show a bench live in a browser, balance it from there, replay recordings.
 
-    Whoever opens the page looks on; to command takes the token that is printed here, and one page
+    Whoever opens the page can watch; commanding takes the token that is printed here, and one page
     at a time has it. Closing the page changes nothing on the bench. Ctrl-C ends the dashboard and
     halts every mass.
 
@@ -46,7 +46,7 @@ def dashboard(
         Port of this computer; 0: any that is free.
     expose
         Address of this computer at which others may open the page, such as 192.168.1.5. The token
-        is then needed to look on, too. Left out: this computer alone.
+        is then needed to watch, too. Left out: this computer alone.
     """
     from equipoise.app.arguments.checks import seed_of
 
@@ -69,8 +69,8 @@ def dashboard(
 
 def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Opening":
     """Return what to begin with: a run's folder, a recording, or a testbed."""
-    from equipoise.app.arguments.recording_window import WHOLE
-    from equipoise.app.arguments.resolve import fitting_recording_of, testbed_of
+    from equipoise.app.arguments.inputs import fitting_recording_of, testbed_from
+    from equipoise.app.arguments.options import WHOLE
     from equipoise.app.bench.emulation import hardware_of
     from equipoise.app.dashboard.protocol.data_folder import data_folder
     from equipoise.app.dashboard.runner.runner_process import Opening
@@ -83,13 +83,13 @@ def _opening(shown: str, testbed: str | None, seed: int, bench: bool) -> "Openin
     if testbed is None and _is_recording(path):
         raise InputError("--testbed", "none", f"the testbed of which {shown} is a recording")
     if testbed is None:
-        bed = testbed_of(shown)
+        bed = testbed_from(shown)
         if bench:
             hardware_of(bed)
         return Opening(bed, data_folder(), seed, bench)
     if bench:
         raise InputError("--bench", "a recording", "a testbed")
-    bed = testbed_of(testbed)
+    bed = testbed_from(testbed)
     return Opening(bed, data_folder(), seed, False, fitting_recording_of(shown, WHOLE, bed), shown)
 
 

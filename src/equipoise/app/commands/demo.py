@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.types import Whole
+from equipoise.app.arguments.options import Whole
 from equipoise.app.console.terminal import busy
 
 
@@ -16,12 +16,11 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
     seed
         Seed of all that is drawn: the same seed gives the same run.
     """
-    from equipoise.app.arguments.checks import seed_of
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import check_outputs, seed_of
     from equipoise.io.testbed.presets import read_preset
 
     bed, seed = read_preset("sputnix"), seed_of(seed)
-    check_folder(out)
+    check_outputs(out)
     with busy("preparing the bench", announce=False):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.runs.demonstration import run_demo
@@ -29,5 +28,5 @@ def demo(*, out: Path = Path("equipoise-out/demo"), seed: Whole = 1) -> int:
         from equipoise.app.views.demo_views import output_of
 
     shown = run_demo(bed, seed, show_step)
-    hand_over(output_of(shown, seed), json=False, out=out, below=True)
+    hand_over(output_of(shown), json=False, out=out, below=True)
     return 0 if shown.balancing.verdict.passed else 1

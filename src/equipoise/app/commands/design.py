@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equipoise.app.arguments.environment import NOTHING_STATED, Exposure, surroundings_of
-from equipoise.app.arguments.types import Flag, Several, Triple, Whole
+from equipoise.app.arguments.options import Json, Several, Triple, Whole
 from equipoise.app.console.terminal import busy
 
 
@@ -18,10 +18,10 @@ def design(
     misalignment_deg: float = 0.0,
     exposure: Exposure = NOTHING_STATED,
     require_torque: float | None = None,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
-    """Tell what masses and sensors of a testbed are good for: reach, steps, bounds, what is left.
+    """Say what masses and sensors of a testbed are good for: reach, steps, bounds, what is left.
 
     The budget is for the shortest record. Ends with 1 when a required torque cannot be met.
 
@@ -30,26 +30,23 @@ def design(
     testbed
         Testbed file, or a preset's name.
     record_s
-        Lengths of the records that the centre of mass is looked at for, s.
+        Lengths of the records that the centre of mass is estimated from, s.
     target_um
         Where the centre of mass is wanted, from the centre of rotation, body axes.
     tilt_deg
         Torque counts over directions within so many degrees of level.
     moves
-        How often it is looked and moved.
+        How often the centre of mass is estimated and the masses are moved.
     misalignment_deg
         How far rails lean from where the testbed has them, one sd about both axes across.
     require_torque
         Torque that may be left at most, rms over that range, N m; with 95 % of the platforms that
         the testbed states within reach of the masses.
-    json
-        Print one JSON document instead.
     out
         Folder for report, figures and design.json.
     """
-    from equipoise.app.arguments.checks import not_negative, positive, vector
+    from equipoise.app.arguments.checks import check_outputs, not_negative, positive, vector
     from equipoise.app.arguments.inputs import testbed_with_masses
-    from equipoise.io.files.atomic_folder import check_folder
     from equipoise.model.units import DEG, UM, in_si
 
     lengths = [positive("--record-s", length) for length in record_s]
@@ -57,12 +54,10 @@ def design(
     tilt = in_si(positive("--tilt-deg", tilt_deg), DEG)
     count = int(positive("--moves", moves))
     lean = in_si(not_negative("--misalignment-deg", misalignment_deg), DEG)
-    if require_torque is not None:
-        positive("--require-torque", require_torque)
+    positive("--require-torque", require_torque)
     around, bed = surroundings_of(exposure), testbed_with_masses(testbed)
-    if out is not None:
-        check_folder(out)
-    with busy("reckoning"):
+    check_outputs(out)
+    with busy("computing"):
         from equipoise.app.logbook.output import hand_over
         from equipoise.app.views.design_views import output_of
         from equipoise.planning.sizing.case import Case

@@ -1,26 +1,17 @@
 """`equipoise devices`: what is connected to this computer."""
 
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import Json
 
 
-def devices(*, json: Flag = False) -> int:
-    """List the serial ports of this computer, as a testbed file names them.
-
-    Parameters
-    ----------
-    json
-        Print one JSON document instead.
-    """
-    from equipoise.app.console.rich_blocks import show
+def devices(*, json: Json = False) -> int:
+    """List the serial ports of this computer, as a testbed file names them."""
+    from equipoise.app.logbook.output import print_result
     from equipoise.app.text.blocks import paragraphs
-    from equipoise.app.text.json_document import dump
     from equipoise.app.text.json_lists import DEVICES
     from equipoise.hardware.transport.serial_ports import serial_ports
 
     found = serial_ports()
-    if json:
-        print(dump(DEVICES.write({"serial": found})))
-        return 0
     none = "No serial port was found. Network devices are not listed."
-    show(paragraphs(*[f"serial:{p.path}  {p.what}".rstrip() for p in found] or [none]))
+    blocks = paragraphs(*[f"serial:{p.path}  {p.what}".rstrip() for p in found] or [none])
+    print_result(DEVICES.write({"serial": found}), blocks, json)
     return 0

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.types import Whole
+from equipoise.app.arguments.options import Whole
 from equipoise.app.console.terminal import busy, stdout
 
 if TYPE_CHECKING:
@@ -31,15 +31,15 @@ def emulate(testbed: str, /, *, out: Path, seed: Whole = 1, max_time_s: float | 
         End by itself after so long.
     """
     from equipoise.app.arguments.checks import positive, seed_of
-    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.bench.emulation import emulate as emulated
     from equipoise.io.testbed.testbed_file import write_testbed
     from equipoise.simulation.bench import SimulatedBench
 
-    bed, drawn = testbed_of(testbed), seed_of(seed)
+    bed, drawn = testbed_from(testbed), seed_of(seed)
     with busy("preparing the platform", announce=False):
-        SimulatedBench(bed, drawn).read(1.0)  # compiles: a device that pauses looks unplugged
-    longest = float("inf") if max_time_s is None else positive("--max-time-s", max_time_s)
+        SimulatedBench(bed, drawn).read(1.0)  # compiles: a device that pauses seems unplugged
+    longest = positive("--max-time-s", max_time_s) or float("inf")
     bench = emulated(bed, drawn)
     try:
         bed = bench.testbed()

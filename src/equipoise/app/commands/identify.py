@@ -4,9 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Flag, Json, Reading, Seeking
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
@@ -25,7 +23,7 @@ def identify(
     plan: Path | None = None,
     seeking: Seeking = NOTHING_STATED,
     reading: Reading = WHOLE,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Estimate centre of mass and inertia from a recording, and say what it cannot show.
@@ -41,24 +39,24 @@ def identify(
     method
         auto, or one of those that `equipoise methods` lists.
     robust
-        Give rows that stand far off less weight.
+        Give outliers less weight.
     plan
         Plan file that the recording was made by: what it predicted is compared with what is found.
-    json
-        Print one JSON document instead.
     out
         Folder for report, figures and estimate.json; else one of its own in equipoise-runs.
     """
-    from equipoise.app.arguments.checks import one_of
-    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
-    from equipoise.io.documents.plan_file import read_plan
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import check_outputs, one_of
+    from equipoise.app.arguments.inputs import (
+        fitting_recording_of,
+        options_of,
+        plan_from,
+        testbed_from,
+    )
 
-    bed, seeking = testbed_of(testbed), spelt_out(seeking)
-    if out is not None:
-        check_folder(out)
+    bed, of_fit = testbed_from(testbed), options_of(seeking)
+    check_outputs(out)
     recording = fitting_recording_of(file, reading, bed)
-    planned = None if plan is None else read_plan(plan, bed)
+    planned = None if plan is None else plan_from(plan, bed)
     with busy("identifying", announce=False):
         from equipoise.app.console.rich_blocks import show
         from equipoise.app.logbook.output import hand_over_run
@@ -70,7 +68,7 @@ def identify(
         from equipoise.procedure.identification.identify import IdentifyOptions
 
     one_of("--method", method, ["auto", *METHODS])
-    options = IdentifyOptions(method, seeking.term, seeking.hold, seeking.prior, robust)
+    options = IdentifyOptions(method, of_fit.terms, of_fit.hold, of_fit.use_prior, robust)
 
     def on_findings(found: "Sequence[Finding]") -> None:
         if not json:

@@ -3,8 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import WHOLE, Json, Reading
 from equipoise.app.console.terminal import show_paths
 
 if TYPE_CHECKING:
@@ -18,7 +17,7 @@ def inspect(
     *,
     testbed: str | None = None,
     reading: Reading = WHOLE,
-    json: Flag = False,
+    json: Json = False,
     figure: Path | None = None,
 ) -> int:
     """Say what a recording holds, and what is wrong with it.
@@ -30,21 +29,19 @@ def inspect(
     file
         Recording, as CSV or Parquet.
     testbed
-        Testbed file or preset: adds what only it can tell, such as which axis is up, and what
-        happened during the record: touches, parts that shifted.
-    json
-        Print one JSON document instead.
+        Testbed file or preset: adds what depends on it, such as which axis is up, and events of
+        the record: touches, parts that shifted.
     figure
         Page with the record and its findings to write, such as record.png.
     """
-    from equipoise.app.arguments.resolve import recording_of, testbed_of
-    from equipoise.app.console.rich_blocks import show
-    from equipoise.app.text.json_document import dump, recording_json
+    from equipoise.app.arguments.inputs import recording_of, testbed_from
+    from equipoise.app.logbook.output import print_result
+    from equipoise.app.text.json_document import recording_json
     from equipoise.app.text.run_blocks import finding_items
     from equipoise.assessment.findings.event_findings import NOT_SOUGHT
     from equipoise.assessment.findings.record_findings import findings
 
-    bed = None if testbed is None else testbed_of(testbed)
+    bed = None if testbed is None else testbed_from(testbed)
     recording = recording_of(file, reading)
     found = [*findings(recording, bed)]
     found += [NOT_SOUGHT] if bed is None else _happened(file, reading, bed)
@@ -53,25 +50,22 @@ def inspect(
         from equipoise.app.figures.recording.record import draw
 
         write_figure(draw(recording, found, None if bed is None else bed.up), figure)
-    if json:
-        print(dump(recording_json(recording, found)))
-        return 0
-    show(finding_items(found))
-    if figure is not None:
+    print_result(recording_json(recording, found), finding_items(found), json)
+    if figure is not None and not json:
         show_paths([figure])
     return 0
 
 
 def _happened(file: str, reading: Reading, testbed: "Testbed") -> "list[Finding]":
     """Return what a fit of the record stepped over, and how well it explains the rest."""
-    from equipoise.app.arguments.resolve import fitting_recording_of
+    from equipoise.app.arguments.inputs import fitting_recording_of
     from equipoise.app.console.terminal import watched
     from equipoise.assessment.findings.event_findings import event_findings
     from equipoise.model.finding import Finding
     from equipoise.procedure.identification.identify import IdentifyOptions, identify
 
     recording = fitting_recording_of(file, reading, testbed)
-    *_, last = watched(identify(recording, testbed, IdentifyOptions("trajectory")), "looking")
+    *_, last = watched(identify(recording, testbed, IdentifyOptions("trajectory")), "fitting")
     if last.estimate is None:
         return []
     outcome = last.estimate.outcome

@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from equipoise.app.arguments.options import Flag, Json, Listed
 from equipoise.app.arguments.run_filter import LATEST, WantedRuns, condition
-from equipoise.app.arguments.types import Flag, Listed
 from equipoise.app.console.terminal import busy, complain, show_paths, stderr
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def logbook(
     builds: Flag = False,
     trend: Path | None = None,
     export: Path | None = None,
-    json: Flag = False,
+    json: Json = False,
 ) -> int:
     """List the runs that balance and identify have kept.
 
@@ -41,8 +41,6 @@ def logbook(
         testbed file marked; against temperature too where that was recorded.
     export
         Table to write (.csv or .parquet): a line a run, SI units.
-    json
-        Print one JSON document instead.
     """
     from equipoise.app.logbook.run_folder import USUAL, runs_folder
     from equipoise.io.documents.logbook import open_logbook
@@ -79,29 +77,24 @@ def _show(
     book: "Logbook", shown: "list[LoggedRun]", earlier: int, compare: Listed, json: bool
 ) -> None:
     """Print runs, or those that are to be compared side by side."""
-    from equipoise.app.console.rich_blocks import show
-    from equipoise.app.logbook import views as views
-    from equipoise.app.text.json_document import dump
+    from equipoise.app.logbook import views
+    from equipoise.app.logbook.output import print_result
 
     chosen = [views.chosen(shown, name) for name in compare]
-    if json:
-        print(dump(views.compared_json(book, chosen) if chosen else views.runs_json(book, shown)))
+    if chosen:
+        print_result(views.compared_json(book, chosen), (views.compared(book, chosen),), json)
         return
-    if earlier and not chosen:
+    if earlier and not json:
         stderr().print(f"{earlier} earlier runs are not shown (--last 0: all).", markup=False)
-    show((views.compared(book, chosen),) if chosen else views.runs_blocks(book, shown))
+    print_result(views.runs_json(book, shown), views.runs_blocks(book, shown), json)
 
 
 def _show_builds(book: "Logbook", wanted: WantedRuns, json: bool) -> None:
-    from equipoise.app.console.rich_blocks import show
+    from equipoise.app.logbook.output import print_result
     from equipoise.app.logbook.testbed_history import builds_blocks, builds_json
-    from equipoise.app.text.json_document import dump
 
     shown = book.builds(*condition(wanted))
-    if json:
-        print(dump(builds_json(book, shown)))
-    else:
-        show(builds_blocks(book, shown))
+    print_result(builds_json(book, shown), builds_blocks(book, shown), json)
 
 
 def _write(

@@ -1,30 +1,33 @@
 """`equipoise methods`: what there is to choose from."""
 
-from equipoise.app.arguments.types import Flag
+from typing import TYPE_CHECKING
+
+from equipoise.app.arguments.options import Json
+
+if TYPE_CHECKING:
+    from equipoise.app.api.catalogues import Catalogue
 
 
-def methods(name: str | None = None, /, *, json: Flag = False) -> int:
-    """List the methods of `equipoise identify`, or tell all about one of them.
+def methods(name: str | None = None, /, *, json: Json = False) -> int:
+    """List the methods of `equipoise identify`, or show the whole card of one.
 
     Errata that a source names are entries of docs/errata.md.
 
     Parameters
     ----------
     name
-        Method to tell about. Left out: list them all.
-    json
-        Print one JSON document instead.
+        Method to show. Left out: list them all.
     """
-    from equipoise.app.arguments.checks import one_of
-    from equipoise.app.console.rich_blocks import show
-    from equipoise.app.text.json_document import dump
-    from equipoise.app.views.method_views import blocks, methods_json
-    from equipoise.estimation.methods.registry import METHODS
+    from equipoise.app.api import catalogues
 
-    chosen = list(METHODS) if name is None else [one_of("method", name, list(METHODS))]
-    cards = [METHODS[each].card for each in chosen]
-    if json:
-        print(dump(methods_json(cards)))
-        return 0
-    show(blocks(cards))
+    return print_cards(catalogues.methods(), name, json)
+
+
+def print_cards(catalogue: "Catalogue", name: str | None, json: bool) -> int:
+    """Print the card of a name, or all of them."""
+    from equipoise.app.logbook.output import print_result
+    from equipoise.app.views.card_views import blocks, document
+
+    cards = list(catalogue.cards.values()) if name is None else [catalogue[name]]
+    print_result(document(catalogue.kind, cards), blocks(catalogue.kind, cards), json)
     return 0

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import stdout
 from equipoise.model.errors import InputError
 

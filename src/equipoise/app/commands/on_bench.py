@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from cyclopts import Parameter
 
-from equipoise.app.arguments.types import Flag
-from equipoise.app.console.terminal import busy, stderr
+from equipoise.app.arguments.options import Flag
+from equipoise.app.console.terminal import agreed, busy, stderr
 from equipoise.model.errors import InputError
 
 if TYPE_CHECKING:
@@ -63,7 +63,6 @@ def prepare(bed: "Testbed", goal: "Goal", limits: "Limits", requested: OnBench) 
     """
     from equipoise.app.bench.emulation import hardware_of
     from equipoise.app.bench.port_check import check_reachable
-    from equipoise.app.console.confirm import agreed
     from equipoise.app.runs.rehearsal import practised
 
     check_reachable(hardware_of(bed))

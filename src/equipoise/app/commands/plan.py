@@ -1,11 +1,9 @@
-"""`equipoise plan`: the manoeuvre that will tell most."""
+"""`equipoise plan`: the most informative manoeuvre."""
 
 from pathlib import Path
 from typing import Literal
 
-from equipoise.app.arguments.estimated_terms import NOTHING_STATED, Seeking
-from equipoise.app.arguments.recording_window import WHOLE
-from equipoise.app.arguments.types import Flag, Whole
+from equipoise.app.arguments.options import NOTHING_STATED, WHOLE, Json, Seeking, Whole
 
 
 def plan(
@@ -22,15 +20,15 @@ def plan(
     trials: Whole = 2400,
     seed: Whole = 1,
     write: Path | None = None,
-    json: Flag = False,
+    json: Json = False,
     out: Path | None = None,
 ) -> int:
     """Plan how to let a platform go and what to move meanwhile, to learn most from the record.
 
     Chosen are tilt and rate at the start, times and sizes of moves, and square waves for wheels and
     gyros where there are any. Limits are kept on platforms drawn from what is known, let go by a
-    hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep them. The sd
-    told are those of a fit in the model that the testbed states.
+    hand that errs by 1 deg and 0.5 deg/s. Ends with 1 when 300 others do not all keep them.
+    Predicted sd are those of a fit in the model that the testbed states.
 
     Parameters
     ----------
@@ -47,41 +45,32 @@ def plan(
     max_rate_deg_s
         Greatest rate of the platform.
     prior_record
-        A recording that was made before: what it tells is known, masses stand where it left them.
+        A recording that was made before: what it shows is known, masses stand where it left them.
     trials
         How many manoeuvres to try.
     seed
         Seed of the search and of the platforms: the same seed plans the same.
     write
         Plan file to write; simulate, identify and balance take it with --plan.
-    json
-        Print one JSON document instead.
     out
         Folder for report and plan.json.
     """
-    from equipoise.app.arguments.checks import not_negative, positive, seed_of
-    from equipoise.app.arguments.resolve import fitting_recording_of, spelt_out, testbed_of
-    from equipoise.io.files.atomic_file import check_writable
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import check_outputs, not_negative, positive, seed_of
+    from equipoise.app.arguments.inputs import fitting_recording_of, options_of, testbed_from
     from equipoise.model.units import DEG, in_si
 
-    bed, seeking, seed = testbed_of(testbed), spelt_out(seeking), seed_of(seed)
+    bed, requested, seed = testbed_from(testbed), options_of(seeking), seed_of(seed)
     duration = positive("--duration-s", duration_s)
     rate = in_si(positive("--max-rate-deg-s", max_rate_deg_s), DEG)
     count = int(not_negative("--moves", moves))
     tries = int(positive("--trials", trials))
-    if write is not None:
-        check_writable(write)
-    if out is not None:
-        check_folder(out)
+    check_outputs(out, write)
     earlier = None if prior_record is None else fitting_recording_of(str(prior_record), WHOLE, bed)
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.runs.planning import Request, plan_file_of, run
     from equipoise.app.runs.terminal_waiting import AT_TERMINAL
     from equipoise.app.views.plan_views import output_of
-    from equipoise.estimation.method_contract import Options
 
-    requested = Options(seeking.term, seeking.hold, seeking.prior)
     request = Request(
         bed, duration, quantity, criterion, count, rate, requested, earlier, tries, seed
     )

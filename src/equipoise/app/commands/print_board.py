@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.types import Whole
+from equipoise.app.arguments.options import Whole
 from equipoise.app.console.terminal import show_paths
 from equipoise.model.units import MM
 

@@ -4,7 +4,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import busy, show_paths
 
 if TYPE_CHECKING:
@@ -29,12 +29,12 @@ def record(testbed: str, /, *, out: Path, duration_s: float = 60.0, foxglove: Fl
         Also serve it live to Foxglove, Lichtblick or PlotJuggler, on this computer.
     """
     from equipoise.app.arguments.checks import positive
-    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.bench.open_bench import Wanted, real_bench
     from equipoise.io.files.append_file import check_new
 
     duration = positive("--duration-s", duration_s)
-    bed = testbed_of(testbed)
+    bed = testbed_from(testbed)
     check_new(out)
     with ExitStack() as held:
         with busy("reaching the bench", announce=False):

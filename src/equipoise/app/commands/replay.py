@@ -1,9 +1,8 @@
-"""`equipoise replay`: a recording as if it were seen now."""
+"""`equipoise replay`: a recording played back."""
 
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.recording_window import WHOLE, Reading
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import WHOLE, Flag, Reading
 from equipoise.app.console.terminal import stdout
 
 if TYPE_CHECKING:
@@ -19,7 +18,7 @@ def replay(
     foxglove: Flag = False,
     reading: Reading = WHOLE,
 ) -> int:
-    """Show a recording as it was seen: time, tilt and where the masses are.
+    """Play a recording back: time, tilt and where the masses are.
 
     Cut off from a terminal, a line is printed for every second of the recording.
 
@@ -37,11 +36,11 @@ def replay(
     from contextlib import ExitStack
 
     from equipoise.app.arguments.checks import not_negative
-    from equipoise.app.arguments.resolve import fitting_recording_of, testbed_of
+    from equipoise.app.arguments.inputs import fitting_recording_of, testbed_from
     from equipoise.app.live.replay import replayed, shown_lines
 
     not_negative("--speed", speed)
-    bed = testbed_of(testbed)
+    bed = testbed_from(testbed)
     recording = fitting_recording_of(file, reading, bed)
     with ExitStack() as stack:
         onlookers: list[Onlooker] = [stack.enter_context(shown_lines(bed))]

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.types import Flag, Whole
+from equipoise.app.arguments.options import Json, Whole
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
@@ -13,7 +13,7 @@ PAPERS = ("lee",)
 
 
 def reproduce(
-    paper: str, /, *, seed: Whole = 1, out: Path | None = None, json: Flag = False
+    paper: str, /, *, seed: Whole = 1, out: Path | None = None, json: Json = False
 ) -> int:
     """Run a paper's simulation again, beside what this program makes of it.
 
@@ -28,16 +28,12 @@ def reproduce(
         Seed of all that is drawn: the same seed gives the same run.
     out
         Folder for the paper's figures, report.html and reproduce.json.
-    json
-        Print one JSON document instead.
     """
-    from equipoise.app.arguments.checks import one_of, seed_of
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.app.arguments.checks import check_outputs, one_of, seed_of
 
     one_of("paper", paper, list(PAPERS))
     seed = seed_of(seed)
-    if out is not None:
-        check_folder(out)
+    check_outputs(out)
     runs = _slews(seed)
     from equipoise.app.logbook.output import hand_over
     from equipoise.app.views.study.lee_views import output_of

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equipoise.app.arguments.types import Names, Whole
+from equipoise.app.arguments.options import Names, Whole
 from equipoise.app.console.terminal import busy, show_paths
 from equipoise.model.errors import InputError
 
@@ -35,15 +35,14 @@ def simulate(
         Seed of all that is drawn: the same seed gives the same record.
     """
     from equipoise.app.arguments.checks import positive, seed_of
-    from equipoise.app.arguments.resolve import move_of, testbed_of
-    from equipoise.io.documents.plan_file import read_plan
+    from equipoise.app.arguments.inputs import move_of, plan_from, testbed_from
     from equipoise.io.files.atomic_file import check_writable
     from equipoise.io.recording.recording_file import write_recording
 
-    bed = testbed_of(testbed)
+    bed = testbed_from(testbed)
     duration = positive("--duration-s", 120.0 if duration_s is None else duration_s)
     moves, drawn = [move_of(text, bed) for text in move], seed_of(seed)
-    planned = None if plan is None else read_plan(plan, bed)
+    planned = None if plan is None else plan_from(plan, bed)
     if planned is not None and (moves or duration_s is not None):
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
     check_writable(out)

@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equipoise.app.arguments.types import Flag
+from equipoise.app.arguments.options import Flag
 from equipoise.app.console.terminal import counted, show_paths
 
 if TYPE_CHECKING:
@@ -42,14 +42,14 @@ def track(
     testbed
         Testbed file whose camera's settings and alignment are taken; --board and --lens go before.
     rate_hz
-        Pictures per second, of a folder, or of a video that tells it wrongly.
+        Pictures per second, of a folder, or of a video that states it wrongly.
     duration_s
         How long to watch a camera.
     level
         The board lies level, face up: print which way is up for the camera, to put into settings.
     """
     from equipoise.app.arguments.checks import positive
-    from equipoise.app.arguments.resolve import testbed_of
+    from equipoise.app.arguments.inputs import testbed_from
     from equipoise.app.console.rich_blocks import show
     from equipoise.app.runs import camera_tracking
     from equipoise.io.files.atomic_file import check_writable
@@ -62,11 +62,11 @@ def track(
     if out is not None:
         format_to_write(out)
         check_writable(out)
-    bed = None if testbed is None else testbed_of(testbed)
+    bed = None if testbed is None else testbed_from(testbed)
     unit = camera_tracking.unit_of(
         bed, [file for file in (board, lens) if file is not None], source
     )
-    rate = None if rate_hz is None else positive("--rate-hz", rate_hz)
+    rate = positive("--rate-hz", rate_hz)
     duration = positive("--duration-s", duration_s)
     with counted("tracking") as on_progress:
         if source.startswith(CAMERAS):
@@ -97,7 +97,7 @@ def _track_blocks(found: "Track") -> "Blocks":
     median = math.degrees(float(np.median(found.sds))) if found.sds else 0.0
     return (
         *paragraphs(
-            f"the board was seen in {len(found.t)} of {found.pictures} pictures",
+            f"the board was found in {len(found.t)} of {found.pictures} pictures",
             f"stated error of an attitude: {median:.4f} deg per axis, median" if found.sds else "",
         ),
         *items((f"{count} pictures {what}" for count, what in counts if count), "quiet"),

@@ -1,4 +1,4 @@
-"""Hears that kernels are being compiled, once on a computer, while nothing else can be seen."""
+"""Notices when kernels are compiled, once on a computer, so that the wait can be explained."""
 
 from collections.abc import Callable, Generator
 from contextlib import contextmanager

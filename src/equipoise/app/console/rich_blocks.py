@@ -1,4 +1,4 @@
-"""Blocks as the terminal shows them, and the one look of everything printed there."""
+"""Blocks as the terminal shows them, and the one style of everything printed there."""
 
 from collections.abc import Iterable
 from functools import singledispatch

@@ -54,13 +54,22 @@ def complain(sentence: str) -> None:
         stderr().print(Text.assemble(("equipoise:", "bold red"), f" {line}"))
 
 
+def agreed(question: str) -> bool:
+    """Ask a person; anything but yes is no, and so is nobody there."""
+    stderr().print(f"{question} [y/n] ", end="", markup=False)
+    try:
+        return input().strip().lower() in ("y", "yes")
+    except EOFError:
+        return False
+
+
 @contextmanager
 def busy(
     what: str, announce: bool = True, above: "RenderableType | None" = None
 ) -> Generator[None]:
     """Show on stderr that something is being done, and when it is the compiler that takes long.
 
-    Cut off from a terminal, ``announce`` says whether it is told that it begins, and what would
+    Cut off from a terminal, ``announce`` says whether its beginning is printed, and what would
     stand ``above`` is not shown.
     """
     from equipoise.app.console.compile_notice import compiler_notices
@@ -116,7 +125,7 @@ class _SignOfLife:
 
 @contextmanager
 def counted(what: str) -> "Generator[Callable[[float], None]]":
-    """Show on stderr what share of something is done, as the function is told that it yields."""
+    """Show progress on stderr; the function that is yielded takes the share that is done."""
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
 
     console = stderr()

@@ -7,7 +7,17 @@ from equipoise.app.console.terminal import busy, show_paths, stderr
 from equipoise.app.logbook.run_folder import own_folder
 from equipoise.app.report.run_record import Output
 from equipoise.app.report.write import write_output
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_document import dump
+from equipoise.app.text.json_shape import View
+
+
+def print_result(document: View, blocks: Blocks, json: bool, below: bool = False) -> None:
+    """Print a result's document, or its blocks; ``below`` sets those off from what stands above."""
+    if json:
+        print(dump(document))
+    else:
+        show(blocks, below)
 
 
 def hand_over(output: Output, json: bool, out: Path | None, below: bool = False) -> None:
@@ -15,10 +25,7 @@ def hand_over(output: Output, json: bool, out: Path | None, below: bool = False)
 
     ``below`` sets the blocks off from what was printed on the way.
     """
-    if json:
-        print(dump(output.document))
-    else:
-        show(output.blocks, below)
+    print_result(output.document, output.blocks, json, below)
     if out is not None:
         with busy("drawing"):
             paths = write_output(output, out)

@@ -54,7 +54,7 @@ def _trend(book: Logbook, runs: Sequence[LoggedRun], rows: Sequence[Row]) -> tre
 
 
 def _row(book: Logbook, run: LoggedRun) -> Row:
-    """Return values and sd of a run; NaN for what it has not seen."""
+    """Return values and sd of a run; NaN for what it did not observe."""
     known = {p.name: p for p in book.numbers(run.name, "home") if p.observable}
     found = [(known[n].value, known[n].sd) if n in known else (np.nan, np.nan) for n in NAMES]
     values, sd = np.array(found).T

@@ -119,7 +119,7 @@ def _by_name(book: Logbook, run: LoggedRun) -> dict[str, Parameter]:
 
 def _separation(parameter: Parameter, other: Parameter) -> str:
     outlying = normalised_difference(parameter, other)
-    return f"{outlying:+.1f}" if math.isfinite(outlying) and outlying else "not seen"
+    return f"{outlying:+.1f}" if math.isfinite(outlying) and outlying else "unobservable"
 
 
 def runs_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
@@ -143,10 +143,7 @@ def compared_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
 
 def _run(book: Logbook, run: LoggedRun) -> View:
     return {
-        "name": run.name, "kind": run.kind, "made_at": run.made_at, "platform": run.platform,
-        "configuration": run.configuration, "method": run.method, "bench": run.bench,
-        "outcome": run.outcome, "sentence": run.sentence, "temperature": run.temperature,
+        "run": run,
         "parameters": book.numbers(run.name, "home"),
         "com_as_judged": book.numbers(run.name, "standing"),
-        "provenance": run.provenance,
-    }  # fmt: skip
+    }

@@ -3,11 +3,9 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from equipoise.app.presentation.step_rows import step_table
-from equipoise.app.presentation.tables import Arrays, Table, of_table
+from equipoise.app.presentation.tables import Table
 from equipoise.app.runs.balancing import Balancing, measurements
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import moments
 
 if TYPE_CHECKING:
@@ -30,21 +28,15 @@ def blocks(done: Balancing) -> Blocks:
     return (*moments(done.steps), *balance_views.blocks(done))
 
 
-def document(done: Balancing) -> View:
-    """Return what `equipoise balance --json` prints."""
-    from equipoise.app.views.balance_views import document_of
-
-    return document_of(done, done.seed)
-
-
 def table(done: Balancing) -> Table:
     """Return a row a step."""
-    return step_table(done.steps)
-
-
-def arrays(done: Balancing) -> Arrays:
-    """Return the table's columns along the steps."""
-    return of_table(table(done))
+    steps = done.steps
+    return {
+        "step": list(range(1, len(steps) + 1)),
+        "time_s": [step.time for step in steps],
+        "kind": [step.kind for step in steps],
+        "sentence": [step.sentence for step in steps],
+    }
 
 
 def figure(done: Balancing) -> "Figure | None":

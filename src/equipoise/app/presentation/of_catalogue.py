@@ -2,16 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from equipoise.app.api.catalogues import Catalogue
-from equipoise.app.presentation.tables import Arrays, Table, of_table
+from equipoise.app.presentation.tables import Table
 from equipoise.app.text.blocks import Blocks, prose
 from equipoise.app.text.blocks import table as text_table
 from equipoise.app.text.json_shape import View
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def lines(catalogue: Catalogue) -> Iterator[str]:
@@ -27,7 +24,7 @@ def _texts(card: Any) -> dict[str, str]:
 
 def blocks(catalogue: Catalogue) -> Blocks:
     """Return one table."""
-    of = table(catalogue).columns
+    of = table(catalogue)
     rows = zip(*of.values(), strict=True)
     title = f"{catalogue.kind.capitalize()}s"
     return (text_table(title, (prose(key.replace("_", " ")) for key in of), rows),)
@@ -35,26 +32,12 @@ def blocks(catalogue: Catalogue) -> Blocks:
 
 def document(catalogue: Catalogue) -> View:
     """Return what `equipoise methods --json` or `equipoise laws --json` prints."""
-    from equipoise.app.views import method_views
-    from equipoise.app.views.study import law_views
+    from equipoise.app.views import card_views
 
-    cards: Any = list(catalogue.cards.values())
-    if catalogue.kind == "method":
-        return method_views.methods_json(cards)
-    return law_views.laws_json(cards)
+    return card_views.document(catalogue.kind, list(catalogue.cards.values()))
 
 
 def table(catalogue: Catalogue) -> Table:
     """Return a row a card."""
     rows = [_texts(card) for card in catalogue.cards.values()]
-    return Table("name", {key: [row[key] for row in rows] for key in rows[0]})
-
-
-def arrays(catalogue: Catalogue) -> Arrays:
-    """Return the table's columns along the names."""
-    return of_table(table(catalogue))
-
-
-def figure(catalogue: Catalogue) -> "Figure | None":
-    """Return nothing: cards have no figure."""
-    return None
+    return {key: [row[key] for row in rows] for key in rows[0]}

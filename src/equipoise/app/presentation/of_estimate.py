@@ -51,12 +51,11 @@ def _values(estimate: Estimate, names: Sequence[str]) -> str:
 
 def blocks(estimate: Estimate) -> Blocks:
     """Return the outcome, a table a group, what is unobservable, and the residual."""
-    residual = "" if estimate.residual is None else residual_line(estimate.residual)
     return (
         outcome_claim(estimate),
         *estimate_tables(estimate),
         *unobservable_items(estimate),
-        *paragraphs(residual),
+        *paragraphs(residual_line(estimate.residual)),
     )
 
 
@@ -68,12 +67,12 @@ def document(estimate: Estimate) -> View:
 def table(estimate: Estimate) -> Table:
     """Return a row a parameter."""
     keys = ("name", "unit", "value", "sd", "low95", "high95", "observable")
-    return Table("name", {key: [getattr(p, key) for p in estimate.parameters] for key in keys})
+    return {key: [getattr(p, key) for p in estimate.parameters] for key in keys}
 
 
 def arrays(estimate: Estimate) -> Arrays:
     """Return values, sd and covariance along the names; units stand beside the values."""
-    rows, along = table(estimate).columns, ("name",)
+    rows, along = table(estimate), ("name",)
     found = {key: Variable(along, rows[key])
              for key in ("unit", "value", "sd", "low95", "high95", "observable")}  # fmt: skip
     found["covariance"] = Variable(("name", "name_2"), estimate.covariance)

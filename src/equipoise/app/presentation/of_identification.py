@@ -4,10 +4,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from equipoise.app.presentation import of_estimate
-from equipoise.app.presentation.tables import Arrays, Table
 from equipoise.app.runs.identification import Identification
 from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_shape import View
 from equipoise.app.text.run_blocks import finding_items
 
 if TYPE_CHECKING:
@@ -26,23 +24,6 @@ def blocks(done: Identification) -> Blocks:
     from equipoise.app.views import identify_views
 
     return (*finding_items(done.findings), *identify_views.blocks(done))
-
-
-def document(done: Identification) -> View:
-    """Return what `equipoise identify --json` prints."""
-    from equipoise.app.views.identify_views import document_of
-
-    return document_of(done)
-
-
-def table(done: Identification) -> Table:
-    """Return a row a parameter."""
-    return of_estimate.table(done.estimate)
-
-
-def arrays(done: Identification) -> Arrays:
-    """Return the estimate's arrays."""
-    return of_estimate.arrays(done.estimate)
 
 
 def figure(done: Identification) -> "Figure | None":

@@ -38,7 +38,7 @@ def _elements(body: MassProperties) -> list[tuple[str, float]]:
 
 def blocks(body: MassProperties) -> Blocks:
     """Return one table."""
-    of = table(body).columns
+    of = table(body)
     rows = list[tuple[str, str, str]]()
     for name, si, value in zip(of["name"], of["unit"], of["value"], strict=True):
         unit = unit_for(name, si) if si == "m" else None
@@ -56,14 +56,11 @@ def document(body: MassProperties) -> View:
 def table(body: MassProperties) -> Table:
     """Return a row a number."""
     elements = [value for _, value in _elements(body)]
-    return Table(
-        "name",
-        {
-            "name": ["mass", *COM, *INERTIA],
-            "unit": ["kg", *["m"] * len(COM), *["kg m2"] * len(INERTIA)],
-            "value": [body.mass, *body.com.tolist(), *elements],
-        },
-    )
+    return {
+        "name": ["mass", *COM, *INERTIA],
+        "unit": ["kg", *["m"] * len(COM), *["kg m2"] * len(INERTIA)],
+        "value": [body.mass, *body.com.tolist(), *elements],
+    }
 
 
 def arrays(body: MassProperties) -> Arrays:

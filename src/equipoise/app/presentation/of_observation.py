@@ -1,18 +1,12 @@
 """What a recording can show: bounds by parameter, and what filters observe."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-from equipoise.app.presentation.tables import Arrays, Table, of_table
+from equipoise.app.presentation.tables import Table
 from equipoise.app.runs.observation import Observation
-from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.units import unit_for
 from equipoise.model.estimate import COM, INERTIA
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def lines(done: Observation) -> Iterator[str]:
@@ -28,41 +22,8 @@ def lines(done: Observation) -> Iterator[str]:
             yield f"  {head:10s} least sd {', '.join(sds)} {unit.name}"
 
 
-def blocks(done: Observation) -> Blocks:
-    """Return what the command prints."""
-    from equipoise.app.views import observe_views
-
-    return observe_views.blocks(done)
-
-
-def document(done: Observation) -> View:
-    """Return what `equipoise observe --json` prints."""
-    from equipoise.app.views.observe_views import observe_json
-
-    return observe_json(done)
-
-
 def table(done: Observation) -> Table:
     """Return a row a parameter."""
-    bounds = done.bounds
-    return Table(
-        "name",
-        {
-            "name": list(bounds.names),
-            "unit": list(bounds.units),
-            "sd": bounds.sd.tolist(),
-            "testbed_sd": bounds.before.tolist(),
-            "observable": (~bounds.hidden).tolist(),
-            "held": bounds.held.tolist(),
-        },
-    )
+    from equipoise.app.views.observe_views import columns_of
 
-
-def arrays(done: Observation) -> Arrays:
-    """Return the table's columns along the names."""
-    return of_table(table(done))
-
-
-def figure(done: Observation) -> "Figure | None":
-    """Return nothing: bounds have no figure of their own."""
-    return None
+    return columns_of(done.bounds)

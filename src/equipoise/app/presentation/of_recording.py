@@ -100,7 +100,7 @@ def table(recording: Recording) -> Table:
         values[np.searchsorted(t, rows.t)] = rows.values
         heads = (_head(name, part) for part in parts(recording, name))
         columns |= dict(zip(heads, values.T, strict=True))
-    return Table("time_s", columns)
+    return columns
 
 
 def _head(channel: str, part: str) -> str:

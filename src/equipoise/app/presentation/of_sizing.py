@@ -3,9 +3,7 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from equipoise.app.presentation.tables import Arrays, Table, of_table
-from equipoise.app.text.blocks import Blocks
-from equipoise.app.text.json_shape import View
+from equipoise.app.presentation.tables import Table
 from equipoise.planning.sizing.sizing import Sizing
 
 if TYPE_CHECKING:
@@ -18,36 +16,14 @@ def lines(found: Sizing) -> Iterator[str]:
     yield f"  {found.limit}"
 
 
-def blocks(found: Sizing) -> Blocks:
-    """Return what the command prints."""
-    from equipoise.app.views import design_views
-
-    return design_views.blocks(found)
-
-
-def document(found: Sizing) -> View:
-    """Return what `equipoise design --json` prints."""
-    from equipoise.app.views.design_views import design_json
-
-    return design_json(found)
-
-
 def table(found: Sizing) -> Table:
     """Return a row a cause."""
     budget = found.budget.lines
-    return Table(
-        "cause",
-        {
-            "cause": [line.name for line in budget],
-            "torque_N_m": [line.torque for line in budget],
-            "basis": [line.basis for line in budget],
-        },
-    )
-
-
-def arrays(found: Sizing) -> Arrays:
-    """Return the table's columns along the causes."""
-    return of_table(table(found))
+    return {
+        "cause": [line.name for line in budget],
+        "torque_N_m": [line.torque for line in budget],
+        "basis": [line.basis for line in budget],
+    }
 
 
 def figure(found: Sizing) -> "Figure | None":

@@ -2,19 +2,13 @@
 
 import tomllib
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from equipoise.app.presentation import of_mass_properties
-from equipoise.app.presentation.tables import Arrays, Table, of_table
-from equipoise.app.text.blocks import Blocks, Column, number
-from equipoise.app.text.blocks import table as text_table
+from equipoise.app.presentation.tables import Table
+from equipoise.app.text.blocks import Blocks
 from equipoise.app.text.json_shape import View
 from equipoise.io.testbed.testbed_file import text_of_testbed
 from equipoise.model.testbed import Testbed
-from equipoise.model.units import GRAM, MM
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 SCHEMA = "equipoise/testbed/1"
 
@@ -33,14 +27,9 @@ def lines(bed: Testbed) -> Iterator[str]:
 
 def blocks(bed: Testbed) -> Blocks:
     """Return the body and the masses."""
-    rows = (
-        (mass.name, f"{mass.mass / GRAM:.4g}",
-         f"{mass.travel[0] / MM:g} to {mass.travel[1] / MM:g}", f"{mass.resolution / MM:g}",
-         f"{mass.accuracy / MM:.3g}") for mass in bed.masses
-    )  # fmt: skip
-    units = number("mass", "g"), Column("travel", "mm"), number("step", "mm")
-    columns = Column("name"), *units, number("accuracy", "mm")
-    return (*of_mass_properties.blocks(bed.body), text_table("Sliding masses", columns, rows))
+    from equipoise.app.report.build import masses_table
+
+    return (*of_mass_properties.blocks(bed.body), masses_table("Sliding masses", bed.masses))
 
 
 def document(bed: Testbed) -> View:
@@ -51,28 +40,13 @@ def document(bed: Testbed) -> View:
 def table(bed: Testbed) -> Table:
     """Return a row a sliding mass."""
     masses = bed.masses
-    return Table(
-        "mass",
-        {
-            "mass": [mass.name for mass in masses],
-            "mass_kg": [mass.mass for mass in masses],
-            **{
-                f"home_{axis}_m": [float(m.home[k]) for m in masses] for k, axis in enumerate("xyz")
-            },
-            **{f"axis_{axis}": [float(m.axis[k]) for m in masses] for k, axis in enumerate("xyz")},
-            "travel_low_m": [mass.travel[0] for mass in masses],
-            "travel_high_m": [mass.travel[1] for mass in masses],
-            "resolution_m": [mass.resolution for mass in masses],
-            "accuracy_m": [mass.accuracy for mass in masses],
-        },
-    )
-
-
-def arrays(bed: Testbed) -> Arrays:
-    """Return the table's columns along the masses."""
-    return of_table(table(bed))
-
-
-def figure(bed: Testbed) -> "Figure | None":
-    """Return nothing: a testbed has no figure."""
-    return None
+    return {
+        "mass": [mass.name for mass in masses],
+        "mass_kg": [mass.mass for mass in masses],
+        **{f"home_{axis}_m": [float(m.home[k]) for m in masses] for k, axis in enumerate("xyz")},
+        **{f"axis_{axis}": [float(m.axis[k]) for m in masses] for k, axis in enumerate("xyz")},
+        "travel_low_m": [mass.travel[0] for mass in masses],
+        "travel_high_m": [mass.travel[1] for mass in masses],
+        "resolution_m": [mass.resolution for mass in masses],
+        "accuracy_m": [mass.accuracy for mass in masses],
+    }

@@ -10,13 +10,8 @@ import numpy as np
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Table:
-    """Columns of the same length; the one named ``index`` names the rows."""
-
-    index: str
-    columns: Mapping[str, Sequence[Any] | Floats]
+# Columns of the same length by name; the first one names the rows.
+Table = Mapping[str, Sequence[Any] | Floats]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,16 +33,16 @@ class Arrays:
 
 
 def of_table(table: Table) -> Arrays:
-    """Return a table's columns along its index."""
-    along = (table.index,)
-    columns = {name: Variable(along, values) for name, values in table.columns.items()}
-    return Arrays(columns, {table.index: columns.pop(table.index)})
+    """Return a table's columns along the first one."""
+    index = next(iter(table))
+    columns = {name: Variable((index,), values) for name, values in table.items()}
+    return Arrays(columns, {index: columns.pop(index)})
 
 
 def to_frame(table: Table) -> Any:
     """Return a ``pandas.DataFrame`` with its index. Raises InputError where pandas is missing."""
     pandas = analysis_library("pandas", "to_pandas")
-    return pandas.DataFrame(dict(table.columns)).set_index(table.index)
+    return pandas.DataFrame(dict(table)).set_index(next(iter(table)))
 
 
 def to_dataset(arrays: Arrays) -> Any:

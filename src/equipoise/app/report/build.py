@@ -1,6 +1,6 @@
 """The report of a run, as a document of blocks. It adds no number of its own."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from equipoise.app.figures.catalogue import Picture
 from equipoise.app.report.run_record import RunRecord
@@ -14,21 +14,20 @@ from equipoise.app.text.blocks import (
     Pairs,
     Paragraph,
     Section,
+    Table,
     number,
     paragraphs,
-    table,
+    tabulated,
 )
 from equipoise.app.text.estimate_text import estimate_tables, residual_line, unobservable_items
 from equipoise.app.text.run_blocks import finding_items, moment_of
 from equipoise.model.estimate import Estimate
 from equipoise.model.finding import Finding
 from equipoise.model.step import Step
-from equipoise.model.testbed import Testbed
+from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.model.units import DEG, GRAM, MM
 
-ALL_OBSERVED = "Every quantity above was seen in the data or given beforehand."
-MASSES = (Column("sliding mass"), number("mass", "g"), number("travel", "mm"),
-          number("step", "mm"), number("accuracy (1 sd)", "mm"))  # fmt: skip
+ALL_OBSERVED = "The data or a prior determine every quantity above."
 
 
 def report(record: RunRecord) -> Document:
@@ -63,14 +62,13 @@ def steps_section(title: str, steps: Sequence[Step], figures: Mapping[Step, Pict
 
 
 def estimate_sections(estimate: Estimate | None, *more: Block) -> tuple[Section, ...]:
-    """Return the mass properties, what else is to be said of them, and what was not seen."""
+    """Return the mass properties, what else is to be said of them, and what is unobservable."""
     if estimate is None:
         return ()
-    residual = "" if estimate.residual is None else residual_line(estimate.residual)
     found: Blocks = (
         Paragraph(estimate.outcome.sentence),
         *estimate_tables(estimate),
-        *paragraphs(residual),
+        *paragraphs(residual_line(estimate.residual)),
         *more,
     )
     unobserved = unobservable_items(estimate) or (Paragraph(ALL_OBSERVED),)
@@ -85,20 +83,24 @@ def figure_of(picture: Picture) -> Figure:
 def _platform(bed: Testbed) -> Iterator[Block]:
     yield _pairs(_platform_pairs(bed))
     if bed.masses:
-        rows = (
-            (
-                mass.name,
-                f"{mass.mass / GRAM:.4g}",
-                f"{mass.travel[0] / MM:g} to {mass.travel[1] / MM:g}",
-                f"{mass.resolution / MM:g}",
-                f"{mass.accuracy / MM:g}",
-            )
-            for mass in bed.masses
-        )
-        yield table("", MASSES, rows)
+        yield masses_table("", bed.masses)
     if bed.assumed:
         yield Heading("Assumed, not measured")
         yield _pairs(bed.assumed)
+
+
+def masses_table(title: str, masses: Iterable[SlidingMass]) -> Table:
+    """Return what is stated of sliding masses."""
+    return tabulated(
+        title,
+        masses,
+        (Column("sliding mass"), lambda mass: mass.name),
+        (number("mass", "g"), lambda mass: f"{mass.mass / GRAM:.4g}"),
+        (number("travel", "mm"),
+         lambda mass: f"{mass.travel[0] / MM:g} to {mass.travel[1] / MM:g}"),
+        (number("step", "mm"), lambda mass: f"{mass.resolution / MM:g}"),
+        (number("accuracy (1 sd)", "mm"), lambda mass: f"{mass.accuracy / MM:g}"),
+    )  # fmt: skip
 
 
 def _platform_pairs(bed: Testbed) -> dict[str, str]:

@@ -29,7 +29,7 @@ def files_of(logged: Logged, record: RunRecord, name: str) -> dict[str, str | by
 
 
 def hashes(files: Mapping[str, str | bytes]) -> dict[str, str]:
-    """Return what tells testbed and recording from any other, for the report."""
+    """Return what identifies testbed and recording, for the report."""
     return {f"sha256 of {name}": sha256(files[name]) for name in (TESTBED, RECORDING)
             if name in files}  # fmt: skip
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.app.bench.recorded_bench import RecordedBench
+from equipoise.app.bench.bench_proxy import RecordedBench
 from equipoise.app.figures.balancing.balanced_com import Marked
 from equipoise.app.runs.waiting import as_they_come
 from equipoise.app.text.before_after import Change

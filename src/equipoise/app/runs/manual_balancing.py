@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from equipoise.app.arguments.recording_window import Reading
-from equipoise.app.arguments.resolve import fitting_recording_of
+from equipoise.app.arguments.inputs import fitting_recording_of
+from equipoise.app.arguments.options import Reading
 from equipoise.app.console.terminal import watched
 from equipoise.app.runs.balancing import Balancing, Goal
 from equipoise.app.runs.recorded_operator import FiledHands

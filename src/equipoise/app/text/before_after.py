@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -38,31 +37,18 @@ class Change:
     truth_after: MassProperties | None = None
 
 
-class Row(NamedTuple):
-    """One line of the table, as texts."""
-
-    name: str
-    unit: str
-    before: str
-    after: str
-    target: str
-    truth_before: str
-    truth_after: str
-
-
 NUMBERS = ("before", "after", "target", "truth before", "truth after")
 
 
 def change_table(change: Change) -> Table:
     """Return before and after side by side; the truth beside them when it is known."""
-    lines = list(rows(change))
-    shown = len(NUMBERS) if lines[0].truth_before else len(NUMBERS) - 2
-    columns = (Column(), Column("unit"), *map(number, NUMBERS[:shown]))
-    return table("Before and after", columns, (line[: len(columns)] for line in lines))
+    shown = NUMBERS[:3] if change.truth_before is None else NUMBERS
+    columns = (Column(), Column("unit"), *map(number, shown))
+    return table("Before and after", columns, (line[: len(columns)] for line in rows(change)))
 
 
-def rows(change: Change) -> Iterator[Row]:
-    """Yield centre of mass, torque when level, period of swing."""
+def rows(change: Change) -> Iterator[tuple[str, ...]]:
+    """Yield name, unit and ``NUMBERS`` of centre of mass, torque when level, period of swing."""
     for i, axis in enumerate("xyz"):
         yield _row(f"centre of mass {axis}", Unit("um", UM), change, partial(_component, i))
     yield _row("gravity torque when level", Unit("uN m", UN_M), change, _torque)
@@ -89,7 +75,7 @@ def _weight(change: Change) -> float:
     return change.testbed.body.mass * change.testbed.gravity
 
 
-def _row(name: str, unit: Unit, change: Change, quantity: Quantity) -> Row:
+def _row(name: str, unit: Unit, change: Change, quantity: Quantity) -> tuple[str, ...]:
     """Return one line: the truths and the target with the digits that the result bears."""
     estimated = [quantity(change, at, change.inertia_P) for at in (change.before, change.after)]
     before, after = (Uncertain(n.value / unit.size, n.sd / unit.size) for n in estimated)
@@ -101,7 +87,7 @@ def _row(name: str, unit: Unit, change: Change, quantity: Quantity) -> Row:
     truths = (change.truth_before, change.truth_after)
     shown = ("" if truth is None else exact(truth.com, truth.inertia_P) for truth in truths)
     target = exact(change.target, change.inertia_P)
-    return Row(name, unit.name, _shown(before), _shown(after), target, *shown)
+    return name, unit.name, _shown(before), _shown(after), target, *shown
 
 
 def _shown(number: Uncertain) -> str:

@@ -3,9 +3,9 @@
 Numbers come as texts, formatted once; a renderer adds none and rounds none.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeVar
 
 from pydantic import Field, TypeAdapter, ValidationError
 
@@ -13,6 +13,7 @@ from equipoise.app.text.units import typeset
 from equipoise.model.errors import InputError
 
 SCHEMA = "equipoise/report/1"
+Record = TypeVar("Record")
 
 Tone = Literal["plain", "good", "bad", "caution", "quiet"]  # how a medium is to set it off
 
@@ -167,6 +168,17 @@ def table(
     """Return a table; rows without a tone may come as texts alone."""
     made = (row if isinstance(row, Row) else Row(tuple(row)) for row in rows)
     return Table(title, tuple(columns), tuple(made), tuple(notes))
+
+
+def tabulated(
+    title: str,
+    records: Iterable[Record],
+    *cells: tuple[Column, Callable[[Record], str]],
+    notes: Iterable[str] = (),
+) -> Table:
+    """Return a table with a row a record; beside each column stands what it shows of one."""
+    rows = ([text(record) for _, text in cells] for record in records)
+    return table(title, (column for column, _ in cells), rows, notes)
 
 
 def items(texts: Iterable[str], tone: Tone = "plain") -> Blocks:

@@ -1,4 +1,4 @@
-"""Where the centre of mass is believed to be, as an estimate or a step tells it."""
+"""The centre of mass that an estimate or a step states."""
 
 from dataclasses import dataclass
 
@@ -23,7 +23,7 @@ def at_home(estimate: Estimate) -> ComEstimate | None:
 
 
 def as_it_stands(estimate: Estimate) -> ComEstimate | None:
-    """Return the centre of mass with the masses as they stood at the end of what was seen."""
+    """Return the centre of mass with the masses as they stood at the end of the recording."""
     return _com_estimate(estimate, END) or at_home(estimate)
 
 

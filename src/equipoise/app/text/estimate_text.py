@@ -57,8 +57,10 @@ def outcome_claim(estimate: Estimate) -> Claim:
     return Claim(estimate.outcome.sentence, "good" if estimate.outcome.usable else "bad")
 
 
-def residual_line(residual: Residual) -> str:
+def residual_line(residual: Residual | None) -> str:
     """Return what the model leaves, and what it predicted of rows that it was not shown."""
+    if residual is None:
+        return ""
     if residual.error_index is not None:
         return _linear_line(residual)
     attitude = residual.attitude_rms is not None
@@ -77,14 +79,14 @@ def residual_line(residual: Residual) -> str:
 
 
 def noise_floor_line(verdict: Verdict) -> str:
-    """Return which offsets the record of a verdict cannot tell from none; empty without one."""
+    """Return the offsets that the record of a verdict cannot distinguish from zero."""
     if verdict.noise_floor is None:
         return ""
-    reported = (f"{axis} {significant(um, 2)} um" if math.isfinite(um) else f"{axis} not seen"
+    reported = (f"{axis} {significant(um, 2)} um" if math.isfinite(um) else f"{axis} unobservable"
             for axis, um in zip("xyz", verdict.noise_floor / UM, strict=True))  # fmt: skip
     return (
         f"Noise floor of this record (95 %): {', '.join(reported)}. "
-        "A smaller offset cannot be told from none."
+        "A smaller offset cannot be distinguished from zero."
     )
 
 
@@ -101,7 +103,7 @@ def _white(residual: Residual) -> str:
     """Say whether what is left is white noise, by the portmanteau test."""
     if residual.whiteness < WHITE:
         return f"not white noise (p < {WHITE:g})"
-    return f"white noise as far as rows tell (p = {residual.whiteness:.2g})"
+    return f"consistent with white noise (p = {residual.whiteness:.2g})"
 
 
 def _rms(value: float | None) -> str:

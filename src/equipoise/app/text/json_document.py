@@ -12,11 +12,11 @@ from equipoise.app.text.json_shape import (
     NUMBER,
     TEXT,
     VECTOR,
+    Key,
     View,
     by_name,
     document,
     fields,
-    key,
     many,
     maybe,
     shape,
@@ -45,20 +45,24 @@ def finite(value: Any) -> Any:
 
 TEXTS, NUMBERS = many(TEXT), by_name(NUMBER)
 
-# Why: a code for programs, what it is about, its numbers in SI, and a sentence for people.
-WHY = (
-    *fields("code", TEXT),
-    *fields("parameters", TEXTS),
-    *fields("numbers", NUMBERS),
-    *fields("sentence", TEXT),
-)
-REASONS = many(shape(*WHY))
+
+def why(at: str = "") -> tuple[Key, ...]:
+    """Return a reason's keys: a code for programs, what it is about, numbers in SI, a sentence."""
+    return (
+        *fields("code", TEXT, at),
+        *fields("parameters", TEXTS, at),
+        *fields("numbers", NUMBERS, at),
+        *fields("sentence", TEXT, at),
+    )
+
+
+REASONS = many(shape(*why()))
 
 FINDING = shape(
     *fields("kind code", TEXT),
     *fields("reasons", REASONS),
     *fields("sentence", TEXT),
-    key("span_s", maybe(VECTOR), lambda f: f.span),
+    *fields("span_s=span", maybe(VECTOR)),
 )
 
 OUTCOME = shape(
@@ -70,8 +74,8 @@ OUTCOME = shape(
 
 # One move of a schedule: when masses are sent, and where to from home.
 SENT = shape(
-    key("time_s", NUMBER, lambda move: move[0]),
-    key("targets_m", NUMBERS, lambda move: move[1]),
+    Key("time_s", NUMBER, lambda move: move[0]),
+    Key("targets_m", NUMBERS, lambda move: move[1]),
 )
 
 PARAMETER = shape(
@@ -83,40 +87,37 @@ PARAMETER = shape(
 # A jump of momentum in laboratory axes, or of com in body axes.
 EVENT = shape(
     *fields("kind", TEXT),
-    key("kind_unclear", FLAG, lambda e: e.unclear),
-    key("time_s", NUMBER, lambda e: e.t),
-    key("time_sd_s", NUMBER, lambda e: e.t_sd),
-    key("unit", TEXT, lambda e: UNITS[e.kind]),
-    key("size", VECTOR, lambda e: e.size),
-    key("covariance", MATRIX, lambda e: e.covariance),
-    key("chi_square", NUMBER, lambda e: e.surprise),
-    key("azimuth_rad", NUMBER, lambda e: e.azimuth),
+    *fields("kind_unclear=unclear", FLAG),
+    *fields("time_s=t time_sd_s=t_sd", NUMBER),
+    Key("unit", TEXT, lambda e: UNITS[e.kind]),
+    *fields("size", VECTOR),
+    *fields("covariance", MATRIX),
+    *fields("chi_square=surprise azimuth_rad=azimuth", NUMBER),
 )
 
 RESIDUAL = shape(
-    key("attitude_rms_rad", NUMBER, lambda r: r.attitude_rms),
-    key("rate_rms_rad_s", NUMBER, lambda r: r.rate_rms),
+    *fields("attitude_rms_rad=attitude_rms rate_rms_rad_s=rate_rms", NUMBER),
     *fields("chi_square degrees_of_freedom reduced_chi_square lag_one", NUMBER),
-    key("whiteness_p", NUMBER, lambda r: r.whiteness),
-    *fields("spectral_peak steady_rms held_out_rms", NUMBER),
-    key("held_out_span_s", maybe(VECTOR), lambda r: r.held_out_span),
+    *fields("whiteness_p=whiteness spectral_peak steady_rms held_out_rms", NUMBER),
+    *fields("held_out_span_s=held_out_span", maybe(VECTOR)),
     *fields("error_index", NUMBER),
-    key("parameter_error_indices", NUMBERS, lambda r: r.error_indices),
+    *fields("parameter_error_indices=error_indices", NUMBERS),
 )
 
 # Parameters along a record, a row for each time; units are those of the parameters.
 COURSE = shape(
     *fields("names", TEXTS),
-    key("t_s", VECTOR, lambda c: c.t),
+    *fields("t_s=t", VECTOR),
     *fields("values sd", MATRIX),
 )
 
 # What a record showed of what its plan had predicted.
 PLAN_CHECK = shape(
     *fields("source", TEXT),
-    key("parameters", many(shape(*fields("name", TEXT), *fields("predicted_sd found_sd", NUMBER))),
-        lambda check: check["parameters"]),
-)  # fmt: skip
+    *fields(
+        "parameters", many(shape(*fields("name", TEXT), *fields("predicted_sd found_sd", NUMBER)))
+    ),
+)
 
 ESTIMATE = document(
     "equipoise/estimate/1",
@@ -131,15 +132,15 @@ ESTIMATE = document(
     *fields("ratios", many(PARAMETER)),
     *fields("possible", FLAG),
     *fields("course", maybe(COURSE)),
-    key("findings", many(FINDING), lambda _: ()),  # see ``estimate_json``
+    Key("findings", many(FINDING), lambda _: ()),  # see ``estimate_json``
     *fields("provenance", by_name(TEXT)),
-    key("plan", PLAN_CHECK, lambda _: None, optional=True),
+    Key("plan", PLAN_CHECK, lambda _: None, optional=True),
 )
 
 RECORDING = document(
     "equipoise/recording/1",
     *fields("source sha256", TEXT),
-    key("span_s", VECTOR, lambda found: found["span"]),
+    *fields("span_s=span", VECTOR),
     *fields("rows", by_name(COUNT)),
     *fields("masses devices", TEXTS),
     *fields("findings", many(FINDING)),
@@ -151,21 +152,18 @@ VERDICT = shape(
     *fields("code", TEXT),
     *fields("reasons", REASONS),
     *fields("sentence", TEXT),
-    key("com_m", maybe(VECTOR), lambda v: v.com),
-    key("sd_m", maybe(VECTOR), lambda v: v.sd),
-    key("noise_floor_m", maybe(VECTOR), lambda v: v.noise_floor),
+    *fields("com_m=com sd_m=sd noise_floor_m=noise_floor", maybe(VECTOR)),
 )
 
 # What a move or a placing should leave.
 PREDICTED = (
-    key("predicted_com_m", VECTOR, lambda done: done.predicted_com),
-    key("predicted_covariance_m2", MATRIX, lambda done: done.predicted_covariance),
+    *fields("predicted_com_m=predicted_com", VECTOR),
+    *fields("predicted_covariance_m2=predicted_covariance", MATRIX),
 )
 
 MOVE = shape(
-    key("targets_m", NUMBERS, lambda m: m.targets),
-    key("travel_m", NUMBER, lambda m: m.travel),
-    key("duration_s", NUMBER, lambda m: m.duration),
+    *fields("targets_m=targets", NUMBERS),
+    *fields("travel_m=travel duration_s=duration", NUMBER),
     *PREDICTED,
     *fields("reason", TEXT),
 )
@@ -175,18 +173,18 @@ PLACING = shape(*fields("handled", COUNT), *PREDICTED)
 
 STEP = shape(
     *fields("kind code", TEXT),
-    key("time_s", NUMBER, lambda step: step.time),
+    *fields("time_s=time", NUMBER),
     *fields("reasons", REASONS),
     *fields("sentence", TEXT),
-    key("estimate", ESTIMATE, lambda step: step.estimate, optional=True),
-    key("move", MOVE, lambda step: step.move, optional=True),
-    key("placing", PLACING, lambda step: step.placing, optional=True),
-    key("verdict", VERDICT, lambda step: step.verdict, optional=True),
+    *fields("estimate", ESTIMATE, optional=True),
+    *fields("move", MOVE, optional=True),
+    *fields("placing", PLACING, optional=True),
+    *fields("verdict", VERDICT, optional=True),
 )
 
 TRUTH = shape(
-    key("com_m", VECTOR, lambda body: body.com),
-    key("inertia_P_kg_m2", MATRIX, lambda body: body.inertia_P),
+    *fields("com_m=com", VECTOR),
+    *fields("inertia_P_kg_m2=inertia_P", MATRIX),
 )
 
 # Truth only where it is simulated; a run that waits for a person has no verdict yet.
@@ -194,7 +192,7 @@ BALANCE = document(
     "equipoise/balance/2",
     *fields("steps", many(STEP)),
     *fields("verdict", maybe(VERDICT)),
-    key("truth", TRUTH, lambda run: run["truth"], optional=True),
+    *fields("truth", TRUTH, optional=True),
     *fields("provenance", by_name(TEXT)),
 )
 

@@ -8,10 +8,10 @@ from equipoise.app.text.json_shape import (
     NUMBER,
     TEXT,
     VECTOR,
+    Key,
     by_name,
     document,
     fields,
-    key,
     many,
     maybe,
     shape,
@@ -32,7 +32,7 @@ LAWS = document(
         *fields("name idea source", TEXT),
         *fields("needs", TEXTS),
         *fields("leaves stable", TEXT),
-        key("period_s", NUMBER, lambda card: card.period),
+        *fields("period_s=period", NUMBER),
         *fields("follows", FLAG),
     ))),
 )  # fmt: skip
@@ -56,24 +56,25 @@ METHOD_SUMMARY = shape(
     *fields("trusted", COUNT),
     *fields("nees", NUMBER),
     *fields("confident_wrong", COUNT),
-    key("time_s", NUMBER, lambda method: method.time),
-    key("memory_bytes", maybe(COUNT), lambda method: method.memory),
-    key("settled_s", NUMBER, lambda method: method.settled),
+    *fields("time_s=time", NUMBER),
+    *fields("memory_bytes=memory", maybe(COUNT)),
+    *fields("settled_s=settled", NUMBER),
 )
+
+OPTIONS = shape(*fields("terms hold", TEXTS), *fields("use_prior robust", FLAG))
 
 COMPARE_METHODS = document(
     "equipoise/compare_methods/2",
-    key("testbed", TEXT, lambda made: made["found"].scene.testbed.name),
-    key("seeds", many(COUNT), lambda made: made["found"].seeds),
-    key("duration_s", NUMBER, lambda made: made["found"].scene.duration),
-    key("moves", many(SENT), lambda made: made["found"].scene.moves),
-    key("options", shape(*fields("terms hold", TEXTS), *fields("use_prior robust", FLAG)),
-        lambda made: made["found"].scene.options),
+    *fields("testbed=testbed.name", TEXT, "found.scene"),
+    *fields("seeds", many(COUNT), "found"),
+    *fields("duration_s=duration", NUMBER, "found.scene"),
+    *fields("moves", many(SENT), "found.scene"),
+    *fields("options", OPTIONS, "found.scene"),
     *fields("parameters", TEXTS),
-    key("bound", VECTOR, lambda made: made["found"].bound),
-    key("methods", many(METHOD_SUMMARY), lambda made: made["found"].methods),
+    *fields("bound", VECTOR, "found"),
+    *fields("methods", many(METHOD_SUMMARY), "found"),
     *fields("recommended", shape(*fields("com inertia", ADVICE))),
-)  # fmt: skip
+)
 
 # The middle of many runs, and what 95 % of them stay below.
 MIDDLE = shape(*fields("median most", NUMBER))
@@ -81,23 +82,19 @@ MIDDLE = shape(*fields("median most", NUMBER))
 LAW_SUMMARY = shape(
     *fields("law", TEXT),
     *fields("runs halted late within false_passes", COUNT),
-    key("aside_m", MIDDLE, lambda law: law.aside),
-    key("height_m", MIDDLE, lambda law: law.height),
-    key("torque_N_m", MIDDLE, lambda law: law.torque),
-    key("followed_N_m", maybe(MIDDLE), lambda law: law.followed),
-    key("time_s", MIDDLE, lambda law: law.time),
-    key("travel_m", MIDDLE, lambda law: law.travel),
+    *fields("aside_m=aside height_m=height torque_N_m=torque", MIDDLE),
+    *fields("followed_N_m=followed", maybe(MIDDLE)),
+    *fields("time_s=time travel_m=travel", MIDDLE),
 )
 
 COMPARE_LAWS = document(
     "equipoise/compare_laws/2",
-    key("testbed", TEXT, lambda made: made["found"].testbed.name),
-    key("seeds", many(COUNT), lambda made: made["found"].seeds),
-    key("tilt_rad", NUMBER, lambda made: made["found"].tilt),
-    key("required_torque_N_m", NUMBER, lambda made: made["found"].required),
-    key("torque_before_N_m", MIDDLE, lambda made: made["found"].before),
-    key("laws", many(LAW_SUMMARY), lambda made: made["found"].laws),
-    key("refused", many(shape(*fields("law why", TEXT))), lambda made: made["found"].refusals),
+    *fields("testbed=testbed.name", TEXT, "found"),
+    *fields("seeds", many(COUNT), "found"),
+    *fields("tilt_rad=tilt required_torque_N_m=required", NUMBER, "found"),
+    *fields("torque_before_N_m=before", MIDDLE, "found"),
+    *fields("laws", many(LAW_SUMMARY), "found"),
+    *fields("refused=refusals", many(shape(*fields("law why", TEXT))), "found"),
     *fields("recommended", ADVICE),
 )
 
@@ -108,8 +105,8 @@ COMPARE = document(
 )
 
 MANOEUVRE = shape(
-    key("start_rad", VECTOR, lambda made: made["start"]),
-    key("singular_s", maybe(VECTOR), lambda made: made["singular"]),
+    *fields("start_rad=start", VECTOR),
+    *fields("singular_s=singular", maybe(VECTOR)),
     *fields("truth", NUMBERS),
     *fields("estimates", by_name(ESTIMATE)),
     *fields("warns", by_name(FLAG)),
@@ -128,10 +125,10 @@ DEVICES = document(
 )
 
 LOGGED_RUN = shape(
-    *fields("name kind made_at platform configuration method bench outcome sentence", TEXT),
-    key("temperature_degC", NUMBER, lambda run: run["temperature"]),
+    *fields("name kind made_at platform configuration method bench outcome sentence", TEXT, "run"),
+    *fields("temperature_degC=temperature", NUMBER, "run"),
     *fields("parameters com_as_judged", many(PARAMETER)),
-    *fields("provenance", by_name(TEXT)),
+    *fields("provenance", by_name(TEXT), "run"),
 )
 
 LOGBOOK = document("equipoise/logbook/1", *fields("runs", many(LOGGED_RUN)))
@@ -156,17 +153,17 @@ BUILDS = document(
 # A body's mass, centre of mass and inertia about P, body axes.
 MASS_PROPERTIES = document(
     "equipoise/mass_properties/1",
-    key("mass_kg", NUMBER, lambda body: body.mass),
-    key("com_m", VECTOR, lambda body: body.com),
-    key("inertia_P_kg_m2", MATRIX, lambda body: body.inertia_P),
-    key("possible", FLAG, is_possible),
+    *fields("mass_kg=mass", NUMBER),
+    *fields("com_m=com", VECTOR),
+    *fields("inertia_P_kg_m2=inertia_P", MATRIX),
+    Key("possible", FLAG, is_possible),
 )
 
 # Rows of one channel; values are in SI, a column for each of ``columns``.
 CHANNEL = shape(
     *fields("columns", TEXTS),
-    key("t_s", VECTOR, lambda channel: channel["rows"].t),
-    key("values", MATRIX, lambda channel: channel["rows"].values),
+    *fields("t_s=rows.t", VECTOR),
+    *fields("values=rows.values", MATRIX),
 )
 
 CHANNELS = document(

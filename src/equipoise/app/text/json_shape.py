@@ -5,13 +5,12 @@ neither can say what the other does not. A key ends in the SI unit of its number
 ``unit`` stands beside it.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 View = dict[str, Any]
 Read = Callable[[Any], Any]
-DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,19 +66,27 @@ def by_name(kind: Kind) -> Kind:
     return Kind(schema, lambda named: {name: kind.write(each) for name, each in named.items()})
 
 
-def key(name: str, kind: Kind, read: Read, optional: bool = False) -> Key:
-    """Return a key and what of the record stands there."""
-    return Key(name, kind, read, optional)
+def fields(names: str, kind: Kind, at: str = "", optional: bool = False) -> tuple[Key, ...]:
+    """Return keys that are called as the fields of the record are, else ``time_s=time``.
+
+    A field may be one of a part of the record, ``limit=requirement.limit``, or stand below ``at``;
+    of a part that is None there is None.
+    """
+    above = at.split(".") if at else []
+    named = (each.partition("=")[::2] for each in names.split())
+    return tuple(
+        Key(name, kind, _field([*above, *(path or name).split(".")]), optional)
+        for name, path in named
+    )
 
 
-def fields(names: str, kind: Kind) -> tuple[Key, ...]:
-    """Return keys that are called as the fields of the record are."""
-    return tuple(Key(name, kind, _field(name)) for name in names.split())
-
-
-def _field(name: str) -> Read:
+def _field(path: Sequence[str]) -> Read:
     def read(record: Any) -> Any:
-        return record[name] if hasattr(record, "keys") else getattr(record, name)
+        for name in path:
+            if record is None:
+                return None
+            record = record[name] if hasattr(record, "keys") else getattr(record, name)
+        return record
 
     return read
 
@@ -107,14 +114,9 @@ def _object(keys: tuple[Key, ...], record: Any) -> View:
 def document(name: str, *keys: Key) -> Kind:
     """Return the kind of a whole document, which says by its key ``schema`` what it is."""
     constant = Kind({"const": name}, _as_it_is)
-    return shape(key("schema", constant, lambda _: name), *keys)
+    return shape(Key("schema", constant, lambda _: name), *keys)
 
 
 def name_of(kind: Kind) -> str:
     """Return the name of a document, such as equipoise/balance/2."""
     return kind.schema["properties"]["schema"]["const"]
-
-
-def json_schema(kind: Kind) -> View:
-    """Return the JSON Schema of a document."""
-    return {"$schema": DIALECT, "title": name_of(kind), **kind.schema}

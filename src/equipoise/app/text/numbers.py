@@ -34,11 +34,11 @@ def is_known(value: float, sd: float) -> bool:
 
 
 def with_sd(value: float, sd: float) -> tuple[str, str]:
-    """Return value and sd as texts; what was not seen or was held says so in place of an sd."""
+    """Return value and sd as texts; in place of an sd, that a value was held or is unobservable."""
     if is_known(value, sd):
         decimals = decimals_for(sd)
         return fixed(value, decimals), fixed(sd, decimals)
-    return f"{value:.{FEW}g}", "held" if math.isfinite(sd) else "not seen"
+    return f"{value:.{FEW}g}", "held" if math.isfinite(sd) else "unobservable"
 
 
 def interval(value: float, low: float, high: float, sd: float) -> str:

@@ -20,14 +20,13 @@ from equipoise.model.units import UM
 from equipoise.procedure.identification.record_courses import RecordCourses
 
 
-def output_of(done: Balancing, seed: int | None) -> Output:
+def output_of(done: Balancing) -> Output:
     """Return all that is handed over."""
-    document = document_of(done, seed)
     return Output(
         "balance",
-        document,
+        document(done),
         blocks(done),
-        lambda: record_of(done, seed, done.courses()),
+        lambda: record_of(done, done.courses()),
         logged_of(done),
     )
 
@@ -43,14 +42,13 @@ def change_blocks(done: Balancing) -> Blocks:
     return () if change is None else (change_table(change),)
 
 
-def document_of(done: Balancing, seed: int | None) -> View:
+def document(done: Balancing) -> View:
     """Return the run as JSON."""
-    truth = done.truths[-1] if done.truths else None
     return BALANCE.write({
         "steps": done.steps,
         "verdict": done.verdict,
-        "truth": truth,
-        "provenance": _origin(done, seed),
+        "truth": done.truths[-1] if done.truths else None,
+        "provenance": _origin(done),
     })  # fmt: skip
 
 
@@ -60,7 +58,7 @@ def logged_of(done: Balancing) -> Logged:
     return Logged("balance", done.law, bench, done.recording, done.estimate, done.verdict)
 
 
-def record_of(done: Balancing, seed: int | None, courses: RecordCourses) -> RunRecord:
+def record_of(done: Balancing, courses: RecordCourses) -> RunRecord:
     """Return the run as a report."""
     shown = pictures_of_steps(
         done.steps, Frame(done.testbed, wanted(done.goal), motions=courses.steps)
@@ -74,7 +72,7 @@ def record_of(done: Balancing, seed: int | None, courses: RecordCourses) -> RunR
             steps_section("Steps", done.steps, shown),
             *estimate_sections(done.estimate),
         ),
-        origin=_origin(done, seed),
+        origin=_origin(done),
         figures=[*pictures_of_tracking(done, courses), *pictures_of(done, courses)],
         step_figures=tuple(shown.values()),
     )
@@ -85,9 +83,9 @@ def wanted(goal: Goal) -> Wanted:
     return Wanted(goal.target, goal.tolerance)
 
 
-def _origin(done: Balancing, seed: int | None) -> dict[str, str]:
+def _origin(done: Balancing) -> dict[str, str]:
     """Return where it comes from; what is drawn by a seed is the simulated platform."""
-    drawn = {"seed": str(seed)} if done.simulated and seed is not None else {}
+    drawn = {} if done.seed is None else {"seed": str(done.seed)}
     return origin(testbed=done.testbed.source, **drawn)
 
 

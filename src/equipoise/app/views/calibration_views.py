@@ -100,9 +100,8 @@ def sentences_of(done: Calibrated) -> Blocks:
     still = [m.name for m in done.testbed.masses if m.name not in moved]
     unmoved = f"Never moved, so not shown: {', '.join(still)}." if still and moved else ""
     stays = (STAYS,) if any(p.name.startswith(SENSORS) for p in found.parameters) else ()
-    residual = "" if found.residual is None else residual_line(found.residual)
     reasons = (reason.sentence for reason in (*found.unobservable, *found.unexplained))
-    return paragraphs(unmoved, *reasons, *stays, residual)
+    return paragraphs(unmoved, *reasons, *stays, residual_line(found.residual))
 
 
 def record_of(done: Calibrated) -> RunRecord:

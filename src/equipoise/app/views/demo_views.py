@@ -12,18 +12,18 @@ from equipoise.app.views import balance_views
 from equipoise.model.step import Step
 
 
-def output_of(shown: Demonstration, seed: int) -> Output:
+def output_of(shown: Demonstration) -> Output:
     """Return all that is handed over."""
-    output = balance_views.output_of(shown.balancing, seed)
+    output = balance_views.output_of(shown.balancing)
     logged = replace(balance_views.logged_of(shown.balancing), estimate=shown.estimate)
-    return replace(output, record=lambda: record_of(shown, seed, courses_of(shown)), logged=logged)
+    return replace(output, record=lambda: record_of(shown, courses_of(shown)), logged=logged)
 
 
-def record_of(shown: Demonstration, seed: int, courses: DemoCourses) -> RunRecord:
+def record_of(shown: Demonstration, courses: DemoCourses) -> RunRecord:
     """Return the report."""
     figures = _figures_of_steps(shown, courses)
     return replace(
-        balance_views.record_of(shown.balancing, seed, courses.balanced),
+        balance_views.record_of(shown.balancing, courses.balanced),
         title="From unknown and unbalanced to identified, balanced and verified",
         sections=(
             steps_section("Identify", shown.identified, figures),

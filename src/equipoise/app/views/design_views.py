@@ -19,6 +19,7 @@ from equipoise.app.text.blocks import (
     number,
     paragraphs,
     table,
+    tabulated,
 )
 from equipoise.app.text.json_results import DESIGN
 from equipoise.app.text.json_shape import View
@@ -31,16 +32,13 @@ from equipoise.planning.sizing.environment import not_stated
 from equipoise.planning.sizing.expected_torque import Line
 from equipoise.planning.sizing.limits import plain, worth_listing
 from equipoise.planning.sizing.mass_steps import MassStep
-from equipoise.planning.sizing.measurement_bound import MeasurementBound
-from equipoise.planning.sizing.reachable_set import furthest, tolerance, volume, weakest
+from equipoise.planning.sizing.reachable_set import Reach, furthest, tolerance, volume, weakest
 from equipoise.planning.sizing.sizing import Sizing
-
-AXES = ("x", "y", "z")
 
 
 def output_of(found: Sizing) -> Output:
     """Return all that is handed over."""
-    return Output("design", design_json(found), blocks(found), lambda: record_of(found))
+    return Output("design", document(found), blocks(found), lambda: record_of(found))
 
 
 def blocks(found: Sizing) -> Blocks:
@@ -64,9 +62,13 @@ def remarks_of(found: Sizing) -> Blocks:
     missing = ", ".join(uncounted(found.case))
     uncounted_text = f"Not stated, and not counted: {missing}."
     quiet: tuple[Block, ...] = (Paragraph(uncounted_text, "quiet"),) if missing else ()
+    odd = (
+        f"Records of {', '.join(f'{length:g}' for length in lengths)} s: {reason.sentence}"
+        for reason, lengths in cautions(found)
+    )
     return (
         *quiet,
-        *items(map(caution_text, cautions(found)), "caution"),
+        *items(odd, "caution"),
         *paragraphs(found.reached, found.limit),
     )
 
@@ -86,7 +88,7 @@ def record_of(found: Sizing) -> RunRecord:
         "target": f"({', '.join(f'{x / UM:g}' for x in case.target)}) um",
         "range of tilts": f"{case.tilt / DEG:.3g} deg",
         "records": ", ".join(f"{budget.first.duration:g} s" for budget in found.budgets),
-        "looks and moves": str(case.moves),
+        "measurements and moves": str(case.moves),
     }
     return RunRecord(
         title="What masses and sensors are good for",
@@ -102,54 +104,44 @@ def record_of(found: Sizing) -> RunRecord:
 
 def reach_table(found: Sizing) -> Table:
     """Return how far the centre of mass can be shifted, and how far it has to be."""
-    bed, reach = found.case.testbed, found.reach
-    rows: list[tuple[str, ...]] = []
-    for k, axis in enumerate(np.eye(3)):
-        needed, sd = found.case.target[k] - bed.body.com[k], bed.com_sd[k]
-        ends = [-furthest(reach, -axis) + 0.0, furthest(reach, axis)]
-        wanted = f"{plain(needed / UM)} +/- {plain(sd / UM)}"
-        rows.append((AXES[k], *(plain(end / UM) for end in ends), wanted))
+    bed = found.case.testbed
+    needed = zip(found.case.target - bed.body.com, bed.com_sd, strict=True)
+    wanted = (f"{plain(way / UM)} +/- {plain(sd / UM)}" for way, sd in needed)
+    shown = ([plain(end / UM) for end in side] for side in ends(found.reach))
+    rows = zip("xyz", *shown, wanted, strict=True)
     columns = (Column("along"), *(number(heading, "um") for heading in ("from", "to", "needed")))
     return table("Shifts of the centre of mass that the masses can make from home", columns, rows)
 
 
 def steps_table(steps: Sequence[MassStep], tilt: float) -> Table:
     """Return what each mass does with one step, and how truly it stops."""
-    rows = [
-        (
-            step.mass.name,
-            plain(step.mass.mass / GRAM),
-            plain(step.mass.resolution / MM),
-            plain(step.shift / UM),
-            plain(step.torque / UN_M),
-            plain(step.within_tilt / UN_M),
-            plain(step.stop_sd / UM),
-        )
-        for step in steps
-    ]
-    within = f"rms within {tilt / DEG:.3g} deg"
-    columns = (Column("mass"), number("", "g"), number("step", "mm"), number("step", "um"),
-               number("step", "uN m"), number(within, "uN m"),
-               number("stop's sd", "um"))  # fmt: skip
-    return table("The least that each mass can do", columns, rows)
+    return tabulated(
+        "The least that each mass can do",
+        steps,
+        (Column("mass"), lambda step: step.mass.name),
+        (number("", "g"), lambda step: plain(step.mass.mass / GRAM)),
+        (number("step", "mm"), lambda step: plain(step.mass.resolution / MM)),
+        (number("step", "um"), lambda step: plain(step.shift / UM)),
+        (number("step", "uN m"), lambda step: plain(step.torque / UN_M)),
+        (number(f"rms within {tilt / DEG:.3g} deg", "uN m"),
+         lambda step: plain(step.within_tilt / UN_M)),
+        (number("stop's sd", "um"), lambda step: plain(step.stop_sd / UM)),
+    )  # fmt: skip
 
 
 def measurement_table(budgets: Sequence[Budget], inertia_P: Matrix3) -> Table:
-    """Return what records of several lengths tell, and what is left after them."""
+    """Return the least sd from records of several lengths, and the torque left after them."""
     moments = np.diag(inertia_P)
-    rows = [
-        (
-            f"{budget.first.duration:g} s",
-            triple(budget.first.com_sd / UM),
-            triple(budget.first.inertia_sd[:3] / PERCENT / moments),
-            triple(budget.last.com_sd / UM),
-            plain(budget.torque / UN_M),
-        )
-        for budget in budgets
-    ]
-    columns = (Column("record"), number("com first", "um"), number("J first", "%"),
-               number("com last", "um"), number("left", "uN m"))  # fmt: skip
-    return table("Least sd of a free swing with one move, and of the last look", columns, rows)
+    return tabulated(
+        "Least sd of a free swing with one move, and of the last measurement",
+        budgets,
+        (Column("record"), lambda budget: f"{budget.first.duration:g} s"),
+        (number("com first", "um"), lambda budget: triple(budget.first.com_sd / UM)),
+        (number("J first", "%"),
+         lambda budget: triple(budget.first.inertia_sd[:3] / PERCENT / moments)),
+        (number("com last", "um"), lambda budget: triple(budget.last.com_sd / UM)),
+        (number("left", "uN m"), lambda budget: plain(budget.torque / UN_M)),
+    )  # fmt: skip
 
 
 def triple(values: Floats) -> str:
@@ -158,16 +150,25 @@ def triple(values: Floats) -> str:
 
 
 def two_digits(value: float) -> str:
-    """Return a number with two digits, if it is not too small to matter or not seen."""
+    """Return a number with two digits, unless it is unobservable or too small to matter."""
     if not math.isfinite(value):
-        return "not seen"
+        return "unobservable"
     return "<0.001" if value < 0.001 else f"{value:.2g}"
 
 
 def budget_table(found: Sizing) -> Table:
     """Return the lines of the budget, the largest first."""
     budget = found.budget
-    rows = [(*line_cells(line), share(line, budget), line.basis) for line in budget.lines]
+    rows = [
+        (
+            line.cause,
+            rms_text(line.moment),
+            plain(line.torque / UN_M),
+            share(line, budget),
+            line.basis,
+        )
+        for line in budget.lines
+    ]
     rows.append(("together", "", plain(budget.torque / UN_M), "", ""))
     columns = (Column(), number("x  y  z rms", "um"), number("rms", "uN m"),
                number("of squares"), Column("from"))  # fmt: skip
@@ -179,15 +180,9 @@ def budget_table(found: Sizing) -> Table:
     return table(title, columns, rows)
 
 
-def line_cells(line: Line) -> tuple[str, str, str]:
-    """Return cause, offset and torque."""
-    offset = "" if line.moment is None else triple(rms(line.moment) / UM)
-    return line.cause, offset, plain(line.torque / UN_M)
-
-
-def rms(moment: Matrix3) -> Floats:
-    """Return the root mean square of each component, m."""
-    return np.sqrt(np.diag(moment))
+def rms_text(moment: Matrix3 | None) -> str:
+    """Return the root mean square of each component, um."""
+    return "" if moment is None else triple(np.sqrt(np.diag(moment)) / UM)
 
 
 def share(line: Line, budget: Budget) -> str:
@@ -207,12 +202,6 @@ def better_table(found: Sizing) -> Table:
     return table("What to buy next, the best first", columns, rows)
 
 
-def caution_text(caution: tuple[Reason, list[float]]) -> str:
-    """Return what is odd, with the lengths of its records."""
-    reason, lengths = caution
-    return f"Records of {', '.join(f'{length:g}' for length in lengths)} s: {reason.sentence}"
-
-
 def uncounted(case: Case) -> tuple[str, ...]:
     """Return what nothing was stated of, and what therefore does not count."""
     rails = () if case.rail_lean > 0 else ("lean of the rails",)
@@ -225,40 +214,37 @@ def cautions(found: Sizing) -> list[tuple[Reason, list[float]]]:
         measurement for budget in found.budgets for measurement in (budget.first, budget.last)
     ]
     reasons = distinct(reason for measurement in measurements for reason in measurement.cautions)
-    return [(reason, lengths_with(reason, measurements)) for reason in reasons]
+    return [
+        (reason, list(dict.fromkeys(m.duration for m in measurements if reason in m.cautions)))
+        for reason in reasons
+    ]
 
 
-def lengths_with(reason: Reason, measurements: Sequence[MeasurementBound]) -> list[float]:
-    """Return how long the records are of which a reason holds, s."""
-    return list(
-        dict.fromkeys(
-            measurement.duration for measurement in measurements if reason in measurement.cautions
-        )
-    )
-
-
-def design_json(found: Sizing) -> View:
+def document(found: Sizing) -> View:
     """Return a design as JSON, SI units."""
     return DESIGN.write({
         "found": found,
         "reach": reach_of_masses(found),
         "not_stated": uncounted(found.case),
-        "cautions": cautions(found),
+        "cautions": [{"reason": reason, "records_s": s} for reason, s in cautions(found)],
     })  # fmt: skip
 
 
 def reach_of_masses(found: Sizing) -> View:
     """Return what the masses can reach."""
-    reach, axes = found.reach, np.eye(3)
+    low, high = ends(found.reach)
     return {
-        "rank": reach.rank,
-        "low_m": [-furthest(reach, -axis) + 0.0 for axis in axes],
-        "high_m": [furthest(reach, axis) for axis in axes],
-        "tolerance_m": tolerance(reach),
-        "weakest_direction": weakest(reach),
-        "volume_m3": volume(reach),
-        "facet_normals": reach.normals,
-        "facet_heights_m": reach.heights,
-        "share_within": found.budget.within,
-        "sentence": found.reached,
+        "found": found,
+        "low_m": low,
+        "high_m": high,
+        "tolerance_m": tolerance(found.reach),
+        "weakest_direction": weakest(found.reach),
+        "volume_m3": volume(found.reach),
     }
+
+
+def ends(reach: Reach) -> tuple[list[float], list[float]]:
+    """Return the shifts farthest against and along each axis, m."""
+    axes = np.eye(3)
+    low = [-furthest(reach, -axis) + 0.0 for axis in axes]
+    return low, [furthest(reach, axis) for axis in axes]

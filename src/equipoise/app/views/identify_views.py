@@ -23,7 +23,7 @@ def output_of(done: Identification) -> Output:
     """Return all that is handed over."""
     return Output(
         "estimate",
-        document_of(done),
+        document(done),
         blocks(done),
         lambda: record_of(done, done.courses()),
         logged_of(done),
@@ -31,20 +31,19 @@ def output_of(done: Identification) -> Output:
 
 
 def blocks(done: Identification) -> Blocks:
-    """Return what was done, the tables, what was not seen, and the sentence that sums it up."""
+    """Return steps, tables, unobservable directions, and the sentence that sums the estimate up."""
     estimate = done.estimate
-    residual = "" if estimate.residual is None else residual_line(estimate.residual)
     return (
         *moments(done.steps),
         *estimate_tables(estimate),
         *plan_blocks(done.plan, estimate),
         *unobservable_items(estimate),
-        *paragraphs(residual),
+        *paragraphs(residual_line(estimate.residual)),
         outcome_claim(estimate),
     )
 
 
-def document_of(done: Identification) -> View:
+def document(done: Identification) -> View:
     """Return the estimate as JSON, with the findings."""
     checked = None if done.plan is None else kept_json(done.plan, done.estimate)
     return estimate_json(done.estimate, done.findings, checked)

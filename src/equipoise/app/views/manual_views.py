@@ -38,7 +38,7 @@ def output_of(done: ByHand, of: dict[str, str]) -> Output:
     """Return all that is handed over; ``of`` says what it was made of."""
     return Output(
         "balance",
-        document_of(done, of),
+        document(done, of),
         blocks(done),
         lambda: record_of(done, of, done.courses()),
         logged_of(done),
@@ -62,7 +62,7 @@ def blocks(done: ByHand) -> Blocks:
     return (*change_blocks(done.balancing), *verdict_blocks(done.verdict), *taken)
 
 
-def document_of(done: ByHand, of: dict[str, str]) -> View:
+def document(done: ByHand, of: dict[str, str]) -> View:
     """Return the run as JSON; ``of`` says what it was made of."""
     truths = done.balancing.truths
     return BALANCE.write({

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from equipoise.app.report.run_record import Output, RunRecord, origin
 from equipoise.app.runs.observation import Observation
@@ -12,11 +13,11 @@ from equipoise.app.text.blocks import (
     Row,
     Section,
     Table,
-    Tone,
     number,
     paragraphs,
     prose,
     table,
+    tabulated,
 )
 from equipoise.app.text.json_results import OBSERVE
 from equipoise.app.text.json_shape import View
@@ -34,12 +35,11 @@ Texts = tuple[str, str, str, str, str]
 
 def output_of(done: Observation) -> Output:
     """Return all that is handed over."""
-    document = observe_json(done)
-    return Output("observe", document, blocks(done), lambda: record_of(done))
+    return Output("observe", document(done), blocks(done), lambda: record_of(done))
 
 
 def blocks(done: Observation) -> Blocks:
-    """Return bounds, filters, and what is not seen."""
+    """Return bounds, filters, and what is unobservable."""
     found = done.bounds
     return (
         *bound_tables(found),
@@ -83,20 +83,16 @@ def record_of(done: Observation) -> RunRecord:
 
 
 def rows_of(information: Observability, names: Sequence[str]) -> Iterator[Texts]:
-    """Return name, bound, its share of J, what is stated beforehand, and unit."""
+    """Return name, bound, its share of J, prior sd, and unit."""
     sizes = dict(zip(INERTIA, element_sizes(information.inertia_P), strict=True))
     for name in names:
         k = information.names.index(name)
         unit, sd = unit_for(name, information.units[k]), float(information.sd[k])
-        share = shared(sd, sizes[name]) if name in sizes else ""
+        shown = name in sizes and 0 < sd < math.inf
+        share = f"{sd / PERCENT / sizes[name]:.2g} %" if shown else ""
         before = float(information.before[k])
         stated = with_sd(0.0, before / unit.size)[1] if math.isfinite(before) else ""
         yield name, with_sd(0.0, sd / unit.size)[1], share, stated, unit.name
-
-
-def shared(sd: float, size: float) -> str:
-    """Return an sd as a share of a moment of inertia."""
-    return f"{sd / PERCENT / size:.2g} %" if 0 < sd < math.inf else ""
 
 
 def bound_table(title: str, information: Observability, names: Sequence[str]) -> Table:
@@ -104,40 +100,37 @@ def bound_table(title: str, information: Observability, names: Sequence[str]) ->
     columns = (Column(), *map(number, ("least sd", "of J", "testbed's sd")), Column("unit"))
     rows = list(rows_of(information, names))
     shown = [k for k in range(len(columns)) if k == 0 or any(row[k] for row in rows)]
+    hidden = dict(zip(information.names, information.hidden, strict=True))
     return table(
         title,
         (columns[k] for k in shown),
-        (Row(tuple(row[k] for k in shown), _tone(information, row[0])) for row in rows),
+        (Row(tuple(row[k] for k in shown), "quiet" if hidden[row[0]] else "plain") for row in rows),
     )
-
-
-def _tone(information: Observability, name: str) -> Tone:
-    return "quiet" if information.hidden[information.names.index(name)] else "plain"
 
 
 def ratio_table(ratios: Sequence[Parameter]) -> Table:
     """Return bounds of what does not need the scale."""
-    units = [unit_for(ratio.name, ratio.unit) for ratio in ratios]
-    rows = (
-        (ratio.name, with_sd(0.0, ratio.sd / unit.size)[1], unit.name)
-        for ratio, unit in zip(ratios, units, strict=True)
+    unit = {ratio.name: unit_for(ratio.name, ratio.unit) for ratio in ratios}
+    return tabulated(
+        "Ratios, which do not need the scale",
+        ratios,
+        (Column(), lambda ratio: ratio.name),
+        (number("least sd"), lambda ratio: with_sd(0.0, ratio.sd / unit[ratio.name].size)[1]),
+        (Column("unit"), lambda ratio: unit[ratio.name].name),
     )
-    columns = (Column(), number("least sd"), Column("unit"))
-    return table("Ratios, which do not need the scale", columns, rows)
 
 
 def filter_table(filters: Sequence[FilterView]) -> Table:
-    """Return what filters see of their state."""
-    columns = (Column(), number("exact sensors"), number("these sensors"), prose())
-    return table("What filters see of their state along this motion", columns,
-                 map(filter_row, filters))  # fmt: skip
-
-
-def filter_row(view: FilterView) -> tuple[str, ...]:
-    """Return how much of its state a filter sees, and what it does not."""
-    with_noise = f"no {view.measures}" if view.rank is None else f"{view.rank} of {view.size}"
-    sees = f"{view.possible} of {view.size}"
-    return view.name, sees, with_noise, "\n".join(reason.sentence for reason in view.unobservable)
+    """Return how much of its state each filter observes, and what it does not."""
+    return tabulated(
+        "What filters observe of their state along this motion",
+        filters,
+        (Column(), lambda view: view.name),
+        (number("exact sensors"), lambda view: f"{view.possible} of {view.size}"),
+        (number("these sensors"), lambda view: (
+            f"no {view.measures}" if view.rank is None else f"{view.rank} of {view.size}")),
+        (prose(), lambda view: "\n".join(reason.sentence for reason in view.unobservable)),
+    )  # fmt: skip
 
 
 def sweep_line(information: Observability) -> str:
@@ -151,7 +144,7 @@ def sweep_line(information: Observability) -> str:
 
 
 def rank_claim(information: Observability) -> Claim:
-    """Say how much of what is sought is seen."""
+    """Say how much of what is sought is observable."""
     condition = (
         f"{information.condition:.2g}" if math.isfinite(information.condition) else "infinite"
     )
@@ -162,25 +155,26 @@ def rank_claim(information: Observability) -> Claim:
     )
 
 
-def observe_json(done: Observation) -> View:
+def document(done: Observation) -> View:
     """Return what a recording can show as JSON, SI units."""
-    recording, information, filters = done.recording, done.bounds, done.filters
+    recording, columns = done.recording, columns_of(done.bounds)
+    rows = zip(*columns.values(), strict=True)
     return OBSERVE.write({
         "source": recording.source,
         "sha256": recording.sha256,
-        "found": information,
-        "parameters": [bound_of(information, k) for k in range(len(information.names))],
-        "filters": filters,
+        "found": done.bounds,
+        "parameters": [dict(zip(columns, row, strict=True)) for row in rows],
+        "filters": done.filters,
     })  # fmt: skip
 
 
-def bound_of(information: Observability, k: int) -> View:
-    """Return one bound, SI."""
+def columns_of(information: Observability) -> dict[str, list[Any]]:
+    """Return the bounds as columns, SI."""
     return {
-        "name": information.names[k],
-        "unit": information.units[k],
-        "sd": float(information.sd[k]),
-        "testbed_sd": float(information.before[k]),
-        "observable": not bool(information.hidden[k]),
-        "held": bool(information.held[k]),
+        "name": list(information.names),
+        "unit": list(information.units),
+        "sd": information.sd.tolist(),
+        "testbed_sd": information.before.tolist(),
+        "observable": (~information.hidden).tolist(),
+        "held": information.held.tolist(),
     }

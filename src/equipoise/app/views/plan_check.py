@@ -1,4 +1,4 @@
-"""Whether a record told what its plan had promised."""
+"""Whether a record reached the sd that its plan predicted."""
 
 from collections.abc import Iterator
 
@@ -57,7 +57,7 @@ def promise_sentences(plan: Plan, estimate: Estimate) -> list[str]:
     if high > TWICE:
         return [
             f"{worst} is known {high:.2g} times worse than planned: another platform, another "
-            "start, or something that the plan did not reckon with."
+            "start, or something that the plan did not model."
         ]
     return [f"Found sd are {low:.2g} to {high:.2g} times those that were planned."]
 

@@ -27,7 +27,7 @@ from equipoise.app.text.json_results import PLAN
 from equipoise.app.text.json_shape import View
 from equipoise.app.text.numbers import with_sd
 from equipoise.app.text.run_blocks import reason_items
-from equipoise.app.text.units import Unit, unit_for
+from equipoise.app.text.units import unit_for
 from equipoise.model.arrays import Vector3
 from equipoise.model.devices import ReactionWheel
 from equipoise.model.estimate import COM, INERTIA
@@ -42,7 +42,7 @@ UPRIGHT = 0.999  # cosine, chosen: a body's z that counts as upright
 
 def output_of(done: Planning) -> Output:
     """Return all that is handed over."""
-    return Output("plan", plan_json(done), blocks(done), lambda: record_of(done))
+    return Output("plan", document(done), blocks(done), lambda: record_of(done))
 
 
 def blocks(done: Planning) -> Blocks:
@@ -57,7 +57,7 @@ def what_to_do(done: Planning) -> Blocks:
 
 
 def limits_of(done: Planning) -> Blocks:
-    """Return what stays unseen, and how far both manoeuvres go."""
+    """Return what stays unobservable, and how far both manoeuvres go."""
     return (
         *reason_items(done.planned.unobservable),
         Paragraph(limits_line(done.usual, done.request, "The usual manoeuvre"), "quiet"),
@@ -95,7 +95,7 @@ def record_of(done: Planning) -> RunRecord:
 def promise_table(done: Planning) -> Table:
     """Return predicted sd of the usual manoeuvre and of the plan, and their ratio."""
     columns = (Column(), *map(number, ("usual", "planned", "times better")), Column("unit"))
-    after = ", known what was seen" if done.request.earlier else ""
+    after = ", given the earlier recording" if done.request.earlier else ""
     title = f"Predicted sd over {done.planned.platforms} platforms that may be there{after}"
     return table(title, columns, (promise_row(done, name) for name in (*COM, *INERTIA)))
 
@@ -103,15 +103,11 @@ def promise_table(done: Planning) -> Table:
 def promise_row(done: Planning, name: str) -> Row:
     """Return one parameter; quiet where it is not wanted."""
     unit = unit_for(name, "m" if name in COM else "kg m2")
-    texts = [sd_text(p, name, unit) for p in (done.usual, done.planned)]
+    sds = (float(p.sd_of((name,))[0]) / unit.size for p in (done.usual, done.planned))
+    texts = [with_sd(0.0, sd)[1] for sd in sds]
     ratio = float(times_better(done.usual, done.planned, (name,))[0])
     shown = f"{ratio:.2g}" if math.isfinite(ratio) and "held" not in texts else ""
     return Row((name, *texts, shown, unit.name), "plain" if name in done.request.names else "quiet")
-
-
-def sd_text(promise: Promise, name: str, unit: Unit) -> str:
-    """Return a predicted sd."""
-    return with_sd(0.0, float(promise.sd_of((name,))[0]) / unit.size)[1]
 
 
 def steps_of(manoeuvre: Manoeuvre, testbed: Testbed) -> Iterator[tuple[str, str]]:
@@ -193,11 +189,11 @@ def verdict(done: Planning) -> str:
     """Say what the plan gains, and whether its limits are kept."""
     (name, before), (other, after) = (worst_of(p, done) for p in (done.usual, done.planned))
     if math.isinf(after):
-        text = f"Not all is seen with this plan either: {other}."
+        text = f"This plan does not make all of it observable either: {other}."
     elif math.isinf(before):
         text = f"The usual manoeuvre does not show {name}; the plan shows all that is asked for."
     elif before < after:
-        text = "The usual manoeuvre would tell more, and goes further than it may."
+        text = "The usual manoeuvre would be more informative, but it exceeds the limits."
     else:
         gain = f"{before / after:.2g} times better"
         which = name if other == name else f"{name}, then {other}"
@@ -214,7 +210,7 @@ def verdict(done: Planning) -> str:
     return f"{text} The limits are kept by {kept} platforms only; {advice}."
 
 
-def plan_json(done: Planning) -> View:
+def document(done: Planning) -> View:
     """Return a plan as JSON, SI units."""
     return PLAN.write({
         "done": done,

@@ -82,7 +82,7 @@ def carry_out(pipe: Pipe, task: Task) -> None:
 
 
 def _keep(task: Keep) -> str | None:
-    return _written(balance_views.output_of(task.done, task.seed), task.done.testbed)
+    return _written(balance_views.output_of(task.done), task.done.testbed)
 
 
 def _fit(task: Fit, pipe: Pipe) -> str | None:

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from equipoise.app.arguments.recording_window import WHOLE
-from equipoise.app.arguments.resolve import fitting_recording_of
+from equipoise.app.arguments.inputs import fitting_recording_of
+from equipoise.app.arguments.options import WHOLE
 from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.data_folder import within
 from equipoise.app.dashboard.runner.benches import replayed, simulated

@@ -1,45 +1,13 @@
-"""Cards of laws, and laws compared, for terminal, JSON and CSV."""
+"""Laws compared, for terminal, JSON and CSV."""
 
-from collections.abc import Sequence
-
-from equipoise.app.text.blocks import Blocks, Column, Pairs, Table, number, prose, table
+from equipoise.app.text.blocks import Column, Table, number, tabulated
 from equipoise.app.text.csv_lines import csv_lines
-from equipoise.app.text.json_lists import COMPARE_LAWS, LAWS
+from equipoise.app.text.json_lists import COMPARE_LAWS
 from equipoise.app.text.json_shape import View
-from equipoise.model.law_card import NEEDS, LawCard
 from equipoise.model.units import DEG, MM, PERCENT, UM, UN_M
-from equipoise.study.compare_laws import Comparison, LawSummary, Middle, halted
+from equipoise.study.compare_laws import Comparison, Middle, halted
 from equipoise.study.law_run import LawRun
 from equipoise.study.recommend import advised_law
-
-
-def blocks(cards: Sequence[LawCard]) -> Blocks:
-    """Return one line a law; of one alone all that its card says."""
-    if len(cards) == 1:
-        return (card_pairs(cards[0]),)
-    columns = (Column("law"), *map(prose, ("idea", "needs", "source")))
-    rows = ((card.name, card.idea, ", ".join(card.needs), card.source) for card in cards)
-    return (table("", columns, rows),)
-
-
-def card_pairs(card: LawCard) -> Pairs:
-    """Return all that a card says."""
-    needs = ", ".join(NEEDS[need] for need in card.needs)
-    period = f"{card.period:g} s between steps" if card.period > 0 else "as the record allows"
-    return Pairs((
-        ("law", card.name),
-        ("idea", card.idea),
-        ("source", card.source),
-        ("needs", needs),
-        ("leaves", card.leaves),
-        ("stable", card.stable),
-        ("pace", period),
-    ))  # fmt: skip
-
-
-def laws_json(cards: Sequence[LawCard]) -> View:
-    """Return cards as JSON."""
-    return LAWS.write({"laws": cards})
 
 
 def both(values: Middle, unit: float, digits: int = 2) -> str:
@@ -53,31 +21,8 @@ def short(value: float, digits: int) -> str:
     return f"{value:.0f}" if abs(value) >= 10.0**digits else f"{value:.{digits}g}"
 
 
-def summary_cells(law: LawSummary) -> tuple[str, ...]:
-    """Return one law as cells."""
-    return (
-        law.law,
-        both(law.aside, UM),
-        both(law.height, UM),
-        both(law.torque, UN_M, 3),
-        "-" if law.followed is None else both(law.followed, UN_M, 3),
-        f"{law.within / law.runs / PERCENT:.0f} %",
-        both(law.time, 1.0, 3),
-        both(law.travel, MM, 3),
-        f"{law.halted}",
-        f"{law.late}",
-        f"{law.false_passes}",
-    )
-
-
 def laws_table(found: Comparison) -> Table:
     """Return all laws, the one that leaves the least torque first, and who was refused why."""
-    required = f"<= {found.required / UN_M:g} uN m"
-    columns = (Column("law"), number("aside", "um"), number("height", "um"),
-               number("torque", "uN m"), number("following"), number(required),
-               number("time", "s"), number("travel", "mm"), number("halted"), number("late"),
-               number("false"))  # fmt: skip
-    lines = [summary_cells(law) for law in sorted(found.laws, key=lambda each: each.left.most)]
     said = (
         f"{len(found.seeds)} platforms of {found.testbed.name}; medians, in brackets what 95 % of "
         f"the runs stay below. Offsets from the target; torque rms within "
@@ -87,7 +32,25 @@ def laws_table(found: Comparison) -> Table:
         "the tolerance off."
     )
     refused = [f"{each.law} was refused: {each.why}" for each in found.refusals]
-    return table(f"Laws on {found.testbed.name}", columns, lines, (said, *refused))
+    laws = sorted(found.laws, key=lambda law: law.left.most)
+    return tabulated(
+        f"Laws on {found.testbed.name}",
+        laws,
+        (Column("law"), lambda law: law.law),
+        (number("aside", "um"), lambda law: both(law.aside, UM)),
+        (number("height", "um"), lambda law: both(law.height, UM)),
+        (number("torque", "uN m"), lambda law: both(law.torque, UN_M, 3)),
+        (number("following"),
+         lambda law: "-" if law.followed is None else both(law.followed, UN_M, 3)),
+        (number(f"<= {found.required / UN_M:g} uN m"),
+         lambda law: f"{law.within / law.runs / PERCENT:.0f} %"),
+        (number("time", "s"), lambda law: both(law.time, 1.0, 3)),
+        (number("travel", "mm"), lambda law: both(law.travel, MM, 3)),
+        (number("halted"), lambda law: f"{law.halted}"),
+        (number("late"), lambda law: f"{law.late}"),
+        (number("false"), lambda law: f"{law.false_passes}"),
+        notes=(said, *refused),
+    )  # fmt: skip
 
 
 def comparison_json(found: Comparison) -> View:

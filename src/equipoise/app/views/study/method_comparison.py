@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from equipoise.app.text.blocks import Column, Table, number, table
+from equipoise.app.text.blocks import Column, Table, number, table, tabulated
 from equipoise.app.text.csv_lines import csv_lines
 from equipoise.app.text.json_lists import COMPARE_METHODS
 from equipoise.app.text.json_shape import View
@@ -75,43 +75,37 @@ def tables(found: MethodComparison) -> Iterator[Table]:
 
 
 def overview(found: MethodComparison) -> Table:
-    """Return accuracy and honesty, one line a method."""
-    headings = ("com", "J", "bias", "holds", "NEES", "wrong", "warned", "failed")
-    lines = [overview_cells(method) for method in shown_order(found)]
-    title = f"RMSE / bound of {len(found.seeds)} records of {found.scene.testbed.name}"
-    notes = (*scale_remark(found), READ, *failures(found))
-    return table(title, (Column(), *map(number, headings)), lines, notes)
-
-
-def overview_cells(method: MethodSummary) -> list[str]:
-    """Return one method as cells."""
-    return [
-        method.method,
-        ratio_text(method.com),
-        ratio_text(method.inertia),
-        figure(method.com.bias),
-        percent(method.coverage),
-        figure(method.nees),
-        some(method.confident_wrong),
-        some(method.warned),
-        some(method.failed),
-    ]
+    """Return accuracy and honesty, one line a method; say where an open scale forbids both."""
+    unscaled = () if np.any(np.isfinite(found.bound)) else (OPEN,)
+    return tabulated(
+        f"RMSE / bound of {len(found.seeds)} records of {found.scene.testbed.name}",
+        shown_order(found),
+        (Column(), lambda method: method.method),
+        (number("com"), lambda method: ratio_text(method.com)),
+        (number("J"), lambda method: ratio_text(method.inertia)),
+        (number("bias"), lambda method: figure(method.com.bias)),
+        (number("holds"), lambda method: percent(method.coverage)),
+        (number("NEES"), lambda method: figure(method.nees)),
+        (number("wrong"), lambda method: some(method.confident_wrong)),
+        (number("warned"), lambda method: some(method.warned)),
+        (number("failed"), lambda method: some(method.failed)),
+        notes=(*unscaled, READ, *failures(found)),
+    )
 
 
 def cost_table(found: MethodComparison) -> Table:
     """Return what a record takes of those that were not refused, the quickest first."""
-    ran = sorted((m for m in found.methods if np.isfinite(m.time)), key=lambda m: m.time)
-    lines = [
-        [
-            method.method,
-            figure(method.time / MS),
-            "-" if method.memory is None else figure(method.memory / MEGABYTE),
-            "-" if method.settled is None else seconds(method.settled),
-        ]
-        for method in ran
-    ]
-    columns = (Column(), number("", "ms"), number("", "MB"), number("settles", "s"))
-    return table("What one record takes", columns, lines, (TAKES,))
+    return tabulated(
+        "What one record takes",
+        sorted((m for m in found.methods if np.isfinite(m.time)), key=lambda m: m.time),
+        (Column(), lambda method: method.method),
+        (number("", "ms"), lambda method: figure(method.time / MS)),
+        (number("", "MB"),
+         lambda method: "-" if method.memory is None else figure(method.memory / MEGABYTE)),
+        (number("settles", "s"),
+         lambda method: "-" if method.settled is None else seconds(method.settled)),
+        notes=(TAKES,),
+    )  # fmt: skip
 
 
 def seconds(value: float) -> str:
@@ -123,11 +117,6 @@ def ratio_text(ratios: Ratios) -> str:
     """Return RMSE / bound; with a mark where a method states only part of what is shown."""
     part = ratios.stated.part < ratios.stated.of
     return figure(ratios.rmse) + ("*" if part and ratios.stated.part else "")
-
-
-def scale_remark(found: MethodComparison) -> tuple[str, ...]:
-    """Say that nothing can be compared where the scale is open."""
-    return () if np.any(np.isfinite(found.bound)) else (OPEN,)
 
 
 def failures(found: MethodComparison) -> Iterator[str]:
@@ -157,7 +146,7 @@ def com_table(found: MethodComparison) -> Table:
             lines.append([method.method, *(figure(float(x)) for x in columns.ravel()), whole])
     remark = (
         "sd: of the errors over the runs. RMSE: of the vector, of what is stated of it. Bounds are "
-        "root mean squares over the records. Masses at home; a method that tells com only as the "
+        "root mean squares over the records. Masses at home; a method that states com only as the "
         "masses stand at the end, such as the tracker, is judged by that, and by its bound."
     )
     columns = (Column(), *map(number, headings))
@@ -185,7 +174,7 @@ def inertia_table(found: MethodComparison) -> Table:
 
 def observed_text(bound: float) -> str:
     """Return a bound; infinite: some records do not show it, nan: it was held."""
-    return "not seen" if np.isinf(bound) else "held" if np.isnan(bound) else figure(bound)
+    return "unobservable" if np.isinf(bound) else "held" if np.isnan(bound) else figure(bound)
 
 
 def methods_json(found: MethodComparison) -> View:

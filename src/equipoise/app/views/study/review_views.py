@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
-from equipoise.app.text.blocks import Column, Table, number, prose, table
+from equipoise.app.text.blocks import Column, Table, number, prose, tabulated
 from equipoise.app.views.study.method_comparison import percent, seconds
 from equipoise.model.units import MEGABYTE, MS, UM, UN_M
 from equipoise.study.compare_laws import LawSummary
 from equipoise.study.compare_methods import MethodSummary
-from equipoise.study.review_tables import LawRow, MethodRow, Span, law_rows, method_rows
+from equipoise.study.review_tables import Span, law_rows, method_rows
 
 SOURCE = "da Silva et al. 2021"
 TABLE_2 = (
@@ -34,57 +34,38 @@ def spread_text(span: Span, unit: float = 1.0) -> str:
 
 def methods_table(methods: Sequence[MethodSummary], testbed: str) -> Table:
     """Return Table 2, measured."""
-    headings = ("accuracy", "bias", "ms", "MB", "settles", "failed", "wrong")
-    columns = (Column(), prose("the table says"), *map(number, headings))
-    lines = [method_cells(row) for row in method_rows(methods)]
-    title = f"As the review's Table 2, measured on {testbed}"
-    return table(title, columns, lines, (TABLE_2, *members(lines, method_rows(methods))))
-
-
-def method_cells(row: MethodRow) -> list[str]:
-    """Return a row of Table 2."""
-    return [
-        row.printed.name,
-        row.printed.says,
-        spread_text(row.accuracy),
-        spread_text(row.bias),
-        spread_text(row.time, MS),
-        spread_text(row.memory, MEGABYTE),
-        spread_text(row.settled),
-        percent(row.failed),
-        percent(row.wrong),
-    ]
-
-
-def members(lines: Sequence[Sequence[str]], rows: Sequence[MethodRow]) -> list[str]:
-    """Say which methods are in which row."""
-    reported = [
-        f"{line[0]}: {', '.join(row.methods)}" for line, row in zip(lines, rows, strict=True)
-    ]
-    return ["; ".join(reported) + "."]
+    rows = method_rows(methods)
+    members = "; ".join(f"{row.printed.name}: {', '.join(row.methods)}" for row in rows)
+    return tabulated(
+        f"As the review's Table 2, measured on {testbed}",
+        rows,
+        (Column(), lambda row: row.printed.name),
+        (prose("the table says"), lambda row: row.printed.says),
+        (number("accuracy"), lambda row: spread_text(row.accuracy)),
+        (number("bias"), lambda row: spread_text(row.bias)),
+        (number("ms"), lambda row: spread_text(row.time, MS)),
+        (number("MB"), lambda row: spread_text(row.memory, MEGABYTE)),
+        (number("settles"), lambda row: spread_text(row.settled)),
+        (number("failed"), lambda row: percent(row.failed)),
+        (number("wrong"), lambda row: percent(row.wrong)),
+        notes=(TABLE_2, f"{members}."),
+    )
 
 
 def laws_table(laws: Sequence[LawSummary], testbed: str) -> Table:
     """Return Table 3, measured."""
-    texts = map(prose, ("the review says", "reported", "laws"))
-    columns = (prose(), *texts, number("", "uN m"), number("aside", "um"), number("height", "um"),
-               number("", "s"), number("halted"), number("false"))  # fmt: skip
-    lines = [law_cells(row) for row in law_rows(laws)]
-    title = f"As the review's Table 3, measured on {testbed}"
-    return table(title, columns, lines, (TABLE_3,))
-
-
-def law_cells(row: LawRow) -> list[str]:
-    """Return a row of Table 3."""
-    return [
-        row.printed.name,
-        row.printed.says,
-        row.printed.reported or "none",
-        ", ".join(row.laws),
-        spread_text(row.torque, UN_M),
-        spread_text(row.aside, UM),
-        spread_text(row.height, UM),
-        spread_text(row.time),
-        percent(row.halted),
-        percent(row.false_passes),
-    ]
+    return tabulated(
+        f"As the review's Table 3, measured on {testbed}",
+        law_rows(laws),
+        (prose(), lambda row: row.printed.name),
+        (prose("the review says"), lambda row: row.printed.says),
+        (prose("reported"), lambda row: row.printed.reported or "none"),
+        (prose("laws"), lambda row: ", ".join(row.laws)),
+        (number("", "uN m"), lambda row: spread_text(row.torque, UN_M)),
+        (number("aside", "um"), lambda row: spread_text(row.aside, UM)),
+        (number("height", "um"), lambda row: spread_text(row.height, UM)),
+        (number("", "s"), lambda row: spread_text(row.time)),
+        (number("halted"), lambda row: percent(row.halted)),
+        (number("false"), lambda row: percent(row.false_passes)),
+        notes=(TABLE_3,),
+    )

@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from equipoise.app.arguments import resolve
-from equipoise.app.arguments.inputs import part_of
-from equipoise.app.arguments.resolve import move_of
+from equipoise.app.arguments import inputs
+from equipoise.app.arguments.inputs import move_of, part_of
 from equipoise.io.testbed.presets import read_preset
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording, Samples, arranged
@@ -28,7 +27,7 @@ def test_blanks_and_commas_are_free(text):
 
 
 def test_a_preset_needs_no_file():
-    assert resolve.testbed_of("sputnix").name == BED.name
+    assert inputs.testbed_from("sputnix").name == BED.name
 
 
 def test_masses_come_in_the_testbeds_order():

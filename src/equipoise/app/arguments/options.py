@@ -1,0 +1,82 @@
+"""Kinds of options with their defaults in help, and the options that several commands share."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from cyclopts import Parameter, Token
+
+from equipoise.model.errors import InputError
+
+
+def _plain(values: tuple[float, ...]) -> str:
+    """Return numbers as people type them."""
+    return " ".join(f"{value:g}" for value in values)
+
+
+def _whole(_kind: Any, tokens: Sequence[Token]) -> int:
+    """Return a whole number; one with a fraction would be rounded without a word."""
+    (token,) = tokens
+    try:
+        return int(token.value)
+    except ValueError:
+        raise InputError(token.keyword or "number", token.value, "a whole number") from None
+
+
+Flag = Annotated[bool, Parameter(show_default=False)]
+Json = Annotated[bool, Parameter(show_default=False, help="Print one JSON document instead.")]
+Names = Annotated[tuple[str, ...], Parameter(show_default=False)]
+Listed = Annotated[tuple[str, ...], Parameter(show_default=False, consume_multiple=True)]
+Triple = Annotated[tuple[float, float, float], Parameter(show_default=_plain)]
+Several = Annotated[tuple[float, ...], Parameter(show_default=_plain, consume_multiple=True)]
+Whole = Annotated[int, Parameter(converter=_whole)]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True)
+class Seeking:
+    """What is sought, and what is taken as known.
+
+    Attributes
+    ----------
+    hold
+        Parameter to keep at the testbed's value, such as inertia_P_zz. May be repeated.
+    term
+        Torque to seek too: viscous, quadratic, constant, swirl, sag or drift. May be repeated.
+    prior
+        Use the testbed's inertia and centre of mass with their sd; this fixes an open scale.
+    """
+
+    hold: Names = ()
+    term: Names = ()
+    prior: Flag = False
+
+
+NOTHING_STATED = Seeking()
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """How a recording is read, and which part of it.
+
+    Attributes
+    ----------
+    from_s
+        Leave out what is before this time. Left out: of a bench's own record what is before the
+        platform was let go, else nothing.
+    to_s
+        Leave out what is after this time.
+    dialect
+        How to read the table: native, optitrack or ros. Left out: by its header.
+    columns
+        Column map (TOML) for a table of any other kind.
+    """
+
+    from_s: float | None = None
+    to_s: float | None = None
+    dialect: str | None = None
+    columns: str | None = None
+
+
+WHOLE = Reading()
