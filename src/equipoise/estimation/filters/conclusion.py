@@ -19,7 +19,7 @@ import numpy as np
 from equipoise.estimation.filters.driver import State, advance, begin, reported
 from equipoise.estimation.filters.model import Kind
 from equipoise.estimation.filters.rows import Rows, camera_rows, gyro_rows
-from equipoise.estimation.method_contract import origin_of, refused
+from equipoise.estimation.method_contract import Method, Options, origin_of, refused
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats, Matrix3, Series1
 from equipoise.model.estimate import INERTIA, Estimate, Parameter
@@ -167,3 +167,12 @@ def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> 
         card.name, ended, parameters_of(state, covariance), covariance,
         possible=possible(state, testbed), provenance=origin_of(recording), course=passed.course,
     )  # fmt: skip
+
+
+def filter_method(card: Card, kind: Kind) -> Method:
+    """Return the method of a filter; no filter has options."""
+
+    def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+        return estimate(card, kind, recording, testbed)
+
+    return Method(card, run)

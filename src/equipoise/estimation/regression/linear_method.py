@@ -58,7 +58,7 @@ class Linear:
     """What makes a linear method."""
 
     formulation: Formulation
-    solver: Solver
+    solver: Solver = least_squares
     knows_inertia: bool = False  # takes the testbed's inertia as it is
     needs_noise: bool = False  # the solver uses what noise does to the regressor
     plan: Plan | None = None  # of a recursion, whose course is reported
