@@ -1,6 +1,6 @@
 """What a method is: a card that says what to expect of it, and the estimator itself.
 
-A method is a formulation (what it believes of the motion) times a solver. Every method takes the
+A method is a formulation (its model of the motion) times a solver. Every method takes the
 same three things and gives the same record, so that lists, tests and studies need not know them.
 """
 
@@ -27,7 +27,7 @@ class Options:
     terms: tuple[str, ...] = ()  # torques and sensors' errors to estimate, beside the testbed's own
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     use_prior: bool = False  # the testbed's inertia and centre of mass, with their sd
-    robust: bool = False  # rows that stand far off weigh less
+    robust: bool = False  # outliers weigh less
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """How noisy a record is: sensors' noise and process noise, set by the record itself.
 
 Two ways, for two stages of a survey. While events are still unknown, by medians: half of all cuts
-should be as surprised as chance has it, half of all rows as far off; what few events do does not
+should be as surprised as chance has it, half of all residuals as large; what few events do does not
 count. When they are known, by restricted maximum likelihood, which uses every row.
 
     walk^2 <- walk^2  sum u^2/sd^2 / sum (1 - C/sd^2),     noise^2 <- sum e^2 / (rows - unknowns)
@@ -78,7 +78,7 @@ def noise_factors(model: RecordModel, fit: Fitted, after: Smoothed) -> tuple[flo
 
 
 def is_known(factor: float, rows: int) -> bool:
-    """Say whether a noise that is off by a factor is near enough, for what so many rows tell."""
+    """Say whether a noise that is off by a factor is near enough, for what so many rows show."""
     return abs(np.log(factor)) < max(CALM, CHANCE / np.sqrt(max(rows, 1)))
 
 
@@ -103,7 +103,7 @@ def excesses(after: Smoothed, outlying: Bools) -> Vector3:
 
 
 def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitted]:
-    """Return the belief with process noise and sensor noise as the record has them."""
+    """Return the model with process noise and sensor noise as the record has them."""
     for calibration in count():
         model = refitted(model)
         fit, after = smoothed(model)
@@ -122,7 +122,7 @@ def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitt
 
 
 def likelier(model: RecordModel) -> RecordModel:
-    """Return the belief with noise and process noise one step nearer to the likeliest.
+    """Return the model with noise and process noise one step nearer to the likeliest.
 
     What a variance explains over what it is free to: sum u^2 / sd^2 over sum (1 - C / sd^2) for
     jumps u of smoothed covariance C, and sum e^2 over the rows less all that was sought (the
@@ -146,7 +146,7 @@ def likelier(model: RecordModel) -> RecordModel:
 
 
 def weighed(record_model: RecordModel) -> RecordModel:
-    """Return the belief with the likeliest noise and process noise, or without the latter.
+    """Return the model with the likeliest noise and process noise, or without the latter.
 
     The search begins at less process noise than the calibration left: of two that explain the
     record, the one that leaves more to the sensors is as a rule the likelier.

@@ -29,7 +29,7 @@ def standing(model: Model, drive: Drive, node: int, mean: Floats, t: Floats, kno
 
 @part
 def restart(model: Model, now: Now, q: Floats, mean: Floats, P: Floats) -> None:
-    """Forget attitude and rate; what was seen of the attitude is all that is known of it."""
+    """Forget attitude and rate; the measured attitude is all that is known of it."""
     n, rows = P.shape[0], 6 if model.attitude else 3
     for i in range(rows):
         for j in range(n):
@@ -80,7 +80,7 @@ def note(model: Model, t: float, mean: Floats, P: Floats, surprise: float, out: 
 def arrive(
     model: Model, drive: Drive, first: int, last: int, mean: Floats, P: Floats, work: Work
 ) -> None:
-    """Carry a belief from one node to another."""
+    """Carry the estimate from one node to another."""
     for i in range(first, last):
         if model.unscented:
             unscented(model, drive, i, mean, P, work)
@@ -101,7 +101,7 @@ def follow(
     work: Work,
     out: Floats,
 ) -> None:
-    """Take belief and covariance along rows, in place; write what was believed after each."""
+    """Take mean and covariance along rows, in place; write the estimate after each."""
     t, known, here = np.array([0.0, 1.0]), np.zeros((2, drive.known.shape[1])), 0
     for r in range(node.shape[0]):
         last, surprise = int(node[r]), np.nan
