@@ -69,8 +69,7 @@ def advance(state: State, rows: Rows) -> tuple[State, Passed]:
     """Return the state after some more rows, and the estimate after each."""
     mean, P = state.mean.copy(), state.covariance.copy()
     out = np.empty((len(rows.node), NOTED))
-    follow(state.model, rows.drive, rows.node, rows.fresh, rows.observed, mean, P, work_of(len(P)),
-           out)  # fmt: skip
+    follow(state.model, rows, mean, P, work_of(len(P)), out)
     t, values, sd, surprise = np.split(out, [1, 10, 19], axis=1)
     # summed row by row, so that a row is the same number however many come with it
     shown = np.sum(values[:, None, :] * state.shown, axis=2)

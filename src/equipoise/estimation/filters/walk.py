@@ -12,9 +12,10 @@ from equipoise.estimation.filters.correct import correct
 from equipoise.estimation.filters.extended import extended
 from equipoise.estimation.filters.model import FIRST_RATE, Model
 from equipoise.estimation.filters.predict import COM, Drive, Work, placed_at
+from equipoise.estimation.filters.rows import Rows
 from equipoise.estimation.filters.unscented import unscented
 from equipoise.maths.compiled import kernel, part
-from equipoise.model.arrays import Bools, Floats, Ints
+from equipoise.model.arrays import Floats
 
 NOTED = 1 + 9 + 9 + 1  # t; com, J; sd of c and J; surprise
 
@@ -90,18 +91,9 @@ def arrive(
 
 
 @kernel
-def follow(
-    model: Model,
-    drive: Drive,
-    node: Ints,
-    fresh: Bools,
-    observed: Floats,
-    mean: Floats,
-    P: Floats,
-    work: Work,
-    out: Floats,
-) -> None:
+def follow(model: Model, rows: Rows, mean: Floats, P: Floats, work: Work, out: Floats) -> None:
     """Take mean and covariance along rows, in place; write the estimate after each."""
+    drive, node, fresh, observed = rows
     t, known, here = np.array([0.0, 1.0]), np.zeros((2, drive.known.shape[1])), 0
     for r in range(node.shape[0]):
         last, surprise = int(node[r]), np.nan
