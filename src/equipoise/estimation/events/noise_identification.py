@@ -65,7 +65,7 @@ def first_walk(model: RecordModel) -> float:
     return moment * left / span ** (1.5 if len(camera) else 0.5)
 
 
-def noise_factors(model: RecordModel, fit: Fitted, after: Smoothed) -> tuple[float, float]:
+def noise_factors(fit: Fitted, after: Smoothed) -> tuple[float, float]:
     """Return by how much the camera's and the gyro's noise are off, by the median row."""
     camera, gyro = misfits(fit)
     rows = 3 * (len(camera) + len(gyro))
@@ -109,7 +109,7 @@ def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitt
         fit, after = smoothed(model)
         outlying = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
         surprise, excess = surprises(outlying, after), excesses(after, outlying)
-        factors = noise_factors(model, fit, after)
+        factors = noise_factors(fit, after)
         steady = not model.wanders or bool(np.all(np.abs(np.log(np.maximum(excess, 1e-9))) < CALM))
         camera, gyro = (len(rows) for rows in (fit.at.left_q, fit.at.left_w))
         known = is_known(factors[0], camera) and is_known(factors[1], gyro)
@@ -159,7 +159,7 @@ def weighed(record_model: RecordModel) -> RecordModel:
     bare = refitted(replace(trial, walk=np.zeros(3)))
     for _ in range(3):
         fit, after = smoothed(bare)
-        bare = refitted(replace(bare, testbed=noisier(bare, *noise_factors(bare, fit, after))))
+        bare = refitted(replace(bare, testbed=noisier(bare, *noise_factors(fit, after))))
     worth = [improbability(model) for model in (record_model, trial, bare)]
     worth[2] -= PRICE
     return (record_model, trial, bare)[int(np.argmin(worth))]

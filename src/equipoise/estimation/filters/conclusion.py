@@ -133,13 +133,6 @@ def outcome_of(surprise: Series1, more: tuple[Reason, ...]) -> Outcome:
     return Outcome((Reason(code, (), {"innovation": ratio}), *more))
 
 
-def broken(state: State) -> bool:
-    """Say whether an estimate is none: not a number, or an inertia that is not positive."""
-    if not np.all(np.isfinite(state.mean)):
-        return True
-    return bool(np.linalg.eigvalsh(unpack_symmetric(state.mean[10:]))[0] <= 0)
-
-
 def possible(state: State, testbed: Testbed) -> bool:
     """Say whether some body can have what was found; J that is not reported is not found."""
     com, inertia = state.mean[7:10], unpack_symmetric(state.mean[10:])

@@ -89,7 +89,7 @@ def with_all_rows(
 
 def with_rows_own_noise(model: RecordModel) -> RecordModel:
     """Return the model with the rows' own noise, if that is not what their means say."""
-    factors = noise_factors(model, *smoothed(model))
+    factors = noise_factors(*smoothed(model))
     rows = (len(model.fitted.at.left_q), len(model.fitted.at.left_w))
     if all(is_known(factor, n) for factor, n in zip(factors, rows, strict=True)):
         return model
