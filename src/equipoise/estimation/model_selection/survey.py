@@ -141,12 +141,12 @@ def driven(model: RecordModel) -> RecordModel:
     return model
 
 
-def repeated(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
+def repeated(model: RecordModel, terms: bool = True) -> RecordModel:
     """Return the model searched and settled again and again, until nothing new stays."""
     for _ in range(ROUNDS):
         before = contents(model)
-        model = searched(model, most, terms)
-        if contents(model) == before or len(model.events) >= most:
+        model = searched(model, FEW_EVENTS, terms)
+        if contents(model) == before or len(model.events) >= FEW_EVENTS:
             break
         model = settled(model)
         if contents(model) == before:
@@ -171,7 +171,7 @@ def calm(model: RecordModel, greedy: RecordModel) -> RecordModel:
         model.params.sensor,
     )
     if not (plain or (not greedy.events and is_calm(greedy))):
-        events_first = repeated(repeated(model, FEW_EVENTS, terms=False), FEW_EVENTS)
+        events_first = repeated(repeated(model, terms=False))
         return likeliest([bared(one, model.params) for one in (greedy, events_first)])
     return bared(greedy, model.params)
 
@@ -200,7 +200,7 @@ def examined(model: RecordModel) -> RecordModel:
         wild, _, _ = calibrated(wandering(model))
         if is_drowned(wild):
             return wild
-    greedy = repeated(model, FEW_EVENTS)
+    greedy = repeated(model)
     if len(greedy.events) < MANY:
         return doubted(compared(model, calm(model, greedy)))
     pushed = driven(model)
