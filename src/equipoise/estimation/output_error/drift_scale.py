@@ -1,4 +1,4 @@
-"""Jumps of com of unstated size hold no information on the scale of J and com; a plain fit adds it.
+"""Jumps of com of unstated size hold no information on the scale of J and com; a plain fit errs.
 
 Rows show jumps u only as u/J. A fit with an sd s of the jumps can therefore lower sum u^2/s^2 by
 shrinking J, com and u alike, in the proportion c, and would: by the pull
