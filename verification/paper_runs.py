@@ -9,7 +9,8 @@ import numpy as np
 
 from equipoise.actuators.sliding_masses import com_shift, mass_maps
 from equipoise.dynamics.propagation import body_of, propagate
-from equipoise.estimation.output_error.problem import Problem, evaluate
+from equipoise.estimation.output_error.problem import Problem
+from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.parameters.fit_parameters import Unknowns
 from equipoise.io.testbed.presets import read_preset
 from equipoise.maths import pseudo_inertia

@@ -12,8 +12,8 @@ import numpy as np
 
 from equipoise.assessment.findings.record_findings import findings
 from equipoise.estimation.model_selection import reference_fit
-from equipoise.estimation.output_error.problem import evaluate
 from equipoise.estimation.output_error.segment_jumps import carried
+from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.io.recording.recording_file import read_recording
 from equipoise.io.testbed.testbed_file import read_testbed

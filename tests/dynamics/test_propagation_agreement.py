@@ -179,7 +179,7 @@ def test_sensitivity_is_the_finite_difference(sensed, column):
 
 @pytest.mark.parametrize("axis", range(3))
 def test_drift_sensitivity_is_right_where_nothing_else_changes(axis):
-    """The platform is then looked up once a step, the time is not: central differences as above."""
+    """The platform is then read once a step, the time is not: central differences as above."""
     line, column = line_of(TIMES), Columns(np.array([TORQUE]), np.array([DRIFT + axis]))
     motion = travel(line, body(np.zeros(16)), column, w0=RATE + FAST)
     found = motion.turn_by[:, :, 0]

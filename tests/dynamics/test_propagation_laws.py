@@ -184,7 +184,7 @@ def test_wheel_spinning_up_turns_the_platform_the_other_way():
 
 
 def test_wheel_already_spinning_does_not_turn_a_platform_at_rest():
-    """The first rate is the platform's own: a constant h about the vertical is not felt."""
+    """The first rate is the platform's own: a constant h about the vertical has no effect."""
     wheel = Samples(np.array([0.0, 30]), np.outer([1, 1], [0, 0, 6e-3]))
     np.testing.assert_allclose(about_z(momentum=wheel)[1], 0.0, atol=1e-15)
 

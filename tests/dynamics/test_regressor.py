@@ -99,7 +99,7 @@ def test_sag_is_a_centre_of_mass_that_gravity_pulls(five, lean):
 
 @given(arrays(np.float64, (3, 3), elements=st.floats(-1.0, 1.0)), st.floats(-5, 5), vectors)
 def test_isotropic_sag_gives_no_torque(any_matrix, stretch, lean):
-    """C + c E moves the centre along gravity: five numbers of C are all that can be felt."""
+    """C + c E moves the centre along gravity: five numbers of C are all that make a torque."""
     C, n = any_matrix + any_matrix.T, -to_matrix(exponential(lean))[2]
     explicit = MASS * np.cross((C + stretch * np.eye(3)) @ n, GRAVITY * n)
     traceless = C - np.trace(C) / 3 * np.eye(3)

@@ -1,4 +1,4 @@
-"""The grid: every look, every corner, no step too long, inputs straight within each."""
+"""The grid: every row, every corner, no step too long, inputs straight within each."""
 
 import numpy as np
 import pytest

@@ -163,7 +163,7 @@ def test_tilt_is_the_angle_from_the_vertical(angle, heading, spin):
 
 
 def test_tilt_of_another_axis_by_hand():
-    """A platform whose y axis points up when level, seen with z up: 90 deg."""
+    """A platform whose y axis points up when level, against z up: 90 deg."""
     assert tilt(ONE, np.array([0.0, 1.0, 0.0])) == pytest.approx(np.pi / 2)
     up = exponential(np.array([np.pi / 2, 0.0, 0.0]))
     assert tilt(up, np.array([0.0, 1.0, 0.0])) == pytest.approx(0.0, abs=1e-7)

@@ -69,7 +69,7 @@ def called(tmp_path):
         own = {
             "PYTHONPATH": str(package.parent),
             "NUMBA_CACHE_DIR": str(tmp_path / "kept"),
-            "PYTHONDONTWRITEBYTECODE": "1",  # two edits of one size within a second look the same
+            "PYTHONDONTWRITEBYTECODE": "1",  # two edits of one size within a second pass for one
         }
         words = [sys.executable, "-P", "-c", RUN]
         run = subprocess.run(words, capture_output=True, text=True, env=os.environ | own)

@@ -60,7 +60,7 @@ def test_autocorrelation_is_detected():
 
 
 def test_autocorrelation_is_detected_up_to_the_largest_lag():
-    """An echo after ``LAGS`` rows is seen, one a row later is not."""
+    """An echo after ``LAGS`` rows shows, one a row later is not."""
     rng = np.random.default_rng(3)
     noise = rng.normal(size=(2000, 1))
     near, outlying = (portmanteau(noise[lag:] + 0.4 * noise[:-lag]) for lag in (LAGS, LAGS + 1))

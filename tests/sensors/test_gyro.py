@@ -18,7 +18,7 @@ def test_entries_by_hand():
 
 
 def test_a_misaligned_axis_measures_another_axis_rate():
-    """gyro_xy = 0.02: what turns about y is felt about x, not the other way round."""
+    """gyro_xy = 0.02: a rate about y is measured about x, not the other way round."""
     sensor = 0.02 * (np.array(TERMS) == "gyro_xy")
     said = dot(gyro_matrix(sensor), (0.0, 3.0, 0.0))
     np.testing.assert_allclose(said, [0.06, 3, 0], atol=1e-15)

@@ -1,4 +1,4 @@
-"""When a row really looked."""
+"""When a row was measured."""
 
 from dataclasses import replace
 

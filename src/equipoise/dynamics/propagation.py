@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.actuators.sliding_masses import MassMaps
-from equipoise.dynamics.regressor import WIDTH, Triple
+from equipoise.dynamics.regressor import Triple
 from equipoise.dynamics.rigid_body import (
     NO_TORQUE,
     ROWS,
@@ -30,22 +30,19 @@ from equipoise.dynamics.sensitivities import (
     LANES,
     RATE,
     TURN,
+    Columns,
+    Inputs,
+    Work,
     forcing,
     linearise,
     place,
     room_for,
     sensitivity_rates,
+    work_for,
 )
 from equipoise.dynamics.timeline import Timeline
 from equipoise.maths.compiled import kernel, part
-from equipoise.model.arrays import Floats, Ints, Quaternion, Vector3, Vector6
-
-
-class Columns(NamedTuple):
-    """Which sensitivities are wanted: a kind and an index within it."""
-
-    kinds: Ints
-    indices: Ints
+from equipoise.model.arrays import Floats, Quaternion, Vector3, Vector6
 
 
 class Motion(NamedTuple):
@@ -71,53 +68,29 @@ def body_of(
 
 @part
 def evaluate(
-    body: Body,
-    now: Now,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    owners: Ints,
-    columns: Columns,
-    i: int,
-    share: float,
-    y: Floats,
-    regress: Floats,
-    fb: Floats,
+    body: Body, now: Now, inputs: Inputs, i: int, share: float, y: Floats, work: Work
 ) -> tuple[Triple, Triple]:
     """Return rate and gravity at ``share`` of step i; write the forcing."""
     w, g = rate_of(now, y), gravity_of(y, body.gravity)
-    if fb.shape[0]:
-        forcing(body, now, maps, t, known, i, share, owners, columns.kinds, columns.indices,
-                w, g, regress, fb)  # fmt: skip
+    if work.fb.shape[0]:
+        forcing(body, now, inputs, i, share, w, g, work)
     return w, g
 
 
 @part
 def start(
-    body: Body,
-    now: Now,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    owners: Ints,
-    columns: Columns,
-    i: int,
-    q: Floats,
-    w: Floats,
-    y: Floats,
-    regress: Floats,
-    fb: Floats,
+    body: Body, now: Now, inputs: Inputs, i: int, q: Floats, w: Floats, y: Floats, work: Work
 ) -> None:
     """Write q, H = J w + h and their sensitivities at the beginning of step i."""
-    n = columns.kinds.shape[0]
+    columns, fb = inputs.columns, work.fb
     H = times(now.inertia, (w[0], w[1], w[2]))
     y[:] = 0.0
     for j in range(4):
         y[j] = q[j]
     for j in range(3):
         y[4 + j] = H[j] + now.momentum[j]
-    evaluate(body, now, maps, t, known, owners, columns, i, 0.0, y, regress, fb)
-    for c in range(n):
+    evaluate(body, now, inputs, i, 0.0, y, work)
+    for c in range(columns.kinds.shape[0]):
         kind, k, first = columns.kinds[c], columns.indices[c], place(c)
         if kind == TURN:
             y[ROWS + first + k * LANES] = 1.0
@@ -129,58 +102,30 @@ def start(
                 y[ROWS + first + (3 + j) * LANES] = fb[first + j * LANES]
 
 
-@part
-def slope(
-    body: Body, now: Now, w: Triple, g: Triple, y: Floats, regress: Floats, fb: Floats, dy: Floats
-) -> None:
-    """Write y' from what ``evaluate`` has seen."""
-    motion(body, now, y, w, g, regress, dy)
-    if fb.shape[0]:
+@part  # apart from ``slope_at``, as compiled results depend on how kernels are cut
+def slope(body: Body, now: Now, w: Triple, g: Triple, y: Floats, work: Work, dy: Floats) -> None:
+    """Write y' from the rate and the forcing of ``evaluate``."""
+    motion(body, now, y, w, g, work.regress, dy)
+    if work.fb.shape[0]:
         by_rate, by_turn = linearise(body, now, y, w, g)
-        sensitivity_rates(now.inverse, w, by_rate, by_turn, fb, y, dy)
+        sensitivity_rates(now.inverse, w, by_rate, by_turn, work.fb, y, dy)
 
 
 @part
 def slope_at(
-    body: Body,
-    now: Now,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    owners: Ints,
-    columns: Columns,
-    i: int,
-    share: float,
-    y: Floats,
-    regress: Floats,
-    fb: Floats,
-    dy: Floats,
+    body: Body, now: Now, inputs: Inputs, i: int, share: float, y: Floats, work: Work, dy: Floats
 ) -> None:
     """Write y' at ``share`` of step i, the platform being as it is ``now``."""
-    w, g = evaluate(body, now, maps, t, known, owners, columns, i, share, y, regress, fb)
-    slope(body, now, w, g, y, regress, fb, dy)
+    w, g = evaluate(body, now, inputs, i, share, y, work)
+    slope(body, now, w, g, y, work, dy)
 
 
 @part
 def step_from(
-    body: Body,
-    here: Now,
-    fixed: bool,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    owners: Ints,
-    columns: Columns,
-    i: int,
-    y: Floats,
-    first: Floats,
-    regress: Floats,
-    fb: Floats,
-    at: Floats,
-    dy: Floats,
-    total: Floats,
+    body: Body, here: Now, fixed: bool, inputs: Inputs, i: int, y: Floats, first: Floats, work: Work
 ) -> None:
     """Take y over step i, in place; ``first`` is the slope at its beginning, ``here``."""
+    t, at, dy, total = inputs.t, work.at, work.dy, work.total
     h, m = t[i + 1] - t[i], y.shape[0]
     for j in range(m):
         total[j] = first[j]
@@ -188,8 +133,8 @@ def step_from(
     for k in range(1, 4):
         share, weight = (1.0, 1.0) if k == 3 else (0.5, 2.0)
         ahead = h if k == 2 else 0.5 * h
-        now = body_within(body, maps, t, known, i, share, fixed, here)
-        slope_at(body, now, maps, t, known, owners, columns, i, share, at, regress, fb, dy)
+        now = body_within(body, inputs.maps, t, inputs.known, i, share, fixed, here)
+        slope_at(body, now, inputs, i, share, at, work, dy)
         for j in range(m):
             total[j] += weight * dy[j]
             at[j] = y[j] + ahead * dy[j]
@@ -207,26 +152,12 @@ def to_unit(y: Floats) -> None:
 
 
 @part
-def step(
-    body: Body,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    owners: Ints,
-    columns: Columns,
-    i: int,
-    y: Floats,
-    regress: Floats,
-    fb: Floats,
-    at: Floats,
-    dy: Floats,
-    total: Floats,
-) -> None:
+def step(body: Body, inputs: Inputs, i: int, y: Floats, work: Work) -> None:
     """Take y over step i, in place."""
-    here, fixed = body_at(body, maps, t, known, i, 0.0), steady(known, i) and not drifts(body)
-    slope_at(body, here, maps, t, known, owners, columns, i, 0.0, y, regress, fb, total)
-    step_from(body, here, fixed, maps, t, known, owners, columns, i, y, total, regress, fb, at, dy,
-              total)  # fmt: skip
+    here = body_at(body, inputs.maps, inputs.t, inputs.known, i, 0.0)
+    fixed = steady(inputs.known, i) and not drifts(body)
+    slope_at(body, here, inputs, i, 0.0, y, work, work.total)
+    step_from(body, here, fixed, inputs, i, y, work.total, work)
 
 
 @part
@@ -283,42 +214,25 @@ def rate_sensitivity(now: Now, y: Floats, fb: Floats, out: Floats) -> None:
 
 
 @kernel
-def _run(
-    body: Body,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    owners: Ints,
-    columns: Columns,
-    q0: Floats,
-    w0: Floats,
-    q: Floats,
-    H: Floats,
-    w: Floats,
-    turn_by: Floats,
-    rate_by: Floats,
-) -> None:
-    n = columns.kinds.shape[0]
-    m = ROWS + room_for(n)
-    y, at, dy, total = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
-    regress, fb = np.zeros((3, WIDTH)), np.zeros(room_for(n))
-    last = t.shape[0] - 2
+def _run(body: Body, inputs: Inputs, q0: Floats, w0: Floats, out: Motion) -> None:
+    n, t = inputs.columns.kinds.shape[0], inputs.t
+    y, work, last = np.empty(ROWS + room_for(n)), work_for(n), t.shape[0] - 2
     for node in range(t.shape[0]):
         # at a corner of the inputs, as the step that leaves it sees them
         i, share = (last, 1.0) if node > last else (node, 0.0)
-        now = body_at(body, maps, t, known, i, share)
+        now = body_at(body, inputs.maps, t, inputs.known, i, share)
         if node == 0:
-            start(body, now, maps, t, known, owners, columns, i, q0, w0, y, regress, fb)
-        rate, _ = evaluate(body, now, maps, t, known, owners, columns, i, share, y, regress, fb)
-        q[node] = y[:4]
-        H[node] = y[4:7]
+            start(body, now, inputs, i, q0, w0, y, work)
+        rate, _ = evaluate(body, now, inputs, i, share, y, work)
+        out.q[node] = y[:4]
+        out.momentum[node] = y[4:7]
         for j in range(3):
-            w[node, j] = rate[j]
+            out.rate[node, j] = rate[j]
             for c in range(n):
-                turn_by[node, j, c] = y[ROWS + place(c) + j * LANES]
-        rate_sensitivity(now, y, fb, rate_by[node])
+                out.turn_by[node, j, c] = y[ROWS + place(c) + j * LANES]
+        rate_sensitivity(now, y, work.fb, out.rate_by[node])
         if node <= last:
-            step(body, maps, t, known, owners, columns, node, y, regress, fb, at, dy, total)
+            step(body, inputs, node, y, work)
 
 
 NO_COLUMNS = Columns(np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64))
@@ -340,5 +254,5 @@ def propagate(
     """Return the motion at every node, with its sensitivities to ``columns``."""
     n, c = len(line.t), len(columns.kinds)
     out = Motion(*[np.zeros((n, *s)) for s in ((4,), (3,), (3,), (3, c), (3, c))])
-    _run(body, stacked(maps), line.t, line.known, line.owners, columns, q0, w0, *out)
+    _run(body, Inputs(stacked(maps), line.t, line.known, line.owners, columns), q0, w0, out)
     return out

@@ -13,9 +13,13 @@ They lie in blocks of LANES columns behind q and H, each block row by row (dth, 
 one machine instruction serves several columns; columns that only fill the last block stay zero.
 """
 
+from typing import NamedTuple
+
+import numpy as np
+
 from equipoise.dynamics.regressor import INERTIA as INERTIA_COLUMN
 from equipoise.dynamics.regressor import MOMENT as MOMENT_COLUMN
-from equipoise.dynamics.regressor import QUADRATIC, SAG, SWIRL, Triple, regressor
+from equipoise.dynamics.regressor import QUADRATIC, SAG, SWIRL, WIDTH, Triple, regressor
 from equipoise.dynamics.regressor import TORQUE as TORQUE_COLUMN
 from equipoise.dynamics.rigid_body import (
     HM,
@@ -30,7 +34,7 @@ from equipoise.dynamics.rigid_body import (
     cross,
     times,
 )
-from equipoise.maths.compiled import part
+from equipoise.maths.compiled import kernel, part
 from equipoise.model.arrays import Floats, Ints
 
 Nine = tuple[float, float, float, float, float, float, float, float, float]
@@ -40,10 +44,44 @@ LANES = 16  # columns in a block; with fewer the compiler (LLVM 20) does not vec
 BLOCK = 6 * LANES
 
 
+class Columns(NamedTuple):
+    """Which sensitivities are wanted: a kind and an index within it."""
+
+    kinds: Ints
+    indices: Ints
+
+
+class Inputs(NamedTuple):
+    """What is known at the nodes of a timeline, and which sensitivities are wanted."""
+
+    maps: Floats  # of the masses, as ``propagation.stacked`` has them
+    t: Floats  # s
+    known: Floats  # as in ``timeline``
+    owners: Ints
+    columns: Columns
+
+
+class Work(NamedTuple):
+    """Arrays that a step works in, made once."""
+
+    at: Floats  # (7 + columns,) the state within the step
+    dy: Floats
+    total: Floats
+    regress: Floats  # (3, WIDTH) the regressor
+    fb: Floats  # f_p and b_p of all columns
+
+
 @part
 def room_for(columns: int) -> int:
     """Return how many numbers the sensitivities of so many columns take."""
     return (columns + LANES - 1) // LANES * BLOCK
+
+
+@kernel
+def work_for(columns: int) -> Work:
+    """Return the arrays for so many sensitivities."""
+    m = ROWS + room_for(columns)
+    return Work(np.empty(m), np.empty(m), np.empty(m), np.zeros((3, WIDTH)), np.zeros(m - ROWS))
 
 
 @part
@@ -122,23 +160,15 @@ def linearise(body: Body, now: Now, y: Floats, w: Triple, g: Triple) -> tuple[Ni
 
 @part
 def error_column(
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    i: int,
-    share: float,
-    owner: int,
-    column: int,
-    w: Triple,
-    g: Triple,
+    inputs: Inputs, i: int, share: float, owner: int, column: int, w: Triple, g: Triple
 ) -> tuple[Triple, Triple]:
-    """Return f and b of an error as one mass feels it, as the known input ``column`` says."""
-    a, b, k = known[i], known[i + 1], KNOWN_D + owner
+    """Return f and b of an error of one mass, whose share of it is the known input ``column``."""
+    t, a, b, k = inputs.t, inputs.known[i], inputs.known[i + 1], KNOWN_D + owner
     response, rate = (
         between(a[column], b[column], share),
         (b[column] - a[column]) / (t[i + 1] - t[i]),
     )
-    d, m = between(a[k], b[k], share), maps[owner]
+    d, m = between(a[k], b[k], share), inputs.maps[owner]
     bend = (m[A] + 2 * d * m[B], m[A + 1] + 2 * d * m[B + 1], m[A + 2] + 2 * d * m[B + 2],
             m[A + 3] + 2 * d * m[B + 3], m[A + 4] + 2 * d * m[B + 4],
             m[A + 5] + 2 * d * m[B + 5])  # fmt: skip
@@ -153,24 +183,16 @@ def error_column(
 
 @part
 def write_error(
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    i: int,
-    share: float,
-    owners: Ints,
-    error: int,
-    w: Triple,
-    g: Triple,
-    fb: Floats,
+    inputs: Inputs, i: int, share: float, error: int, w: Triple, g: Triple, fb: Floats
 ) -> None:
-    """Write f and b of an error, summed over the masses that feel it, from row 0 of ``fb`` on."""
+    """Write f and b of an error, summed over the masses that have it, from row 0 of ``fb`` on."""
     for j in range(6):
         fb[j * LANES] = 0.0
+    owners = inputs.owners
     for c in range(owners.shape[0]):
         if owners[c, 1] == error:
-            response = KNOWN_D + maps.shape[0] + c
-            f, b = error_column(maps, t, known, i, share, int(owners[c, 0]), response, w, g)
+            response = KNOWN_D + inputs.maps.shape[0] + c
+            f, b = error_column(inputs, i, share, int(owners[c, 0]), response, w, g)
             for j in range(3):
                 fb[j * LANES] += f[j]
                 fb[(3 + j) * LANES] += b[j]
@@ -186,36 +208,23 @@ def regressor_block(kind: int) -> int:
 
 @part
 def forcing(
-    body: Body,
-    now: Now,
-    maps: Floats,
-    t: Floats,
-    known: Floats,
-    i: int,
-    share: float,
-    owners: Ints,
-    kinds: Ints,
-    indices: Ints,
-    w: Triple,
-    g: Triple,
-    columns: Floats,
-    fb: Floats,
+    body: Body, now: Now, inputs: Inputs, i: int, share: float, w: Triple, g: Triple, work: Work
 ) -> None:
     """Write f_p (rows 0-2) and b_p (rows 3-5) of every column; the other entries stay zero."""
+    kinds, fb, torques = inputs.columns.kinds, work.fb, False
     n = kinds.shape[0]
-    torques = False
     for c in range(n):
         torques |= kinds[c] == TORQUE
-    regressor(w, g, now.t, body.mass, body.gravity, torques, columns)
+    regressor(w, g, now.t, body.mass, body.gravity, torques, work.regress)
     for c in range(n):
-        kind, k, at = kinds[c], indices[c], place(c)
+        kind, k, at = kinds[c], inputs.columns.indices[c], place(c)
         if kind == ERROR:
-            write_error(maps, t, known, i, share, owners, int(k), w, g, fb[at:])
+            write_error(inputs, i, share, int(k), w, g, fb[at:])
         elif kind >= INERTIA:
             first = at if kind == INERTIA else at + 3 * LANES
             source = k + regressor_block(kind)
             for j in range(3):
-                fb[first + j * LANES] = columns[j, source]
+                fb[first + j * LANES] = work.regress[j, source]
 
 
 @part

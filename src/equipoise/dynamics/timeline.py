@@ -2,8 +2,8 @@
 
 The grid holds every corner of the known inputs (mass displacements, stored momentum, torque), so
 that inputs are straight lines within a step. Between these, steps are as long as the motion allows.
-Sensors look either at nodes of their own, or anywhere within a step (``at_nodes`` false), where the
-fit reads the state by cubic interpolation: a fast sensor then costs no more steps than a slow one.
+Sensors measure either at nodes of their own, or anywhere within a step (``at_nodes`` false). There
+the fit reads the state by cubic interpolation: a fast sensor costs no more steps than a slow one.
 """
 
 from typing import NamedTuple
@@ -22,10 +22,10 @@ class Timeline(NamedTuple):
     """Grid of n + 1 nodes; a step leads from each node to the next."""
 
     t: Floats  # (n+1,) s
-    known: Floats  # (n+1, 6 + k + f): wheel momentum N m s, torque N m, displacements m, and how
-    # far masses feel the unknown errors
-    owners: Ints  # (f, 2) the mass that feels each of these columns, and the unknown
-    attitude_node: Ints  # (n_q,) where the attitude was seen: this node
+    known: Floats  # (n+1, 6 + k + f): wheel momentum N m s, torque N m, displacements m, and the
+    # masses' shares of the unknown errors
+    owners: Ints  # (f, 2) the mass that each of these columns is of, and the unknown
+    attitude_node: Ints  # (n_q,) where the attitude was measured: this node
     attitude_share: Floats  # (n_q,) and this share of the step that leaves it
     rate_node: Ints  # (n_w,) the same for the rate
     rate_share: Floats  # (n_w,)
@@ -43,7 +43,7 @@ def fill(times: Series1, longest: float) -> Series1:
 
 
 def distinct(times: Series1) -> Series1:
-    """Return times in order, without those that only rounding tells from the one before."""
+    """Return times in order, without those that differ from the one before by rounding alone."""
     t = np.unique(times)
     return t[np.append(True, np.diff(t) > SAME)]
 
@@ -81,7 +81,7 @@ def timeline(
     at_nodes: bool = True,
     cut: Series1 | None = None,
 ) -> Timeline:
-    """Return the grid for sensors that looked at these times (s), with nodes at every ``cut``."""
+    """Return the grid for sensors that measured at these times (s), with nodes at every ``cut``."""
     observed = np.concatenate([attitude_t, rate_t])
     start, end = float(observed.min()), float(observed.max())
     knots = [corners(c, start, end) for c in (masses, momentum, torque, errors)]

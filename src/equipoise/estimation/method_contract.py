@@ -1,6 +1,6 @@
 """What a method is: a card that says what to expect of it, and the estimator itself.
 
-A method is a formulation (what it believes of the motion) times a solver. Every method takes the
+A method is a formulation (its model of the motion) times a solver. Every method takes the
 same three things and gives the same record, so that lists, tests and studies need not know them.
 """
 
@@ -27,7 +27,15 @@ class Options:
     terms: tuple[str, ...] = ()  # torques and sensors' errors to estimate, beside the testbed's own
     hold: tuple[str, ...] = ()  # parameters kept at the testbed's value
     use_prior: bool = False  # the testbed's inertia and centre of mass, with their sd
-    robust: bool = False  # rows that stand far off weigh less
+    robust: bool = False  # outliers weigh less
+
+
+FIELDS: dict[Choice, str] = {
+    "term": "terms",
+    "hold": "hold",
+    "prior": "use_prior",
+    "robust": "robust",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,23 +48,13 @@ class Method:
 
 def ignored(card: Card, options: Options) -> tuple[str, ...]:
     """Return the options that were asked for and that a method does not know."""
-    requested: dict[Choice, bool] = {
-        "term": bool(options.terms),
-        "hold": bool(options.hold),
-        "prior": options.use_prior,
-        "robust": options.robust,
-    }
-    return tuple(name for name, wanted in requested.items() if wanted and name not in card.heeds)
+    requested = {name for name, field in FIELDS.items() if getattr(options, field)}
+    return tuple(name for name in FIELDS if name in requested.difference(card.heeds))
 
 
 def heeded(card: Card, options: Options) -> Options:
     """Return what a method knows of what was asked, the rest left out."""
-    return Options(
-        options.terms if "term" in card.heeds else (),
-        options.hold if "hold" in card.heeds else (),
-        options.use_prior and "prior" in card.heeds,
-        options.robust and "robust" in card.heeds,
-    )
+    return Options(**{FIELDS[name]: getattr(options, FIELDS[name]) for name in card.heeds})
 
 
 def estimated(method: Method, recording: Recording, testbed: Testbed, options: Options) -> Estimate:

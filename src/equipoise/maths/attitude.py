@@ -100,7 +100,8 @@ def from_euler321(roll: Floats, pitch: Floats, yaw: Floats) -> Floats:
 def to_euler321(q: Floats) -> tuple[Floats, Floats, Floats]:
     """Return roll, pitch and yaw (rad), the way back from ``from_euler321``; pitch within 90 deg.
 
-    At a pitch of 90 deg roll and yaw are not told apart: any two of the right difference come out.
+    At a pitch of 90 deg only the difference of roll and yaw is defined: any two that have it come
+    out.
     """
     w, x, y, z = np.moveaxis(q, -1, 0)
     roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))

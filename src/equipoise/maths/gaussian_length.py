@@ -5,7 +5,7 @@
     high     97.5 % of x ~ N(m, P) are shorter
     low      the shortest x within the 95 % ellipsoid (x - m)^T P^-1 (x - m) <= chi2(0.95, rank)
     floor    what ``high`` would be of m = 0: the least length that such errors can prove; without
-             errors in proportion to x itself, such as that of a scale, if these are told apart
+             errors in proportion to x itself, such as that of a scale, if these are given apart
 
 A length is never found shorter than its errors, so an interval about the value found would be wrong
 near zero: ``high`` counts all directions in which x may be off, ``low`` the one towards zero. With

@@ -6,7 +6,7 @@ checkout, a copy with other times of change and a branch visited again find thei
 edited sign compiles each kernel that contains it anew, and no other.
 
 The place is the user's cache folder (`NUMBA_CACHE_DIR` where that is set), else the package
-itself. This is the one module below ``io`` that looks at files.
+itself. This is the one module below ``io`` that reads files.
 """
 
 import re
@@ -135,7 +135,7 @@ class Locator:
         return stamp(self._source)
 
     def get_disambiguator(self) -> str:
-        """Return what tells functions of one name apart."""
+        """Return what distinguishes functions of one name."""
         return str(self._line)
 
 

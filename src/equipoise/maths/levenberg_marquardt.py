@@ -2,7 +2,7 @@
 
     (A + lam diag A) step = b,     A = J^T W J,  b = J^T W e,     x <- retract(x, step)
 
-The caller supplies cost, A and b at a point, and walks; this module only says where to look next
+The caller supplies cost, A and b at a point, and walks; this module only gives the next damping
 (Nielsen's rule for lam; Madsen, Nielsen and Tingleff 2004, section 3.2) and when to stop. For
 residuals in units of their sd, a step that promises to lower twice the cost by c is one of sqrt(c)
 standard deviations.

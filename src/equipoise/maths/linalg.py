@@ -37,7 +37,7 @@ def symmetrise(matrix: Square) -> Square:
 
 
 def inverse_spd(matrix: Square) -> Square:
-    """Return the inverse of a positive definite matrix, scaled to unit diagonal beforehand.
+    """Return the inverse of a positive definite matrix, scaled to unit diagonal first.
 
     LinAlgError when an element of the diagonal is not positive, or no number.
     """

@@ -7,7 +7,7 @@ with Politis and Romano's (1995) flat top, which keeps neighbours' correlations 
 differences, which cancels in their sum, comes out small. L is twice the lag from which on the
 series is uncorrelated (Politis 2003).
 
-Cannot tell correlations that last longer than a quarter of the series.
+Cannot see correlations that last longer than a quarter of the series.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Smoothing what walks at random, seen with white noise: Kalman filter and Rauch's way back.
+"""Smoothing a random walk that is measured with white noise: Kalman filter and Rauch's way back.
 
     x_(k+1) = x_k + d,   var d = q (t_(k+1) - t_k);        z_k = x_k + e,   var e = r
 

@@ -6,7 +6,7 @@ The portmanteau test of Ljung and Box (1978):
 
 rho_k is the correlation of rows k apart, for each column by itself.
 
-Least squares of Jacobian H, told that its rows err by white noise, has in truth the covariance
+Least squares of Jacobian H that assumes white noise of its rows has in truth the covariance
 (H^T H)^-1 H^T S H (H^T H)^-1 for errors of covariance S. That is at most (H^T H)^-1 times the
 greatest eigenvalue of S, and those of a stationary series lie below the peak of its spectral
 density (Grenander and Szegoe 1958, section 5.2): no parameter errs by more than its root.

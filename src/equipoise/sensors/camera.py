@@ -9,7 +9,7 @@ its markers from one side; psi is that of a body axis f that is level when the p
 harmonic would be no more than a wrong mounting of the markers, which is another choice of body
 axes; in laboratory axes the errors of one order k would be of orders k - 1 and k + 1.
 
-A small change dth of the attitude (body axes), dphi and deta are seen as
+A small change dth of the attitude (body axes), dphi and deta appear as
 
     x - eta x x,   x = dth + R^T ( dphi - phi x dphi / 2 )    and    deta - eta x deta / 2
     d psi = (R^T da).dth,   da = ( -p_z p_x / h^2, -p_z p_y / h^2, 1 ),   p = R f,
@@ -66,7 +66,7 @@ def seeing(q: Floats, forward: Triple, sensor: Floats) -> Seeing:
 
 @part
 def less_cross(x: Triple, turn: Triple, share: float) -> Triple:
-    """Return x - share turn x x: a small rotation behind a turn, as it is felt before it."""
+    """Return x - share turn x x: a small rotation behind a turn, in the axes before it."""
     return (x[0] - share * (turn[1] * x[2] - turn[2] * x[1]),
             x[1] - share * (turn[2] * x[0] - turn[0] * x[2]),
             x[2] - share * (turn[0] * x[1] - turn[1] * x[0]))  # fmt: skip

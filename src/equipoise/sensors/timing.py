@@ -1,4 +1,4 @@
-"""When a sensor's row really looked: the middle of its averaging, before its delay."""
+"""When a sensor's row was measured: the middle of its averaging, before its delay."""
 
 from equipoise.model.arrays import Series1
 from equipoise.model.testbed import AttitudeSensor, Gyro

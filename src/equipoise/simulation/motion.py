@@ -13,9 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.dynamics.propagation import NO_COLUMNS, Columns, evaluate, step
-from equipoise.dynamics.regressor import WIDTH, Triple
+from equipoise.dynamics.propagation import NO_COLUMNS, evaluate, step
+from equipoise.dynamics.regressor import Triple
 from equipoise.dynamics.rigid_body import ROWS, Body, Now, body_at
+from equipoise.dynamics.sensitivities import Columns, Inputs, work_for
 from equipoise.maths.compiled import kernel, part
 from equipoise.model.arrays import Floats, Ints
 
@@ -67,23 +68,22 @@ def _run(
     path: Floats,
     rates: Floats,
 ) -> None:
-    at, dy, total = np.empty(ROWS), np.empty(ROWS), np.empty(ROWS)
-    regress, fb = np.zeros((3, WIDTH)), np.zeros(0)
     # Row 0 is time zero, from which drift counts; rows 1 and 2 are the ends of one step.
     t3, known3 = np.zeros(3), np.zeros((3, known.shape[1]))
+    inputs, work = Inputs(maps, t3, known3, owners, columns), work_for(0)
     path[0] = y
     for node in range(t.shape[0] - 1):
         lay(t, known, node, 0.0, 1.0, t3, known3)
         now = body_at(body, maps, t3, known3, 1, 0.0)
-        w, _ = evaluate(body, now, maps, t3, known3, owners, columns, 1, 0.0, y, regress, fb)
+        w, _ = evaluate(body, now, inputs, 1, 0.0, y, work)
         if node == 0:
             rates[0, 0], rates[0, 1], rates[0, 2] = w
         n = parts_of(body, now, w, t[node + 1] - t[node])
         for j in range(n):
             lay(t, known, node, j / n, (j + 1) / n, t3, known3)
-            step(body, maps, t3, known3, owners, columns, 1, y, regress, fb, at, dy, total)
+            step(body, inputs, 1, y, work)
         now = body_at(body, maps, t3, known3, 1, 1.0)
-        w, _ = evaluate(body, now, maps, t3, known3, owners, columns, 1, 1.0, y, regress, fb)
+        w, _ = evaluate(body, now, inputs, 1, 1.0, y, work)
         path[node + 1] = y
         rates[node + 1, 0], rates[node + 1, 1], rates[node + 1, 2] = w
 

@@ -28,7 +28,7 @@ from verification.calibration import by_mujoco
 RAIL = to_matrix(exponential(np.radians(3.0) * np.array([0.0, 0.6, 0.8]))) @ np.array([1.0, 0, 0])
 DRIVE = TrueDrive("x1", 1.05, RAIL, 1.5e-3)
 COURSE = (0.01, 0.02, 0.0, -0.02, -0.01, 0.0)
-ORDER = [(name, d) for name in ("x1", "y1") for d in COURSE]  # in turn: together they look alike
+ORDER = [(name, d) for name in ("x1", "y1") for d in COURSE]  # in turn: together they are alike
 MOVES = [(20.0 * (k + 1), {name: d}) for k, (name, d) in enumerate(ORDER)]
 
 
@@ -56,7 +56,7 @@ def off(found, name, truth):
 
 
 def test_a_rail_3_deg_off_and_a_gain_5_percent_off_are_found(found):
-    """The sd must be worth something: 3 %, 0.3 deg level, 1 deg where only the period tells."""
+    """The sd must be worth something: 3 %, 0.3 deg level, 1 deg where only the period shows it."""
     assert found.outcome.usable
     assert abs(off(found, "gain_x1", 1.05)) < 3.5
     assert found.parameters[found.index("gain_x1")].sd < 0.03
@@ -70,7 +70,7 @@ def test_a_rail_3_deg_off_and_a_gain_5_percent_off_are_found(found):
 
 
 def test_drives_that_may_give_way_are_known_less(bed, recording, found):
-    """5 % and 1.5 deg: what elastic sag makes is hardly told from a mass that is higher."""
+    """5 % and 1.5 deg: what elastic sag makes hardly differs from a mass that is higher."""
     soft = replace(bed, masses=read_preset("sputnix").masses)
     unsure = calibrate(recording, soft, CalibrateOptions(("y1",)))
     for name, truth, worth in (("gain_x1", 1.05, 0.05), ("axis_x1_z", RAIL[2], np.radians(1.5))):
@@ -86,7 +86,7 @@ def test_the_trusted_mass_sets_the_scale(bed, recording, found):
     )
     free = calibrate(recording, bed, CalibrateOptions())
     loose, tied = (e.parameters[e.index("gain_x1")].sd for e in (free, found))
-    assert loose > 0.05  # two products believed to 10 % each: 7 %
+    assert loose > 0.05  # two products with a prior of 10 % each: 7 %
     assert tied < 0.5 * loose
     assert any(round(100 * r.numbers.get("sd", 0)) == 7 for r in free.unexplained)
     ratio = {e.ratios[0].sd for e in (free, found)}

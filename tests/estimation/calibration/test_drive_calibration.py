@@ -1,4 +1,4 @@
-"""What a fit says of drives, by hand: numbers a person wants, and which masses look alike."""
+"""What a fit says of drives, by hand: numbers a person wants, and which masses are alike."""
 
 from dataclasses import replace
 
@@ -90,7 +90,7 @@ def test_masses_that_open_directions_run_along_are_one_group():
 
 
 def test_a_common_scale_alone_mixes_no_gains():
-    """All gains alike is what nothing tells; their difference is known."""
+    """All gains alike is what nothing shows; their difference is known."""
     pair = (drive(0, -1, -1, -1), drive(1, -1, -1, -1))
     prior = X1.doubt.gain**2
     alike = prior * np.ones((2, 2))

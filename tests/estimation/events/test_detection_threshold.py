@@ -32,7 +32,7 @@ def test_both_kinds_at_all_cuts_exceed_the_threshold_once_an_hour(spacing):
 
 
 def estimated(record, *events):
-    """The belief that these happened."""
+    """The model with these events."""
     testbed, params = reported(), Params(use_prior=True)
     first = settle(problem_of(record, testbed, params), TRUTH)
     cuts = np.arange(1.0, 39.0, 0.5)

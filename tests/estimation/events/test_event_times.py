@@ -28,7 +28,7 @@ def by_camera(record):
 
 
 def estimated(record, *events, testbed=None):
-    """The belief that these happened, from the truth on."""
+    """The model with these events, from the truth on."""
     testbed, params = testbed or reported(), Params(use_prior=True)
     if record.rate is None:
         testbed = replace(testbed, gyro=None)
@@ -143,7 +143,7 @@ def test_a_plain_event_is_of_one_kind(kind):
 
 @pytest.mark.parametrize(("kind", "share"), [("impulse", 1.0), ("com_step", 2.0)])
 def test_the_kind_of_an_event_stays_ambiguous_until_enough_swing_follows(kind, share):
-    """The same one, without noise: half a second behind it do not tell, eighteen do.
+    """The same one, without noise: half a second behind it does not show, eighteen do.
 
     Then nothing but its own kind may jump in the fit; before, the other as well.
     """

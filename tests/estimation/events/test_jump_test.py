@@ -24,7 +24,7 @@ def settled(record, jumps=(), testbed=None):
 
 
 def freed(kind, t=EVENT):
-    """A jump of which nothing is known beforehand."""
+    """A jump without a prior."""
     names = KINDS[kind][0]
     return Jump(t, names, ({"impulse": 1.0, "com_step": 1e-3}[kind],) * 3, is_event=True)
 

@@ -205,7 +205,7 @@ def unscented(plain, drive, i, posterior: Posterior) -> Posterior:
 
 
 def correct(plain, here, q, observed, posterior: Posterior) -> tuple[Posterior, float]:
-    """Joseph's form with the gain of what is not told nought."""
+    """Joseph's form with the gain of what is not estimated nought."""
     n, o = len(posterior.P), 3 if plain.kind.attitude else 0
     w = rate(here, posterior.H)
     z = difference(q, posterior.q) if o else observed - w
@@ -230,7 +230,7 @@ def restart(plain, here, q, posterior: Posterior) -> Posterior:
 
 
 def run(plain: Plain, rows, posterior: Posterior):
-    """Beliefs after every row."""
+    """Estimates after every row."""
     drive, found, here = rows.drive, [], 0
     ahead = unscented if plain.kind.unscented else extended
     for node, fresh, observed in zip(rows.node, rows.fresh, rows.observed, strict=True):
@@ -256,7 +256,7 @@ def run(plain: Plain, rows, posterior: Posterior):
 
 
 def begun(plain: Plain) -> Posterior:
-    """What is believed beforehand."""
+    """The prior."""
     kind, testbed = plain.kind, plain.testbed
     o, tensor = 3 if kind.attitude else 0, testbed.body.inertia_P
     J = tensor if kind.gyroscopic else np.diag(np.diag(tensor))

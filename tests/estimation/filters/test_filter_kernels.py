@@ -191,7 +191,7 @@ def step_of(dt):
 
 
 def start_of(kind, testbed, drive):
-    """A belief that turns ten times as fast as the shared platform."""
+    """A state that turns ten times as fast as the shared platform."""
     six = INERTIA if kind.gyroscopic else INERTIA * [1, 1, 1, 0, 0, 0]
     here = plain.platform_at(testbed, COM, plain.full(six), (*drive.known, drive.t[1]), 0)
     return np.concatenate([drive.q[0], here.J @ (10 * RATE) + here.h, COM, six])
@@ -209,7 +209,7 @@ def covariance_of(kind, testbed, model):
 
 
 def carried(kind, scale, dt=0.2):
-    """Belief and covariance after a step, begun with the sd times ``scale``; its row is noise."""
+    """Mean and covariance after a step, begun with the sd times ``scale``; its row is noise."""
     testbed = bench()
     model, drive = model_of(kind, testbed, 1e20, Walks(0.0, 0.0)), step_of(dt)
     posterior, P = start_of(kind, testbed, drive), covariance_of(kind, testbed, model) * scale**2

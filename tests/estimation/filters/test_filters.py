@@ -88,7 +88,7 @@ def test_intervals_know_how_well_the_inertia_is_known(module):
 
 @pytest.mark.parametrize("module", [ekf_6, ekf_9, ukf_6], ids=lambda m: m.METHOD.card.name)
 def test_an_interval_that_took_a_wrong_inertia_for_exact_would_not_hold(module):
-    """The same swings, told that J were exact: errors of several sd, so the last test can fail."""
+    """The same swings, J taken as exact: errors of several sd, so the last test can fail."""
     z = []
     for seed in range(5):
         record, com = walked(seed)
@@ -160,7 +160,7 @@ def test_a_known_move_passes_through(module):
     assert np.abs(errors(found, com)).max() < 4
     moved = 1e-2 * 0.0156 / MASS
     sd = [p.sd for p in found.parameters if p.name.startswith("com")]
-    assert max(sd[:2]) < 0.2 * moved  # so forgetting the move would be seen
+    assert max(sd[:2]) < 0.2 * moved  # so forgetting the move would show
 
 
 def gapped(record: Recording, start: float, end: float) -> Recording:
@@ -198,9 +198,9 @@ def test_where_masses_stopped_is_part_of_the_interval(module):
 
 
 def test_the_simplified_model_says_when_it_does_not_hold():
-    """At 10 deg/s the gyroscopic torque moves com by tens of um: told, and in the interval.
+    """At 10 deg/s the gyroscopic torque moves com by tens of um: reported, and in the interval.
 
-    The bias is what the full filter does not have; on a ball nothing is left out, nothing is told.
+    The bias is what the full filter does not have; on a ball nothing is left out or reported.
     """
     testbed, record = replace(platform(gyro=True), inertia_sd=0.0), spun(10.0)
     found, whole = (estimate(m, record, testbed) for m in (kf_simplified, ekf_6))

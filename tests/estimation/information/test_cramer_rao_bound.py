@@ -1,4 +1,4 @@
-"""The Cramer-Rao bound at the truth agrees with information worked out beforehand."""
+"""The Cramer-Rao bound at the truth agrees with information computed in advance."""
 
 from dataclasses import replace
 
@@ -48,7 +48,7 @@ def test_how_the_motion_began_is_found_from_the_rows(run, bound):
 
 
 def test_a_gap_at_the_beginning_does_not_matter(run, bound):
-    """Without its first two seconds the record begins elsewhere, and tells hardly less."""
+    """Without its first two seconds the record begins elsewhere, and shows hardly less."""
     recording, testbed, truth = run
     camera = recording.attitude
     late = replace(recording, attitude=replace(camera, t=camera.t[10:], values=camera.values[10:]))

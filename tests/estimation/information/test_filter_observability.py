@@ -19,7 +19,6 @@ from equipoise.estimation.information.filter_observability import (
     filters_along,
     joined,
     output_sensitivities,
-    rank_by_rows,
     spelled,
     state_sensitivities,
 )
@@ -105,6 +104,12 @@ def in_sizes(model) -> np.ndarray:
 def unseen(model, along: Course) -> np.ndarray:
     outputs = output_sensitivities(model, along)
     return exactly_unseen(joined(outputs, np.ones(len(outputs.stack)), in_sizes(model)))
+
+
+def rank_by_rows(stack: np.ndarray) -> list[int]:
+    """The rank of the first row, the first two, ... of a stack (N, 3, s)."""
+    size = stack.shape[-1]
+    return [size - exactly_unseen(stack[: k + 1]).shape[1] for k in range(len(stack))]
 
 
 def rank(model, along: Course) -> int:
@@ -292,7 +297,7 @@ def test_what_is_known_to_change_shows_all_twelve(known):
 
 
 def test_a_drive_that_is_not_known_does_not_show_the_scale():
-    """Momentum exchange devices move the platform, but the filter is not told (R19)."""
+    """Momentum exchange devices move the platform, but the filter has no record of it (R19)."""
     driven = course(torque=square_wave(), momentum=wheels())
     untold = driven._replace(
         torque=0 * driven.torque,
@@ -421,7 +426,7 @@ def test_a_recording_with_a_move_shows_all_twelve():
 
 
 def test_noise_hides_what_exact_sensors_would_show():
-    """A gyro a thousand times worse: fewer directions, and they are told."""
+    """A gyro a thousand times worse: fewer directions, and they are named."""
     whole = views(moved=True, noise=1000.0)[WHOLE.name]
     assert whole.possible == 12
     assert whole.rank < 12

@@ -140,7 +140,7 @@ def test_twice_the_noise_makes_it_twice_as_large():
 
 
 def test_twice_the_length_makes_it_smaller_by_more_than_that():
-    """J known: a pendulum's phase tells its stiffness ever better, as the length to 3/2."""
+    """J known: a pendulum's phase determines its stiffness ever better, as the length to 3/2."""
     record = clean(240.0, moved=False)
     halves = [
         information_by(window(record, 0.0, end), level(platform()), HELD) for end in (120.0, 240.0)

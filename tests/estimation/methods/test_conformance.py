@@ -40,7 +40,7 @@ def found(name):
 
 @cache
 def screened(trouble, exact=True):
-    """What `identify` gives a method of a record: its rows looked through, once for all methods."""
+    """What `identify` gives a method of a record: its rows screened, once for all methods."""
     return made_sound(sound() if trouble == "none" else AWKWARD[trouble](), bed(exact))
 
 
@@ -80,7 +80,7 @@ def test_an_option_is_known_or_refused(name, option):
 
 @every_method
 def test_a_method_is_pure_and_repeatable(name):
-    """The record is as it was, and a second look gives the same numbers to the last digit."""
+    """The record is as it was, and a second run gives the same numbers to the last digit."""
     record, before = sound(), [c.values.copy() for c in (sound().attitude, sound().rate)]
     again = METHODS[name].run(record, bed(), Options())
     for old, channel in zip(before, (record.attitude, record.rate), strict=True):

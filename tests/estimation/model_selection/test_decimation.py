@@ -192,7 +192,7 @@ def astray(record, testbed):
 
 
 def test_a_search_gone_astray_is_an_outcome(monkeypatch):
-    """Its information has no inverse: nothing settled, and nothing is told about the record."""
+    """Its information has no inverse: nothing settled, and nothing is reported about the record."""
     record, testbed = noisy(recording(60.0, move_at(20.0, 60.0)), 0), platform(3e-4)
     lost = astray(record, testbed)
     with pytest.raises(np.linalg.LinAlgError):

@@ -70,7 +70,7 @@ def test_nothing_wanders_in_the_builders_own_record():
 
 @pytest.mark.parametrize("gyro", [0.0, 20.0], ids=["camera", "camera and gyro"])
 def test_without_drift_it_is_the_trajectory_fit(gyro):
-    """Inertia and com within 0.4 of its sd, intervals less than twice as wide; none is seen."""
+    """Inertia and com within 0.4 of its sd, intervals less than twice as wide; no drift found."""
     bed, record = platform(gyro=gyro > 0), calm(5.0, gyro)
     found, plain = run(record, bed, Options()), METHODS["trajectory"].run(record, bed, Options())
     assert codes_of(found)[-1] == "no_drift"
@@ -143,7 +143,7 @@ def test_a_ramp_is_followed_from_end_to_end():
 
 
 def test_it_is_narrower_than_the_tracker():
-    """Given the same walk: everywhere but at the end, where both have seen all rows."""
+    """Given the same walk: everywhere but at the end, where both have had all rows."""
     _, record = uneasy(1e-7, 2)
     known = replace(level(BED), inertia_sd=1e-3, com_sd=np.full(3, 1e-5))
     fitted, nodes = walked(record, known, 1e-7)
@@ -174,7 +174,7 @@ def walked(record, testbed, size):
 
 
 def inverse(P):
-    """Scaled to unit diagonal beforehand."""
+    """Scaled to unit diagonal first."""
     scale = 1 / np.sqrt(np.diag(P))
     return np.linalg.inv(P * np.outer(scale, scale)) * np.outer(scale, scale)
 
@@ -311,7 +311,7 @@ def test_improbability_agrees_with_the_survey():
 
 
 def test_the_mean_size_by_hand():
-    """Where nothing is told, half of all is none; where one size is certain, that."""
+    """Where no row counts, half of all is none; where one size is certain, that."""
     sizes = 10.0**DECADES
     share = np.exp(-0.5 * DECADES**2)
     expected = 0.5 * share @ sizes**2 / share.sum() + 0.5 * sizes[0] ** 2

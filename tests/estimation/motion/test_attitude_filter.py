@@ -180,7 +180,7 @@ def test_there_is_no_state_before_the_first_camera_row():
 
 
 def test_delayed_sensor_rows_are_processed_at_their_measurement_time():
-    """Both stamped 50 ms after they looked: the state is as without, 50 ms earlier."""
+    """Both stamped 50 ms after they measured: the state is as without, 50 ms earlier."""
     plain, late = bed(), bed(delay=0.05)
     late = replace(late, attitude=replace(late.attitude, delay=0.05))
     record = observed(3.0, 4, np.zeros(3))

@@ -58,7 +58,7 @@ def test_gyro_alone_starts_level():
 
 
 def test_gyro_rates_replace_those_of_the_camera():
-    """Where both look, the rate is the gyro's mean over a camera period; elsewhere the camera's."""
+    """Within the gyro's rows the rate is their mean over a camera period, else the camera's."""
     both = recording(30.0, gyro=20.0)
     keep = both.rate.t < 20.0
     half = replace(both, rate=Samples(both.rate.t[keep], both.rate.values[keep] + 1.0))

@@ -52,7 +52,7 @@ def test_both_together_multiply():
 
 
 def test_what_is_held_at_zero_hides_nothing():
-    """No products in truth, all three held so: moments and com are seen, and as well as 5 %."""
+    """No products in truth, all three held so: moments and com are observable, to 5 %."""
     principal = INERTIA * [1, 1, 1, 0, 0, 0]
     t, track = np.arange(601) / 5.0, move_at(60.0, 120.0)
     line = line_of(t, track)

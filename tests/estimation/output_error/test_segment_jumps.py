@@ -45,7 +45,7 @@ def test_jumps_that_differ_by_rounding_are_one():
 
 
 def test_a_jump_at_the_edge_but_for_rounding_is_at_the_edge():
-    """Before the first row, or behind the last, nothing tells of it."""
+    """Before the first row, or behind the last, nothing shows it."""
     assert inside((Jump(1e-12, RATE, (1.0,) * 3), Jump(10 - 1e-12, (), ())), 0.0, 10.0) == ()
 
 

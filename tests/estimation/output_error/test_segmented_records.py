@@ -10,10 +10,10 @@ from equipoise.dynamics.propagation import body_of, propagate
 from equipoise.dynamics.rigid_body import KNOWN_D
 from equipoise.estimation.output_error.kernels.gauss_newton import local_for
 from equipoise.estimation.output_error.kernels.interval_smoother import pieces_at
-from equipoise.estimation.output_error.problem import evaluate, posed
+from equipoise.estimation.output_error.problem import posed
 from equipoise.estimation.output_error.segment_jumps import RATE as RATES
 from equipoise.estimation.output_error.segment_jumps import Jump
-from equipoise.estimation.output_error.solution import freedom, settle, smooth_at
+from equipoise.estimation.output_error.solution import evaluate, freedom, settle, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.estimation.parameters.fit_parameters import Unknowns, physical, unknowns_of
 from equipoise.maths.attitude import difference, exponential, multiply

@@ -44,7 +44,7 @@ def soft(sag: float = SAG, lag: float = LATE) -> Testbed:
 
 
 def hung(sag: float) -> Recording:
-    """What is seen of masses that hang by ``sag`` and are late, and what they were told.
+    """The rows of masses that hang by ``sag`` and are late, and their commands.
 
     Where they hang follows the motion of masses that do not: the difference is of second order.
     """

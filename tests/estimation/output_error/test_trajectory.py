@@ -119,7 +119,7 @@ def test_errors_are_as_large_as_stated():
 
 
 def test_wrong_stops_are_found():
-    """z stops 1 mm short of what is told: an unknown with its accuracy as prior finds it."""
+    """z stops 1 mm short of its command: an unknown with its accuracy as prior finds it."""
     reported = move_at(60.0, 120.0)
     really = Samples(reported.t, reported.values + np.outer([0, 0, 0, 1, 1], [0, 0, 1e-3]))
     record = replace(recording(120.0, really), masses=reported, mass_names=("x", "y", "z"))
@@ -162,7 +162,7 @@ def test_robust_costs_little_on_clean_data():
     assert 0 < moved < 1
 
 
-# --- What is not seen -------------------------------------------------------------------------
+# --- What is unobservable -------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("gyro", [0.0, 20.0], ids=["camera", "camera and gyro"])
@@ -253,7 +253,7 @@ def test_gyro_alone_does_not_see_heading():
 def test_an_undeclared_torque_is_found(seed):
     """A constant torque of 2e-4 N m moves com by 1.4 um, seventy sd, if it is left out.
 
-    It is added by itself, told, and what is said of com is right with it.
+    It is added by itself, reported, and what is said of com is right with it.
     """
     torque = np.zeros(16)
     torque[4] = 2e-4

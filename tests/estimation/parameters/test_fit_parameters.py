@@ -238,7 +238,7 @@ def test_a_possible_step_meets_no_boundary():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_inside_the_step_is_the_free_one(seed):
-    """The optimum of the local model, damped as told."""
+    """The optimum of the local model, damped as asked."""
     model = local(seed, 0.1 * outward())
     for damping in (1e-6, 0.5):
         found = possible_step(point(), model, damping)

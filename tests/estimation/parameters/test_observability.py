@@ -1,4 +1,4 @@
-"""What is seen and what is not, from information matrices made by hand."""
+"""What is observable and what is not, from information matrices made by hand."""
 
 import numpy as np
 import pytest
@@ -70,7 +70,7 @@ def test_one_unobservable_parameter_is_named_and_no_other(name):
 
 
 def test_two_indistinguishable_parameters_are_named_together():
-    """Only their sum is seen: both are hidden, in one sentence."""
+    """Only their sum is observable: both are hidden, in one sentence."""
     view = examine(without(unit("com_x") - unit("swirl")))
     assert hidden(view) == {"com_x", "swirl"}
     assert len(view.unobservable) == 1
@@ -108,13 +108,13 @@ def test_ratios_keep_their_sd_when_the_scale_is_open():
 
 
 def test_com_alone_is_not_the_scale():
-    """A vertical offset that is not seen is just that."""
+    """A vertical offset that is unobservable is just that."""
     assert not examine(without(unit("com_z"))).scale_open
 
 
 @pytest.mark.parametrize(("sd", "observed"), [(0.49, True), (0.51, False)])
 def test_half_a_natural_size_is_the_limit(sd, observed):
-    """A moment of inertia known to half its own size or better counts as seen."""
+    """A moment of inertia known to half its own size or better counts as observable."""
     k = LAYOUT.names.index("inertia_P_yy")
     information = SHARP * np.eye(N)
     information[k, k] = sd**-2
@@ -137,7 +137,7 @@ def test_natural_sizes_by_hand():
 
 
 def test_what_is_held_does_not_drown_the_rest():
-    """Three moments known to 1e-9, three products to nothing at all: one direction is not seen.
+    """Three moments known to 1e-9, three products to nothing at all: one direction is unobservable.
 
     The sd of the others stay to rounding what they are without them, those of the held are theirs.
     """

@@ -1,4 +1,4 @@
-"""What a platform felt: the published floor of noise, and nothing where nothing acts."""
+"""The torque on a platform: the published floor of noise, and nothing where nothing acts."""
 
 from dataclasses import replace
 from functools import partial

@@ -107,7 +107,7 @@ def test_stated_sd_is_the_scatter_of_records():
 
 
 def test_the_bias_of_a_noisy_regressor_is_found_and_reported():
-    """A gyro ten times as noisy: J low by percents; the bias is within the interval, and told."""
+    """A gyro ten times as noisy: J low by percents; the bias is in the interval, and reported."""
     bed, record = driven_platform(), driven(1, LENGTH)
     rng = np.random.default_rng(2)
     w = record.rate.values + 10 * bed.gyro.noise * rng.normal(size=record.rate.values.shape)

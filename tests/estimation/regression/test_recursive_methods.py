@@ -1,4 +1,4 @@
-"""The recursive methods on two minutes of known square waves, seen by ordinary sensors."""
+"""The recursive methods on two minutes of known square waves, measured by ordinary sensors."""
 
 from dataclasses import replace
 from itertools import cycle

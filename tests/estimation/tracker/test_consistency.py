@@ -102,7 +102,7 @@ def test_nothing_is_called_a_contact_where_nothing_touched():
 
 
 def test_one_odd_row_is_left_out_and_its_time_kept():
-    """30 deg off at 80 s: not used, no contact, the belief as if the row were not there."""
+    """30 deg off at 80 s: not used, no contact, the estimate as if the row were not there."""
     record = case_s.run(1)
     values = record.attitude.values.copy()
     values[400] = multiply(values[400], exponential(np.array([0.5, 0.0, 0.0])))
@@ -142,7 +142,7 @@ def test_after_a_gap_of_28_s(start, fresh):
 def test_a_gap_that_a_better_point_cannot_foresee(seed):
     """MuJoCo, camera 5 Hz and gyro 10 Hz, nothing between 20 and 50 s, J known to 20 %.
 
-    Kept as it was on the first look, the gap left an element of J 11, 9 and 17 sd wrong here.
+    Kept as it was in the first pass, the gap left an element of J 11, 9 and 17 sd wrong here.
     """
     logged = cases.case_i(seed)
     spoilt = without(logged.recording, seed)

@@ -1,4 +1,4 @@
-"""Each equation of the tracker's step beside plain NumPy, or a number worked out by hand."""
+"""Each equation of the tracker's step beside plain NumPy, or a number computed by hand."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The covariance goes with the point, in coordinates in which what cannot be seen is constant."""
+"""The covariance goes with the point, in coordinates that keep what is unobservable constant."""
 
 import numpy as np
 import pytest
@@ -53,7 +53,7 @@ def carried(P: np.ndarray, *stations: np.ndarray) -> np.ndarray:
 
 
 def test_transport_is_a_constant_covariance_in_scale_coordinates():
-    """T = (d coordinates/dx at the belief)^-1 (d coordinates/dx at the point), by differences."""
+    """T = (d coordinates/dx at the estimate)^-1 (d coordinates/dx at the point), by differences."""
     T = np.eye(18)
     T[6:15, 6:15] = np.linalg.solve(slope(POSTERIOR), slope(POINT))
     P = some_covariance()
@@ -62,7 +62,7 @@ def test_transport_is_a_constant_covariance_in_scale_coordinates():
 
 
 def test_the_unobservable_direction_goes_along():
-    """P = x x^T at the point becomes x' x'^T at the belief."""
+    """P = x x^T at the point becomes x' x'^T at the estimate."""
     P = np.zeros((18, 18))
     P[6:15, 6:15] = np.outer(POINT, POINT)
     there = carried(P, POSTERIOR)[6:15, 6:15]

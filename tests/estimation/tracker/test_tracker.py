@@ -59,7 +59,7 @@ def test_with_the_inertia_to_be_learnt_it_ends_where_the_fit_ends(gyro):
     """From the same prior: within one sd of the whole-record fit, and as sure of it to 15 %.
 
     Where the masses stopped is part of the tracker's centre of mass, so the fit's last one counts.
-    The tracker takes the camera's vertical for gravity's, so the fit is told the same.
+    The tracker takes the camera's vertical for gravity's, so the fit assumes the same.
     """
     fit = reference_fit.estimate(
         observed(gyro), level(wrong(gyro)), trajectory.Params(use_prior=True)

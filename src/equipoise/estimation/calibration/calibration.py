@@ -3,15 +3,15 @@
 A trajectory fit in which the drives of all masses that move are in doubt
 (``actuators.drive_errors``) and may give way, the camera may lean and the gyro may be scaled and
 turned: plainly to find rails and backlashes, then in the model that the record supports
-(``reference``), about these. Then the
+(``reference_fit``), about these. Then the
 numbers a person wants (``drive_calibration``, ``sensor_alignment``), y = f(x) of its unknowns x,
 
     cov y = F cov x F^T,      F = df/dx by central differences
 
 Scale. The motion does not change when J, com and all gains are stretched alike. Ratios of gains,
 rails and sensors are free of that; the common factor is known by one of: a trusted mass, whose
-weight and steps are believed; a momentum or torque that devices reported; a held value or the
-testbed's inertia as prior; or else by the belief that each product m d is stated to ``DOUBT.gain``.
+weight and steps are exact; a momentum or torque that devices reported; a held value or the
+testbed's inertia as prior; or else by the prior that each product m d is stated to ``DOUBT.gain``.
 No balance depends on it: com and the moves that cancel it are stretched alike.
 
 Cannot see what never moved; see also the files named.
@@ -71,7 +71,7 @@ SURE = 4.0  # sd of a scatter before it counts as more than chance
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CalibrateOptions:
-    """What is asked for, and what is believed."""
+    """What is asked for, and what is trusted."""
 
     reference: tuple[str, ...] = ()  # masses whose weight and steps are trusted
     terms: tuple[str, ...] = ()  # torques to estimate, beside the testbed's own
@@ -94,15 +94,10 @@ def in_doubt(testbed: Testbed, reference: tuple[str, ...]) -> Testbed:
 
 
 def sensor_terms_for(recording: Recording) -> tuple[str, ...]:
-    """Return what a record may tell of its sensors: a lean; by both, the gyro's axes."""
+    """Return what a record may show of its sensors: a lean; by both, the gyro's axes."""
     camera = recording.attitude is not None and len(recording.attitude) > 0
     gyro = recording.rate is not None and len(recording.rate) > 0
     return (*(PLUMB if camera else ()), *(GYRO if camera and gyro else ()))
-
-
-def soft_terms(testbed: Testbed) -> tuple[str, ...]:
-    """Return what drives that give way make: elastic sag."""
-    return SAG if any(mass.sag_sd > 0 for mass in testbed.masses) else ()
 
 
 def calibrate(recording: Recording, testbed: Testbed, options: CalibrateOptions) -> Estimate:
@@ -110,7 +105,8 @@ def calibrate(recording: Recording, testbed: Testbed, options: CalibrateOptions)
     recording = arranged(recording, testbed.mass_names)
     check_sensors(recording, testbed)
     doubted = in_doubt(testbed, options.reference)
-    terms = (*options.terms, *soft_terms(testbed), *sensor_terms_for(recording))
+    sag = SAG if any(mass.sag_sd > 0 for mass in testbed.masses) else ()  # of drives that give way
+    terms = (*options.terms, *sag, *sensor_terms_for(recording))
     requested = Options(terms, options.hold, options.use_prior)
     about = drives_found(recording, doubted, params_of(doubted, requested))
     fitted = run(recording, about, requested)

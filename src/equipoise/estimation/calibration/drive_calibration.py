@@ -9,7 +9,7 @@ With x_g, x_v, x_w, x_b as in ``actuators.drive_errors``, and k = (1 + x_g) u + 
     backlash = x_b / |k|                                   in command
     scatter  = sqrt( sum error^2 / n ) / |k|               n = sum (1 - posterior / prior variance)
 
-The fit is about a rail u near the true one: errors of stops are felt along u, and a rail that is
+The fit is about a rail u near the true one: errors of stops act along u, and a rail that is
 3 deg off would throw 1/20 of them aside, unexplained (0.05 um of com for 20 um of 0.7 kg in 14).
 
 Cannot see weight and steps apart; nor a scatter of the first stop at home, which defines home.
@@ -29,7 +29,7 @@ from equipoise.model.testbed import SlidingMass
 
 NUMBERS = 8  # that a drive has
 SHOWN = 0.9  # of its prior's sd, chosen: what the record leaves wider it did not show
-FEWEST = 1.0  # stops' worth of freedom, chosen, from which a scatter is told
+FEWEST = 1.0  # stops' worth of freedom, chosen, from which a scatter is reported
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +43,7 @@ class Drive:
 
     @property
     def trusted(self) -> bool:
-        """Say whether its weight and steps are believed."""
+        """Say whether its weight and steps are trusted."""
         return self.columns[0] < 0
 
 
@@ -99,7 +99,7 @@ def labels_of(drive: Drive) -> list[tuple[str, str]]:
 def shown(drive: Drive, sd: Series1, mixed: list[str]) -> list[bool]:
     """Say of each of these whether the record shows it, given the sd of all eight.
 
-    ``mixed``: which of "gains" and "rails" it does not tell apart from other masses'.
+    ``mixed``: which of "gains" and "rails" it does not separate from other masses'.
     """
     doubt = drive.mass.doubt
     assert doubt is not None

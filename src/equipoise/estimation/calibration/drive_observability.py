@@ -1,12 +1,12 @@
-"""Which drives a record does not tell apart.
+"""Which drives a record does not separate.
 
 Masses that always move together in one pattern show the sum of their first moments only. With P the
 posterior covariance of gains or of rails (``actuators.drive_errors``), each unknown over its prior
-sd, a record leaves belief as it was along the eigenvectors of
+sd, a record leaves the prior as it was along the eigenvectors of
 
-    (E - s s^T) P (E - s s^T),     s: all gains alike, the common scale, which is told elsewhere
+    (E - s s^T) P (E - s s^T),     s: all gains alike, the common scale, which is reported elsewhere
 
-whose eigenvalue is near 1. Masses with a large part in one of them are not told apart by it.
+whose eigenvalue is near 1. Masses with a large part in one of them are not separated by it.
 
 Cannot see a pattern of errors of stops; these have a prior that is stated.
 """
@@ -24,7 +24,7 @@ ALIKE = {"gains": Unexplained.GAINS_ALIKE, "rails": Unexplained.RAILS_ALIKE}
 
 
 def together(drives: tuple[Drive, ...], covariance: Floats) -> dict[str, list[tuple[int, ...]]]:
-    """Return, of gains and of rails, the groups of drives (their indices) not told apart."""
+    """Return, of gains and of rails, the groups of drives (their indices) not separated."""
     found: dict[str, list[tuple[int, ...]]] = {}
     for kind, places in KINDS:
         sought = [(i, int(drive.columns[k])) for i, drive in enumerate(drives) for k in places
@@ -38,7 +38,7 @@ def together(drives: tuple[Drive, ...], covariance: Floats) -> dict[str, list[tu
 
 
 def prior_of(drive: Drive, kind: str) -> float:
-    """Return one sd of what is believed of an unknown."""
+    """Return one sd of the prior of an unknown."""
     assert drive.mass.doubt is not None
     return drive.mass.doubt.gain if kind == "gains" else drive.mass.doubt.across
 

@@ -3,10 +3,10 @@
     w_said = A w + b,     A = E + M = S Q          S symmetric, Q a rotation (polar decomposition)
 
 ``turn`` is the rotation vector from body axes to the gyro's, Q = R(turn)^T, and S - E holds its
-scale errors on the diagonal and beside it how far its axes are from square to each other. To first
+scale errors on the diagonal and beside it how much its axes are out of square. To first
 order turn = ( M_yz - M_zy, M_zx - M_xz, M_xy - M_yx ) / 2.
 
-Body axes are those of the camera's markers: how these stand to the structure no motion tells. The
+Body axes are those of the camera's markers: how these stand to the structure no motion shows. The
 rails, which are found in the same axes, do.
 """
 

@@ -36,7 +36,7 @@ def azimuth_of(impulse_N: Vector3, sd: float, R: Matrix3, up: Vector3) -> float 
 
 
 def reported_events(model: RecordModel) -> tuple[Event, ...]:
-    """Return the events of a belief in order of time, each as if its kind were clear."""
+    """Return the events of a model in order of time, each as if its kind were clear."""
     if not model.events:
         return ()
     order = sorted(model.events, key=lambda event: event.t)

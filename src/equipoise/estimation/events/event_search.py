@@ -19,29 +19,29 @@ from equipoise.maths.whiteness import spectral_peak
 from equipoise.model.arrays import Floats
 
 NEAR = 1.6  # spacings, chosen: with process noise, events nearer than this may be one
-CLEAR = 9.0  # chosen: 2 ln of how much likelier one kind is than another, to be told apart
+CLEAR = 9.0  # chosen: 2 ln of how much likelier one kind is than another, to be decided
 OUTLYING = (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)  # of the time within which a swing turns by a radian
 SWINGS = 3.0  # of the same time, chosen: without process noise, events nearer than this may be one
 DOUBTFUL = 4.0  # thresholds, chosen: an event so sure is not put to the test
 
 
 def with_kind(model: RecordModel, k: int, kind: str) -> RecordModel:
-    """Return the belief with one event of that kind."""
+    """Return the model with one event of that kind."""
     event = Happening(model.events[k].t, kind)
     return refitted(replace(model, events=(*model.events[:k], event, *model.events[k + 1 :])))
 
 
 def of_either_kind(model: RecordModel, k: int) -> RecordModel:
-    """Return the belief with one event of the kind, and at the moment, that explain most."""
+    """Return the model with one event of the kind, and at the moment, that explain most."""
     models = [timed(with_kind(model, k, kind), k) for kind in KINDS]
     return nearest(models)
 
 
 def doubted(model: RecordModel) -> RecordModel:
-    """Return the belief with all that may jump at events that may as well be of another kind.
+    """Return the model with all that may jump at events that may as well be of another kind.
 
-    Without a swing behind them a touch and a part that shifts look alike; what follows for the
-    centre of mass does not.
+    Without a swing behind them a contact and a part that shifts are alike in the rows; what follows
+    for the centre of mass is not.
     """
     for k, event in enumerate(model.events):
         others = [other for other in KINDS if other != event.kind]
@@ -55,7 +55,7 @@ def doubted(model: RecordModel) -> RecordModel:
 
 
 def joined(model: RecordModel, k: int) -> RecordModel:
-    """Return the belief with one event for two neighbours, of the kind and moment that are best."""
+    """Return the model with one event for two neighbours, of the kind and moment that are best."""
     one, two = model.events[k : k + 2]
     models: list[RecordModel] = []
     for t in (one.t, 0.5 * (one.t + two.t), two.t):
@@ -66,7 +66,7 @@ def joined(model: RecordModel, k: int) -> RecordModel:
 
 
 def merged(model: RecordModel) -> RecordModel:
-    """Return the belief with neighbouring events as one, where one explains as much as two.
+    """Return the model with neighbouring events as one, where one explains as much as two.
 
     A touch between two cuts first shows as an event at either; one that was put at a wrong moment
     draws another near, which mends that.
@@ -99,13 +99,13 @@ def colour_of(model: RecordModel) -> float:
 
 
 def without(model: RecordModel, k: int) -> RecordModel:
-    """Return the belief without one event, all others where they are then best."""
+    """Return the model without one event, all others where they are then best."""
     events = model.events[:k] + model.events[k + 1 :]
     return timed(refitted(replace(model, events=events)))
 
 
 def pruned(model: RecordModel, colour: float = 1.0) -> RecordModel:
-    """Return the belief without the events that do not earn their place.
+    """Return the model without the events that do not earn their place.
 
     An event may owe its surprise to another at a wrong moment: those of doubt are judged by what is
     lost without them when all others have moved. Where what is left is not white, a surprise by
@@ -125,7 +125,7 @@ def pruned(model: RecordModel, colour: float = 1.0) -> RecordModel:
 
 
 def relocated(model: RecordModel, k: int) -> RecordModel:
-    """Return the belief with one event within a swing of where it is, as what explains most.
+    """Return the model with one event within a swing of where it is, as what explains most.
 
     What explains it best may lie at several moments of a swing; Newton steps find the nearest. A
     part that shifts bends the swing behind it as a touch half a swing before or later would.
@@ -138,7 +138,7 @@ def relocated(model: RecordModel, k: int) -> RecordModel:
 
 
 def settled(model: RecordModel) -> RecordModel:
-    """Return the belief with its events in their place and none that is not needed."""
+    """Return the model with its events in their place and none that is not needed."""
     if not model.events:
         return model
     model = timed(merged(model))

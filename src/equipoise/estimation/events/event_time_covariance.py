@@ -1,6 +1,6 @@
 """What the unknown moments of events add to an estimate's covariance.
 
-With sd_k that of moment k and x(t_k) the estimate when it is believed to be t_k,
+With sd_k that of moment k and x(t_k) the estimate with the event at t_k,
 
     covariance += sum_k c_k c_k^T,      c_k = (x(t_k + sd_k) - x(t_k)) / max(1, rise_k)^(1/2)
 

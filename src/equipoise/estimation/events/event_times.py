@@ -6,7 +6,7 @@ Had an event come later by dt, the state behind it would differ by d dt, all els
     a step s of com           d = -J^-1 (m g s x down) about the rate
 
 (the part of d that the event's own jump can make, it makes). With P, p the information and score
-of the rows behind the cut and C the covariance there (``smoothing``), all other unknowns free,
+of the rows behind the cut and C the covariance there, all other unknowns free (``jump_test``),
 
     h = d^T (P - P C P) d,     dt = d^T p / h,     sd = h^(-1/2)
 
@@ -30,7 +30,7 @@ FARTHEST = {False: 8.0, True: 1.0}  # spacings a step, without and with process 
 STEPS = 12
 SHARES = (1.0, 0.3)  # of a step that are tried
 CLOSE = 0.1  # sd, chosen: a moment that is off by less is found
-SEPARATION = 0.25  # spacings, chosen: two events are not told apart any nearer
+SEPARATION = 0.25  # spacings, chosen: two events are not separable any nearer
 
 
 def rows_of(fit: Fitted, events: tuple[Happening, ...]) -> list[int]:
@@ -51,7 +51,7 @@ def lateness(model: RecordModel, kind: str, jump: Vector3, flat: Floats) -> tupl
 
 
 def moment_errors(model: RecordModel) -> tuple[Floats, Floats]:
-    """Return by how much each event came later than believed, and the sd, s; no h: 0 and 0."""
+    """Return by how much each event came later than modelled, and the sd, s; no h: 0 and 0."""
     fit, after = model.fitted, smooth_at(model.fitted)
     late, sd = np.zeros((2, len(model.events)))
     for i, k in enumerate(rows_of(fit, model.events)):
@@ -66,7 +66,7 @@ def moment_errors(model: RecordModel) -> tuple[Floats, Floats]:
 
 
 def later(model: RecordModel, shifts: Floats) -> RecordModel:
-    """Return the belief with each event later by ``shifts`` (s), where there is room for it."""
+    """Return the model with each event later by ``shifts`` (s), where there is room for it."""
     start, end = model.recording.span
     events = list(model.events)
     for k, event in enumerate(model.events):
@@ -79,7 +79,7 @@ def later(model: RecordModel, shifts: Floats) -> RecordModel:
 
 
 def timed(model: RecordModel, only: int | None = None) -> RecordModel:
-    """Return the belief with its events (or one) at the moments that explain most."""
+    """Return the model with its events (or one) at the moments that explain most."""
     most = FARTHEST[model.wanders] * model.spacing
     chosen = np.ones(len(model.events)) if only is None else np.arange(len(model.events)) == only
     for _ in range(STEPS):

@@ -1,4 +1,4 @@
-"""How surprised each cut of a record is that nothing jumped there: the test behind every event.
+"""The score test of each cut of a record for a jump there: the test behind every event.
 
 With P, p the information and score of the rows behind a cut and C the covariance there given all
 rows, a jump u of coordinates B has, other unknowns free,
@@ -11,7 +11,7 @@ for a cut whose jump has a prior, the standardised smoothed disturbance of de Jo
 
 A cut whose numbers are not finite, after a fit that went astray, says nothing.
 
-Cannot see jumps at the very ends, where one side has too few rows to tell.
+Cannot see jumps at the very ends, where one side has too few rows.
 """
 
 from typing import NamedTuple

@@ -1,7 +1,7 @@
 """How noisy a record is: sensors' noise and process noise, set by the record itself.
 
 Two ways, for two stages of a survey. While events are still unknown, by medians: half of all cuts
-should be as surprised as chance has it, half of all rows as far off; what few events do does not
+should be as surprised as chance has it, half of all residuals as large; what few events do does not
 count. When they are known, by restricted maximum likelihood, which uses every row.
 
     walk^2 <- walk^2  sum u^2/sd^2 / sum (1 - C/sd^2),     noise^2 <- sum e^2 / (rows - unknowns)
@@ -65,7 +65,7 @@ def first_walk(model: RecordModel) -> float:
     return moment * left / span ** (1.5 if len(camera) else 0.5)
 
 
-def noise_factors(model: RecordModel, fit: Fitted, after: Smoothed) -> tuple[float, float]:
+def noise_factors(fit: Fitted, after: Smoothed) -> tuple[float, float]:
     """Return by how much the camera's and the gyro's noise are off, by the median row."""
     camera, gyro = misfits(fit)
     rows = 3 * (len(camera) + len(gyro))
@@ -78,7 +78,7 @@ def noise_factors(model: RecordModel, fit: Fitted, after: Smoothed) -> tuple[flo
 
 
 def is_known(factor: float, rows: int) -> bool:
-    """Say whether a noise that is off by a factor is near enough, for what so many rows tell."""
+    """Say whether a noise that is off by a factor is near enough, for what so many rows show."""
     return abs(np.log(factor)) < max(CALM, CHANCE / np.sqrt(max(rows, 1)))
 
 
@@ -103,13 +103,13 @@ def excesses(after: Smoothed, outlying: Bools) -> Vector3:
 
 
 def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitted]:
-    """Return the belief with process noise and sensor noise as the record has them."""
+    """Return the model with process noise and sensor noise as the record has them."""
     for calibration in count():
         model = refitted(model)
         fit, after = smoothed(model)
         outlying = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
         surprise, excess = surprises(outlying, after), excesses(after, outlying)
-        factors = noise_factors(model, fit, after)
+        factors = noise_factors(fit, after)
         steady = not model.wanders or bool(np.all(np.abs(np.log(np.maximum(excess, 1e-9))) < CALM))
         camera, gyro = (len(rows) for rows in (fit.at.left_q, fit.at.left_w))
         known = is_known(factors[0], camera) and is_known(factors[1], gyro)
@@ -122,7 +122,7 @@ def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitt
 
 
 def likelier(model: RecordModel) -> RecordModel:
-    """Return the belief with noise and process noise one step nearer to the likeliest.
+    """Return the model with noise and process noise one step nearer to the likeliest.
 
     What a variance explains over what it is free to: sum u^2 / sd^2 over sum (1 - C / sd^2) for
     jumps u of smoothed covariance C, and sum e^2 over the rows less all that was sought (the
@@ -146,7 +146,7 @@ def likelier(model: RecordModel) -> RecordModel:
 
 
 def weighed(record_model: RecordModel) -> RecordModel:
-    """Return the belief with the likeliest noise and process noise, or without the latter.
+    """Return the model with the likeliest noise and process noise, or without the latter.
 
     The search begins at less process noise than the calibration left: of two that explain the
     record, the one that leaves more to the sensors is as a rule the likelier.
@@ -159,7 +159,7 @@ def weighed(record_model: RecordModel) -> RecordModel:
     bare = refitted(replace(trial, walk=np.zeros(3)))
     for _ in range(3):
         fit, after = smoothed(bare)
-        bare = refitted(replace(bare, testbed=noisier(bare, *noise_factors(bare, fit, after))))
+        bare = refitted(replace(bare, testbed=noisier(bare, *noise_factors(fit, after))))
     worth = [improbability(model) for model in (record_model, trial, bare)]
     worth[2] -= PRICE
     return (record_model, trial, bare)[int(np.argmin(worth))]

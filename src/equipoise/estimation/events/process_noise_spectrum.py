@@ -1,12 +1,12 @@
 """Whether the torque that wanders is white, and how strong it is where it is strongest.
 
-A survey takes the unexplained torque for white noise of density ``walk``. A motor that nobody told
-of, or a draught, pushes the same way for a while: its density at the frequencies of the motion is
-then greater than that of the same jumps taken for white, and intervals come out too short.
+A survey takes the unexplained torque for white noise of density ``walk``. A motor that nobody
+stated, or a draught, pushes the same way for a while. Its density at the frequencies of the motion
+is then greater than that of the same jumps taken for white, and intervals come out too short.
 
 Jumps u_k with the prior sd s, of which smoothing leaves estimates u^, have over blocks of n cuts
 
-    E (sum u^)^2 <= n s^2       in white noise: what the rows do not tell is missing from u^
+    E (sum u^)^2 <= n s^2       in white noise: what the rows do not show is missing from u^
 
 so that the ratio of the two, where it is beyond chance, is how much denser the noise is at the
 frequency of one block. The density of the densest block is taken for all.
@@ -49,7 +49,7 @@ def densest(u: Floats, blocks: int = BLOCKS) -> Floats:
 
 
 def coloured(model: RecordModel) -> RecordModel:
-    """Return the belief with process noise as dense as it is at the frequency where it is most."""
+    """Return the model with process noise as dense as it is at its densest frequency."""
     if not model.wanders:
         return model
     jumps, values = model.fitted.problem.jumps, model.fitted.jumps

@@ -29,7 +29,7 @@ NAMES = {"impulse": RATE, "com_step": COM}
 
 @dataclass(frozen=True, slots=True)
 class Happening:
-    """An event that is believed in."""
+    """An event of the model."""
 
     t: float  # s
     kind: str  # of NAMES
@@ -50,13 +50,13 @@ class RecordModel:
     """A model of a record, and the fit in it."""
 
     recording: Recording
-    testbed: Testbed  # with the noise as believed
+    testbed: Testbed  # with the noise as estimated
     params: Params  # without jumps
-    cuts: Series1  # s, where a look may find something
+    cuts: Series1  # s, where an event may be found
     walk: Vector3  # N m sqrt(s)
     events: tuple[Happening, ...]
     fitted: Fitted
-    stated: Testbed  # with the noise as it was told
+    stated: Testbed  # with the noise as it was stated
     coloured: float = 1.0  # times an interval is as wide as rows say that err independently
 
     @property
@@ -86,9 +86,9 @@ def jumps_of(model: RecordModel, cuts: Series1) -> tuple[Jump, ...]:
 def fitted_in(
     model: RecordModel, cuts: Series1, most: int, moved: tuple[Happening, ...] = ()
 ) -> Fitted:
-    """Return the optimum of a model with these cuts, from where the belief stands.
+    """Return the optimum of a model with these cuts, from where its fit stands.
 
-    ``moved``: where the events were in the fit that the belief holds, if elsewhere.
+    ``moved``: where the events were in the fit that the model holds, if elsewhere.
     """
     jumps = jumps_of(model, cuts)
     params = replace(model.params, jumps=jumps)
@@ -101,7 +101,7 @@ def fitted_in(
 
 
 def refitted(model: RecordModel, moved: tuple[Happening, ...] = ()) -> RecordModel:
-    """Return the belief at its optimum, with a cut only where something may jump."""
+    """Return the model at its optimum, with a cut only where something may jump."""
     return replace(model, fitted=fitted_in(model, active(model), EACH, moved))
 
 
@@ -127,7 +127,7 @@ def farther(model: RecordModel, other: RecordModel) -> float:
 
 
 def slowest(model: RecordModel) -> float:
-    """Return the time (s) within which gravity must tell: that of the swing, over 2 pi."""
+    """Return the time (s) within which gravity must act: that of the swing, over 2 pi."""
     body = model.fitted.point.body(model.testbed.body.mass)
     stiffness = body.mass * model.testbed.gravity * float(np.linalg.norm(body.com))
     start, end = model.recording.span

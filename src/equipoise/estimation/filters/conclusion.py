@@ -1,17 +1,17 @@
 """From a filter's run to an estimate: what it says, how far to trust it, what it could not see.
 
 Innovations judge the model: their square over its covariance is 3 a row on average. Beyond
-``SURPRISED`` times that, nothing is told to be usable.
+``SURPRISED`` times that, no estimate is usable.
 
 Masses stop only so well, and that is part of the centre of mass as it is, not of the one with the
-masses at home: it is added once more for the masses as they stand. It is as if nothing had been
-seen before a move, so it errs to the safe side.
+masses at home: it is added once more for the masses as they stand. It is as if no row
+before a move counted, so it errs to the safe side.
 
 A camera whose vertical leans turns com by as much; that is added, too. Noise of the attitude that
 a gyro's filter is given is not.
 
 What the simplified model leaves out moves com by P_cs (``jacobian``), which is in the interval; it
-is told where it is more than the rest, beside the rule |w|^2 dJ / (m g).
+is reported where it is more than the rest, beside the rule |w|^2 dJ / (m g).
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ import numpy as np
 from equipoise.estimation.filters.driver import State, advance, begin, reported
 from equipoise.estimation.filters.model import Kind
 from equipoise.estimation.filters.rows import Rows, camera_rows, gyro_rows
-from equipoise.estimation.method_contract import origin_of, refused
+from equipoise.estimation.method_contract import Method, Options, origin_of, refused
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.arrays import Floats, Matrix3, Series1
 from equipoise.model.estimate import INERTIA, Estimate, Parameter
@@ -90,7 +90,7 @@ def leaning(state: State, testbed: Testbed) -> Matrix3:
 
 
 def at_home(state: State, unseen: Matrix3) -> Floats:
-    """Return the covariance of what is told, com with the masses at home."""
+    """Return the covariance of what is reported, com with the masses at home."""
     out, shown = reported(state)[1].copy(), state.shown[:3, :3]
     size = len(shown)
     out[:size, :size] += shown @ unseen @ shown.T
@@ -98,7 +98,7 @@ def at_home(state: State, unseen: Matrix3) -> Floats:
 
 
 def parameters_of(state: State, covariance: Floats) -> tuple[Parameter, ...]:
-    """Return what is told."""
+    """Return what is reported."""
     values, sd = reported(state)[0], np.sqrt(np.diag(covariance))
     units = ["kg m2" if name in INERTIA else "m" for name in state.names]
     return tuple(
@@ -133,22 +133,15 @@ def outcome_of(surprise: Series1, more: tuple[Reason, ...]) -> Outcome:
     return Outcome((Reason(code, (), {"innovation": ratio}), *more))
 
 
-def broken(state: State) -> bool:
-    """Say whether a belief is none: not a number, or an inertia that is not positive."""
-    if not np.all(np.isfinite(state.mean)):
-        return True
-    return bool(np.linalg.eigvalsh(unpack_symmetric(state.mean[10:]))[0] <= 0)
-
-
 def possible(state: State, testbed: Testbed) -> bool:
-    """Say whether some body can have what was found; J that is not told is not found."""
+    """Say whether some body can have what was found; J that is not reported is not found."""
     com, inertia = state.mean[7:10], unpack_symmetric(state.mean[10:])
     found = MassProperties(testbed.body.mass, com, inertia)
     return state.kind.estimated < 12 or is_possible(found)
 
 
 def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> Estimate:
-    """Return what a filter believes after the last row of a record, begun from the testbed."""
+    """Return the estimate after the last row of a record, begun from the testbed."""
     recording = arranged(recording, testbed.mass_names)
     lack = lacking(kind, recording, testbed)
     if lack is not None:
@@ -167,3 +160,12 @@ def estimate(card: Card, kind: Kind, recording: Recording, testbed: Testbed) -> 
         card.name, ended, parameters_of(state, covariance), covariance,
         possible=possible(state, testbed), provenance=origin_of(recording), course=passed.course,
     )  # fmt: skip
+
+
+def filter_method(card: Card, kind: Kind) -> Method:
+    """Return the method of a filter; no filter has options."""
+
+    def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
+        return estimate(card, kind, recording, testbed)
+
+    return Method(card, run)

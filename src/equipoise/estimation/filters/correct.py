@@ -1,7 +1,7 @@
-"""Correcting a belief by a row, which sees the first three elements of the error state.
+"""Correcting the estimate by a row, which measures the first three elements of the error state.
 
     z = w_meas - w_pred,  or  z = log( q_pred^-1 (x) q_meas ),    H = [E 0],    R = sd^2 E
-    S = H P H^T + R,   K = P H^T S^-1,  rows behind the told ones nought,   x = K z
+    S = H P H^T + R,   K = P H^T S^-1,  rows behind the estimated ones nought,   x = K z
     A = P - K H P,     P+ = A + (K R - A H^T) K^T         Joseph's form, for any gain
     q+ = q (x) exp(dth),   w+ = w + dw,   r+ = r + axes dc,   J+ = J + dJ,   H+ = J+(d) w+ + h
 
@@ -85,7 +85,7 @@ def shrink(noise: float, P: Floats, work: Work) -> None:
 
 @part
 def apply(model: Model, now: Now, mean: Floats, x: Floats) -> None:
-    """Write the belief moved by the error state."""
+    """Write the estimate moved by the error state."""
     n, row = x.shape[0], 3 if model.attitude else 0
     w, a = rate_of(now, mean), now.inertia
     w = (w[0] + x[row], w[1] + x[row + 1], w[2] + x[row + 2])
@@ -109,7 +109,7 @@ def apply(model: Model, now: Now, mean: Floats, x: Floats) -> None:
 def correct(
     model: Model, now: Now, q: Floats, observed: Floats, mean: Floats, P: Floats, work: Work
 ) -> float:
-    """Correct belief and covariance by a row; return the squared innovation over its covariance."""
+    """Correct mean and covariance by a row; return the squared innovation over its covariance."""
     z = innovation(model, now, mean, q, observed)
     expect(model.noise, P, -1, work)
     surprise, aside = surprise_of(z, work), -1

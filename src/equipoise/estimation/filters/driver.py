@@ -30,26 +30,26 @@ DEFAULT = Walks()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """What a filter believes after a row."""
+    """The state of a filter after a row."""
 
     kind: Kind
     model: Model
-    names: tuple[str, ...]  # of what is told
-    shown: Floats  # (names, 9) com and J to what is told
+    names: tuple[str, ...]  # of what is reported
+    shown: Floats  # (names, 9) com and J to what is reported
     mean: Floats  # (16,) q, H (N m s), com (m), J (kg m^2), masses at home
     covariance: Square  # (n, n) of the error state, see ``model``
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Passed:
-    """What was believed after each row of a call."""
+    """The estimate after each row of a call."""
 
     course: Course
     surprise: Series1  # squared innovation over its covariance, 3 degrees of freedom; NaN: none
 
 
 def shown_of(kind: Kind, testbed: Testbed) -> tuple[tuple[str, ...], Floats]:
-    """Return what a filter tells by name, and how it is made of com and J."""
+    """Return what a filter reports by name, and how it is made of com and J."""
     one = column_of(kind, testbed.up)
     if one is not None:
         name, sign = one
@@ -59,18 +59,17 @@ def shown_of(kind: Kind, testbed: Testbed) -> tuple[tuple[str, ...], Floats]:
 
 
 def begin(kind: Kind, testbed: Testbed, noise: float, walks: Walks = DEFAULT) -> State:
-    """Return what is believed before the first row; ``noise`` (rad or rad/s): one sd of a row."""
+    """Return the prior, before the first row; ``noise`` (rad or rad/s): one sd of a row."""
     model = model_of(kind, testbed, noise**2, walks)
     mean, covariance = initial_state(kind, testbed), first_covariance(kind, model, testbed)
     return State(kind, model, *shown_of(kind, testbed), mean, covariance)
 
 
 def advance(state: State, rows: Rows) -> tuple[State, Passed]:
-    """Return the state after some more rows, and what was believed after each."""
+    """Return the state after some more rows, and the estimate after each."""
     mean, P = state.mean.copy(), state.covariance.copy()
     out = np.empty((len(rows.node), NOTED))
-    follow(state.model, rows.drive, rows.node, rows.fresh, rows.observed, mean, P, work_of(len(P)),
-           out)  # fmt: skip
+    follow(state.model, rows, mean, P, work_of(len(P)), out)
     t, values, sd, surprise = np.split(out, [1, 10, 19], axis=1)
     # summed row by row, so that a row is the same number however many come with it
     shown = np.sum(values[:, None, :] * state.shown, axis=2)
@@ -80,6 +79,6 @@ def advance(state: State, rows: Rows) -> tuple[State, Passed]:
 
 
 def reported(state: State) -> tuple[Floats, Square]:
-    """Return values of what is told and their covariance, SI."""
+    """Return values of what is reported and their covariance, SI."""
     row, n = 6 if state.kind.attitude else 3, len(state.names)
     return state.shown @ state.mean[7:], state.covariance[row : row + n, row : row + n]

@@ -84,7 +84,7 @@ def carry(rows: int, P: Floats, work: Work) -> None:
 
 @part
 def extended(model: Model, drive: Drive, i: int, mean: Floats, P: Floats, work: Work) -> None:
-    """Carry belief and covariance over step i by the linearised model."""
+    """Carry estimate and covariance over step i by the linearised model."""
     rigid = placed_at(model, mean)
     ends = ends_of(model, drive, i, rigid)
     dt, rows = drive.t[i + 1] - drive.t[i], 6 if model.attitude else 3

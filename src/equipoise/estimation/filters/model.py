@@ -1,4 +1,4 @@
-"""What a filter believes: one description from which every published one is cut.
+"""The model of a filter: one description from which every published one is cut.
 
     H' = -w x H + m r x g_B + m_d x g_B + tau,    H = J(d) w + h,    r' = J' = 0 but for walks
     error state  x = [ dth | dw | dc | dJ | ds ],    r = axes c
@@ -10,7 +10,7 @@ is a state mu but for the unit.
 
 The first ``reported`` elements are estimated. What stands behind them is considered (Schmidt): its
 covariance and its correlation with the rest are carried along, its gain is nought. So a filter that
-takes J as known knows how well: with P in blocks of the told x and the considered p,
+takes J as known knows how well: with P in blocks of the estimated x and the considered p,
 
     Phi = [ A  B ; 0  E ],    K = [ K_x ; 0 ],    P+ = (E - K H) P (E - K H)^T + K R K^T
 
@@ -47,7 +47,7 @@ FLAT = 1e-9  # chosen: the sine below which an up axis is one of the body's
 class Kind(NamedTuple):
     """Which filter: what is a state, what is estimated of it, and how it is carried ahead."""
 
-    attitude: bool  # the attitude is a state and a camera sees it; else an input, and a gyro sees w
+    attitude: bool  # a state, measured by a camera; else an input, and a gyro measures w
     estimated: int  # leading elements of the error state that are estimated
     gyroscopic: bool = True  # False: the simplified model
     unscented: bool = False
@@ -64,7 +64,7 @@ class Walks(NamedTuple):
 class Model(NamedTuple):
     """What does not change along the rows, as the kernels see it."""
 
-    body: Body  # com and J in it are not used: the belief has them
+    body: Body  # com and J in it are not used: those of the estimate are
     maps: Floats  # (k, 18) of the masses
     axes: Matrix3  # r = axes c
     left_out: Six  # kg m^2, the elements of the testbed's J that the model does without
@@ -125,7 +125,7 @@ def first_covariance(kind: Kind, model: Model, testbed: Testbed) -> Square:
 
 
 def column_of(kind: Kind, up: Vector3) -> tuple[str, float] | None:
-    """Return the name of the one component that is told and its sign; None: all three are."""
+    """Return the name of the one component that is reported and its sign; None: all three are."""
     if not kind.upright:
         return None
     k = int(np.argmax(np.abs(up)))

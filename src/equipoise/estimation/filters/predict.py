@@ -3,9 +3,9 @@
 Where the attitude is an input, g_B is a straight line between the nodes: the rate does not turn it.
 The simplified model has no w x H.
 
-The belief has H, not w: H goes on steadily where a mass sets off, and w does not. Parameters are
+The state has H, not w: H goes on steadily where a mass sets off, and w does not. Parameters are
 the same after a step as before, so their block of P is not touched but by the walk, and only the
-rows of attitude and rate are worked out (``extended``, ``unscented``).
+rows of attitude and rate are computed (``extended``, ``unscented``).
 """
 
 from typing import NamedTuple
@@ -32,7 +32,7 @@ from equipoise.maths.compiled import part
 from equipoise.maths.turns import Triple
 from equipoise.model.arrays import Floats
 
-COM, INERTIA = 7, 10  # where they stand in a belief: q, H, com, J
+COM, INERTIA = 7, 10  # where they stand in a state: q, H, com, J
 
 
 class Drive(NamedTuple):
@@ -40,7 +40,7 @@ class Drive(NamedTuple):
 
     t: Floats  # (g,) s
     known: Floats  # (g, 6 + k) stored momentum, torque, displacements
-    q: Floats  # (g, 4) the attitude, where it is an input; where it is seen, at rows
+    q: Floats  # (g, 4) the attitude, where it is an input; where it is measured, at rows
     stopped: Floats  # (g, 3, 3) m^2, what masses that stopped add to the covariance of r
 
 
@@ -72,7 +72,7 @@ class Work(NamedTuple):
 
 @part
 def placed_at(model: Model, mean: Floats) -> Body:
-    """Return the body with the centre of mass and the inertia of a belief."""
+    """Return the body with the centre of mass and the inertia of a state."""
     return placed(model.body, mean[COM:])
 
 

@@ -1,11 +1,11 @@
 """Rows of a recording as the filters take them: a grid of steps, and which nodes carry rows.
 
 Known inputs are straight lines within a step, so every corner of them is a node. A gyro's filter
-is given the attitude at every node (``led_motion``), a camera's what was seen at its rows. A new
+is given the attitude at every node (``led_motion``), a camera's what it measured at its rows. A new
 piece begins behind a gap; nothing is carried over one.
 
 ``taken`` cuts rows for a filter that runs as they come: the grid of a cut begins with the node of
-the row before it. ``led_motion`` looks at a whole record, rows to come included; a bench that runs
+the row before it. ``led_motion`` takes a whole record, rows to come included; a bench that runs
 a gyro's filter live fills ``Rows`` with the attitude it has.
 
 What is off in the attitude goes into com: a camera that leans by e turns com along gravity by e.
@@ -29,7 +29,7 @@ LONGEST = 0.25 * LONGEST_STEP  # s, chosen: Phi is good to (w dt)^3 / 6, 1e-3 at
 
 
 class Rows(NamedTuple):
-    """What was seen and known."""
+    """What was measured and known."""
 
     drive: Drive
     node: Ints  # (n,) of each row

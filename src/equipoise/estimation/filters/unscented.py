@@ -1,4 +1,4 @@
-"""A step of the unscented filter: errors go as points about the belief do.
+"""A step of the unscented filter: errors go as points about the estimate do.
 
     points x +- columns of L,  L L^T = n P,  2n of them, each weighing 1/(2n)
     mean of the carried points;  P- = sum of e e^T / (2n) + Q dt,  e = point - mean
@@ -46,9 +46,9 @@ def root(P: Floats, weight: float, L: Floats) -> None:
 
 @part
 def shifted(model: Model, mean: Floats, column: int, sign: float, work: Work) -> None:
-    """Write the belief moved by a column of L into work.point, its rate in place of H.
+    """Write the estimate moved by a column of L into work.point, its rate in place of H.
 
-    ``work.point`` holds the mean rate there beforehand.
+    ``work.x`` holds the mean rate.
     """
     L, point, n = work.L, work.point, work.L.shape[0]
     row = 3 if model.attitude else 0
@@ -131,7 +131,7 @@ def gather(rows: int, P: Floats, work: Work) -> None:
 
 @part
 def unscented(model: Model, drive: Drive, i: int, mean: Floats, P: Floats, work: Work) -> None:
-    """Carry belief and covariance over step i by points."""
+    """Carry estimate and covariance over step i by points."""
     n, rows = P.shape[0], 6 if model.attitude else 3
     here, end = ends_of(model, drive, i, placed_at(model, mean))
     root(P, 1.0 * n, work.L)

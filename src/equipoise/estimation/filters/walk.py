@@ -12,9 +12,10 @@ from equipoise.estimation.filters.correct import correct
 from equipoise.estimation.filters.extended import extended
 from equipoise.estimation.filters.model import FIRST_RATE, Model
 from equipoise.estimation.filters.predict import COM, Drive, Work, placed_at
+from equipoise.estimation.filters.rows import Rows
 from equipoise.estimation.filters.unscented import unscented
 from equipoise.maths.compiled import kernel, part
-from equipoise.model.arrays import Bools, Floats, Ints
+from equipoise.model.arrays import Floats
 
 NOTED = 1 + 9 + 9 + 1  # t; com, J; sd of c and J; surprise
 
@@ -29,7 +30,7 @@ def standing(model: Model, drive: Drive, node: int, mean: Floats, t: Floats, kno
 
 @part
 def restart(model: Model, now: Now, q: Floats, mean: Floats, P: Floats) -> None:
-    """Forget attitude and rate; what was seen of the attitude is all that is known of it."""
+    """Forget attitude and rate; the measured attitude is all that is known of it."""
     n, rows = P.shape[0], 6 if model.attitude else 3
     for i in range(rows):
         for j in range(n):
@@ -80,7 +81,7 @@ def note(model: Model, t: float, mean: Floats, P: Floats, surprise: float, out: 
 def arrive(
     model: Model, drive: Drive, first: int, last: int, mean: Floats, P: Floats, work: Work
 ) -> None:
-    """Carry a belief from one node to another."""
+    """Carry the estimate from one node to another."""
     for i in range(first, last):
         if model.unscented:
             unscented(model, drive, i, mean, P, work)
@@ -90,18 +91,9 @@ def arrive(
 
 
 @kernel
-def follow(
-    model: Model,
-    drive: Drive,
-    node: Ints,
-    fresh: Bools,
-    observed: Floats,
-    mean: Floats,
-    P: Floats,
-    work: Work,
-    out: Floats,
-) -> None:
-    """Take belief and covariance along rows, in place; write what was believed after each."""
+def follow(model: Model, rows: Rows, mean: Floats, P: Floats, work: Work, out: Floats) -> None:
+    """Take mean and covariance along rows, in place; write the estimate after each."""
+    drive, node, fresh, observed = rows
     t, known, here = np.array([0.0, 1.0]), np.zeros((2, drive.known.shape[1])), 0
     for r in range(node.shape[0]):
         last, surprise = int(node[r]), np.nan

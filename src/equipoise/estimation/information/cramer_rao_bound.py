@@ -30,7 +30,7 @@ from equipoise.model.testbed import Testbed
 def least_sd(
     recording: Recording, testbed: Testbed, params: Params, truth: Unknowns
 ) -> dict[str, float]:
-    """Return the bound of each parameter that a fit reports, SI; infinite: not seen.
+    """Return the bound of each parameter that a fit reports, SI; infinite: unobservable.
 
     ``truth`` has the true body and torques (the errors of masses may be left out) and a motion at
     the record's beginning to search from.

@@ -5,7 +5,7 @@ row along the motion, have the rank that the filter can see:
 
     S' = A(t) S,  S(0) = E,     y_k = C S(t_k) dx0,     rank [C S(t_0); C S(t_1); ...]
 
-A(t) is in ``filter_models``; S is taken over each step by Runge-Kutta of order 4. S is about the
+A(t) is in ``linearised_filters``; S is integrated by Runge-Kutta of order 4. S is about the
 first state, not about corrections from row to row: the rank is that of the empirical observability
 Gramian, and along a motion of some length that of the Lie derivatives. With sensors of no noise
 every singular value counts that is not rounding; with the testbed's, every direction that the rows
@@ -19,7 +19,7 @@ show to half a natural size or better, as in ``observability``.
 
 Where small changes of the state grow without bound, as those of a spin that the given attitude does
 not steady, the sensitivities are begun anew each time they have grown ten thousandfold, and what
-one such stretch tells of the next by way of the state is given up. That may take something from a
+one such stretch shows of the next by way of the state is given up. That may take something from a
 rank with noise, and nothing from one without.
 
 In free motion (J, mu) and (c J, c mu) move alike, and no momentum exchange device as such changes
@@ -54,7 +54,7 @@ from equipoise.model.observability import FilterView
 from equipoise.model.reasons.data_reasons import Unobservable
 from equipoise.model.reasons.reason import Reason
 
-GROWN = 1e4  # chosen: growth behind which rounding does not hide what is seen before it
+GROWN = 1e4  # chosen: growth behind which rounding does not hide what came before it
 ROUNDING = 1e-9  # of the largest singular value, chosen: integration errs by less
 SCALE = Reason(Unobservable.SCALE_OF_MOMENT)
 TURNS, RATES = Layout().names[TURN], Layout().names[RATE]
@@ -162,16 +162,10 @@ def exactly_unseen(stack: Floats) -> Floats:
     return unseen_of(stack, ROUNDING * float(np.linalg.norm(stack.reshape(-1, stack.shape[-1]), 2)))
 
 
-def rank_by_rows(stack: Floats) -> list[int]:
-    """Return the rank of the first row, the first two, ... of a stack (N, 3, s)."""
-    size = stack.shape[-1]
-    return [size - exactly_unseen(stack[: k + 1]).shape[1] for k in range(len(stack))]
-
-
 def spelled(unseen: Floats, scale: Floats) -> list[Floats]:
-    """Return directions that span what is not seen, the scale first, then as few states as can be.
+    """Return directions that span the unobservable ones, the scale first, then few states each.
 
-    A basis as it comes mixes whatever is equally unseen. ``scale`` is of unit length, or zero.
+    A basis as it comes mixes what is equally unobservable. ``scale`` is of unit length, or zero.
     """
     found: list[Floats] = []
     left = unseen @ unseen.T

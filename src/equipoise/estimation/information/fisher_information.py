@@ -8,13 +8,13 @@ method does better; the trajectory fit does as well where the model holds.
 
     rank        of D I D, D natural sizes: directions whose sd is below half of one, each that is
                 not costs one, an open scale too (``observability``)
-    condition   of I with unit diagonal; infinite where a direction is not seen at all
+    condition   of I with unit diagonal; infinite where a direction is wholly unobservable
     sweep       least eigenvalue of int (|g|^2 E - g g^T) dt / (g^2 T), g in body axes: how far
                 gravity leaves its mean direction, the mean square of the sine of that angle. Zero
-                when it never does; the centre of mass along it is not seen then. 2/3 at most.
+                when it never does; the centre of mass along it is unobservable then. 2/3 at most.
 
 A held parameter is not sought, and not counted. When nothing fixes the common scale of J and com,
-neither is seen; bounds of their ratios are.
+neither is observable; bounds of their ratios are given.
 
 Cannot see what is wrong with the model (torques nobody asked for, touches), or with the noise: rows
 that err together say less than is stated here.

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.estimation.output_error.fit_estimate import visibility_of, without_anchor
-from equipoise.estimation.output_error.problem import Problem, evaluate
-from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.problem import Problem
+from equipoise.estimation.output_error.solution import Fitted, evaluate
 from equipoise.estimation.parameters.fit_parameters import Unknowns, physical
 from equipoise.estimation.parameters.observability import Visibility
 from equipoise.maths.linalg import symmetrise

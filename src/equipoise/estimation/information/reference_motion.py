@@ -1,9 +1,9 @@
-"""The motion of a recording, to linearise along: a plain fit, and how far it can be believed.
+"""The motion of a recording, to linearise along: a plain fit, with its cautions.
 
-Sensitivities are taken along a motion, and the record's own is best told by a fit. A plain one is
+Sensitivities are taken along a motion, and the record's own is best found by a fit. A plain one is
 enough: the terms asked for, damping where nothing follows the motion without, and the camera's
-vertical free as far as it may lean. Neither events nor process noise are looked for. A dense record
-is followed as means of its rows, which tell as much (``condensed``).
+vertical free as far as it may lean. Neither events nor process noise are sought. A dense record
+is followed as means of its rows, which hold as much information (``decimation``).
 
 Cannot see whether the model is right; ``cautions`` say when its fit shows that it is not.
 """

@@ -8,7 +8,7 @@ prior's weight and m its mean:
 
 is what the recording adds, near x: it says Lambda y = eta. Along the scale of J and com, which a
 free swing does not show, x only says which ratios hold, and Lambda x = 0 there at every scale: so
-recordings at different loads tell the scale together that none tells alone.
+recordings at different loads determine together the scale that none determines alone.
 
 Taken to be Gauss-Newton's parabola at x; the prior should not be narrower than what is sought.
 
@@ -23,7 +23,6 @@ import numpy as np
 from equipoise.estimation.output_error import trajectory
 from equipoise.estimation.output_error.fit_estimate import conclude, residual_of, widening
 from equipoise.estimation.output_error.free_vertical import with_free_vertical
-from equipoise.estimation.output_error.solution import Fitted
 from equipoise.estimation.parameters.fit_parameters import CORE, core_of
 from equipoise.maths.linalg import schur_complement, symmetrise
 from equipoise.model.arrays import Floats, Square
@@ -45,16 +44,12 @@ def shown_by(recording: Recording, testbed: Testbed) -> Shown:
     params = trajectory.Params(testbed.disturbances, use_prior=True)
     params = with_free_vertical(recording, testbed, params)
     fitted = trajectory.fit(recording, testbed, params)
-    information, pull = without_prior(fitted)
+    prior, x = fitted.problem.prior, core_of(fitted.point.body(fitted.problem.mass))
+    weight, mean = prior.weight[CORE], prior.mean[CORE]
+    information, pull = data_alone(fitted.at.normal, x, weight, mean)
     factor = widening(residual_of(fitted)) ** 2
     estimate = conclude(fitted, trajectory.METHOD, recording)
     return Shown(information / factor, pull / factor, estimate)
-
-
-def without_prior(fitted: Fitted) -> tuple[Square, Floats]:
-    """Return Lambda and eta."""
-    prior, x = fitted.problem.prior, core_of(fitted.point.body(fitted.problem.mass))
-    return data_alone(fitted.at.normal, x, prior.weight[CORE], prior.mean[CORE])
 
 
 def data_alone(normal: Square, x: Floats, weight: Floats, mean: Floats) -> tuple[Square, Floats]:

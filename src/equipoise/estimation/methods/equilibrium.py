@@ -1,4 +1,4 @@
-"""Rest positions under known shifts of the masses: see ``estimation.equilibrium``."""
+"""Rest positions under known shifts of the masses: see ``rest_positions``."""
 
 from equipoise.estimation.method_contract import Method, Options
 from equipoise.estimation.regression import rest_positions

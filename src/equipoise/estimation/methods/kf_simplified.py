@@ -1,22 +1,11 @@
 """The linear Kalman filter on Euler's simplified model."""
 
-from equipoise.estimation.filters.conclusion import estimate
+from equipoise.estimation.filters.conclusion import filter_method
 from equipoise.estimation.filters.model import Kind
-from equipoise.estimation.method_contract import Method, Options
-from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card
-from equipoise.model.recording import Recording
-from equipoise.model.testbed import Testbed
 
 KIND = Kind(attitude=False, estimated=6, gyroscopic=False)
-
-
-def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
-    """Return the belief after the last row, begun from what the testbed says."""
-    return estimate(METHOD.card, KIND, recording, testbed)
-
-
-METHOD = Method(
+METHOD = filter_method(
     Card(
         "kf_simplified",
         "simplified Euler equation: J diagonal, no gyroscopic torque; w and com",
@@ -26,5 +15,5 @@ METHOD = Method(
         "com along gravity until it has tilted; anything at all in fast motion",
         "wandering",
     ),
-    run,
+    KIND,
 )

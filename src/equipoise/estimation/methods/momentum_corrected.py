@@ -1,21 +1,16 @@
 """The momentum integral in body axes by least squares less the bias of a noisy regressor."""
 
 from equipoise.estimation.regression.formulations.momentum import body_axes
+from equipoise.estimation.regression.linear_cards import balance
 from equipoise.estimation.regression.linear_method import Linear, method
 from equipoise.estimation.regression.solvers.corrected import corrected
-from equipoise.model.method_card import Card
 
 METHOD = method(
-    Card(
+    balance(
         "momentum_corrected",
         "momentum integral in body axes, free constants",
         "least squares less the bias of a noisy regressor",
         "Fuller 1987 section 2.2 on da Silva 2021 Eqs. 16-21",
-        "a camera or a gyro; tilt better known with a camera",
-        "scale of J and com without a known change; J_zz and products without spin "
-        "about more than one axis",
-        "driven",
-        ("term", "hold"),
     ),
     Linear(body_axes, corrected, needs_noise=True),
 )

@@ -1,4 +1,4 @@
-"""The trajectory fit with a drifting centre of mass: see ``estimation.smoother``."""
+"""The trajectory fit with a drifting centre of mass: see ``drift_smoother``."""
 
 from equipoise.estimation.method_contract import Method, Options, refused
 from equipoise.estimation.methods.trajectory import params_of

@@ -1,4 +1,4 @@
-"""The tracker as an estimator: its belief after the last row, see ``estimation.tracker``.
+"""The tracker as an estimator: its estimate after the last row, see ``estimation.tracker``.
 
 After a move the centre of mass is that of the masses as they stand: where they really stopped is
 part of it. The intervals allow for a centre of mass that drifts, and on a platform that does not
@@ -22,7 +22,7 @@ from equipoise.model.recording import Recording, arranged
 from equipoise.model.testbed import Testbed
 
 MOST = 0.2  # chosen: with more odd rows it is the model that is odd
-SURPRISED = 1.5  # chosen: times the expected square of innovations, beyond which nothing is told
+SURPRISED = 1.5  # chosen: times the expected square of innovations, beyond which nothing is usable
 
 
 def shift_at_end(recording: Recording, testbed: Testbed) -> Vector3:
@@ -34,7 +34,7 @@ def shift_at_end(recording: Recording, testbed: Testbed) -> Vector3:
 
 
 def parameters_of(posterior: tracker.Posterior, shift: Vector3) -> tuple[Parameter, ...]:
-    """Return what is believed, com with the masses as they stand."""
+    """Return the estimate, com with the masses as they stand."""
     values = [*(posterior.com + shift), *pack_symmetric(posterior.inertia_P)]
     names = (*(END if shift.any() else COM), *INERTIA)
     units = ["m"] * len(COM) + ["kg m2"] * len(INERTIA)
@@ -71,7 +71,7 @@ def outcome_of(track: tracker.Track) -> Outcome:
 
 
 def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
-    """Return the belief after the last row, begun from what the testbed says."""
+    """Return the estimate after the last row, begun from the prior of the testbed."""
     if recording.attitude is None or len(recording.attitude) < 2:
         return refused(METHOD.card, Why.NO_ATTITUDE)
     recording, first = arranged(recording, testbed.mass_names), recording.attitude

@@ -1,4 +1,4 @@
-"""Maximum likelihood in the model that the record supports: see ``estimation.reference``."""
+"""Maximum likelihood in the model that the record supports: see ``reference_fit``."""
 
 from equipoise.estimation.method_contract import Method, Options
 from equipoise.estimation.model_selection import reference_fit
@@ -16,7 +16,7 @@ def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
 
 
 def params_of(testbed: Testbed, options: Options) -> Params:
-    """Return what a trajectory fit is told: the testbed's own terms among those to estimate."""
+    """Return the options of a trajectory fit: the testbed's own terms among those to estimate."""
     terms = (*testbed.disturbances, *options.terms)
     return Params(
         torque_terms.among(terms),

@@ -1,22 +1,11 @@
 """Unscented Kalman filter of rate and the centre of mass along the up axis."""
 
-from equipoise.estimation.filters.conclusion import estimate
+from equipoise.estimation.filters.conclusion import filter_method
 from equipoise.estimation.filters.model import Kind
-from equipoise.estimation.method_contract import Method, Options
-from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card
-from equipoise.model.recording import Recording
-from equipoise.model.testbed import Testbed
 
 KIND = Kind(attitude=False, estimated=4, unscented=True, upright=True)
-
-
-def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
-    """Return the belief after the last row, begun from what the testbed says."""
-    return estimate(METHOD.card, KIND, recording, testbed)
-
-
-METHOD = Method(
+METHOD = filter_method(
     Card(
         "ukf_4",
         "Euler's equation, attitude as an input; w and com along up (com_z where z is up)",
@@ -26,5 +15,5 @@ METHOD = Method(
         "com across up, which it takes from the testbed; com along gravity until it has tilted",
         "levelled",
     ),
-    run,
+    KIND,
 )

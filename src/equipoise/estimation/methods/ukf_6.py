@@ -1,22 +1,11 @@
 """Unscented Kalman filter of rate and centre of mass."""
 
-from equipoise.estimation.filters.conclusion import estimate
+from equipoise.estimation.filters.conclusion import filter_method
 from equipoise.estimation.filters.model import Kind
-from equipoise.estimation.method_contract import Method, Options
-from equipoise.model.estimate import Estimate
 from equipoise.model.method_card import Card
-from equipoise.model.recording import Recording
-from equipoise.model.testbed import Testbed
 
 KIND = Kind(attitude=False, estimated=6, unscented=True)
-
-
-def run(recording: Recording, testbed: Testbed, options: Options) -> Estimate:
-    """Return the belief after the last row, begun from what the testbed says."""
-    return estimate(METHOD.card, KIND, recording, testbed)
-
-
-METHOD = Method(
+METHOD = filter_method(
     Card(
         "ukf_6",
         "Euler's equation, attitude as an input; w and com",
@@ -27,5 +16,5 @@ METHOD = Method(
         "tilted",
         "wandering",
     ),
-    run,
+    KIND,
 )

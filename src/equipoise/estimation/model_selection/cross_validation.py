@@ -1,4 +1,4 @@
-"""Whether a richer model of two is nearer to rows that it has not seen.
+"""Whether a richer model of two is nearer to rows that were held out.
 
 Without process noise blocks of rows are left out, two at a time and half a record apart, so that
 what is left spans it all; the motion itself bridges them. With process noise no motion bridges a
@@ -11,9 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.events.record_model import RecordModel, active, jumps_of, smoothed
-from equipoise.estimation.output_error.problem import Problem, evaluate
+from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.segment_jumps import carried
-from equipoise.estimation.output_error.solution import settle
+from equipoise.estimation.output_error.solution import evaluate, settle
 from equipoise.estimation.output_error.trajectory import at_rest, problem_of
 from equipoise.estimation.parameters.fit_parameters import RATE, TURN, Unknowns, unknowns_of
 from equipoise.maths.attitude import exponential, multiply
@@ -100,6 +100,6 @@ def carried_over(model: RecordModel) -> float:
 
 
 def predicts_better(poorer: RecordModel, richer: RecordModel) -> bool:
-    """Say whether the richer model is nearer to rows that it has not seen."""
+    """Say whether the richer model is nearer to rows that were held out."""
     score = carried_over if poorer.wanders else bridged
     return score(richer) < score(poorer)

@@ -1,8 +1,8 @@
 """Condensed: a dense record as means of neighbouring rows, for the search and the survey.
 
 A camera of 100 Hz sees a swing of 30 s three thousand times. Means of k rows, T = k p long for rows
-p apart, tell as much: of noise sd each becomes one of sd / sqrt(k), and of what a motion of the
-frequency W tells only the share
+p apart, hold as much: of noise sd each becomes one of sd / sqrt(k), and of the information of a
+motion of the frequency W only the share
 
     1 - (sin(x) / x)^2 = W^2 T^2 / 12,     x = W T / 2
 
@@ -97,11 +97,6 @@ def swing_of(recording: Recording, testbed: Testbed) -> float:
     return quickest_swing(testbed, aside)
 
 
-def longest_mean(recording: Recording, testbed: Testbed) -> float:
-    """Return how long (s) a mean may be for the fastest swing, and for events to be found."""
-    return min(TURNED / swing_of(recording, testbed), finest_spacing(recording) / ROWS)
-
-
 def turned(attitude: Samples, k: int) -> float:
     """Return by how much (rad) the platform turns within k rows, mostly."""
     turns = difference(attitude.values[k:], attitude.values[:-k])
@@ -151,7 +146,8 @@ def condensed(recording: Recording, testbed: Testbed) -> Condensed | None:
     attitude, rate = recording.attitude, recording.rate
     if sum(len(c) for c in (attitude, rate) if c is not None) < DENSE:
         return None
-    longest = longest_mean(recording, testbed)
+    # s, of a mean: for the fastest swing, and for events to be found
+    longest = min(TURNED / swing_of(recording, testbed), finest_spacing(recording) / ROWS)
     k_q, k_w = most_rows(attitude, longest, turned), most_rows(rate, longest, swept)
     if k_q == k_w == 1:
         return None

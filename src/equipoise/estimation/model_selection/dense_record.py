@@ -1,6 +1,6 @@
 """A dense record: fitted and surveyed as means of its rows, then fitted once by all of them.
 
-The search and the survey see the condensed record (``condensed``); their model is taken over, and
+The search and the survey take the condensed record (``decimation``); their model is taken over, and
 the descent on all rows begins at their optimum, a few evaluations from its own. Values, residual
 and intervals are those of all rows.
 
@@ -33,7 +33,7 @@ from equipoise.model.recording import Recording, window
 from equipoise.model.testbed import Testbed
 
 EARLY = 0.02  # of the record, chosen: the least part that the linear start is given
-FINE = 2.0  # chosen: cuts are nodes too; the optimum may not depend on that by what a cut tells
+FINE = 2.0  # chosen: cuts are nodes too; the optimum may not depend on that by what a cut shows
 WIDE = 3.0  # rows, chosen: a shorter interruption is no gap
 
 
@@ -58,7 +58,7 @@ def surveyed_condensed(few: Condensed, params: Params) -> RecordModel:
 
 
 def with_noise_of(few: Condensed, model: RecordModel, testbed: Testbed) -> Testbed:
-    """Return the testbed with a row's noise as that of the means tells it: times sqrt(k)."""
+    """Return the testbed with a row's noise by that of the means: times sqrt(k)."""
     camera, gyro = model.testbed.attitude, model.testbed.gyro
     attitude, rate = testbed.attitude, testbed.gyro
     if attitude is not None and camera is not None:
@@ -78,7 +78,7 @@ def moved(fitted: Fitted, problem: Problem) -> Fitted:
 def with_all_rows(
     few: Condensed, model: RecordModel, recording: Recording, stated: Testbed
 ) -> RecordModel:
-    """Return the belief about a condensed record as one about the record, not fitted yet."""
+    """Return the model of a condensed record as one of the record, not fitted yet."""
     testbed = with_noise_of(few, model, stated)
     first = moved(model.fitted, problem_of(recording, testbed, model.params))
     params = replace(model.params, fineness=1.0)
@@ -88,8 +88,8 @@ def with_all_rows(
 
 
 def with_rows_own_noise(model: RecordModel) -> RecordModel:
-    """Return the belief with the rows' own noise, if that is not what their means say."""
-    factors = noise_factors(model, *smoothed(model))
+    """Return the model with the rows' own noise, if that is not what their means say."""
+    factors = noise_factors(*smoothed(model))
     rows = (len(model.fitted.at.left_q), len(model.fitted.at.left_w))
     if all(is_known(factor, n) for factor, n in zip(factors, rows, strict=True)):
         return model

@@ -7,19 +7,19 @@ The whole record is fitted as in ``trajectory``; com walks meanwhile,
 r changes half way between nodes, so that the r of a stretch is that of the node in its middle; the
 first and the last stretch are half as long, their nodes the ends of the record. What is most
 probable given all rows (maximum a posteriori) is, all being normal, the fixed-interval smoother
-(Rauch, Tung and Striebel 1965), here about the whole non-linear motion and solved as ``stretches``
-says; at the last node it believes what a filter believes that has seen all rows.
+(Rauch, Tung and Striebel 1965), here about the whole non-linear motion and solved as ``segments``
+says; at the last node it equals a filter that has had all rows.
 
-w is one number an axis, from the record (``walk_size``), and more where com went one way for long,
-which a walk of that size would not (``torque_colour``); the jumps are not taken to tell the scale
-of J and com (``untied_scale``). Between nodes r is off by another
+w is one number an axis, from the record (``drift_intensity``), and more where com went one way for
+long, which a walk of that size would not (``process_noise_spectrum``); the jumps are not taken as
+information on the scale of J and com (``drift_scale``). Between nodes r is off by another
 w sqrt(dt/12) rms about its stretch's, which no sd counts.
 
 ``com`` is that of the first moment, ``com_end`` that of the last with the masses as they stand; the
 course has r with the masses at home, drift terms included.
 
 Cannot see what ``trajectory`` cannot see; a drift along gravity without tilt; a drift from other
-slow torques. A drift at a constant rate is not a walk: where the record tells it badly, beside a
+slow torques. A drift at a constant rate is not a walk: where the record shows it badly, beside a
 camera that leans, com may be off by two stated sd; ask for the terms ``drift`` then.
 """
 
@@ -109,7 +109,7 @@ def calibrated(found: Drifting, expected: float, up: Vector3) -> Drifting:
 
 
 def coloured(found: Drifting, up: Vector3) -> Drifting:
-    """Return the fit with a walk as dense as where it is densest (``torque_colour``)."""
+    """Return the fit with a walk as dense as where it is densest (``process_noise_spectrum``)."""
     steps = found.fitted.jumps[:, : len(found.sd)] / found.sd
     return refitted(found, found.sd * np.sqrt(densest(steps, 1)), up)
 

@@ -1,7 +1,7 @@
 """The fit that a survey begins with: plain, or with the little that it cannot begin without.
 
 Over some turns drag takes the heading so far away that no step leads back, and a guess that is far
-off pulls at what the data tell; both are put right before anything else is looked for.
+off pulls at what the data show; both are put right before anything else is sought.
 """
 
 from dataclasses import replace
@@ -59,7 +59,7 @@ def anchored(
     """Return the testbed with the body that was found, and the fit, where the guess was far off.
 
     What the data leave open is kept near the guess (``Prior``), within sizes taken from it: those
-    of a body ten times too small would pull at what the data do tell.
+    of a body ten times too small would pull at what the data do show.
     """
     found, guess = fitted.point.body(testbed.body.mass), testbed.body
     moved = np.diag(found.inertia_P - guess.inertia_P) / (np.trace(guess.inertia_P) / 3)

@@ -1,16 +1,16 @@
 """Which terms beside gravity and a rigid body a record supports: sensors' errors and torques.
 
-A group of terms is looked at when the record is likelier with it, all unknowns integrated out about
+A group of terms is tried when the record is likelier with it, all unknowns integrated out about
 the present optimum and the group's coefficients having a plausible size each (W = size^-2):
 
     2 ln ratio = b^T (S + W)^-1 b - ln det(E + W^-1 S),     S = A_BB - A_BA A_AA^-1 A_AB
 
-(the Bayes factor in Laplace's approximation), and kept when it also predicts (``held_out_rows``): a
-term that merely bends to fit loses where it has not seen. A torque needs a lead (``SURE``; Kass and
-Raftery 1995 call 6 strong), an error of a sensor none: where it is as likely there as not, leaving
-it out moves com by several sd.
+(the Bayes factor in Laplace's approximation). It is kept when it also predicts
+(``cross_validation``): a term that merely bends to fit loses on rows that were held out. A torque
+needs a lead (``SURE``; Kass and Raftery 1995 call 6 strong). An error of a sensor needs none: where
+it is as likely there as not, leaving it out moves com by several sd.
 
-Cannot tell apart terms that do the same within the record: the first that predicts is kept.
+Cannot separate terms that do the same within the record: the first that predicts is kept.
 """
 
 from dataclasses import replace
@@ -20,7 +20,8 @@ import numpy as np
 from equipoise.estimation.events.record_model import RecordModel, refitted
 from equipoise.estimation.model_selection.cross_validation import posed_in
 from equipoise.estimation.output_error.free_vertical import PLUMB, may_lean, with_free_vertical
-from equipoise.estimation.output_error.problem import changes, evaluate
+from equipoise.estimation.output_error.problem import changes
+from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import sensor_sizes, term_sizes
 from equipoise.model import sensor_terms, torque_terms
@@ -122,7 +123,7 @@ def surplus(model: RecordModel, group: tuple[str, ...]) -> float:
 
 
 def lead(group: tuple[str, ...]) -> float:
-    """Return the 2 ln ratio that a group needs to be looked at."""
+    """Return the 2 ln ratio that a group needs to be tried."""
     return 0.0 if is_of_sensors(group) else SURE
 
 

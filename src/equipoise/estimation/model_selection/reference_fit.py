@@ -2,7 +2,7 @@
 
 The plain fit (``trajectory``) is surveyed (``survey``): its noise, events such as touches, process
 noise, and the terms of torque and sensors that the record shows and that also predict. What is
-found is part of the model of the final fit, so that the intervals count it; and it is told.
+found is part of the model of the final fit, so that the intervals count it; and it is reported.
 
 Cannot see what ``trajectory`` cannot see; nor anything that no row of the record shows.
 """
@@ -29,9 +29,8 @@ from equipoise.estimation.model_selection.survey_reasons import (
 )
 from equipoise.estimation.output_error.fit_estimate import UNSETTLED, conclude
 from equipoise.estimation.output_error.outlier_rejection import without_outliers
-from equipoise.estimation.output_error.problem import evaluate
 from equipoise.estimation.output_error.segment_jumps import carried
-from equipoise.estimation.output_error.solution import Fitted, settle
+from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
 from equipoise.estimation.output_error.trajectory import METHOD, Params, at_rest, problem_of
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError
@@ -65,7 +64,7 @@ def predicted_left(recording: Recording, fitted: Fitted, left: Fitted, cut: floa
 
 
 def steady(model: RecordModel) -> RecordModel:
-    """Return the belief without process noise: what is left then must be predictable."""
+    """Return the model without process noise: what is left then must be predictable."""
     return refitted(replace(model, walk=np.zeros(3))) if model.wanders else model
 
 
@@ -162,7 +161,7 @@ def estimate_of(recording: Recording, testbed: Testbed, params: Params) -> Estim
 
 
 def as_estimate(model: RecordModel, recording: Recording, params: Params) -> Estimate:
-    """Return the estimate that a belief about a record comes to."""
+    """Return the estimate that a model of a record comes to."""
     concluded = conclude(model.fitted, METHOD, recording, model.coloured)
     if not np.isfinite(model.fitted.at.cost) or not (len(model.cuts) or concluded.outcome.usable):
         return concluded

@@ -1,4 +1,4 @@
-"""Survey: what happened during a record, and how noisy it is, without being told.
+"""Survey: what happened during a record, and how noisy it is, from the record alone.
 
 A platform that is touched, or whose parts shift, moves on by the same laws from another state. So
 the record is cut into short stretches with a little process noise between them, which keeps each
@@ -14,8 +14,8 @@ cut's test local and lets a model that is slightly wrong pass; then
 The threshold is that of one false alarm in ``FALSE_ALARM`` seconds if cuts were independent, which
 they are not: the rate is lower.
 
-Cannot see events below the threshold, nor two within one stretch; an impulse is told from a step of
-the centre of mass only when the rows behind it swing.
+Cannot see events below the threshold, nor two within one stretch. An impulse is separable from a
+step of the centre of mass only when the rows behind it swing.
 """
 
 from dataclasses import replace
@@ -73,7 +73,7 @@ def finest_spacing(recording: Recording) -> float:
 
 
 def cut_times(recording: Recording) -> Series1:
-    """Return where to look for events: evenly, a few rows apart."""
+    """Return where to test for events: evenly, a few rows apart."""
     start, end = recording.span
     rows = recording.attitude or recording.rate
     assert rows is not None
@@ -82,7 +82,7 @@ def cut_times(recording: Recording) -> Series1:
 
 
 def touched(model: RecordModel, surprise: dict[str, Floats], fit: Fitted) -> RecordModel | None:
-    """Return the belief with the event that surprises most, if it is beyond the threshold."""
+    """Return the model with the event that surprises most, if it is beyond the threshold."""
     kind, values = max(surprise.items(), key=lambda item: float(np.max(item[1])))
     k = int(np.argmax(values))
     if values[k] < threshold(model.spacing):
@@ -92,7 +92,7 @@ def touched(model: RecordModel, surprise: dict[str, Floats], fit: Fitted) -> Rec
 
 
 def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
-    """Return the belief with all terms that the record supports and the events that surprise."""
+    """Return the model with all terms that the record supports and the events that surprise."""
     refused: Refused = set()
     while len(model.events) < most:
         model, surprise, fit = calibrated(model)
@@ -111,12 +111,12 @@ def searched(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
 
 
 def wandering(model: RecordModel) -> RecordModel:
-    """Return the belief with some process noise to begin with."""
+    """Return the model with some process noise to begin with."""
     return replace(model, walk=np.full(3, first_walk(model)))
 
 
 def is_drowned(model: RecordModel) -> bool:
-    """Say whether something drives the platform so that nothing is to be told any further."""
+    """Say whether something drives the platform so that nothing more is identifiable."""
     return model.wanders and survey_reasons.driven(model) > survey_reasons.DRIVEN
 
 
@@ -129,7 +129,7 @@ def is_calm(model: RecordModel) -> bool:
 
 
 def driven(model: RecordModel) -> RecordModel:
-    """Return the belief of a platform that something unknown drives: with process noise."""
+    """Return the model of a platform that something unknown drives: with process noise."""
     model = wandering(model)
     for turn in range(ROUNDS):
         wider = searched(model, MOST_EVENTS)
@@ -141,12 +141,12 @@ def driven(model: RecordModel) -> RecordModel:
     return model
 
 
-def repeated(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
-    """Return the belief searched and settled again and again, until nothing new stays."""
+def repeated(model: RecordModel, terms: bool = True) -> RecordModel:
+    """Return the model searched and settled again and again, until nothing new stays."""
     for _ in range(ROUNDS):
         before = contents(model)
-        model = searched(model, most, terms)
-        if contents(model) == before or len(model.events) >= most:
+        model = searched(model, FEW_EVENTS, terms)
+        if contents(model) == before or len(model.events) >= FEW_EVENTS:
             break
         model = settled(model)
         if contents(model) == before:
@@ -155,15 +155,15 @@ def repeated(model: RecordModel, most: int, terms: bool = True) -> RecordModel:
 
 
 def contents(model: RecordModel) -> tuple[object, ...]:
-    """Return what a belief believes in: terms, and how many events of each kind."""
+    """Return the contents of a model: terms, and how many events of each kind."""
     kinds = sorted(event.kind for event in model.events)
     return (model.params.terms, model.params.sensor, *kinds)
 
 
 def calm(model: RecordModel, greedy: RecordModel) -> RecordModel:
-    """Return the belief without process noise, from all that was found at first: ``greedy``.
+    """Return the model without process noise, from all that was found at first: ``greedy``.
 
-    An event that is not known yet may look like a term, and a term like events. So where both are
+    An unknown event may resemble a term, and a term events. So where both are
     found, or neither is enough, all is sought once more, events first; the likelier is taken.
     """
     plain = (greedy.params.terms, greedy.params.sensor) == (
@@ -171,7 +171,7 @@ def calm(model: RecordModel, greedy: RecordModel) -> RecordModel:
         model.params.sensor,
     )
     if not (plain or (not greedy.events and is_calm(greedy))):
-        events_first = repeated(repeated(model, FEW_EVENTS, terms=False), FEW_EVENTS)
+        events_first = repeated(repeated(model, terms=False))
         return likeliest([bared(one, model.params) for one in (greedy, events_first)])
     return bared(greedy, model.params)
 
@@ -200,7 +200,7 @@ def examined(model: RecordModel) -> RecordModel:
         wild, _, _ = calibrated(wandering(model))
         if is_drowned(wild):
             return wild
-    greedy = repeated(model, FEW_EVENTS)
+    greedy = repeated(model)
     if len(greedy.events) < MANY:
         return doubted(compared(model, calm(model, greedy)))
     pushed = driven(model)
@@ -217,7 +217,7 @@ def compared(
     """Return the likeliest of a model without process noise, ``greedy``, and those with it.
 
     One that explains all needs no rival, unless with ``MANY`` events: they explain anything, such
-    as a motor's push. How much process noise there is depends on which events are believed in: it
+    as a motor's push. How much process noise there is depends on which events the model has: it
     is sought from none (``pushed``, where that is at hand) and from all.
     """
     simple = pruned(greedy, colour_of(greedy))

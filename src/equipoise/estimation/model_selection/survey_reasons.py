@@ -6,7 +6,7 @@ from equipoise.estimation.events.record_model import RecordModel, slowest
 from equipoise.estimation.model_selection.cross_validation import posed_in
 from equipoise.estimation.model_selection.model_choice import candidates, with_group
 from equipoise.estimation.output_error.free_vertical import PLUMB
-from equipoise.estimation.output_error.problem import evaluate
+from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import Params
 from equipoise.estimation.parameters.fit_parameters import CORE
 from equipoise.maths.linalg import inverse_spd
@@ -16,10 +16,10 @@ from equipoise.model.reasons.data_reasons import Unexplained
 from equipoise.model.reasons.estimate_reasons import EstimateReason as Why
 from equipoise.model.reasons.reason import Reason, axes_of
 
-NOISY = 1.3  # chosen: a noise off by more is told
-OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, untold
-LEANS = 4.0  # sd, chosen: a smaller lean is corrected untold
-DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which that tells too little
+NOISY = 1.3  # chosen: a noise off by more is reported
+OPEN = 5.0  # chosen: times an sd may grow by a term that is not asked for, unreported
+LEANS = 4.0  # sd, chosen: a smaller lean is corrected unreported
+DRIVEN = 1 / 3  # chosen: wandering torque over gravity's, beyond which gravity's shows too little
 
 
 def noise_reasons(model: RecordModel) -> list[Reason]:
@@ -95,7 +95,7 @@ def core_sd(normal: Square) -> Floats:
 
 
 def open_terms(model: RecordModel) -> tuple[Reason, ...]:
-    """Return which absent terms the record could not tell from com or inertia.
+    """Return which absent terms the record could not separate from com or inertia.
 
     With such a term free, an sd would be more than OPEN times what it is.
     """

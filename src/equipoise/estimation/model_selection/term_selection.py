@@ -1,6 +1,6 @@
 """Which terms a survey takes beside its events, when either may stand for the other.
 
-An event that is not known yet may look like a term, and a term like events. So a term that promises
+An unknown event may resemble a term, and a term events. So a term that promises
 as much as an event is taken before it (``is_lawful``), and every term is put to the test again when
 all else is known (``bared``).
 """
@@ -27,7 +27,7 @@ def likeliest(models: Sequence[RecordModel]) -> RecordModel:
 
 
 def extended(model: RecordModel, group: tuple[str, ...], refused: Refused) -> RecordModel:
-    """Return the belief with a group of terms, if that predicts better; refuse it otherwise."""
+    """Return the model with a group of terms, if that predicts better; refuse it otherwise."""
     richer = refitted(with_group(model, group))
     if richer.fitted.converged and predicts_better(model, richer):
         return richer
@@ -49,7 +49,7 @@ def is_lawful(richer: RecordModel, shaken: RecordModel, group: tuple[str, ...]) 
 
 
 def bared(model: RecordModel, requested: Params) -> RecordModel:
-    """Return the belief without the terms that what was found after them has made needless."""
+    """Return the model without the terms that later finds have made needless."""
     for group in added_groups(model, requested):
         model = likeliest([refitted(without_group(model, group)), model])
     return model

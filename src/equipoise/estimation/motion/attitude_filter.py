@@ -1,4 +1,4 @@
-"""Attitude, rate and gyro bias while they happen: what a balancing law looks at.
+"""Attitude, rate and gyro bias in real time: the feedback of a balancing law.
 
     q' = 1/2 q (0, w_meas - b),   b' = 0        error state [theta (body, rad), b], multiplicative
 
@@ -29,17 +29,9 @@ from equipoise.model.testbed import Testbed
 from equipoise.sensors.timing import measured_at
 
 WALK = 3e-7  # rad/s/sqrt(s), chosen: what a MEMS gyro's bias walks, 0.1 deg/s in two days
-BIAS_SD = 0.02  # rad/s, chosen: of a gyro that the testbed does not tell
+BIAS_SD = 0.02  # rad/s, chosen: of a gyro that the testbed does not state
 GYRO, CAMERA = 0, 1
 T, Q, B, P, RATE = 0, slice(1, 5), slice(5, 8), slice(8, 11), slice(11, 14)  # of the state
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Noises:
-    """What the filter reckons with."""
-
-    gyro: float  # rad^2/s, per row: sd^2 times the time between rows
-    camera: float  # rad^2
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -102,12 +94,6 @@ def _follow(kind: Ints, t: Floats, rows: Floats, gyro: float, camera: float, x: 
         x[11], x[12], x[13] = wx / n - x[5], wy / n - x[6], wz / n - x[7]
 
 
-def noises_of(testbed: Testbed) -> Noises:
-    """Return the noise that the testbed's sensors have."""
-    rate = 100.0 if testbed.gyro is None else testbed.gyro.rate
-    return Noises(gyro_noise(testbed) ** 2 / rate, camera_noise(testbed) ** 2)
-
-
 def first_state(t: float, q: Quaternion, testbed: Testbed) -> AttitudeState:
     """Return the state at a first row of the camera (s); the bias is only known to its sd."""
     sd = BIAS_SD if testbed.gyro is None else testbed.gyro.bias_sd
@@ -140,6 +126,9 @@ def followed(
         first = int(observed[0])
         state = first_state(float(t[first]), rows[first], testbed)
         kind, t, rows = kind[first + 1 :], t[first + 1 :], rows[first + 1 :]
-    noises, values = noises_of(testbed), state.values.copy()
-    _follow(kind, t, rows, noises.gyro, noises.camera, values)
+    rate = 100.0 if testbed.gyro is None else testbed.gyro.rate
+    # rad^2/s, sd^2 times the time between rows; rad^2
+    gyro, camera = gyro_noise(testbed) ** 2 / rate, camera_noise(testbed) ** 2
+    values = state.values.copy()
+    _follow(kind, t, rows, gyro, camera, values)
     return AttitudeState(values)

@@ -72,7 +72,7 @@ def led_motion(recording: Recording, testbed: Testbed) -> LedMotion:
         None if c is None or len(c) < FEWEST else c for c in (recording.attitude, recording.rate)
     )
     if attitude is None and rate is None:
-        return LedMotion(np.zeros(0), np.zeros((0, 4)), np.zeros((0, 3)), np.zeros(0, np.int64))
+        return joined([])
     if rate is None:
         return by_camera(recording, testbed)
     t = measured_at(rate.t, testbed.gyro)
@@ -134,7 +134,8 @@ def led(rate: Samples, camera: Samples, testbed: Testbed) -> LedMotion | None:
     for _ in range(PASSES):
         bias = bias + bias_left(rate.t, base, observed.t, followed(rate, observed, bias)[1])
         base, off = followed(rate, observed, bias)
-    slow = smoothed_walk(observed.t, off, *spread_of(testbed, rate))
+    density = gyro_noise(testbed) * rate.period**0.5  # rad/sqrt(s)
+    slow = smoothed_walk(observed.t, off, density, camera_noise(testbed))
     q = multiply(exponential(read_at(rate.t, observed.t, slow)), base)
     return LedMotion(rate.t, q, rate.values - bias, np.zeros(len(rate.t), np.int64))
 
@@ -182,21 +183,16 @@ def bias_left(t: Series1, base: Series4, observed: Series1, off: Series3) -> Vec
 
 
 def median_near(off: Series3) -> Series3:
-    """Return the running median of five rows, which a lone odd row does not move."""
+    """Return the running median of five rows, which a single odd row does not move."""
     padded = np.pad(off, ((2, 2), (0, 0)), mode="reflect")
     near = np.stack([padded[k : k + len(off)] for k in range(5)])
     return np.asarray(np.median(near, axis=0), dtype=np.float64)
 
 
 def stand_off(left: Series3) -> Bools:
-    """Return which rows are farther off than noise, by the median."""
+    """Return which rows are outliers, by the median."""
     size = np.linalg.norm(left, axis=1)
     return size > STANDS_OFF * max(float(np.median(size)) / 1.18, 1e-12)
-
-
-def spread_of(testbed: Testbed, rate: Samples) -> tuple[float, float]:
-    """Return the gyro's density (rad/sqrt(s)) and the camera's noise (rad) of one sd."""
-    return gyro_noise(testbed) * rate.period**0.5, camera_noise(testbed)
 
 
 def thinned(motion: LedMotion) -> LedMotion:

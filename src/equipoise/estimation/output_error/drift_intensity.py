@@ -1,8 +1,8 @@
-"""How far a centre of mass wanders, told by the record itself: the size of its walk, axis by axis.
+"""How far a centre of mass wanders, by the record itself: the size of its walk, axis by axis.
 
 Between nodes dt apart a walk of size w (m/sqrt(s)) has steps of sd s = w sqrt(dt). With A_k, b_k of
 the stretches, and everything linear about a fit whose jumps are j, rows and unknowns are normal
-together; all unknowns integrated out (``stretches`` has M and the promises, beta the right side of
+together; all unknowns integrated out (``segments`` has M and the promises, beta the right side of
 the first stretch, A its matrix with the priors),
 
     -2 ln p(rows | w) = sum j^2/s^2 - promised - beta A^-1 beta + ln det A
@@ -34,6 +34,7 @@ from equipoise.estimation.output_error.kernels.segments import (
     Cuts,
     Pieces,
     absorb_jump,
+    add_stretch,
     carry_back,
     chain_for,
     count_free,
@@ -58,16 +59,6 @@ def log_det(scale: Floats, factors: Floats, n: int) -> float:
     for i in range(n):
         total += np.log(factors[i, i]) - 2.0 * np.log(scale[i])
     return total
-
-
-@part
-def add_stretch(pieces: Pieces, k: int, chain: Chain) -> None:
-    """Add the local model of a stretch to P and p."""
-    n = chain.descent.shape[0]
-    for i in range(n):
-        chain.descent[i] += pieces.descent[k, i]
-        for j in range(n):
-            chain.normal[i, j] += pieces.normal[k, i, j]
 
 
 @part
@@ -122,7 +113,7 @@ def improbability_of(problem: Posed, at: Local, sd: Floats) -> float:
 
 
 def expected_shares() -> Series1:
-    """Return how probable each size is beforehand; the least of them is none."""
+    """Return the prior probability of each size; the least of them is none."""
     share = np.exp(-0.5 * (DECADES / DECADES_SD) ** 2)
     share *= (1 - STILL) / share.sum()
     share[0] += STILL

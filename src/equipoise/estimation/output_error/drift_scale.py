@@ -1,12 +1,12 @@
-"""Jumps of com whose size nobody told say nothing of the scale of J and com; a plain fit thinks so.
+"""Jumps of com of unstated size hold no information on the scale of J and com; a plain fit errs.
 
-Rows tell jumps u only as u/J. A fit with an sd s of the jumps can therefore lower sum u^2/s^2 by
+Rows show jumps u only as u/J. A fit with an sd s of the jumps can therefore lower sum u^2/s^2 by
 shrinking J, com and u alike, in the proportion c, and would: by the pull
 
     d/d(ln c) [ 1/2 sum u^2/s^2 ] = S,     S = sum u^2/s^2
 
 which outweighs the known move where jumps are many. It is not what is likely: the volume that u may
-take up shrinks, too, as c^-1 for each jump that the rows tell (restricted likelihood), and s is set
+take up shrinks, too, as c^-1 for each jump that the rows show (restricted likelihood), and s is set
 by the same u, so that it goes along. What is left of the jumps about the scale is nothing; so
 
     cost - S ln c,      information - S l l^T,     l = d(ln c)/d(unknowns)

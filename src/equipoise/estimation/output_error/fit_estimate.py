@@ -145,7 +145,8 @@ def parameters_of(
         rows, reported = np.vstack([rows, last]), np.append(reported, end[0])
         labels += [(name, "m") for name in END]
         if after is not None:
-            fresh[-3:, -3:] = end[1] @ jumped_by_then(after) @ end[1].T
+            first = after.onward @ after.covariance[0] @ after.onward.T
+            fresh[-3:, -3:] = end[1] @ (after.covariance[-1] - first) @ end[1].T  # by jumps alone
     covariance = factor**2 * (rows @ view.covariance @ rows.T + fresh[: len(rows), : len(rows)])
     hidden = np.any(np.abs(rows[:, view.hidden]) > 0, axis=1)
     sd = np.where(hidden, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
@@ -154,11 +155,6 @@ def parameters_of(
         for i, (name, unit) in enumerate(labels)
     ]
     return tuple(found), covariance
-
-
-def jumped_by_then(after: Smoothed) -> Floats:
-    """Return the covariance of the last stretch's unknowns that comes of the jumps alone."""
-    return after.covariance[-1] - after.onward @ after.covariance[0] @ after.onward.T
 
 
 def without_scale(view: Visibility, layout: Layout) -> Visibility:
@@ -189,8 +185,8 @@ def visibility_of(fitted: Fitted, values: Floats) -> Visibility:
 def spread_of(fitted: Fitted, coloured: float = 1.0) -> tuple[tuple[Parameter, ...], Floats]:
     """Return named values and their covariance with every prior counted, and nothing hidden.
 
-    What the data do not see is as uncertain as the priors leave it: a number for whoever asks what
-    a combination of parameters may be, where ``conclude`` says that it is not seen.
+    What the data do not show is as uncertain as the priors leave it: a number for whoever asks what
+    a combination of parameters may be, where ``conclude`` says that it is unobservable.
     """
     held = fitted.problem.prior.held
     covariance = inverse_where(fitted.at.normal, ~held)

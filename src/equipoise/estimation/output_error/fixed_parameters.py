@@ -1,9 +1,10 @@
-"""Held values: moments and centre of mass that stay exactly where they are told to.
+"""Held values: moments and centre of mass that stay exactly where they are set.
 
-A held coordinate has no step of its own (``descent``). It moves all the same where a step leads to
-a body that cannot exist, which is put back among the possible ones as a whole (``pseudo_inertia``),
-and a first point may have another value than the one to hold. So a point is put right before a
-search, and after it. The search keeps the inertia about the centre of mass, of J about P and com r
+A held coordinate has no step of its own (``gauss_newton``). It moves all the same where a step
+leads to a body that cannot exist, which is put back among the possible ones as a whole
+(``pseudo_inertia``). A first point may also have another value than the one to hold. So a point is
+put right before a search, and after it. The search keeps the inertia about the centre of mass, of J
+about P and com r
 
     J_C = J - m (|r|^2 E - r r^T)
 """

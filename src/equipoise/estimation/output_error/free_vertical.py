@@ -1,7 +1,7 @@
 """The camera's vertical as an unknown of the fit, as far as the testbed says that it may lean.
 
 It is no term to be chosen: no camera is level to what a record shows of it, and the centre of mass
-is far off long before the record asks for the term.
+is well off before the record asks for the term.
 """
 
 from dataclasses import replace

@@ -36,11 +36,6 @@ EACH = 30  # evaluations
 Joints = tuple[Jump, ...]
 
 
-def joint_times(recording: Recording) -> Series1:
-    """Return where the record is cut, s."""
-    return np.linspace(*recording.span, STRETCHES + 1)[1:-1]
-
-
 def state_near(motion: SampledMotion, t: float) -> tuple[Quaternion, Vector3]:
     """Return the measured attitude and rate at a time: those of the nearest row, turned on."""
     k = int(np.argmin(np.abs(motion.t - t)))
@@ -77,7 +72,8 @@ def shot(
     recording: Recording, testbed: Testbed, posed_with: Callable[[Joints], Problem], body: Unknowns
 ) -> Unknowns:
     """Return a point near the optimum; ``body`` gives the first one, ``posed_with`` adds joints."""
-    motion, times = sampled_motion(recording, testbed), joint_times(recording)
+    motion = sampled_motion(recording, testbed)
+    times = np.linspace(*recording.span, STRETCHES + 1)[1:-1]
     fastest = max(float(np.linalg.norm(motion.w, axis=1).max()), SLOWEST)
     cut = posed_with(joints(times, *FIRST))
     q0, w0 = state_near(motion, float(cut.line.t[0]))

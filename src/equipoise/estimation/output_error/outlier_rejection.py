@@ -1,11 +1,10 @@
-"""Rows that stand far off the motion of all others: left out of a robust estimate, and counted.
+"""Outliers from the motion of all other rows: left out of a robust estimate, and counted.
 
 Huber's loss keeps a gross error from pulling a fit, but not from being counted in what the fit
 leaves: a few of a hundred sd make any model seem wrong, and a sensor seem noisy. So the motion is
-followed once by the robust fit, and rows farther off than ``OUTLYING`` of the usual distance (by
-the
-median) are no part of what is estimated, judged and surveyed then. Where many rows are far off it
-is the model that is wrong, and none is left out.
+followed once by the robust fit, and rows whose residual
+exceeds ``OUTLYING`` times the usual one (by the median) are no part of what is estimated, judged
+and surveyed then. Where many rows are outliers it is the model that is wrong, and none is left out.
 """
 
 from dataclasses import replace
@@ -17,13 +16,13 @@ from equipoise.model.arrays import Bools, Series
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 
-OUTLYING = 8.0  # chosen: of the sd of an axis; one sound row of 1e12 is as far
+OUTLYING = 8.0  # chosen: of the sd of an axis; one sound row of 1e12 exceeds it
 MEDIAN = 1.5382  # of |e| for three axes of unit noise
-MOST = 0.2  # chosen: with more of them far off, it is the model
+MOST = 0.2  # chosen: with more outliers, it is the model
 
 
 def outlying(left: Series) -> Bools:
-    """Return which residual vectors (n, 3), in sd, are far off."""
+    """Return which residual vectors (n, 3), in sd, are outliers."""
     size = np.linalg.norm(left, axis=1)
     if not len(size):
         return np.zeros(0, dtype=bool)
@@ -42,7 +41,7 @@ def without(channel: Samples | None, outlying: Bools) -> Samples | None:
 def without_outliers(
     recording: Recording, testbed: Testbed, params: Params
 ) -> tuple[Recording, int]:
-    """Return the record without the rows that stand far off its robust fit, and their number."""
+    """Return the record without the outliers of its robust fit, and their number."""
     at = fit(recording, testbed, replace(params, robust=True)).at
     camera, gyro = outlying(at.left_q), outlying(at.left_w)
     kept = replace(

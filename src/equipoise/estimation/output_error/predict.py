@@ -1,4 +1,4 @@
-"""What a set of mass properties says the sensors should have seen."""
+"""What the sensors should have measured, by a set of mass properties."""
 
 from collections.abc import Mapping
 

@@ -9,9 +9,9 @@ from equipoise.actuators.drive_errors import on_rails, rails_of
 from equipoise.actuators.mass_errors import MassErrors, mass_errors
 from equipoise.actuators.sliding_masses import MassMaps, mass_maps
 from equipoise.dynamics import sensitivities
-from equipoise.dynamics.propagation import Columns, stacked
+from equipoise.dynamics.propagation import stacked
+from equipoise.dynamics.sensitivities import Columns
 from equipoise.dynamics.timeline import TURN_PER_STEP, Timeline, timeline
-from equipoise.estimation.output_error.kernels import gauss_newton
 from equipoise.estimation.output_error.kernels.gauss_newton import Posed
 from equipoise.estimation.output_error.kernels.normal_equations import Measurements
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump, cuts_of, inside
@@ -22,14 +22,12 @@ from equipoise.estimation.parameters.fit_parameters import (
     TURN,
     Layout,
     R,
-    Unknowns,
     core_of,
     sensor_sizes,
     term_sizes,
-    unknowns_of,
 )
 from equipoise.maths.linalg import element_sizes
-from equipoise.model.arrays import Floats, Series, Square, Vector3
+from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import Testbed
 from equipoise.model.torque_terms import typical
@@ -40,7 +38,6 @@ FINEST = 0.02  # rad
 LONGEST_STEP = 1.0  # s, chosen: a thirtieth of the shortest swing worth fitting
 KNOWN, KNOWN_COM = 1e-6, 1e-9  # of J, and m, chosen: what a stated sd of 0 is taken for
 ANCHOR = 10.0  # chosen: natural sizes by which what the data leave open may stray from the guess
-MOST = 300  # evaluations, chosen: a fit that settles takes fewer than thirty
 NOTHING = Samples(np.zeros(0), np.zeros((0, 1)))
 
 
@@ -76,28 +73,6 @@ class Problem:
     jumps: tuple[Jump, ...] = UNCUT
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Evaluation:
-    """The problem at one point: the local model in physical coordinates, data and priors."""
-
-    cost: float  # half the sum of squares
-    normal: Square  # A
-    descent: Floats  # b
-    left_q: Series  # (n, 3) residuals in sd
-    left_w: Series
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Solution:
-    """Where a descent ended."""
-
-    point: Unknowns
-    at: Evaluation
-    converged: bool
-    evaluations: int
-    jumps: Floats  # (K - 1, a)
-
-
 def columns_of(layout: Layout) -> Columns:
     """Return the propagator's columns for a layout (the bias has none)."""
     fixed = [(sensitivities.TURN, 3), (sensitivities.RATE, 3), (sensitivities.INERTIA, 6)]
@@ -116,7 +91,7 @@ def prior_of(
     hold: tuple[str, ...],
     torque_anchor: float = ANCHOR,
 ) -> Prior:
-    """Return what is known beforehand: masses' errors and bias always, the body when asked."""
+    """Return the priors: masses' errors and bias always, the body when asked."""
     names = layout.names
     mean, sd = np.zeros(layout.size), np.full(layout.size, np.inf)
     mean[CORE] = core_of(testbed.body)
@@ -246,26 +221,6 @@ def posed(problem: Problem) -> Posed:
                  line.owners, problem.columns, problem.observed, problem.limit, prior.mean,
                  prior.weight, prior.held, problem.layout.slots,
                  cuts_of(problem.jumps, line.t, problem.layout))  # fmt: skip
-
-
-def descend(
-    problem: Problem, point: Unknowns, most: int = MOST, jumps: Floats | None = None
-) -> Solution:
-    """Return the local optimum from a point; jumps count as zero unless told."""
-    size, as_posed = problem.layout.size, posed(problem)
-    best = gauss_newton.local_for(as_posed, point.flat)
-    if jumps is not None:
-        best.pieces.jumps[:] = jumps
-    normal, toward = np.eye(size), np.zeros(size)
-    ended = gauss_newton.descend(as_posed, best, most, normal, toward)
-    at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w)
-    return Solution(unknowns_of(best.point), at, ended.converged, ended.evaluations,
-                    best.pieces.jumps)  # fmt: skip
-
-
-def evaluate(problem: Problem, point: Unknowns, jumps: Floats | None = None) -> Evaluation:
-    """Return cost, information and descent in physical coordinates, data and priors together."""
-    return descend(problem, point, 1, jumps).at
 
 
 def changes(recording: Recording) -> bool:

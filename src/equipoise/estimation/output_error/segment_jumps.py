@@ -1,6 +1,6 @@
 """Where a trajectory may jump: contacts, parts that shift, slow changes, gaps nobody watched.
 
-A jump is an unknown of its own with a normal prior of mean zero; see ``stretches`` for how it is
+A jump is an unknown of its own with a normal prior of mean zero; see ``segments`` for how it is
 solved. Names are those of the layout's coordinates, sizes are one sd in SI.
 """
 
@@ -62,7 +62,7 @@ def carried(old: tuple[Jump, ...], values: Floats, new: tuple[Jump, ...]) -> Flo
 def inside(jumps: Iterable[Jump], start: float, end: float) -> tuple[Jump, ...]:
     """Return the jumps within a record, in order of time, those of one time as one.
 
-    Times that the grid does not tell apart are one: no stretch is empty.
+    Times that the grid does not separate are one: no stretch is empty.
     """
     found: list[Jump] = []
     for jump in sorted(jumps, key=lambda j: j.t):

@@ -4,7 +4,7 @@ A drive that gives way by s under its mass's weight, and follows tau late, lets 
 
     s u.n(t - tau) = s u.(n + tau w x n),        n = g_B / g,  n' = n x w
 
-A command does not tell s, and the motion hardly does: it is not sought but carried (as a
+A command does not show s, and the motion hardly does: it is not sought but carried (as a
 "considered" parameter; Schmidt 1966). With A the information of the fit and b the descent of its
 cost, masses that hang by one sd move the optimum by
 
@@ -30,8 +30,8 @@ import numpy as np
 from equipoise.actuators.lags import LAG
 from equipoise.actuators.sliding_masses import MassMaps
 from equipoise.dynamics.rigid_body import KNOWN_D
-from equipoise.estimation.output_error.problem import Problem, evaluate
-from equipoise.estimation.output_error.solution import Fitted
+from equipoise.estimation.output_error.problem import Problem
+from equipoise.estimation.output_error.solution import Fitted, evaluate
 from equipoise.estimation.parameters.fit_parameters import FIXED
 from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Series1, Series3, Square, Vector3
@@ -41,7 +41,7 @@ VISCOUS = [TERMS.index(term) for term in GROUPS["viscous"]]
 
 
 def downward(fitted: Fitted) -> Series3:
-    """Return n at the nodes: as the camera saw it, straight between rows; without one, as it began.
+    """Return n at the nodes: by the camera, straight between rows; without one, as it began.
 
     Behind a camera's own errors it is off by less than a degree, which is nothing here.
     """

@@ -4,14 +4,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from equipoise.estimation.output_error.kernels import gauss_newton
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed, smooth
 from equipoise.estimation.output_error.kernels.segments import count_free
-from equipoise.estimation.output_error.problem import Evaluation, Problem, descend, posed
-from equipoise.estimation.parameters.fit_parameters import Unknowns
+from equipoise.estimation.output_error.problem import Problem, posed
+from equipoise.estimation.parameters.fit_parameters import Unknowns, unknowns_of
 from equipoise.maths.linalg import inverse_spd
-from equipoise.model.arrays import Floats
+from equipoise.model.arrays import Floats, Series, Square
 
 MOST = 300  # evaluations, chosen: a fit that settles takes fewer than thirty
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Evaluation:
+    """The problem at one point: the local model in physical coordinates, data and priors."""
+
+    cost: float  # half the sum of squares
+    normal: Square  # A
+    descent: Floats  # b
+    left_q: Series  # (n, 3) residuals in sd
+    left_w: Series
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,9 +41,21 @@ class Fitted:
 def settle(
     problem: Problem, point: Unknowns, jumps: Floats | None = None, most: int = MOST
 ) -> Fitted:
-    """Return the local optimum from a point and its jumps (zero unless told)."""
-    found = descend(problem, point, most, jumps)
-    return Fitted(problem, found.point, found.at, found.converged, found.evaluations, found.jumps)
+    """Return the local optimum from a point and its jumps; None: zero."""
+    size, as_posed = problem.layout.size, posed(problem)
+    best = gauss_newton.local_for(as_posed, point.flat)
+    if jumps is not None:
+        best.pieces.jumps[:] = jumps
+    normal, toward = np.eye(size), np.zeros(size)
+    ended = gauss_newton.descend(as_posed, best, most, normal, toward)
+    at = Evaluation(ended.cost, normal, toward, best.left_q, best.left_w)
+    return Fitted(problem, unknowns_of(best.point), at, ended.converged, ended.evaluations,
+                  best.pieces.jumps)  # fmt: skip
+
+
+def evaluate(problem: Problem, point: Unknowns, jumps: Floats | None = None) -> Evaluation:
+    """Return cost, information and descent in physical coordinates, data and priors together."""
+    return settle(problem, point, jumps, 1).at
 
 
 def chi_square_share(fit: Fitted) -> float:

@@ -7,7 +7,7 @@ stop, through every known move in the record (Ivanov 2021 section 3 with errata 
 about P, multiplicative residual, first attitude free, realised displacements as unknowns with
 their accuracy as prior). J moves in log-Cholesky coordinates and is always possible.
 
-Starts from the linear methods; where these are too far off, the horizon grows step by step.
+Starts from the linear methods; where these are too wrong, the horizon grows step by step.
 Reaches the Cramer-Rao bound when the model holds; the outcome says when it does not.
 
 Cannot see: the common scale of J and com without a known move, stored momentum or held value; com
@@ -25,18 +25,22 @@ from equipoise.estimation.output_error.initial_guess import start
 from equipoise.estimation.output_error.multiple_shooting import shot
 from equipoise.estimation.output_error.problem import (
     ANCHOR,
-    Evaluation,
     Problem,
     changes,
     errors_of,
-    evaluate,
     longest_step,
     pose,
     prior_of,
     with_typical_torques,
 )
 from equipoise.estimation.output_error.segment_jumps import UNCUT, Jump
-from equipoise.estimation.output_error.solution import Fitted, chi_square_share, settle
+from equipoise.estimation.output_error.solution import (
+    Evaluation,
+    Fitted,
+    chi_square_share,
+    evaluate,
+    settle,
+)
 from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, core_of
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
@@ -57,7 +61,7 @@ COARSE = 0.01  # rad, rad/s, chosen: half a degree
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What the fit is told."""
+    """Options of the fit."""
 
     terms: tuple[str, ...] = ()  # torques to estimate, by name
     sensor: tuple[str, ...] = ()  # of what is wrong with the sensors, by name
@@ -86,7 +90,7 @@ def layout_with(errors: MassErrors, recording: Recording, params: Params) -> Lay
 
 
 def fastest_rate(recording: Recording) -> float:
-    """Return the greatest rate (rad/s) seen, roughly."""
+    """Return the greatest rate (rad/s) measured, roughly."""
     rates: list[Floats] = []
     if recording.rate is not None and len(recording.rate):
         rates.append(np.linalg.norm(recording.rate.values, axis=1))

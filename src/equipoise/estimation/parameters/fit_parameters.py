@@ -6,7 +6,7 @@ Physical coordinates, in which information and covariance are stated:
       | torque coefficients | errors of the masses | sensor coefficients | gyro bias (3) ]
 
 The inertia itself is kept as the six numbers of ``maths.pseudo_inertia``, so every point is a body
-that can exist. What a step does to a point is in ``point_steps``.
+that can exist. What a step does to a point is in ``retraction``.
 """
 
 from dataclasses import dataclass

@@ -1,8 +1,8 @@
-"""What data can and cannot see, from the information matrix in physical coordinates.
+"""What data can and cannot show, from the information matrix in physical coordinates.
 
 Each coordinate is measured in a size natural to it (a moment of inertia in its own mean size, a
 centre of mass in its own distance, ...). A direction along which one sd exceeds half of that size
-is not seen; every parameter with a part in such a direction has an infinite interval.
+is unobservable; every parameter with a part in such a direction has an infinite interval.
 """
 
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ OPEN = Reason(Unobservable.SCALE)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Visibility:
-    """Covariance of what is seen, and which parameters have a part in what is not."""
+    """Covariance of what is observable, and which parameters have a part in what is not."""
 
     covariance: Square  # of what is not hidden
     hidden: Bools
@@ -52,15 +52,12 @@ def natural_sizes(point: Unknowns, mass: float, layout: Layout) -> Floats:
     size[TURN], size[RATE], size[JP], size[R] = 1.0, 0.1, inertia, distance
     n = len(layout.terms)
     size[FIXED : FIXED + n] = term_sizes(layout.terms, inertia, 9.81 * mass)
-    size[FIXED + n : FIXED + n + len(layout.errors)] = error_sizes(layout.errors)
+    # errors of the masses: 1 mm, 1 s of a lag, all of a gain, a radian
+    errors = [1e-3 if unit_of(name) == "m" else 1.0 for name in layout.errors]
+    size[FIXED + n : FIXED + n + len(errors)] = errors
     if layout.bias:
         size[-3:] = 0.1
     return size
-
-
-def error_sizes(names: tuple[str, ...]) -> Floats:
-    """Return a size for each error of the masses: 1 mm, 1 s of a lag, all of a gain, a radian."""
-    return np.array([1e-3 if unit_of(name) == "m" else 1.0 for name in names])
 
 
 def scale_of(values: Floats, size: Floats) -> Floats:
@@ -108,7 +105,7 @@ def examine_unheld(
 ) -> Visibility:
     """Return the same of information in which some coordinates are held, and so are known.
 
-    They have no part in what is seen of the others, and left among these they would drown it: what
+    They have no part in what the data show of the others. Left among these they would hide it: what
     is known to a billionth of its size, or to nothing at all, rounds off all that is not.
     """
     free = np.flatnonzero(~held)

@@ -6,8 +6,8 @@ A point is one flat array
       | gyro bias (3) ]
 
 with the inertia as the six numbers of ``maths.pseudo_inertia``, so that it is a body that can
-exist. A step is in physical coordinates (``unknowns``), where the residuals are nearly linear; one
-that would leave the possible bodies is sought again along their boundary
+exist. A step is in physical coordinates (``fit_parameters``), where the residuals are nearly
+linear. One that would leave the possible bodies is sought again along their boundary
 
     v.Sigma_C v = floor,      d(v.Sigma_C v) = 1/2 tr dJ_P - v.dJ_P v - 2 m (v.r) v.dr
 
@@ -183,7 +183,7 @@ def write_row(v: Triple, mass: float, r: Triple, row: Floats) -> None:
 
 @part
 def stride(step: Floats, trace: float) -> float:
-    """Return the length of a step in units beyond which no local model is to be believed.
+    """Return the length of a step in units beyond which no local model holds.
 
     These are a radian, a radian a second, the body's own inertia, the trace of J_P.
     """
@@ -196,7 +196,7 @@ def stride(step: Floats, trace: float) -> float:
 
 @part
 def shorten(step: Floats, trace: float) -> None:
-    """Cut a step that is too long to be believed."""
+    """Cut a step that is too long for the local model."""
     length = stride(step, trace)
     if length > 1.0:
         for k in range(step.shape[0]):

@@ -1,10 +1,10 @@
 """Ratios: what free motion shows of inertia and centre of mass when their scale is open.
 
-    J_ij / J_top and r_k / J_top, with J_top the largest moment of inertia that is seen
+    J_ij / J_top and r_k / J_top, with J_top the largest observable moment of inertia
     sd(a / b) = sd(a - (a / b) b) / b       to first order
 
-Cannot see the scale itself: see ``observability.OPEN``. A ratio that changes along a direction
-which is not seen, and is not the scale, is not seen either.
+Cannot see the scale itself: see ``observability.OPEN``. A ratio that changes along an
+unobservable direction other than the scale is unobservable, too.
 """
 
 import numpy as np

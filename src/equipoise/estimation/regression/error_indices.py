@@ -9,7 +9,7 @@ H is (N, p). Corrected: Eq. 10 prints (H^T H)^-1 (i) for the element (i, i). PEI
 so that "much lower than one" says nothing of it, and it grows with the number of rows: it is no
 standard error. The last line is that error, over the value.
 
-Raises InputError for rows that are too few, or that do not tell all unknowns apart.
+Raises InputError for rows that are too few, or that do not determine all unknowns.
 
 Cannot see what biases x: noise in H itself, such as that of rates in a regressor. Rows are taken to
 err alike and independently; those of running integrals do not.

@@ -1,4 +1,4 @@
-"""What a platform felt of gravity, from its motion and a known inertia alone.
+"""The torque of gravity on a platform, from its motion and a known inertia alone.
 
     torque    D[ W(w) p_J + int w x W(w) p_J ] - D[ known side ]  =  D[ int m r x g_B ]
     energy    1/2 w^T J w - known work                            =  m r . g_B + constant
@@ -43,7 +43,7 @@ def mean_square(values: Series) -> float:
 def residual_torque(
     formulation: Formulation, posed: Posed, draws: Draws, about_mean: bool = False
 ) -> NoiseCorrectedSeries:
-    """Return what was felt; ``about_mean`` for what is known up to a constant, as energy is."""
+    """Return the residual; ``about_mean`` for what is known up to a constant, as energy is."""
 
     def side(of: Posed) -> Series:
         values = side_of(formulation, of)[1]

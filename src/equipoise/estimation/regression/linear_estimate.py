@@ -25,7 +25,7 @@ from equipoise.model.torque_terms import TERMS, unit_of
 
 MATTERS = 0.5  # sd of noise: a bias beyond it makes 95 % less than 92 %
 MOST_TAKEN = 0.25  # chosen: beyond, a bias is no longer small, and not what repeating it shows
-DROWNED = 100.0  # chosen: ten times as far off as noise explains, nothing is known
+DROWNED = 100.0  # chosen: residuals ten times those of noise, so nothing is known
 
 
 class Shifts(NamedTuple):
@@ -37,7 +37,7 @@ class Shifts(NamedTuple):
 
 
 class Answer(NamedTuple):
-    """What a solver found, and how far off it may be."""
+    """What a solver found, and its possible errors."""
 
     values: Floats  # (c,) in the order of the rows' names
     covariance: Square  # of what noise does
@@ -75,7 +75,7 @@ def conclude(
 
 
 def course_of(rows: Rows, answer: Answer, whole: Square) -> Course | None:
-    """Return what a recursion believed along the rows.
+    """Return the estimate of a recursion along the rows.
 
     Its own sd take rows for independent: all are as much wider as the last one is.
     """

@@ -10,8 +10,8 @@ parameter errs by more than the root of the greatest ratio (Grenander and Szegoe
 
 What is left is judged without the bias, and without what the formulation is known to leave out.
 A bias, what a formulation leaves out of the motion (``Rows.omitted``) and what smoothing a camera's
-rows blurs are errors that no repetition shows: they are told, and added to the sd as if they were
-chance.
+rows blurs are errors that no repetition shows. They are reported, and added to the sd as if they
+were chance.
 """
 
 from collections.abc import Sequence
@@ -33,9 +33,8 @@ from equipoise.estimation.regression.formulations.rows import (
 )
 from equipoise.estimation.regression.linear_estimate import Answer, Shifts, conclude
 from equipoise.estimation.regression.monte_carlo_replicates import PAIRS, Drawn, pairs
-from equipoise.estimation.regression.solvers.least_squares import least_squares
+from equipoise.estimation.regression.solvers.least_squares import Aid, Solver, least_squares
 from equipoise.estimation.regression.solvers.recursion import Plan, passed, recursive
-from equipoise.estimation.regression.solvers.solver_inputs import Aid, Solver
 from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.estimate import INERTIA, NORMAL_95, Estimate
@@ -50,7 +49,7 @@ FOR_NOISE = 6  # pairs, chosen: the mean of dA^T dA over thousands of rows is kn
 SPARE = 12  # pairs beyond the number of unknowns
 FIRST_BAND, WIDER = 5, 1.6  # bins, and how much wider each band is than the one before, chosen
 CHANCE = 3.0  # sd of the mean, within which a bias is none
-SURE = 1e-4  # how often noise alone may look like more than noise
+SURE = 1e-4  # how often noise alone may exceed the test
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +57,7 @@ class Linear:
     """What makes a linear method."""
 
     formulation: Formulation
-    solver: Solver
+    solver: Solver = least_squares
     knows_inertia: bool = False  # takes the testbed's inertia as it is
     needs_noise: bool = False  # the solver uses what noise does to the regressor
     plan: Plan | None = None  # of a recursion, whose course is reported

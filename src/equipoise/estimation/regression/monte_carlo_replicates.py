@@ -12,9 +12,9 @@ simulation and extrapolation, Cook and Stefanski 1994). No formulation needs a d
 own, and what a smoother or an integral does to white noise is counted as it is.
 
 Drawn are: noise of camera and gyro; how the camera's vertical leans; where masses stopped and how
-late they are; and what the estimate takes as known but nobody told: the gyro's bias and the first
-tilt where there is no camera, and the testbed's inertia where that is not sought. Cannot draw what
-nobody stated.
+late they are; and what the estimate takes as known though nobody stated it: the gyro's bias and the
+first tilt where there is no camera, and the testbed's inertia where that is not sought.
+Cannot draw what nobody stated.
 """
 
 from collections.abc import Iterator

@@ -14,7 +14,7 @@ which r itself scales. Minimised is
 Cannot see anything from one stop but the direction of r; is no use near balance, where a swing
 takes minutes and its mean is not a rest: the outcome says so. Directions that are known roughly
 agree with a centre of mass at any distance, and the minimum runs away: where the largest sd of r
-is longer than the longest arm |r + dr_i|, r is not told.
+is longer than the longest arm |r + dr_i|, r is not reported.
 """
 
 from typing import NamedTuple

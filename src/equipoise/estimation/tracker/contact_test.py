@@ -1,12 +1,12 @@
 """Was the platform touched, or did its centre of mass step? A test of the innovations, compiled.
 
-With C and d of every hypothesis (``tracker_onsets``), what it would be and what it explains:
+With C and d of every hypothesis (``event_signatures``), what it would be and what it explains:
 
     V = (C + L)^-1,   v = V d,   l = d^T V d
 
 with 3 degrees of freedom; L is a wide prior. Once the best explains more than chance does, and it
 is clear whether the rate jumped or r stepped (or that it will not become clear), there is a
-contact: the belief becomes the mixture of all (``tracker_mixture``), each weighing
+contact: the estimate becomes the mixture of all (``mixture``), each weighing
 
     p = e^(l/4) x rows to the next older onset
 """
@@ -85,7 +85,7 @@ def weigh_up(watch: Watch, top: float, room: Room) -> float:
 
 @part
 def suspect(watch: Watch, alarm: float, room: Room) -> None:
-    """Note that a contact would explain what was seen, where the motion may not be linear."""
+    """Note that a contact would explain the innovations, where the motion may not be linear."""
     explain(watch, room)
     jump, step = best_of(watch, 0, room), best_of(watch, ONSETS, room)
     if jump >= 0 and max(room.gain[jump], room.gain[step]) > alarm:
@@ -94,7 +94,7 @@ def suspect(watch: Watch, alarm: float, room: Room) -> None:
 
 @part
 def judged(watch: Watch, alarm: float, room: Room) -> tuple[int, int]:
-    """Return the kind, or -1 for nothing or not yet told, and the best hypothesis."""
+    """Return the kind, or -1 for nothing or not yet decided, and the best hypothesis."""
     explain(watch, room)
     jump, step = best_of(watch, 0, room), best_of(watch, ONSETS, room)
     if jump < 0:

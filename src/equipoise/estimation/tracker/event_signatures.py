@@ -1,11 +1,11 @@
-"""What a touch or a step of the centre of mass would have done to the innovations, compiled.
+"""What a contact or a step of the centre of mass would have done to the innovations, compiled.
 
 Willsky and Jones (1976), generalised likelihood ratio: had the rate jumped by v (or r stepped by
 v) after some row, truth and filter would differ by X v from then on,
 
     X = [0 E 0 0 0]^T or [0 0 E 0 0]^T,    X <- Phi X (prediction),    X <- X - K H X (correction)
 
-and innovations by G = H X. Sums over the rows tell the size (``tracker_contacts``):
+and innovations by G = H X. Sums over the rows determine the size (``contact_test``):
 
     C = sum G^T S^-1 G,   d = sum G^T S^-1 z
 
@@ -38,7 +38,7 @@ class Watch(NamedTuple):
     age: Ints  # (12,) rows
     since: Floats  # (12,) s
     order: Ints  # (12,) onsets, oldest first
-    counts: Ints  # (4,) onsets in use, gated rows in a run, rows waited, whether to look closer
+    counts: Ints  # (4,) onsets in use, gated rows in a run, rows waited, if one is suspected
 
 
 class Room(NamedTuple):
@@ -56,7 +56,7 @@ class Room(NamedTuple):
 
 
 def new_watch() -> Watch:
-    """Return a test that has seen nothing."""
+    """Return a test that has no rows yet."""
     return Watch(
         np.zeros((SIZE, COLUMNS)), np.zeros((6, MANY)), np.zeros((3, MANY)),
         np.zeros(ONSETS, np.int64), np.zeros(ONSETS), np.zeros(ONSETS, np.int64),

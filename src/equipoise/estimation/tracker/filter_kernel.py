@@ -1,13 +1,14 @@
-"""The tracker's walk along its rows, compiled: predict, correct by a row, look for contacts.
+"""The tracker's walk along its rows, compiled: predict, correct by a row, test for contacts.
 
-The walk ends early where the belief has moved away from the point of linearisation, or where a
-contact was mended or the attitude taken anew: the caller then decides from where to go on.
+The walk ends early where the estimate has moved away from the point of linearisation, or where a
+contact was corrected or the attitude taken anew: the caller then decides from where to go on.
 """
 
 import numpy as np
 
 from equipoise.dynamics.propagation import step
 from equipoise.dynamics.rigid_body import Body, Now, body_at, rate_of
+from equipoise.dynamics.sensitivities import Inputs
 from equipoise.estimation.tracker import event_signatures as onsets
 from equipoise.estimation.tracker.contact_test import LOST, judged, suspect
 from equipoise.estimation.tracker.kernel_records import (
@@ -49,15 +50,15 @@ from equipoise.model.arrays import Floats
 def predict(
     model: Model, rows: Rows, body: Body, i: int, point: Floats, place: Place, tools: Tools
 ) -> Now:
-    """Take belief and covariance over step i; return the platform at its end."""
+    """Take estimate and covariance over step i; return the platform at its end."""
     moving, end = tools.moving, place.posterior
-    y, regress, phi, t, inputs = moving.y, moving.regress, moving.phi, rows.t, rows.known
-    now = body_at(body, model.maps, t, inputs, i, 0.0)
+    y, regress, phi, t = moving.y, moving.step.regress, moving.phi, rows.t
+    inputs = Inputs(model.maps, t, rows.known, rows.owners, model.columns)
+    now = body_at(body, model.maps, t, rows.known, i, 0.0)
     begin(now, end, y)
     unit_columns(now, rate_of(now, y), regress, y)
-    step(body, model.maps, t, inputs, rows.owners, model.columns, i, y, regress, moving.fb,
-         moving.at, moving.dy, moving.total)  # fmt: skip
-    now = body_at(body, model.maps, t, inputs, i, 1.0)
+    step(body, inputs, i, y, moving.step)
+    now = body_at(body, model.maps, t, rows.known, i, 1.0)
     transition(now, body.mass, y, regress, phi)
     predict_covariance(
         body.inertia, phi, model.walks, t[i + 1] - t[i], place.covariance, tools.work.A
@@ -99,7 +100,7 @@ def see(
 
 @part
 def touched(model: Model, now: Now, carried: Carried, written: Written, tools: Tools) -> bool:
-    """Look for a contact; mend the belief if there was one."""
+    """Test for a contact; correct the estimate if there was one."""
     work, room, place, done = tools.work, tools.room, carried.place, written.done
     kind, best = judged(carried.watch, model.alarm, room)
     if kind < 0:
@@ -129,7 +130,7 @@ def mended(
     model: Model, t: float, now: Now, known: bool, linear: bool, carried: Carried, written: Written,
     tools: Tools,
 ) -> bool:  # fmt: skip
-    """Say whether a contact was found and mended; none is looked for until the noise is known.
+    """Say whether a contact was found and corrected; the test waits until the noise is known.
 
     Where the motion may not be ``linear`` in what is unknown, a contact is suspected, no more.
     """

@@ -4,10 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from equipoise.dynamics.propagation import Columns
-from equipoise.dynamics.regressor import WIDTH
 from equipoise.dynamics.rigid_body import ROWS, Body
-from equipoise.dynamics.sensitivities import BLOCK
+from equipoise.dynamics.sensitivities import BLOCK, Columns, work_for
+from equipoise.dynamics.sensitivities import Work as StepWork
 from equipoise.estimation.tracker.event_signatures import COLUMNS, MANY, Room, Watch
 from equipoise.estimation.tracker.predict_correct import SIZE, N, Work
 from equipoise.maths.compiled import kernel
@@ -34,14 +33,14 @@ class Walk(NamedTuple):
 
     first: int
     last: int
-    stop_at: int  # node from which it ends where the belief has moved
-    folding: bool  # the point goes with the belief
+    stop_at: int  # node from which it ends where the estimate has moved
+    folding: bool  # the point goes with the estimate
     again: bool  # rows that have been passed before: nothing is noted, no noise learnt
     testing: bool  # for contacts
 
 
 class Place(NamedTuple):
-    """A belief (q, w, com, J, bias) and its covariance, written on by the walk."""
+    """The estimate (q, w, com, J, bias) and its covariance, written on by the walk."""
 
     posterior: Floats  # (19,)
     covariance: Square  # (18, 18)
@@ -55,7 +54,7 @@ class Carried(NamedTuple):
     """What comes and goes with the walk."""
 
     place: Place
-    levels: Floats  # (2, 2) of the noise: share of the stated variance, rows seen
+    levels: Floats  # (2, 2) of the noise: share of the stated variance, rows counted
     watch: Watch
 
 
@@ -71,11 +70,7 @@ class Moving(NamedTuple):
     """Arrays that a step of the propagator works in."""
 
     y: Floats  # (7 + 96,) attitude, momentum, sensitivities
-    at: Floats
-    dy: Floats
-    total: Floats
-    regress: Floats  # (3, 25)
-    fb: Floats
+    step: StepWork
     phi: Floats  # (6, 15)
 
 
@@ -90,9 +85,7 @@ class Tools(NamedTuple):
 @kernel
 def new_tools() -> Tools:
     """Return arrays to work in."""
-    m = ROWS + BLOCK
-    moving = Moving(np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.zeros((3, WIDTH)),
-                    np.zeros(BLOCK), np.zeros((6, N)))  # fmt: skip
+    moving = Moving(np.empty(ROWS + BLOCK), work_for(N), np.zeros((6, N)))
     work = Work(np.zeros(SIZE), np.zeros((3, SIZE)), np.zeros((3, 3)), np.zeros((3, 3)),
                 np.zeros((3, SIZE)), np.zeros((3, SIZE)), np.zeros((6, SIZE)))  # fmt: skip
     room = Room(np.zeros((6, COLUMNS)), np.zeros((3, COLUMNS)), np.zeros((3, COLUMNS)),

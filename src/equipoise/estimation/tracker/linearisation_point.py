@@ -1,8 +1,8 @@
 """The point that the tracker linearises about, and what happens to the covariance when it moves.
 
-Free motion is the same for (J, r) and c (J, r). A filter that linearises about ever new beliefs
-calls another direction unobservable each time, and so learns about the scale c what no row has
-said. Two things prevent that: the point stays while rows come in, the belief leaning on it; and
+Free motion is the same for (J, r) and c (J, r). A filter that linearises about ever new estimates
+calls another direction unobservable each time, and so gains information on the scale c that no row
+holds. Two things prevent that: the point stays while rows come in, the estimate leaning on it; and
 when it moves, the covariance goes with it in coordinates in which the direction is constant,
 
     s = ln tr J,  J / tr J,  r / tr J         P <- T P T^T,  T = c E + (x' - c x) l
@@ -18,7 +18,7 @@ from equipoise.maths.compiled import kernel, part
 from equipoise.maths.linalg import element_sizes, unpack_symmetric
 from equipoise.model.arrays import Floats
 
-AT = 7  # where com stands in a belief written as one array: q, w, com, J, bias
+AT = 7  # where com stands in an estimate written as one array: q, w, com, J, bias
 MOVED = 0.01  # of a moment, chosen: half of the error that linearising once stands
 MOVED_COM = 0.03  # of |r|, chosen: r enters linearly but for its product with 1/J
 POSSIBLE = 0.5  # chosen: a point's inertia shrinks to no less than this at a time, along any axis
@@ -26,7 +26,7 @@ POSSIBLE = 0.5  # chosen: a point's inertia shrinks to no less than this at a ti
 
 @part
 def distance(point: Floats, end: Floats) -> float:
-    """Return how far a belief is from a point of linearisation; 1 is far."""
+    """Return the distance of an estimate from the point; beyond 1 the point has to move."""
     size, off, outlying = 0.0, 0.0, 0.0
     for k in range(6):
         i = 0 if k == 0 or k == 3 or k == 4 else (1 if k == 1 or k == 5 else 2)
@@ -41,7 +41,7 @@ def distance(point: Floats, end: Floats) -> float:
 
 @kernel
 def transport(P: Floats, point: Floats, end: Floats) -> None:
-    """Move the point to the belief, and P with it: T P T^T."""
+    """Move the point to the estimate, and P with it: T P T^T."""
     size = point[3] + point[4] + point[5]
     c = (end[AT + 3] + end[AT + 4] + end[AT + 5]) / size
     for j in range(P.shape[0]):
@@ -66,7 +66,7 @@ def shrunk(point: Floats, new: Floats) -> bool:
 
 
 def nearer(point: Floats, posterior: Floats) -> Floats:
-    """Return the belief of (r, J), or a point on the way to it where J stays possible."""
+    """Return the estimate of (r, J), or a point on the way to it where J stays possible."""
     share = 1.0
     while share > 1e-3:
         new = point + share * (posterior - point)

@@ -2,7 +2,7 @@
 
 A row whose squared innovation is beyond ``GATE`` is not used. Where the predicted attitude is so
 doubtful that an innovation is not linear in what is unknown, attitude and rate are taken from the
-row and the one before instead; what is believed of the body stays.
+row and the one before instead; the estimate of the body stays.
 """
 
 from equipoise.dynamics.regressor import Triple
@@ -65,7 +65,7 @@ def take_anew(rows: Rows, iq: int, sd: float, place: Place) -> None:
     """Write attitude and rate from a row and the one before, and their covariance.
 
     w = log(q_before^-1 q) / lag, sd 2 sd / lag and a share of w, which changes meanwhile. With no
-    row shortly before, the rate stays as believed, and its sd becomes as much.
+    row shortly before, the rate stays as estimated, and its sd becomes as much.
     """
     end, P = place.posterior, place.covariance
     for j in range(4):
@@ -87,7 +87,7 @@ def take_anew(rows: Rows, iq: int, sd: float, place: Place) -> None:
 
 @part
 def learn(z: Triple, odd: bool, carried: Carried, tools: Tools) -> None:
-    """Tell the test for contacts of a row; a single odd row is no contact, nor part of one."""
+    """Add a row to the test for contacts; a single odd row is no contact, nor part of one."""
     watch = carried.watch
     if not odd or watch.counts[onsets.GATED] > 1:
         onsets.gather(watch, z, tools.work, tools.room)

@@ -17,7 +17,7 @@ NO_RATE = Samples(np.zeros(0), np.zeros((0, 3)))
 
 
 class Rows(NamedTuple):
-    """What was seen and known from one moment on."""
+    """What was measured and known from one moment on."""
 
     t: Floats  # (n+1,) s
     known: Floats  # (n+1, 6 + k)
@@ -55,7 +55,7 @@ def stop_covariances(
 
 
 def rows_of(recording: Recording, testbed: Testbed, fed: bool, since: float, speed: float) -> Rows:
-    """Return what was seen later than ``since`` (s), of a platform that turns at ``speed``."""
+    """Return what was measured later than ``since`` (s), of a platform that turns at ``speed``."""
     attitude, rate = recording.attitude or NOTHING, recording.rate or NO_RATE
     tq, tw = measured_at(attitude.t, testbed.attitude), measured_at(rate.t, testbed.gyro)
     new_q, new_w = tq > since, tw > since

@@ -1,6 +1,6 @@
-"""The belief after a contact whose onset and kind are not certain, compiled.
+"""The estimate after a contact whose onset and kind are not certain, compiled.
 
-Each hypothesis weighs p, would mend the belief by X v and leave it as uncertain as X V X^T more:
+Each hypothesis weighs p, would correct the estimate by X v and add X V X^T to its covariance:
 
     x + sum p X v,   P + sum p X V X^T + scatter of X v + half the way to the older onset's
 
@@ -14,7 +14,7 @@ from equipoise.estimation.tracker.predict_correct import SIZE
 from equipoise.maths.compiled import part
 from equipoise.model.arrays import Floats
 
-ROUGH = 0.1  # chosen: of what is mended, one sd, for being linear in a motion that was far off
+ROUGH = 0.1  # chosen: of the correction, one sd, for being linear in a motion that was off
 UNIFORM = 1 / 12  # variance of an onset between two that are kept
 EVENT = 15  # onset (s), kind, l, jump, its sd, step, its sd
 

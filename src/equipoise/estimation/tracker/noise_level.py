@@ -22,7 +22,7 @@ MOSTLY = 0.5  # of the expected square: noise
 
 @part
 def learn_noise(level: Floats, surprise: float, share: float) -> None:
-    """Update (k, rows seen) of one sensor from a row's d2; noise is a share of S."""
+    """Update (k, rows counted) of one sensor from a row's d2; noise is a share of S."""
     if share < MOSTLY:
         return
     gain = max(EARLY / (FIRST + level[1]), LEAST_GAIN)
@@ -33,7 +33,7 @@ def learn_noise(level: Floats, surprise: float, share: float) -> None:
 
 @part
 def settled(levels: Floats) -> bool:
-    """Say whether the noise is known of every sensor that has been heard, and one has."""
+    """Say whether the noise is known of every sensor that sends rows, and one does."""
     received = levels[0, 1] + levels[1, 1]
     for k in range(2):
         if 0.0 < levels[k, 1] < SETTLED:

@@ -166,7 +166,7 @@ def weigh(z: Triple, work: Work) -> float:
 
 @part
 def add_product(P: Floats, A: Floats, B: Floats, sign: float) -> None:
-    """Add sign A^T B, (18, 18), which is symmetric: half of it is worked out, for both."""
+    """Add sign A^T B, (18, 18), which is symmetric: one half is computed, for both."""
     for i in range(SIZE):
         a, b, c = sign * A[0, i], sign * A[1, i], sign * A[2, i]
         for j in range(i + 1):
@@ -191,7 +191,7 @@ def shrink(P: Floats, first: int, second: int, R: float, work: Work) -> None:
 
 @part
 def apply(x: Floats, w: Triple, y: Floats, end: Floats) -> None:
-    """Write a belief (q, w, com, J, bias) corrected by the error state; y holds q before."""
+    """Write the estimate (q, w, com, J, bias) corrected by the error state; y holds q before."""
     end[0], end[1], end[2], end[3] = turned(y, x[0], x[1], x[2])
     for m in range(3):
         end[4 + m] = w[m] + x[3 + m]
@@ -201,7 +201,7 @@ def apply(x: Floats, w: Triple, y: Floats, end: Floats) -> None:
 
 @part
 def begin(now: Now, end: Floats, y: Floats) -> None:
-    """Write attitude and momentum of a belief (q, w, ...)."""
+    """Write attitude and momentum of an estimate (q, w, ...)."""
     H = times(now.inertia, (end[4], end[5], end[6]))
     for j in range(4):
         y[j] = end[j]
@@ -211,7 +211,7 @@ def begin(now: Now, end: Floats, y: Floats) -> None:
 
 @part
 def lean(now: Now, phi: Floats, point: Floats, y: Floats, end: Floats) -> None:
-    """Write where the belief is after a step from the point: Phi (belief - point)."""
+    """Write the estimate after a step from the point: Phi (estimate - point)."""
     a0, a1, a2 = 0.0, 0.0, 0.0
     b0, b1, b2 = rate_of(now, y)
     for c in range(9):

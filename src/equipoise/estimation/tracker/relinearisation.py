@@ -1,24 +1,25 @@
-"""Passing the last rows again when the belief has moved: the tracker's memory and its use.
+"""Passing the last rows again when the estimate has moved: the tracker's memory and its use.
 
-While the inertia is doubtful, one linearisation will not do. The walk then keeps its rows from an
-anchor on (a belief with its covariance) and linearises about a point that stays, on which the
-belief leans. When the belief has moved far from the point, the point moves to it and the rows since
-the anchor are passed again, from the same belief there: Gauss-Newton steps of the least-squares
+While the inertia is uncertain, one linearisation will not do. The walk then keeps its rows from an
+anchor on (an estimate with its covariance) and linearises about a point that stays, on which the
+estimate leans. When the estimate has moved away, the point follows and the rows since the anchor
+are passed again, from the same estimate there: Gauss-Newton steps of the least-squares
 problem of anchor and rows. As each pass begins with the anchor's own covariance, every row counts
 once. Passes come after windows that double, so that a row is passed some few times in all.
 
-A contact bends the belief, so that it soon is far from the point, where the test for contacts is
-not to be trusted: then it is suspected only, and looked for again in a pass about the point where
-the belief came to rest. Where it is found the anchor follows, and the rest of the rows is passed.
+A contact bends the estimate away from the point, where the test for contacts does not hold. It is
+then suspected only, and tested for again in a pass about the point where the estimate came to rest.
+Where it is found the anchor follows, and the rest of the rows is passed.
 
 Behind a gap the motion may be foreseen well enough about the first point, and not about a better
 one: the attitude is then taken anew there in the pass, and the anchor follows, too. (Kept as it was
-on the first look, what the gap seemed to tell was up to 17 sd wrong.)
+in the first pass, the information of the gap was up to 17 sd wrong.)
 
 Once the shape of the inertia (all but its scale) is known, the anchor follows, and the covariance
-is transported; with the inertia known, nothing is kept and the point follows the belief.
+is transported; with the inertia known, nothing is kept and the point follows the estimate.
 """
 
+from copy import deepcopy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -53,26 +54,26 @@ from equipoise.model.arrays import Floats
 
 DOUBT = 0.015  # of a moment, chosen: where linearising once is good enough
 SHAPE = 0.01  # of a moment, chosen: the same with the scale taken out
-EDGE, LONGEST = 15.0, 239.0  # s between looks at whether the anchor may follow; after which it must
+EDGE, LONGEST = 15.0, 239.0  # s between tests whether the anchor may follow; after which it must
 EARLIEST, GROWTH = 4.0, 2.0  # s, and of the window: when rows may be passed again
-PASSES, CLOSE = 3, 0.5  # at most; until the point moves by no more than this of what is far
-LOUDER = 2.0  # of the variance of noise, chosen: far beyond what it wanders by
+PASSES, CLOSE = 3, 0.5  # at most; until the point moves by no more than this
+LOUDER = 2.0  # of the variance of noise, chosen: well beyond what it wanders by
 TINY = 1e-9
 MOST_EVENTS = 64  # that one call reports
-BODY = slice(AT, AT + 9)  # r and J in a belief written as one array
+BODY = slice(AT, AT + 9)  # r and J in an estimate written as one array
 ERRORS = slice(6, 15)  # and in the error state
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Memory:
-    """What the tracker remembers beside what it believes."""
+    """What the tracker keeps beside its estimate."""
 
     anchor: Place
     rows: Rows  # since the anchor
     point: Floats  # (9,) r and J about which it linearises
     passed: float  # s, the window that was last passed again
     level: Floats  # (2,) of the noise at that time
-    levels: Floats  # (2, 2) of the noise: share of the stated variance, rows seen
+    levels: Floats  # (2, 2) of the noise: share of the stated variance, rows counted
     watch: Watch
     keeping: bool  # rows
 
@@ -86,10 +87,7 @@ def first_memory(here: Place, rows: Rows) -> Memory:
 
 def copied(memory: Memory) -> Memory:
     """Return a memory that can be written on."""
-    X, C, d, age, since, order, counts = memory.watch
-    watch = Watch(
-        X.copy(), C.copy(), d.copy(), age.copy(), since.copy(), order.copy(), counts.copy()
-    )
+    watch = deepcopy(memory.watch)
     return replace(memory, point=memory.point.copy(), levels=memory.levels.copy(), watch=watch)
 
 
@@ -129,7 +127,7 @@ def pass_again(
 
     They are as they were if that fails; behind a row at which the attitude is taken anew, the
     anchor follows to that row first. Where a contact was suspected on the way, which may have been
-    for want of linearity, it is looked for once more about the point that was found.
+    for want of linearity, it is tested for once more about the point that was found.
     """
     point, found = memory.point.copy(), here
     for _ in range(PASSES):

@@ -13,19 +13,20 @@ A commanded move enters the prediction with the covariance of where masses stop 
 out so that the estimate has to find the new centre of mass by itself (ignored; paper Fig. 13).
 
 The inertia is part of the state with its own sd, since an error of 2 % in it would be ten stated
-sd in r_z: as the swing shows J and r only by their ratio, r is never told better than J until a
+sd in r_z: as the swing shows J and r only by their ratio, r is never known better than J until a
 known move separates them. An sd of 0 takes the inertia as known.
 
 Cannot see r along gravity until the platform has tilted, nor the scale of (J, r) before a move.
 
 What it does about what it does not know:
 
-    inertia     rows are passed again where the belief has moved far (``tracker_window``), and the
-                direction that free motion cannot show stays what it is (``tracker_point``)
-    contacts    found in the innovations, mended and reported (``tracker_contacts``)
-    noise       its level is learnt from the innovations (``tracker_noise``); a row beyond all
+    inertia     rows are passed again where the estimate has moved (``relinearisation``), and the
+                direction that free motion cannot show stays as it is (``linearisation_point``)
+    contacts    found in the innovations, corrected and reported (``contact_test``)
+    noise       its level is learnt from the innovations (``noise_level``); a row beyond all
                 bounds is not used (``Track.not_used``)
-    gaps        a row whose attitude cannot be predicted starts anew from it (``tracker_update``)
+    gaps        the filter starts anew from a row whose attitude it could not predict
+                (``measurement_update``)
 """
 
 from dataclasses import dataclass
@@ -36,7 +37,7 @@ from scipy.special import chdtri
 
 from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.dynamics import sensitivities
-from equipoise.dynamics.propagation import Columns, body_of, stacked
+from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.estimation.tracker.kernel_records import EVENTS, Model, Place, Written
 from equipoise.estimation.tracker.measurement_update import GATE
 from equipoise.estimation.tracker.measurements import rows_of
@@ -61,14 +62,14 @@ from equipoise.model.testbed import Testbed
 Moves = Literal["fed", "ignored"]
 Kind = Literal["impulse", "step", "either", "lost"]
 KINDS: tuple[Kind, ...] = ("impulse", "step", "either", "lost")
-UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump without being told
-WHERE = np.cumsum([4, 3, 3, 6, 3])  # where the parts of a belief written as one array end
+UNTOLD = 2e-6  # m/sqrt(s), chosen: walk of a centre of mass that may jump unannounced
+WHERE = np.cumsum([4, 3, 3, 6, 3])  # where the parts of an estimate written as one array end
 QUIET = 7200.0  # s, chosen: how often chance alone is called a contact; it costs what was known
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Params:
-    """What the tracker is told."""
+    """Options of the tracker."""
 
     moves: Moves = "fed"
     com_walk: float = 5e-8  # m/sqrt(s): 0.05 um, thermal drift; chosen within 0.01 to 0.1
@@ -88,7 +89,7 @@ class Posterior:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """What the tracker believes, at one time."""
+    """The estimate of the tracker, at one time."""
 
     t: float  # s
     q: Quaternion
@@ -106,7 +107,7 @@ class State:
 
     @property
     def posterior(self) -> Posterior:
-        """Return what is believed of the body."""
+        """Return the estimate of the body."""
         return Posterior(self.com, self.inertia_P, self.covariance[BODY, BODY])
 
 
@@ -125,7 +126,7 @@ class Contact:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
-    """What was believed after each row, and how surprising the row was."""
+    """The estimate after each row, and the innovation of the row."""
 
     t: Series1  # s
     q: Series4
@@ -155,7 +156,7 @@ class Track:
 
 
 def posterior_of(testbed: Testbed, estimate: Estimate | None = None) -> Posterior:
-    """Return what the testbed says, with the inertia of an estimate if that saw it."""
+    """Return the prior of the testbed, with the inertia of an estimate that observed it."""
     inertia_sd = testbed.inertia_sd * element_sizes(testbed.body.inertia_P)
     variance = np.concatenate([testbed.com_sd, inertia_sd]) ** 2
     covariance, inertia_P = np.diag(variance), testbed.body.inertia_P
@@ -167,7 +168,7 @@ def posterior_of(testbed: Testbed, estimate: Estimate | None = None) -> Posterio
 def first_state(
     t: float, q: Quaternion, testbed: Testbed, posterior: Posterior | None = None
 ) -> State:
-    """Return a state from one attitude: at rest within 0.1 rad/s, the body as known beforehand."""
+    """Return a state from one attitude: at rest within 0.1 rad/s, the body by its prior."""
     posterior = posterior or posterior_of(testbed)
     covariance = np.zeros((SIZE, SIZE))
     noise = testbed.attitude.noise if testbed.attitude else 0.1
@@ -206,7 +207,7 @@ def model_of(recording: Recording, testbed: Testbed, params: Params, state: Stat
 
 
 def track(recording: Recording, testbed: Testbed, params: Params, state: State) -> Track:
-    """Return the beliefs after every row later than the state; call again to go on from its end."""
+    """Return the estimate after every row later than the state; to go on, call from its end."""
     posterior = np.concatenate([state.q, state.rate, state.com, pack_symmetric(state.inertia_P),
                              state.bias])  # fmt: skip
     speed, fed = float(np.linalg.norm(state.rate)), params.moves == "fed"
@@ -236,10 +237,10 @@ def contact_of(event: Floats, end: State) -> Contact:
     return Contact(float(event[0]), kind, float(event[2]), J @ jump, impulse_sd, step, step_sd)
 
 
-def filter_columns() -> Columns:
+def filter_columns() -> sensitivities.Columns:
     """Return the sensitivities that make the transition matrix."""
     kinds = [sensitivities.TURN, sensitivities.RATE, sensitivities.MOMENT]
-    return Columns(
+    return sensitivities.Columns(
         np.array([*np.repeat(kinds, 3), *[sensitivities.INERTIA] * 6], dtype=np.int64),
         np.array([*np.tile([0, 1, 2], 3), *range(6)], dtype=np.int64),
     )

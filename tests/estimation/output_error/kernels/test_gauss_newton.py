@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from equipoise.estimation.output_error.kernels.gauss_newton import HELD
-from equipoise.estimation.output_error.problem import descend, evaluate
+from equipoise.estimation.output_error.solution import evaluate, settle
 from equipoise.estimation.output_error.trajectory import Params, fit, problem_of
 from equipoise.maths.levenberg_marquardt import promise
 from equipoise.maths.scaled_solve import scaled_solve
@@ -31,14 +31,14 @@ def posed():
 
 def test_cost_never_rises(posed):
     """With one evaluation more the cost is at most what it was."""
-    costs = [descend(*posed, most).at.cost for most in range(1, 8)]
+    costs = [settle(*posed, most=most).at.cost for most in range(1, 8)]
     assert len(set(costs)) > 2
     assert (np.diff(costs) <= 0).all()
 
 
 def test_too_few_evaluations_are_not_called_converged(posed):
     """Two are not enough from so far off, and it says so."""
-    found = descend(*posed, 2)
+    found = settle(*posed, most=2)
     assert not found.converged
     assert found.evaluations == 2
 
@@ -47,7 +47,7 @@ def test_what_it_reports_is_the_model_at_its_point(posed):
     """Cost, A, b and residuals of the point where it ended, not of its last trial."""
     problem, _ = posed
     for most in (3, 300):
-        found = descend(*posed, most)
+        found = settle(*posed, most=most)
         again = evaluate(problem, found.point)
         assert found.at.cost == again.cost
         for name in ("normal", "descent", "left_q", "left_w"):
@@ -56,7 +56,7 @@ def test_what_it_reports_is_the_model_at_its_point(posed):
 
 def test_at_its_end_no_step_promises_anything(posed):
     """A hundredth of a standard deviation: 1e-4 of twice the cost."""
-    found = descend(*posed)
+    found = settle(*posed)
     assert found.converged
     step = scaled_solve(found.at.normal, found.at.descent, 0.0)
     assert 0 <= promise(found.at.normal, found.at.descent, step) < 1e-4
@@ -65,7 +65,7 @@ def test_at_its_end_no_step_promises_anything(posed):
 def test_a_start_that_leads_nowhere_is_not_converged(posed):
     """A motion that is no number has no local model."""
     problem, point = posed
-    found = descend(problem, replace(point, w0=point.w0 * np.nan))
+    found = settle(problem, replace(point, w0=point.w0 * np.nan))
     assert not found.converged
     assert found.evaluations == 1
     assert np.isinf(found.at.cost)
@@ -77,7 +77,7 @@ def test_what_is_held_does_not_move(posed):
     problem, point = posed
     held = np.arange(problem.layout.size) == 7
     problem = replace(problem, prior=replace(problem.prior, held=held))
-    found = descend(problem, point)
+    found = settle(problem, point)
     size = abs(problem.prior.mean[7])
     assert found.at.normal[7, 7] == pytest.approx((HELD * size) ** -2)
     assert not found.at.normal[7, ~held].any()

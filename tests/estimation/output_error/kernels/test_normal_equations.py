@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from equipoise.dynamics.propagation import body_of, propagate
-from equipoise.estimation.output_error.problem import evaluate
+from equipoise.estimation.output_error.solution import evaluate
 from equipoise.estimation.output_error.trajectory import HUBER, Params, problem_of
 from equipoise.estimation.parameters.fit_parameters import FIXED, R, Unknowns
 from equipoise.maths.attitude import difference, exponential, multiply, normalise
@@ -55,7 +55,7 @@ def with_outliers(record: Recording) -> Recording:
 
 
 def somewhere(errors: int, sensor: np.ndarray | None = None) -> Unknowns:
-    """A point off the truth by some sd in everything; sensors without fault unless told."""
+    """A point off the truth by some sd in everything; sensors without fault unless given."""
     com = COM + np.array([2e-6, -1e-6, 5e-6])
     inertia = unpack_symmetric(INERTIA * [1.02, 1.01, 0.98, 1.1, 0.9, 1.2])
     six = from_inertia(inertia - parallel_axis(MASS, com))
@@ -67,7 +67,7 @@ def somewhere(errors: int, sensor: np.ndarray | None = None) -> Unknowns:
     return Unknowns(q0, RATE * 1.01, six, com, torque, observed, error, BIAS)
 
 
-CASES = {  # robust, sensor terms, when the masses set off: no camera row looks back across that
+CASES = {  # robust, sensor terms, when the masses set off: no camera row reaches back across that
     "squares": (False, (), 5.0),
     "robust": (True, (), 5.0),
     "sensors": (False, SENSOR_TERMS, 5.1),
@@ -76,7 +76,7 @@ CASES = {  # robust, sensor terms, when the masses set off: no camera row looks 
 
 @pytest.fixture(scope="module", params=CASES.values(), ids=CASES)
 def case(request):
-    """A record and what to seek in it; with a delay the camera looks from the second row on."""
+    """A record and what to seek in it; with a delay the camera begins with the second row."""
     robust, sensor, departure = request.param
     record = with_outliers(noisy(recording(20.0, move_at(departure, 20.0), gyro=20.0), 3, BIAS))
     if sensor:
@@ -94,7 +94,7 @@ def posed(case):
 
 
 def test_reading_between_steps_agrees_with_steps_to_every_row(posed, case):
-    """The state between steps is good to a tenth of what all rows together can tell: an error of
+    """The state between steps is good to a tenth of what all rows together can show: an error of
     0.1 / sqrt(rows) sd in every row at once."""
     problem, point = posed
     record, params = case
@@ -269,7 +269,7 @@ def averaging(record, widths=WIDTHS):
 
 
 def moving(w0):
-    """Return a record without noise, and a point; the motion begins where the camera looks."""
+    """Return a record without noise, and a point; the motion begins where the camera measures."""
     t = np.arange(0, 10.01, 0.05)
     motion = travel(line_of(t), w0=w0)
     record = Recording(Samples(t[::4], motion.q[::4]), Samples(t, motion.rate))

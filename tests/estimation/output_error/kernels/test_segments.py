@@ -33,7 +33,7 @@ STRETCHES = len(FREE) + 1
 
 
 def random_chain(seed):
-    """Return cuts and local models; each stretch alone tells less than all unknowns."""
+    """Return cuts and local models; each stretch alone determines fewer than all unknowns."""
     rng = np.random.default_rng(seed)
     K, a = FREE.shape
     J = rng.normal(size=(STRETCHES, N - 2, N))

@@ -31,7 +31,7 @@ def random_rows(pieces, n=200, m=3, seed=0):
 
 
 def recursion(m=3, forget=np.inf, still=0.0, limit=OUTLYING):
-    """Without guards unless told."""
+    """Without guards unless asked."""
     noise = np.array([0.1, 0.2, 0.3])[:m]
     sd = np.array([3.0, 1.0, 2.0, 4.0])
     return Recursion(np.ones(4), sd, noise, 10.0, np.full(4, limit), forget, still)
@@ -157,10 +157,10 @@ def part_of(rows, part):
 
 
 def rest(n=3000, seed=1):
-    """A swing of 300 rows that shows everything, then rest: one direction is seen, two are not.
+    """A swing of 300 rows that shows everything, then rest: one of three directions is observable.
 
     Columns: a shown by motion alone; b and c by gravity at rest, where only b + c acts (as com at a
-    tilt: no single column tells); d shown throughout.
+    tilt: no single column shows it); d shown throughout.
     """
     rng = np.random.default_rng(seed)
     A = rng.normal(size=(n, 1, 4))

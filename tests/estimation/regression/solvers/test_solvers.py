@@ -10,11 +10,10 @@ from scipy import sparse
 from equipoise.estimation.regression.formulations.rows import BODY, Rows, centred, held, values_of
 from equipoise.estimation.regression.solvers.corrected import corrected
 from equipoise.estimation.regression.solvers.instrumental import instrumental
-from equipoise.estimation.regression.solvers.least_squares import least_squares
+from equipoise.estimation.regression.solvers.least_squares import Aid, least_squares
 from equipoise.estimation.regression.solvers.levenberg_marquardt import damped
 from equipoise.estimation.regression.solvers.physically_consistent import possible
 from equipoise.estimation.regression.solvers.robust import robust
-from equipoise.estimation.regression.solvers.solver_inputs import Aid
 from equipoise.estimation.regression.solvers.weighted import weighted
 from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.mass_properties import MassProperties, is_possible, smallest_second_moment
@@ -121,7 +120,7 @@ def test_robust_passes_over_gross_errors():
 
 
 def noisy_regressor(seed, n=4000):
-    """Rows whose columns are seen with noise of 0.5 of their own size."""
+    """Rows whose columns are measured with noise of 0.5 of their own size."""
     rng = np.random.default_rng(seed)
     truth, clean = np.array([2.0, -1.0]), rng.normal(size=(n, 1, 2))
     b = clean @ truth
@@ -139,7 +138,7 @@ def test_noise_pulls_least_squares_towards_zero_by_its_share():
 
 
 def test_noise_that_both_sides_share_is_taken_off():
-    """b seen with half of A's noise: E[dA^T db] is told, and corrected is right."""
+    """b measured with half of A's noise: E[dA^T db] is given, and corrected is right."""
     truth, rows = noisy_regressor(4)
     rng = np.random.default_rng(5)
     dA = 0.5 * rng.normal(size=rows.A.shape)

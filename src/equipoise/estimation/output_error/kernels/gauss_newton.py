@@ -6,7 +6,7 @@
 in physical coordinates x. The propagator's columns are by first moment, m times com. A held
 coordinate has no row and no column in A but its own, and does not move.
 
-A record may be cut into stretches with jumps between them (``stretches``); the point is that of the
+A record may be cut into stretches with jumps between them (``segments``); the point is that of the
 first, and each further stretch begins where the one before it ends, plus its jump.
 """
 
@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from equipoise.dynamics.propagation import Columns, evaluate
+from equipoise.dynamics.propagation import evaluate
 from equipoise.dynamics.rigid_body import KNOWN_D, ROWS, Body, body_at, times
-from equipoise.dynamics.sensitivities import LANES, place
+from equipoise.dynamics.sensitivities import LANES, Columns, Inputs, place
 from equipoise.estimation.output_error.kernels.normal_equations import (
     Measurements,
     Pass,
@@ -125,19 +125,18 @@ def unpack(work: Pass, mass: float, normal: Floats, descent: Floats) -> bool:
 
 @part
 def arrive(
-    posed: Posed, body: Body, known: Floats, node: int, work: Pass, onward: Floats, here: Floats
+    mass: float, body: Body, inputs: Inputs, node: int, work: Pass, onward: Floats, here: Floats
 ) -> None:
     """Write attitude and rate at a cut, as the step that leaves it sees them, and Phi to there."""
-    y, fb, regress = work.y, work.fb, work.regress
-    now = body_at(body, posed.maps, posed.t, known, node, 0.0)
-    w, _ = evaluate(body, now, posed.maps, posed.t, known, posed.owners, posed.columns, node, 0.0,
-                    y, regress, fb)  # fmt: skip
+    y, fb = work.y, work.step.fb
+    now = body_at(body, inputs.maps, inputs.t, inputs.known, node, 0.0)
+    w, _ = evaluate(body, now, inputs, node, 0.0, y, work.step)
     for j in range(4):
         here[j] = y[j]
     for j in range(3):
         here[W + j] = w[j]
-    for c in range(posed.columns.kinds.shape[0]):
-        scale, i = by_com(c, posed.mass), place(c)
+    for c in range(inputs.columns.kinds.shape[0]):
+        scale, i = by_com(c, mass), place(c)
         k = ROWS + i
         dw = times(now.inverse, (y[k + 3 * LANES] - fb[i], y[k + 4 * LANES] - fb[i + LANES],
                                  y[k + 5 * LANES] - fb[i + 2 * LANES]))  # fmt: skip
@@ -164,6 +163,7 @@ def search_along(
     Infinite where the motion is no number. ``step``, ``here`` and ``behind`` are worked in.
     """
     cuts, pieces, finite = posed.cuts, at.pieces, True
+    inputs = Inputs(posed.maps, posed.t, known, posed.owners, posed.columns)
     cost, iq, iw, last = jump_cost(cuts, pieces.jumps), 0, 0, cuts.free.shape[0]
     for j in range(here.shape[0]):
         here[j] = at.point[j]
@@ -178,13 +178,13 @@ def search_along(
         body = body_at_point(here, posed.mass, posed.gravity)
         stretch = (cuts.nodes[k], cuts.nodes[k + 1])
         of_data, iq, iw = accumulate(
-            body, posed.maps, posed.t, known, posed.owners, posed.columns, q0, w0, sensor, bias,
-            posed.observed, posed.limit, stretch, (iq, iw), work, at.left_q, at.left_w,
+            body, inputs, q0, w0, sensor, bias, posed.observed, posed.limit, stretch, (iq, iw),
+            work, at.left_q, at.left_w,
         )  # fmt: skip
         cost += of_data
         finite &= unpack(work, posed.mass, pieces.normal[k], pieces.descent[k])
         if k < last:
-            arrive(posed, body, known, stretch[1], work, pieces.onward[k], here)
+            arrive(posed.mass, body, inputs, stretch[1], work, pieces.onward[k], here)
     return cost if finite else np.inf
 
 
@@ -250,7 +250,7 @@ def propose(
     posed: Posed, best: Local, damping: float, chain: Chain, x: Floats, work: StepWork,
     step: Floats, trial: Local,
 ) -> float:  # fmt: skip
-    """Write the next point to look at for a damping, and return its promise."""
+    """Write the next point to try for a damping, and return its promise."""
     promised = model_at(posed, best, damping, x, chain)
     possible_step(best.point, posed.mass, chain.normal, chain.descent, damping, work, step)
     promised += promise(chain.normal, chain.descent, step)

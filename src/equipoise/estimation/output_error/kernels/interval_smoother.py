@@ -1,6 +1,6 @@
 """What each stretch of a cut record says, at the optimum: the fixed-interval smoother, compiled.
 
-Backwards (``stretches``) every stretch k gets P_k and p_k, the information and the score that the
+Backwards (``segments``) every stretch k gets P_k and p_k, the information and the score that the
 rows from its beginning on carry about its unknowns. Forwards the covariance given all rows follows,
 
     C_(k+1) = (F - E G) C_k (F - E G)^T + E M^-1 E^T,        cov u_k = M^-1 + G C_k G^T
@@ -26,6 +26,7 @@ from equipoise.estimation.output_error.kernels.segments import (
     Cuts,
     Pieces,
     absorb_jump,
+    add_stretch,
     carry,
     carry_back,
     chain_for,
@@ -50,7 +51,8 @@ class Smoothed(NamedTuple):
 @kernel
 def backward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> None:
     """Write information and score of every stretch, and M^-1 of every jump."""
-    n, last = pieces.descent.shape[1], cuts.free.shape[0]
+    last = cuts.free.shape[0]
+    chain.normal[:], chain.descent[:] = 0.0, 0.0
     for k in range(last, -1, -1):
         if k < last:
             absorb_jump(cuts, pieces, k, 0.0, chain)
@@ -59,12 +61,7 @@ def backward_pass(cuts: Cuts, pieces: Pieces, chain: Chain, out: Smoothed) -> No
                 out.firm[k, :m, :m] = np.linalg.inv(chain.crossed[:m, :m].copy())
             carry_back(pieces.onward[k], chain)
             carry(pieces.onward[k], chain.gain[k], m)
-        else:
-            chain.normal[:], chain.descent[:] = 0.0, 0.0
-        for i in range(n):
-            chain.descent[i] += pieces.descent[k, i]
-            for j in range(n):
-                chain.normal[i, j] += pieces.normal[k, i, j]
+        add_stretch(pieces, k, chain)
         out.information[k] = chain.normal
         out.score[k] = chain.descent
 

@@ -19,7 +19,6 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.dynamics.propagation import (
-    Columns,
     evaluate,
     hermite,
     interpolate,
@@ -40,7 +39,15 @@ from equipoise.dynamics.rigid_body import (
     rate_of,
     times,
 )
-from equipoise.dynamics.sensitivities import BLOCK, LANES, Nine, dot, room_for
+from equipoise.dynamics.sensitivities import (
+    BLOCK,
+    LANES,
+    Inputs,
+    Nine,
+    Work,
+    dot,
+    room_for,
+)
 from equipoise.maths.compiled import kernel, part
 from equipoise.maths.turns import Triple, to_body, turn
 from equipoise.model.arrays import Floats, Ints
@@ -84,11 +91,7 @@ class Pass(NamedTuple):
     y0: Floats
     dy0: Floats
     dy1: Floats
-    at: Floats
-    dy: Floats
-    total: Floats
-    regress: Floats
-    fb: Floats
+    step: Work
     S_q: Floats  # three rows of sensitivities, in blocks of LANES columns
     S_w: Floats
     normal: Floats  # (unknowns, lanes), the lower triangle
@@ -100,9 +103,9 @@ def pass_for(columns: int, unknowns: int) -> Pass:
     """Return the arrays for so many sensitivities and unknowns."""
     m, lanes = ROWS + room_for(columns), (unknowns + LANES - 1) // LANES * LANES
     return Pass(
-        np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m),
-        np.zeros((3, WIDTH)), np.zeros(room_for(columns)), np.zeros(3 * lanes),
-        np.zeros(3 * lanes), np.zeros((unknowns, lanes)), np.zeros(lanes),
+        np.empty(m), np.empty(m), np.empty(m), np.empty(m),
+        Work(np.empty(m), np.empty(m), np.empty(m), np.zeros((3, WIDTH)), np.zeros(m - ROWS)),
+        np.zeros(3 * lanes), np.zeros(3 * lanes), np.zeros((unknowns, lanes)), np.zeros(lanes),
     )  # fmt: skip
 
 
@@ -130,7 +133,7 @@ def turn_rows(work: Pass, h: float, share: float, spread: float, scale: float, S
     """Write dth/dp within a step of h seconds, times ``scale``."""
     a, b, c, d = hermite(h, share, spread)
     a, b, c, d = scale * a, scale * b, scale * c, scale * d
-    for k in range(work.fb.shape[0] // BLOCK):
+    for k in range(work.step.fb.shape[0] // BLOCK):
         i, S_k = ROWS + k * BLOCK, S[k * SPAN : (k + 1) * SPAN]
         y0, dy0 = work.y0[i : i + SPAN], work.dy0[i : i + SPAN]
         y1, dy1 = work.y[i : i + SPAN], work.dy1[i : i + SPAN]
@@ -207,11 +210,11 @@ def see_attitude(
     work: Pass, data: Measurements, sensor: Floats, now: Now, h: float, share: float, n: int,
     row: int, limit: float, left: Floats,
 ) -> float:  # fmt: skip
-    """Add a row of the camera that looked within a step; return its cost."""
+    """Add a row of the camera, measured within a step; return its cost."""
     sensing = data.terms.shape[0] > 0
     scale, spread = 1.0 / data.attitude_sd, data.attitude_spread
     at = share - sensor[DELAY] / h
-    q = work.at[:ROWS]
+    q = work.step.at[:ROWS]
     interpolate(work.y0, work.dy0, work.y, work.dy1, h, at, spread, q)
     turn_rows(work, h, at, spread, scale, work.S_q)
     if sensing:
@@ -225,9 +228,9 @@ def see_rate(
     work: Pass, now: Now, by: Nine, w: Triple, bias: Floats, data: Measurements, row: int, n: int,
     limit: float, left: Floats,
 ) -> float:  # fmt: skip
-    """Add a row of the gyro, the state and the forcing being as it saw them; return its cost."""
+    """Add a row of the gyro, the state and the forcing being those of its time; return its cost."""
     scale, x, r = 1.0 / data.rate_sd, dot(by, w), data.rate[row]
-    rate_rows(now.inverse, work.at, work.fb, w, by, data, scale, n, work.S_w)
+    rate_rows(now.inverse, work.step.at, work.step.fb, w, by, data, scale, n, work.S_w)
     e = (
         scale * (r[0] - x[0] - bias[0]),
         scale * (r[1] - x[1] - bias[1]),
@@ -238,16 +241,16 @@ def see_rate(
 
 @part
 def accumulate(
-    body: Body, maps: Floats, t: Floats, known: Floats, owners: Ints, columns: Columns,
-    q0: Floats, w0: Floats, sensor: Floats, bias: Floats, data: Measurements, limit: float,
-    stretch: tuple[int, int], rows: tuple[int, int], work: Pass, left_q: Floats, left_w: Floats,
+    body: Body, inputs: Inputs, q0: Floats, w0: Floats, sensor: Floats, bias: Floats,
+    data: Measurements, limit: float, stretch: tuple[int, int], rows: tuple[int, int], work: Pass,
+    left_q: Floats, left_w: Floats,
 ) -> tuple[float, int, int]:  # fmt: skip
     """Sum the normal equations of the steps from one node to another (``stretch``).
 
     ``rows`` are the first camera and gyro row from there on. Write the residuals in units of sd;
     return half the cost and the first rows of what follows. ``work.y`` is left at the end.
     """
-    y, y0, dy0, dy1, at, dy, total, regress, fb = work[:9]
+    (maps, t, known, _, columns), (y, y0, dy0, dy1, step) = inputs, work[:5]
     n, last = columns.kinds.shape[0], t.shape[0] - 2
     q_node, w_node, q_share, w_share = (data.attitude_node, data.rate_node, data.attitude_share,
                                         data.rate_share)  # fmt: skip
@@ -258,15 +261,14 @@ def accumulate(
         is_steady = steady(known, i)
         fixed, here = is_steady and not moving, body_at(body, maps, t, known, i, 0.0)
         if i == stretch[0]:
-            start(body, here, maps, t, known, owners, columns, i, q0, w0, y, regress, fb)
+            start(body, here, inputs, i, q0, w0, y, step)
         if not (was_steady and is_steady):
-            slope_at(body, here, maps, t, known, owners, columns, i, 0.0, y, regress, fb, dy1)
+            slope_at(body, here, inputs, i, 0.0, y, step, dy1)
         for j in range(y.shape[0]):
             y0[j], dy0[j] = y[j], dy1[j]
-        step_from(body, here, fixed, maps, t, known, owners, columns, i, y, dy0, regress, fb, at,
-                  dy, total)  # fmt: skip
+        step_from(body, here, fixed, inputs, i, y, dy0, step)
         now = body_within(body, maps, t, known, i, 1.0, fixed, here)
-        slope_at(body, now, maps, t, known, owners, columns, i, 1.0, y, regress, fb, dy1)
+        slope_at(body, now, inputs, i, 1.0, y, step, dy1)
         h, was_steady = t[i + 1] - t[i], is_steady
         while iq < q_node.shape[0] and (q_node[iq] == i or i == last):
             share = q_share[iq] if q_node[iq] == i else 1.0
@@ -274,9 +276,9 @@ def accumulate(
             iq += 1
         while iw < w_node.shape[0] and (w_node[iw] == i or i == last):
             share = w_share[iw] if w_node[iw] == i else 1.0
-            interpolate(y0, dy0, y, dy1, h, share, data.rate_spread, at)
+            interpolate(y0, dy0, y, dy1, h, share, data.rate_spread, step.at)
             now = body_within(body, maps, t, known, i, share, fixed, here)
-            w, _ = evaluate(body, now, maps, t, known, owners, columns, i, share, at, regress, fb)
+            w, _ = evaluate(body, now, inputs, i, share, step.at, step)
             cost += see_rate(work, now, by, w, bias, data, iw, n, limit, left_w[iw])
             iw += 1
     return cost, iq, iw

@@ -173,22 +173,29 @@ def carry_back(onward: Floats, chain: Chain) -> None:
 
 
 @part
+def add_stretch(pieces: Pieces, k: int, chain: Chain) -> None:
+    """Add the local model of a stretch to P and p."""
+    n = chain.descent.shape[0]
+    for i in range(n):
+        chain.descent[i] += pieces.descent[k, i]
+        for j in range(n):
+            chain.normal[i, j] += pieces.normal[k, i, j]
+
+
+@part
 def condense(cuts: Cuts, pieces: Pieces, damping: float, chain: Chain) -> float:
     """Write P and p of the first stretch, all later ones and their jumps taken out.
 
     Return what the jumps promise of twice the cost.
     """
-    P, p, n = chain.normal, chain.descent, chain.descent.shape[0]
     promised, last = 0.0, cuts.free.shape[0]
+    chain.normal[:], chain.descent[:] = 0.0, 0.0
     for k in range(last, -1, -1):
         if k < last:
             promised += absorb_jump(cuts, pieces, k, damping, chain)
             carry_back(pieces.onward[k], chain)
             carry(pieces.onward[k], chain.gain[k], count_free(cuts.free[k]))
-        for i in range(n):
-            p[i] = pieces.descent[k, i] + (p[i] if k < last else 0.0)
-            for j in range(n):
-                P[i, j] = pieces.normal[k, i, j] + (P[i, j] if k < last else 0.0)
+        add_stretch(pieces, k, chain)
     return promised
 
 

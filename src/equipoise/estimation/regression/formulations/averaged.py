@@ -5,8 +5,8 @@ As printed, with mean_k of the n rates before t_k and the first noisy rate for t
     [ W(mean_k w) - W(w(t0)) + int w x W(w) ] p - int m r x g_B = -(k - k0) + int known
 
 The mean is (n + 1) / 2 rows late while the integrals are not, which biases J (0.4 to 2.7 % at 100
-Hz), and the first rate's noise is in every row. What is late is worked out from the testbed's J, as
-far as a mean about the row shows it, and told (``Rows.omitted``).
+Hz), and the first rate's noise is in every row. What is late is computed from the testbed's J, as
+far as a mean about the row shows it, and reported (``Rows.omitted``).
 
 Corrected: every term of the balance is averaged over the same n rows, and the constants are free.
 

@@ -3,7 +3,7 @@
     H = W(w) p + k,        k = dJ(d) w + h
     H' + w x H = m r x g_B + sum_k c_k T_k + dmu(d) x g_B + tau
 
-tau, which is told and may jump between two rows, is given as its exact integral. k is momentum
+tau, which is recorded and may jump between two rows, is given as its exact integral. k is momentum
 that is known once w is: masses off home, masses travelling, wheels. Formulations differ only in
 what they make of these.
 """

@@ -8,7 +8,7 @@ in increments, as printed, or summed from the start of each piece with a free co
 
 Differences of neighbouring rates are the noisiest data there are; the sums use the same model and
 are 9 to 18 times better. What is left out, J_d^-1 ( w x J w + (J - J_d) w' ), moves r by some
-|w|^2 dJ / (m g), 5 um at 3 deg/s: it is worked out from the testbed's J and told (``omitted``).
+|w|^2 dJ / (m g), 5 um at 3 deg/s: it is computed from the testbed's J and reported (``omitted``).
 
 Cannot see J at all; com only as well as J is known.
 """

@@ -11,8 +11,7 @@ Trusts the stated noise of the sensors: twice the noise is four times the correc
 import numpy as np
 
 from equipoise.estimation.regression.formulations.rows import Rows, centred
-from equipoise.estimation.regression.solvers.least_squares import normal_of, solved
-from equipoise.estimation.regression.solvers.solver_inputs import Aid
+from equipoise.estimation.regression.solvers.least_squares import Aid, normal_of, solved
 from equipoise.model.arrays import Floats
 
 LEAST = 0.05  # of A^T A, scaled: along directions that are mostly noise no more is taken off

@@ -8,7 +8,7 @@ Noise in A then does not bias x, however large it is, nor need it be known; the 
 import numpy as np
 
 from equipoise.estimation.regression.formulations.rows import Rows, centred
-from equipoise.estimation.regression.solvers.solver_inputs import Aid
+from equipoise.estimation.regression.solvers.least_squares import Aid
 from equipoise.model.arrays import Floats, Square
 
 

@@ -3,14 +3,28 @@
 Noise in A biases x towards zero: see ``corrected`` and ``instrumental``.
 """
 
+from collections.abc import Callable
+from typing import NamedTuple
+
 import numpy as np
 
 from equipoise.estimation.regression.formulations.rows import Rows, centred
-from equipoise.estimation.regression.solvers.solver_inputs import Aid
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Floats, Square
+from equipoise.model.testbed import Testbed
 
 RIDGE = 1e-14  # of a scaled normal matrix: rounding
+
+
+class Aid(NamedTuple):
+    """What a solver may use beside the rows: the testbed, and the noise of the rows."""
+
+    testbed: Testbed
+    gram: Square  # (c, c) mean of dA^T dA, dA being what the sensors' noise adds to centred rows
+    cross: Floats  # (c,) mean of dA^T db
+
+
+Solver = Callable[[Rows, Aid], Floats]
 
 
 def flat(rows: Rows) -> tuple[Floats, Floats]:

@@ -10,8 +10,7 @@ to get there: it matters only with constraints, or where the motion itself is fi
 import numpy as np
 
 from equipoise.estimation.regression.formulations.rows import Rows, centred, guess_of
-from equipoise.estimation.regression.solvers.least_squares import normal_of
-from equipoise.estimation.regression.solvers.solver_inputs import Aid
+from equipoise.estimation.regression.solvers.least_squares import Aid, normal_of
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Floats
 

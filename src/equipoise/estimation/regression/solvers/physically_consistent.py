@@ -13,8 +13,7 @@ import numpy as np
 from scipy.optimize import least_squares as minimise
 
 from equipoise.estimation.regression.formulations.rows import Rows, centred, guess_of
-from equipoise.estimation.regression.solvers.least_squares import normal_of, solved
-from equipoise.estimation.regression.solvers.solver_inputs import Aid
+from equipoise.estimation.regression.solvers.least_squares import Aid, normal_of, solved
 from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
 from equipoise.model.arrays import Floats

@@ -19,6 +19,7 @@ import numpy as np
 from equipoise.estimation.regression.formulations import averaged, tracked
 from equipoise.estimation.regression.formulations.rows import Rows, guess_of
 from equipoise.estimation.regression.formulations.torque import window_of
+from equipoise.estimation.regression.solvers.least_squares import Aid, Solver
 from equipoise.estimation.regression.solvers.recursive import (
     Recursion,
     State,
@@ -26,7 +27,6 @@ from equipoise.estimation.regression.solvers.recursive import (
     begin,
     begin_with,
 )
-from equipoise.estimation.regression.solvers.solver_inputs import Aid, Solver
 from equipoise.maths.linalg import element_sizes
 from equipoise.model import torque_terms
 from equipoise.model.arrays import Floats, Series, Series1
@@ -34,9 +34,9 @@ from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.testbed import Testbed
 
 LOOSE = 10.0  # chosen: times the stated sd of com, so that a start weighs a hundredth of it
-NEAREST = 1e-5  # m, chosen: least sd stated of com that is believed at the start
+NEAREST = 1e-5  # m, chosen: least sd stated of com that is used at the start
 FASTEST = 1.0  # rad/s, chosen: no platform turns faster; for momentum at the start of a piece
-FIRST = 10.0  # s, chosen: of the batch that a recursion may begin with, doubled until it is seen
+FIRST = 10.0  # s, chosen: of the batch to begin with, doubled until all is observable
 UNKNOWN = 1e-3  # rad/s, chosen: noise of rates that no gyro of the testbed gives
 TORQUE_SD = {  # chosen: a hundred times what air bearings show
     "viscous": 1e-2,
@@ -52,7 +52,7 @@ Share = Callable[[Series1], float]
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What tells one recursion from another."""
+    """What distinguishes one recursion from another."""
 
     share: Share  # of the noise of a momentum that the filter passes, from the rows' times
     by_moments: bool = True  # rows are momenta or torques, not rates
@@ -61,7 +61,7 @@ class Plan:
 
 
 class Passed(NamedTuple):
-    """What was believed after each row."""
+    """The estimate after each row."""
 
     state: State
     values: Series  # (n, c); stands still until a batch's end
@@ -141,7 +141,7 @@ def some(rows: Rows, part: slice) -> Rows:
 
 
 def batch_start(recursion: Recursion, rows: Rows) -> tuple[State, int]:
-    """Return the state after a batch that sees everything, and its rows; else the loose start."""
+    """Return the state after a batch that shows everything, and its rows; else the loose start."""
     span = FIRST
     while len(rows.t) and span < 2 * (rows.t[-1] - rows.t[0]):
         n = int(np.count_nonzero(rows.t <= rows.t[0] + span))
@@ -153,7 +153,7 @@ def batch_start(recursion: Recursion, rows: Rows) -> tuple[State, int]:
 
 
 def passed(plan: Plan, testbed: Testbed, rows: Rows) -> Passed:
-    """Return what is believed after each row."""
+    """Return the estimate after each row."""
     recursion, n = recursion_of(plan, testbed, rows), 0
     state = begin(recursion, rows.piece is not None)
     if plan.batch:
@@ -166,7 +166,7 @@ def passed(plan: Plan, testbed: Testbed, rows: Rows) -> Passed:
 
 
 def recursive(plan: Plan) -> Solver:
-    """Return the solver of a plan: what is believed after the last row."""
+    """Return the solver of a plan: the estimate after the last row."""
 
     def solve(rows: Rows, aid: Aid) -> Floats:
         return passed(plan, aid.testbed, rows).state.x[: len(rows.names)]

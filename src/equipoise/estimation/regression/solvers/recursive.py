@@ -52,7 +52,7 @@ class Recursion:
 
 
 class State(NamedTuple):
-    """What is believed after a row."""
+    """The estimate after a row."""
 
     x: Floats  # (s,) unknowns, then free constants
     P: Square  # (s, s)
@@ -192,9 +192,9 @@ def advance(recursion: Recursion, state: State, rows: Rows) -> tuple[State, Seri
 
 
 def begin_with(recursion: Recursion, first: Rows) -> State | None:
-    """Return the state that least squares on the first rows alone begin with; None: unseen.
+    """Return the state that least squares on the first rows alone begin with; None: unobservable.
 
-    No start is believed: this is the batch that Lee begins with.
+    There is no prior: this is the batch that Lee begins with.
     """
     columns, pieces = written_out(first)
     weight = 1.0 / np.tile(recursion.noise, len(first.t))

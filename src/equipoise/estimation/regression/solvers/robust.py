@@ -1,4 +1,4 @@
-"""Robust least squares: rows that stand far off count with their distance, not its square.
+"""Robust least squares: outliers count with their distance, not its square.
 
     minimise sum_k rho(|e_k| / s),    weight 1 up to 1.5 s, then 1.5 s / |e_k|        (Huber 1964)
 
@@ -11,8 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.regression.formulations.rows import Rows, centred
-from equipoise.estimation.regression.solvers.least_squares import normal_of, solved
-from equipoise.estimation.regression.solvers.solver_inputs import Aid
+from equipoise.estimation.regression.solvers.least_squares import Aid, normal_of, solved
 from equipoise.model.arrays import Floats, Series1
 
 LIMIT = 1.5  # s, chosen: of white noise in three axes nearly all rows are within 3 s

@@ -11,8 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from equipoise.estimation.regression.formulations.rows import Rows, centred
-from equipoise.estimation.regression.solvers.least_squares import normal_of, solved
-from equipoise.estimation.regression.solvers.solver_inputs import Aid
+from equipoise.estimation.regression.solvers.least_squares import Aid, normal_of, solved
 from equipoise.maths.linalg import symmetrise
 from equipoise.model.arrays import Floats
 
