@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.bench_requests import in_steps
 from equipoise.model.errors import InputError, MoveRefused
 from equipoise.model.testbed import Fault
@@ -14,7 +15,6 @@ from equipoise.simulation.actuator import (
     checked,
     displacement,
     halted,
-    lines,
     reported_rows,
     retracked,
     sent,
@@ -229,7 +229,7 @@ def test_reported_rows_hold_the_ends_and_every_corner(rail):
     np.testing.assert_allclose(rows.t, [1.0, 2.0, 3.0, 4.0])
     np.testing.assert_allclose(rows.values, [[0, 0], [0, 0], [0.01, -0.01], [0.02, -0.01]])
     between = np.linspace(1.0, 4.0, 301)
-    straight = lines(between, rows.t, rows.values)
+    straight = read_at(between, rows.t, rows.values)
     np.testing.assert_allclose(
-        straight, lines(between, motors.track.t, motors.track.reported), atol=1e-15
+        straight, read_at(between, motors.track.t, motors.track.reported), atol=1e-15
     )

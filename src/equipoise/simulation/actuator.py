@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.bench_requests import checked_targets
 from equipoise.model.recording import Samples
@@ -179,16 +180,8 @@ def without_past(track: Track, before: float) -> Track:
     return Track(track.t[first:], track.reported[first:], track.real[first:]) if first else track
 
 
-def lines(t: Series1, track_t: Series1, values: Floats) -> Floats:
-    """Return a track's displacements (m) at times ``t``; constant outside its rows."""
-    if not values.shape[1]:
-        return np.zeros((len(t), 0))
-    columns: list[Floats] = [np.interp(t, track_t, column) for column in values.T]
-    return np.column_stack(columns)
-
-
 def reported_rows(track: Track, start: float, end: float) -> Samples:
     """Return what a recording from ``start`` to ``end`` (s) holds: both ends and all corners."""
     corners = track.t[(track.t > start) & (track.t < end)]
     t = np.unique(np.concatenate([[start], corners, [end]]))
-    return Samples(tick(t), lines(t, track.t, track.reported))
+    return Samples(tick(t), read_at(t, track.t, track.reported))

@@ -24,6 +24,7 @@ from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.bench_requests import check_duration
 from equipoise.model.mass_properties import MassProperties
@@ -82,10 +83,10 @@ class SimulatedBench:
         self._devices = started(testbed)
         self._testbed, self._seed = testbed, seed
         self.platform = draw_truth(testbed, rng)
-        truth, masses = self.platform, self.platform.masses
-        inertia = pack_symmetric(truth.body.inertia_P)
-        moment = truth.body.first_moment
-        self._body = body_of(truth.body.mass, testbed.gravity, inertia, moment, truth.torque)
+        body, truth, masses = self.platform.body, self.platform.truth, self.platform.masses
+        inertia = pack_symmetric(body.inertia_P)
+        torque = self.platform.torque
+        self._body = body_of(body.mass, testbed.gravity, inertia, body.first_moment, torque)
         self._happens = times([*truth.contacts, *truth.com_steps])
         self._rails = mass_maps(masses)
         self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
@@ -130,7 +131,7 @@ class SimulatedBench:
 
     def move(self, targets: Mapping[str, float]) -> None:
         """Set masses on their way to displacements from home (m); all of them or none."""
-        masses, faults = self.platform.masses, self.platform.faults
+        masses, faults = self.platform.masses, self.platform.truth.faults
         goals = actuator.checked(self._travel, self._time, targets, masses)
         travel = actuator.sent(self._travel, self._time, goals, masses, faults, self._stops_rng)
         self._command(travel)
@@ -148,7 +149,7 @@ class SimulatedBench:
             self._normals[i] = self._stops_rng.standard_normal()
         platform, leg = self.platform, (start, end, displacement)
         mass, normal = platform.masses[i], float(self._normals[i])
-        travel = actuator.led(self._travel, i, leg, mass, platform.faults, normal)
+        travel = actuator.led(self._travel, i, leg, mass, platform.truth.faults, normal)
         self._travel, self._track = travel, actuator.retracked(self._track, travel, start)
 
     def drive(self, inputs: Mapping[str, float]) -> None:
@@ -177,7 +178,7 @@ class SimulatedBench:
         """Where the centre of mass really is now, elastic sag apart, m."""
         body, coefficients = self.platform.body, self.platform.torque
         drift = coefficients[DRIFT : DRIFT + 3] * self._time
-        slipped = com_moved(self.platform.com_steps, self._time)
+        slipped = com_moved(self.platform.truth.com_steps, self._time)
         return body.com + drift + slipped + com_shift(self._rails, body.mass, self.displacements)
 
     @property
@@ -220,7 +221,7 @@ class SimulatedBench:
         observed = [
             samples_between(s, start, now) for s in (self._testbed.attitude, self._testbed.gyro)
         ]
-        turns = tick(self._track.t + self.platform.mass_lag)
+        turns = tick(self._track.t + self.platform.truth.mass_lag)
         others = [turns, self._happens, bends(self._devices, start, now)]
         others.append(multiples(grid_of(self._testbed), start, now))
         if self._noise.sd > 0:
@@ -230,7 +231,7 @@ class SimulatedBench:
 
     def _follow(self, t: Series1) -> Path:
         """Return the motion along nodes, from where the state is kept."""
-        truth = self.platform
+        truth = self.platform.truth
         h, gimbals = stored(self._testbed, self._devices, t)
         dipole, jets = effects(self._testbed, self._devices, t)
         known = np.hstack([h, torque_at(self._noise, t) + jets, self._real(t), gimbals])
@@ -242,7 +243,7 @@ class SimulatedBench:
 
     def _real(self, t: Series1) -> Floats:
         """Return where the masses really are, m from home, (n, k)."""
-        return actuator.lines(t - self.platform.mass_lag, self._track.t, self._track.real)
+        return read_at(t - self.platform.truth.mass_lag, self._track.t, self._track.real)
 
     def _recording(self, t: Series1, path: Path, after: float, since: float) -> Recording:
         """Return the rows stamped after a time (s), masses since a time (s)."""
@@ -295,16 +296,16 @@ class SimulatedBench:
 
     def _attitude(self, t: Series1, q: Floats, sensor: AttitudeSensor) -> Samples:
         """Return the camera's rows stamped ``t`` from attitudes at its looks."""
-        errors = self.platform.camera
+        errors = self.platform.truth.camera
         noisy = camera_rows(misread(q, errors, self._testbed.up), sensor, self._camera_rng)
         rows, bad = with_bad_rows(noisy, errors, self._bad_rng)
-        kept = outside(t, self.platform.gaps)
+        kept = outside(t, self.platform.truth.gaps)
         self._bad = np.append(self._bad, t[bad & kept])
         return Samples(t[kept], whole_angles(rows, sensor.quantum)[kept])
 
     def _rate(self, t: Series1, w: Floats, sensor: Gyro) -> Samples:
         """Return the gyro's rows stamped ``t`` from rates at its looks."""
-        truth = self.platform
+        truth = self.platform.truth
         rows = gyro_rows(misfelt(w, truth.gyro), sensor, truth.gyro_bias, self._gyro_rng)
         kept = outside(t, truth.gaps)
         return Samples(t[kept], whole(rows, sensor.quantum)[kept])
@@ -317,4 +318,4 @@ class SimulatedBench:
         self._node, self._state = float(t[kept]), path.y[kept]
         self._noise = forgotten(self._noise, self._node)
         self._devices = without_past(self._devices, self._node - 1 / self._reports)
-        self._track = actuator.without_past(self._track, self._node - self.platform.mass_lag)
+        self._track = actuator.without_past(self._track, self._node - self.platform.truth.mass_lag)

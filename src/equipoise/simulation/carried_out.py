@@ -44,8 +44,10 @@ def let_go(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Testbed:
     return replace(testbed, truth=truth)
 
 
-def bench_for(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> SimulatedBench:
-    """Return a bench whose platform is let go as planned."""
+def bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> SimulatedBench:
+    """Return a bench whose platform is let go as planned, if there is a plan."""
+    if manoeuvre is None:
+        return SimulatedBench(testbed, seed)
     return SimulatedBench(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
 
 

@@ -10,16 +10,15 @@ What is given does not change what is drawn for the rest. The errors are laid on
 the centre of mass, as a drawn centre of mass would otherwise be paid for by the inertia.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
 
 from equipoise.maths.attitude import exponential, from_euler321, level, multiply
 from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
-from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
 from equipoise.model.mass_properties import MassProperties, from_centre, smallest_second_moment
-from equipoise.model.testbed import Fault, SlidingMass, Testbed, TrueDrive, Truth
+from equipoise.model.testbed import SlidingMass, Testbed, TrueDrive, Truth
 from equipoise.model.torque_terms import TERMS
 from equipoise.model.units import DEG, in_si
 
@@ -37,18 +36,9 @@ class SimulatedPlatform:
     attitude: Quaternion
     rate: Vector3  # rad/s
     torque: Floats  # (16,) coefficients in the order of TERMS, SI
-    gyro_bias: Vector3  # rad/s
-    masses: tuple[SlidingMass, ...] = ()  # with the drives that they really have
-    noise_torque: float = 0.0  # N m, one sd per axis
-    noise_correlation: float = 30.0  # s
-    faults: tuple[Fault, ...] = ()
-    mass_lag: float = 0.0  # s
-    contacts: tuple[Contact, ...] = ()
-    com_steps: tuple[ComStep, ...] = ()
-    gaps: tuple[Gap, ...] = ()
-    camera: CameraErrors = field(default_factory=CameraErrors)
-    gyro: GyroErrors = field(default_factory=GyroErrors)
-    field_N: Vector3 | None = None  # T, magnetic, laboratory axes
+    masses: tuple[SlidingMass, ...]  # with the drives that they really have
+    field_N: Vector3 | None  # T, magnetic, laboratory axes
+    truth: Truth  # as given: noise, faults, events and errors of sensors, of which nothing is drawn
 
 
 def own_truth(testbed: Testbed) -> Truth:
@@ -127,16 +117,7 @@ def draw_truth(testbed: Testbed, rng: np.random.Generator) -> SimulatedPlatform:
         attitude=attitude if truth.attitude is None else from_euler321(*truth.attitude),
         rate=rate if truth.rate is None else truth.rate,
         torque=coefficients(dict(truth.torque)),
-        gyro_bias=truth.gyro_bias,
         masses=real_masses(testbed.masses, truth.drives),
-        noise_torque=truth.noise_torque,
-        noise_correlation=truth.noise_correlation,
-        faults=truth.faults,
-        mass_lag=truth.mass_lag,
-        contacts=truth.contacts,
-        com_steps=truth.com_steps,
-        gaps=truth.gaps,
-        camera=truth.camera,
-        gyro=truth.gyro,
         field_N=field_of(testbed),
+        truth=truth,
     )

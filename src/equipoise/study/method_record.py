@@ -82,7 +82,7 @@ def bounds(
     six = pseudo_inertia.from_inertia(platform.body.inertia_C)
     truth = Unknowns(
         platform.attitude, platform.rate, six, platform.body.com, platform.torque,
-        np.zeros(len(sensor_terms.TERMS)), np.zeros(0), platform.gyro_bias,
+        np.zeros(len(sensor_terms.TERMS)), np.zeros(0), platform.truth.gyro_bias,
     )  # fmt: skip
     found = least_sd(recording, testbed, params, truth)
     found = dict(zip(END, (found[name] for name in COM), strict=True)) | found

@@ -159,7 +159,7 @@ def _planned(plan: Path, bed: "Testbed") -> "Manoeuvre":
 def _simulated(bed: "Testbed", planned: "Manoeuvre | None", seed: int) -> "Generator[Bench]":
     """Return the simulated platform, let go as planned if there is a plan."""
     with busy("preparing the bench", announce=False):
-        from equipoise.app.runs.simulation import bench_of
+        from equipoise.simulation.carried_out import bench_for
 
-        bench = bench_of(bed, seed, planned)
+        bench = bench_for(bed, planned, seed)
     yield bench

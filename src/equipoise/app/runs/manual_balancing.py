@@ -9,7 +9,6 @@ from equipoise.app.arguments.recording_window import Reading
 from equipoise.app.arguments.resolve import fitting_recording_of
 from equipoise.app.console.terminal import watched
 from equipoise.app.runs.balancing import Balancing, Goal
-from equipoise.app.runs.recorded_operator import FiledHands
 from equipoise.app.text.com_estimate import ComEstimate
 from equipoise.io.documents.manual_session import Piles, Round, Session
 from equipoise.io.toml.write_toml import numbers
@@ -42,6 +41,41 @@ class Filed:
     testbed: Testbed
     recordings: Sequence[Recording]
     placed: Sequence[Ints | None]
+
+
+class FiledHands:
+    """The verbs of ``model.hands.Hands``, played back; a placing not filed yet is the one asked."""
+
+    def __init__(
+        self, testbed: Testbed, recordings: Sequence[Recording], placed: Sequence[Ints | None]
+    ) -> None:
+        self._testbed, self._recordings, self._filed = testbed, recordings, placed
+        self.placed: list[Ints] = []
+        self.swings = 0
+
+    @property
+    def testbed(self) -> Testbed:
+        """The testbed as stated, without any weights."""
+        return self._testbed
+
+    @property
+    def time(self) -> float:
+        """Time recorded so far, s."""
+        spans = [recording.span for recording in self._recordings[: self.swings]]
+        return sum(end - start for start, end in spans)
+
+    def swing(self) -> Recording:
+        """Return the next recording."""
+        if self.swings == len(self._recordings):
+            raise Awaited
+        self.swings += 1
+        return self._recordings[self.swings - 1]
+
+    def place(self, wanted: Ints) -> Ints:
+        """Return how the platform was loaded after the last recording."""
+        filed = self._filed[len(self.placed)] if len(self.placed) < len(self._filed) else None
+        self.placed.append(wanted if filed is None else filed)
+        return self.placed[-1]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

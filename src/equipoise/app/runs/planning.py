@@ -62,7 +62,11 @@ class Planning(Shown):
     @property
     def plan(self) -> Plan:
         """Return the plan as it is written down, with what a fit of its record should find."""
-        return plan_file_of(self)
+        promised = self.alone
+        inertia, com = promised.sd_of(INERTIA), promised.sd_of(COM)
+        all_observed = bool(np.all(np.isfinite([*inertia, *com])))
+        reported = (inertia, com) if all_observed else (None, None)
+        return Plan(self.request.testbed.name, promised.manoeuvre, *reported)
 
 
 def run(request: Request, waiting: Waiting = QUIET) -> Planning:
@@ -96,12 +100,3 @@ def learnt_from(recording: Recording, request: Request, waiting: Waiting) -> Rec
             rows, as_observed, Options(requested.terms, requested.hold, use_prior=True)
         )
     return record_prior(recording, found, testbed)
-
-
-def plan_file_of(done: Planning) -> Plan:
-    """Return the plan as it is written down, with what a fit of its record alone should find."""
-    promised, bed = done.alone, done.request.testbed
-    inertia, com = promised.sd_of(INERTIA), promised.sd_of(COM)
-    all_observed = bool(np.all(np.isfinite([*inertia, *com])))
-    said = (inertia, com) if all_observed else (None, None)
-    return Plan(bed.name, promised.manoeuvre, *said)

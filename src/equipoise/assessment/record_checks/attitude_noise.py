@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from equipoise.assessment.record_checks.attitude_steps import EVEN, steps
+from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.model.arrays import Series3
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
@@ -17,8 +18,7 @@ from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 
 ORDERS = range(3, 8)  # chosen: beyond, neighbouring differences are all but the same number
-ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
-FEWEST = 20  # differences that a scatter is told from (chosen)
+FEWEST = 20  # differences that a scatter is estimated from (chosen)
 
 
 def noise_findings(attitude: Samples | None) -> list[Finding]:
@@ -47,5 +47,5 @@ def _scatter(turn: Series3, order: int) -> float | None:
     high = high[~np.isnan(high).any(axis=1)]
     if len(high) < FEWEST:
         return None
-    spread = ROBUST_SD * np.median(np.abs(high), axis=0) / math.sqrt(math.comb(2 * order, order))
+    spread = robust_sd(high) / math.sqrt(math.comb(2 * order, order))
     return float(np.sqrt(np.mean(spread**2)))

@@ -21,7 +21,8 @@ from equipoise.assessment.record_checks.gyro_consistency import (
     integral,
     lag_of,
 )
-from equipoise.model.arrays import Floats, Series1, Series3
+from equipoise.maths.straight_lines import read_at
+from equipoise.model.arrays import Series1, Series3
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
@@ -122,12 +123,9 @@ def _left(pairs: _Pairs, rate: Samples, lag: float) -> Series3:
 def _slope(pairs: _Pairs, rate: Samples, lag: float) -> Series3:
     """Return how that changes with the lag, rad/s^2."""
     length = (pairs.end - pairs.start)[:, None]
-    slope = (_rate_at(rate, pairs.end - lag) - _rate_at(rate, pairs.start - lag)) / length
+    first, last = (read_at(t - lag, rate.t, rate.values) for t in (pairs.start, pairs.end))
+    slope = (last - first) / length
     return slope - slope.mean(axis=0)
-
-
-def _rate_at(rate: Samples, t: Floats) -> Series3:
-    return np.stack([np.interp(t, rate.t, rate.values[:, i]) for i in range(3)], axis=1)
 
 
 def _sd(slope: Series3, left: Series3) -> float:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.maths.local_motion import half_window, local_motion
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.finding import Finding
@@ -40,7 +41,6 @@ UNSTEADY = 0.05  # of the window, by which a piece may differ however sure it is
 LONGEST = 3.0  # row intervals; chosen: a moving mean over more smooths the motion away
 EXACT = 1e-12  # to which a length is computed
 MATTERS = 1e-4  # of inertia; chosen: below what any record of a minute tells
-ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +113,7 @@ def _window_squared(short: Series1, speed: Series1) -> tuple[float, float, float
     scatter = 0.0
     for _ in range(ROUNDS):
         left = short - square * speed / 96.0
-        scatter = ROBUST_SD * float(np.median(np.abs(left - np.median(left))))
+        scatter = float(robust_sd(left - np.median(left)))
         keep = np.abs(left) <= TRIMMED * scatter + EXACT
         weight = float(np.sum(speed[keep] ** 2))
         if weight == 0:

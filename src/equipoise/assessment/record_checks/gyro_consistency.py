@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from equipoise.assessment.record_checks.attitude_noise import attitude_noise
 from equipoise.assessment.record_checks.attitude_steps import steps
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Matrix3, Series3
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
@@ -81,8 +82,7 @@ def integral(rate: Samples, at: Floats) -> Series3:
     free = rate.values - mean
     panels = 0.5 * np.diff(rate.t)[:, None] * (free[1:] + free[:-1])
     whole = np.vstack([np.zeros(3), np.cumsum(panels, axis=0)])
-    turned = np.stack([np.interp(at, rate.t, whole[:, i]) for i in range(3)], axis=1)
-    return turned + np.multiply.outer(at - rate.t[0], mean)
+    return read_at(at, rate.t, whole) + np.multiply.outer(at - rate.t[0], mean)
 
 
 def across_gap(rate: Samples, start: Floats, end: Floats) -> NDArray[np.bool_]:

@@ -32,6 +32,7 @@ from equipoise.assessment.record_checks.local_fit import (
     rate_vectors,
 )
 from equipoise.assessment.record_checks.quantisation import step_of
+from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.assessment.record_checks.window_misfit import (
     ASIDE,
     Window,
@@ -59,7 +60,6 @@ UNSURE = 2.0  # times the scale by which a jump between two rows may come out to
 HALF = 0.5  # of the step of coarse values: the least scale, so that a flip by one step is nothing
 REPEATS = 0.1  # share of rows as the one before, from which an attitude is coarse (chosen)
 EXACT = 1e-9  # rad, rad/s: below this rows are computed, not measured
-ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
 
 
 class Platform(NamedTuple):
@@ -188,15 +188,15 @@ def _standard(fit: LocalFit, at: int) -> Floats:
 
 
 def _spread(fit: LocalFit, at: int) -> Vector3:
-    return ROBUST_SD * np.median(np.abs(_standard(fit, at)), axis=0)
+    return robust_sd(_standard(fit, at))
 
 
 def _scale(fit: LocalFit) -> Floats:
     """Return the scale (n, 3) that counts in each window."""
     middle = fit.rows.shape[1] // 2
-    left = np.abs(_standard(fit, middle))
+    left = _standard(fit, middle)
     near = min(NEAR, len(left))
-    local = ROBUST_SD * np.median(sliding_window_view(left, near, axis=0), axis=2)
+    local = robust_sd(sliding_window_view(left, near, axis=0), axis=2)
     inner = np.flatnonzero(fit.place == middle)
     at = np.clip(np.searchsorted(inner, np.arange(len(fit.rows))) - near // 2, 0, len(local) - 1)
     whole = np.where((fit.place == middle)[:, None], _spread(fit, middle), _spread(fit, 0))

@@ -37,14 +37,7 @@ class Slew(NamedTuple):
     recording: Recording
 
 
-class Row(NamedTuple):
-    """One step."""
-
-    observed: Sample
-    angles: Floats
-    rates: Floats
-    required: Floats
-    output: Floats
+Row = tuple[float | Floats, ...]  # one step: what ``Slew`` has before its recording, in order
 
 
 def slewed(testbed: Testbed, target: Quaternion, gains: Gains, duration: float, seed: int) -> Slew:
@@ -56,39 +49,25 @@ def slewed(testbed: Testbed, target: Quaternion, gains: Gains, duration: float, 
     while bench.time < duration:
         observed = sample_of(before, eyes, fresh, testbed)
         assert observed is not None  # a camera's first row is at time zero
-        pid, row = stepped(testbed, eyes, observed, (pid, target, gains))
+        pid, rates, row = stepped(testbed, eyes, observed, (pid, target, gains))
         rows.append(row)
-        named = zip(testbed.cmgs, row.rates, strict=True)
+        named = zip(testbed.cmgs, rates, strict=True)
         bench.drive({cmg.name: float(rate) for cmg, rate in named})
         fresh = bench.read(PERIOD)
         parts.append(fresh)
         before, eyes = eyes, sampled(eyes, fresh, testbed)
-    return slew_of(testbed, rows, parts)
+    return Slew(*(np.array(column) for column in zip(*rows, strict=True)), recording=joined(parts))
 
 
 def stepped(
     testbed: Testbed, eyes: Eyes, sample: Sample, law: tuple[Pid, Quaternion, Gains]
-) -> tuple[Pid, Row]:
-    """Return the law's state and what is done, at one step."""
+) -> tuple[Pid, Floats, Row]:
+    """Return the law's state, the gimbal rates (rad/s) and the row of one step."""
     pid, target, gains = law
     pid, required = torque(pid, sample, at_rest(target), gains, np.zeros(3))
     angles = eyes.states[len(testbed.wheels) :][: len(testbed.cmgs)]
     rates = limited_rates(testbed.cmgs, singularity_robust(testbed.cmgs, angles, required))
     output: Floats = -jacobian(testbed.cmgs, angles) @ rates
-    return pid, Row(sample, angles, rates, required, output)
-
-
-def slew_of(testbed: Testbed, rows: list[Row], parts: list[Recording]) -> Slew:
-    """Return the rows as columns, and one recording."""
-    measure = [singularity_measure(testbed.cmgs, row.angles) for row in rows]
-    return Slew(
-        np.array([row.observed.t for row in rows]),
-        np.array([row.observed.q for row in rows]),
-        np.array([row.observed.rate for row in rows]),
-        np.array([row.angles for row in rows]),
-        np.array([row.rates for row in rows]),
-        np.array([row.required for row in rows]),
-        np.array([row.output for row in rows]),
-        np.array(measure),
-        joined(parts),
-    )
+    measure = singularity_measure(testbed.cmgs, angles)
+    row = (sample.t, sample.q, sample.rate, angles, rates, required, output, measure)
+    return pid, rates, row

@@ -14,17 +14,12 @@ from equipoise.app.console.terminal import COMPILING
 from equipoise.app.dashboard.runner.background_jobs import Fit, Job, Keep
 from equipoise.app.dashboard.runner.benches import Station, let_go
 from equipoise.app.dashboard.runner.chart_rows import parts_of
-from equipoise.app.dashboard.runner.documents import (
-    Standing,
-    about,
-    mark_document,
-    step_document,
-)
+from equipoise.app.dashboard.runner.documents import about, line_document, state_document
 from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
-from equipoise.app.dashboard.runner.pace import Pace
 from equipoise.app.dashboard.runner.recorder import Recorder
 from equipoise.app.live.observed_bench import WatchedBench
+from equipoise.app.live.pace import Pace
 from equipoise.app.runs.balancing import HALTED, Balancing, Goal, Limits, Through, run
 from equipoise.app.runs.rehearsal import practised
 from equipoise.app.runs.waiting import as_they_come
@@ -52,7 +47,7 @@ class Runner:
         self.phase, self.note, self.working = "idle", "", ""
         self.goal: Goal | None = None
         self.trip: str | None = None
-        self.kept: str | None = None
+        self.kept: str | None = None  # folder of the last run that was kept
         self.stopping = False
         self._receive: Callable[[float], None] = lambda _: None
         self._clock, self._steps, self._due = 0, 0, 0.0
@@ -81,9 +76,11 @@ class Runner:
 
     def report_state(self) -> None:
         """Tell how things stand."""
-        standing = Standing(self.phase, self.pace.speed, self.recorder.name, self.goal, self.trip,
-                            self.note, self.kept, self.working)  # fmt: skip
-        self.post.state(standing.document(self.station, self._posterior))
+        self.post.state(state_document(
+            self.station, self._posterior, self.goal, phase=self.phase, speed=self.pace.speed,
+            recording=self.recorder.name, trip=self.trip, note=self.note, kept=self.kept,
+            working=self.working,
+        ))  # fmt: skip
 
     def say(self, sentence: str) -> None:
         """Tell a sentence at once."""
@@ -92,16 +89,17 @@ class Runner:
 
     def mark(self, text: str) -> None:
         """Note that something happened now."""
-        t = self.station.bench.time
-        self.post.step(mark_document(self._steps, t, text))
-        self._steps += 1
-        self.recorder.event(t, "mark", text)
+        self._line("mark", self.station.bench.time, text)
 
     def step(self, step: Step) -> None:
         """Tell of a step."""
-        self.post.step(step_document(self._steps, step))
+        outcome = None if step.verdict is None else step.verdict.outcome
+        self._line(step.kind, step.time, step.sentence, outcome)
+
+    def _line(self, of: str, t: float, sentence: str, outcome: str | None = None) -> None:
+        self.post.step(line_document(self._steps, of, t, sentence, outcome))
         self._steps += 1
-        self.recorder.event(step.time, step.kind, step.sentence)
+        self.recorder.event(t, of, sentence)
 
     # --- Time passes -------------------------------------------------------------------------
 

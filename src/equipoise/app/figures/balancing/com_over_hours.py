@@ -35,14 +35,11 @@ def draw(hours: OverHours, wander: Wander) -> Figure:
         axes.errorbar(wander.span, wander.deviation[:, i] / UM, error, color=XYZ[i], marker="o",
                       capsize=2, label=name)  # fmt: skip
         axes.plot(wander.span, wander.measurements_alone[:, i] / UM, color=XYZ[i], linestyle="--")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log", xlabel="over a time of, s", ylabel="Allan deviation, um")
     axes.set_xticks(wander.span, [f"{span:g}" for span in wander.span])
     axes.xaxis.set_minor_locator(NullLocator())
     for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
         which(StrMethodFormatter("{x:g}"))
-    axes.set_xlabel("over a time of, s")
-    axes.set_ylabel("Allan deviation, um")
     axes.legend()
     figure.align_ylabels([grid[name] for name in AXES])
     return figure

@@ -2,16 +2,8 @@
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import (
-    AXES,
-    XYZ,
-    band,
-    legend,
-    line,
-    mark_travel,
-    panels,
-    styled,
-)
+from equipoise.app.figures.base.strokes import band, line, mark_travel, panels, with_legend
+from equipoise.app.figures.base.style import AXES, XYZ, styled
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 from equipoise.model.units import DEG
@@ -26,8 +18,7 @@ SETTLED = 0.05  # share of the rows before the scale is taken; chosen: the filte
 @styled
 def draw(course: Course, recording: Recording) -> Figure:
     """Return the figure of an angular velocity, rad/s."""
-    figure, grid = panels(1, height=2.8)
-    axes = grid[0][0]
+    figure, (axes,) = panels(1, height=2.8)
     for i, colour in enumerate(XYZ):
         rate, sd = course.values[:, i] / DEG, course.sd[:, i] / DEG
         band(axes, course.t, rate, sd, colour)
@@ -37,5 +28,4 @@ def draw(course: Course, recording: Recording) -> Figure:
     air = 0.15 * (high - low)
     axes.set(ylabel="angular velocity, deg/s", ylim=(low - air, high + air))
     mark_travel([axes], recording)
-    legend(figure, axes)
-    return figure
+    return with_legend(figure, axes)

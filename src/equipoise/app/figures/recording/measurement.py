@@ -2,7 +2,8 @@
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import panels, styled
+from equipoise.app.figures.base.strokes import panels
+from equipoise.app.figures.base.style import styled
 from equipoise.app.figures.recording.record_panels import panels_of_motion
 from equipoise.model.arrays import Vector3
 from equipoise.model.recording import Recording
@@ -17,8 +18,8 @@ CAPTION = (
 def draw(recording: Recording, up: Vector3 | None) -> Figure:
     """Return the figure; ``up`` is the body axis that tilt is told of."""
     parts = panels_of_motion(recording, up)
-    figure, grid = panels(max(len(parts), 1), height=0.85)
-    for (axes,), part in zip(grid, parts, strict=False):
+    figure, column = panels(max(len(parts), 1), height=0.85)
+    for axes, part in zip(column, parts, strict=False):
         part(axes)
     figure.align_ylabels()
     return figure

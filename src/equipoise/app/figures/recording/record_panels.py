@@ -5,7 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
-from equipoise.app.figures.base.style import AXES, BLUE, SIX, XYZ, course, dots
+from equipoise.app.figures.base.strokes import course, dots
+from equipoise.app.figures.base.style import AXES, BLUE, SIX, XYZ
 from equipoise.assessment.findings.channel_content import GAP
 from equipoise.assessment.findings.motion_range import AXES as BODY_AXES
 from equipoise.assessment.findings.motion_range import heading_rate, most_upright
