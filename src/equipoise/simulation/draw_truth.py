@@ -22,6 +22,7 @@ from equipoise.model.testbed import SlidingMass, Testbed, TrueDrive, Truth
 from equipoise.model.torque_terms import TERMS
 from equipoise.model.units import DEG, in_si
 
+DRIVE = ("gain", "axis", "backlash", "accuracy")  # of a mass, what its true drive may change
 LITTLE = 0.05  # -, chosen: of the moments' geometric mean, what CAD may miss in a product
 # Without a truth: the testbed's own body, let go by hand (chosen: as the preset sputnix).
 SMALL_TILT = in_si(3.0, DEG)  # rad
@@ -80,20 +81,12 @@ def field_of(testbed: Testbed) -> Vector3 | None:
 def real_masses(
     stated: tuple[SlidingMass, ...], drives: tuple[TrueDrive, ...]
 ) -> tuple[SlidingMass, ...]:
-    """Return the masses with the drives that they really have, the stated where nothing is told."""
-    reported = {drive.mass: drive for drive in drives}
-    return tuple(really(m, reported[m.name]) if m.name in reported else m for m in stated)
-
-
-def really(mass: SlidingMass, drive: TrueDrive) -> SlidingMass:
-    """Return a mass with its true drive."""
-    return replace(
-        mass,
-        gain=mass.gain if drive.gain is None else drive.gain,
-        axis=mass.axis if drive.axis is None else drive.axis,
-        backlash=mass.backlash if drive.backlash is None else drive.backlash,
-        accuracy=mass.accuracy if drive.accuracy is None else drive.accuracy,
-    )
+    """Return the masses with the drives that they really have, as stated where none is given."""
+    true = {
+        drive.mass: {k: v for k in DRIVE if (v := getattr(drive, k)) is not None}
+        for drive in drives
+    }
+    return tuple(replace(mass, **true.get(mass.name, {})) for mass in stated)
 
 
 def coefficients(torque: dict[str, float]) -> Floats:

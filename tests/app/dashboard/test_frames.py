@@ -5,9 +5,10 @@ import struct
 
 import numpy as np
 
-from equipoise.app.dashboard.protocol.frames import decoded, encoded
+from equipoise.app.dashboard.protocol.frames import encoded
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.server.broadcast import BEHIND, GONE, MOST, Watch
+from tests.app.dashboard.conftest import decoded
 
 
 def test_a_frame_byte_for_byte():

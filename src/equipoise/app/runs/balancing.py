@@ -7,7 +7,7 @@ import numpy as np
 
 from equipoise.app.bench.recorded_bench import RecordedBench
 from equipoise.app.figures.balancing.balanced_com import Marked
-from equipoise.app.runs.waiting import as_they_come
+from equipoise.app.runs.waiting import as_they_come, shown
 from equipoise.app.text.before_after import Change
 from equipoise.app.text.com_estimate import ComEstimate, com_after
 from equipoise.model.arrays import Matrix3, Vector3
@@ -99,12 +99,7 @@ class Through:
     awaited: Callable[[Iterator[Step], str], Iterator[Step]]
 
 
-def unobserved(bench: Bench) -> Bench:
-    """Return the bench as it is: nobody looks on."""
-    return bench
-
-
-QUIETLY = Through(unobserved, as_they_come)
+QUIETLY = Through(lambda bench: bench, as_they_come)  # nobody looks on
 
 
 def run(
@@ -126,9 +121,7 @@ def run(
     truths: list[MassProperties] = []
     try:
         awaited = until_stopped(recorded, procedure(recorded, goal, limits))
-        for step in through.awaited(awaited, "balancing"):
-            if on_step is not None:
-                on_step(step)
+        for step in shown(through.awaited(awaited, "balancing"), on_step):
             steps.append(step)
             if simulated is not None:
                 truths.append(simulated.truth())

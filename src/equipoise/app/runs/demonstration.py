@@ -10,6 +10,7 @@ from equipoise.app.console.terminal import busy, watched
 from equipoise.app.figures.catalogue import TrueCourse
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.app.runs.terminal_waiting import at_terminal
+from equipoise.app.runs.waiting import shown
 from equipoise.app.text.blocks import Heading
 from equipoise.app.text.com_estimate import at_home
 from equipoise.app.text.estimate_text import estimate_tables
@@ -67,10 +68,8 @@ def run_demo(testbed: Testbed, seed: int, show_step: Callable[[Step], None]) -> 
     show((Heading("1  Identify: free motion, masses moved half way"),), below=True)
     with busy("simulating"):
         recording, truth = measured(SimulatedBench(testbed, seed))
-    steps: list[Step] = []
-    for step in watched(identify(recording, testbed, IdentifyOptions()), "identifying"):
-        show_step(step)
-        steps.append(step)
+    identifying = watched(identify(recording, testbed, IdentifyOptions()), "identifying")
+    steps = list(shown(identifying, show_step))
     estimate = steps[-1].estimate
     assert estimate is not None
     show(estimate_tables(estimate)[:1], below=True)

@@ -9,6 +9,7 @@ from equipoise.app.arguments.recording_window import Reading
 from equipoise.app.arguments.resolve import fitting_recording_of
 from equipoise.app.console.terminal import watched
 from equipoise.app.runs.balancing import Balancing, Goal
+from equipoise.app.runs.waiting import shown
 from equipoise.app.text.com_estimate import ComEstimate
 from equipoise.io.documents.manual_session import Piles, Round, Session
 from equipoise.io.toml.write_toml import numbers
@@ -106,9 +107,8 @@ def run(hands: SimulatedHands, goal: Goal, rounds: int, show: Show) -> ByHand:
     """Balance a simulated platform, show each step as it comes."""
     before, truths = hands.truth(), list[MassProperties]()
     steps: list[Step] = []
-    for step in watched(balance_by_hand(hands, options_of(goal, rounds)), "balancing"):
-        if show is not None:
-            show(step)
+    procedure = watched(balance_by_hand(hands, options_of(goal, rounds)), "balancing")
+    for step in shown(procedure, show):
         steps.append(step)
         truths.append(hands.truth())
     return summary(hands, goal, steps, before, truths)
@@ -118,11 +118,7 @@ def resume(filed: Filed, goal: Goal, show: Show) -> tuple[ByHand, list[Ints]]:
     """Play a session back as far as it has come; return it, and what lies where since."""
     hands = FiledHands(filed.testbed, filed.recordings, filed.placed)
     procedure = balance_by_hand(hands, options_of(goal, filed.session.max_rounds))
-    steps: list[Step] = []
-    for step in until_awaited(watched(procedure, "balancing")):
-        if show is not None:
-            show(step)
-        steps.append(step)
+    steps = list(shown(until_awaited(watched(procedure, "balancing")), show))
     if hands.swings < len(filed.recordings):
         wanted = f"no recording after the verdict, which came with number {hands.swings}"
         raise InputError("--recording", f"number {len(filed.recordings)}", wanted)

@@ -25,15 +25,3 @@ def encoded(t: float, parts: Sequence[Part]) -> bytes:
     header += b" " * (-(HEAD.size + len(header)) % 8)
     numbers = [np.ascontiguousarray(values, "<f8").tobytes() for _, values in parts]
     return b"".join([HEAD.pack(len(header)), header, *numbers])
-
-
-def decoded(message: bytes) -> tuple[float, dict[str, Floats]]:
-    """Return bench time and the parts by name: the way back."""
-    (size,) = HEAD.unpack_from(message)
-    header = json.loads(message[HEAD.size : HEAD.size + size])
-    values = np.frombuffer(message, "<f8", offset=HEAD.size + size)
-    at, found = 0, dict[str, Floats]()
-    for name, rows, columns in header["parts"]:
-        found[name] = values[at : at + rows * columns].reshape(rows, columns)
-        at += rows * columns
-    return header["t"], found

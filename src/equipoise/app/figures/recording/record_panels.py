@@ -30,10 +30,10 @@ def panels_of(recording: Recording, up: Vector3 | None) -> list[Panel]:
     attitude, rate = _enough(recording.attitude), _enough(recording.rate)
     if attitude is not None:
         rough = outlying_attitudes(attitude).rough
-        found.append(_rough(attitude.t, rough, "attitude\nroughness, deg"))
+        found.append(_by_axis(attitude.t, rough, "attitude\nroughness, deg"))
     if rate is not None:
         rough = outlying_rates(rate).rough
-        found.append(_rough(rate.t, rough, "gyro\nroughness, deg/s"))
+        found.append(_by_axis(rate.t, rough, "gyro\nroughness, deg/s"))
     return [*found, _spacing(attitude, rate)]
 
 
@@ -44,7 +44,7 @@ def panels_of_motion(recording: Recording, up: Vector3 | None) -> list[Panel]:
     if attitude is not None:
         found += [_tilt(attitude, up), _heading_rate(attitude)]
     if rate is not None:
-        found.append(_rate(rate))
+        found.append(_by_axis(rate.t, rate.values, "gyro, deg/s"))
     if recording.masses is not None and len(recording.masses):
         found.append(_masses(recording.masses, recording.mass_names))
     return found
@@ -75,25 +75,13 @@ def _heading_rate(attitude: Samples) -> Panel:
     return draw
 
 
-def _rate(rate: Samples) -> Panel:
+def _by_axis(t: Series1, values: Series3, label: str) -> Panel:
     def draw(axes: Axes) -> None:
-        _three(axes, rate.t, rate.values)
-        axes.set_ylabel("gyro, deg/s")
-
-    return draw
-
-
-def _rough(t: Series1, rough: Series3, label: str) -> Panel:
-    def draw(axes: Axes) -> None:
-        _three(axes, t, rough)
+        _dots_within(axes, t, list(values.T / DEG), list(XYZ), list(AXES))
+        _legend(axes)
         axes.set_ylabel(label)
 
     return draw
-
-
-def _three(axes: Axes, t: Series1, values: Series3) -> None:
-    _dots_within(axes, t, list(values.T / DEG), list(XYZ), list(AXES))
-    _legend(axes)
 
 
 def _dots_within(
