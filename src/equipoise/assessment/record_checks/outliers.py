@@ -92,12 +92,11 @@ class OutlyingRows:
 def outlying_attitudes(attitude: Samples) -> OutlyingRows:
     """Return the outlying rows of an attitude sensor."""
     duration, turn = steps(attitude)
-    speed = np.linalg.norm(turn, axis=1) / duration
     size = np.linalg.norm(turn, axis=1)
     coarse = bool(size.any()) and np.count_nonzero(size == 0) > REPEATS * len(size)
     least = HALF * float(size[size > 0].min()) if coarse else 0.0
     vectors = attitude_vectors(attitude.t, attitude.values)
-    platform = Platform(_median(speed), attitude=True)
+    platform = Platform(_median(size / duration), attitude=True)
     return _outlying(attitude.t, vectors, np.full(3, least), platform)
 
 
