@@ -1,8 +1,8 @@
 """Sliding masses that are driven open loop, and where they really go.
 
-A stepper reports the steps it was told to make, so the reported displacement is the target rounded
-to the mass's resolution, reached in a straight line at the mass's speed. The mass stands while the
-play is taken up, and goes in a straight line, in the time that is left, to where it really stops:
+A stepper reports its commanded steps, so the reported displacement is the target rounded to the
+mass's resolution, reached in a straight line at the mass's speed. The mass stands while the play is
+taken up, and goes in a straight line, in the time that is left, to where it really stops:
 
     carriage   += gain * (reported target - reported before)     gain 1: sound, 0: stuck
     held        = carriage, followed with a play of +-backlash/2
@@ -149,7 +149,7 @@ def halted(travel: Travel, now: float) -> Travel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
-    """Where the masses were and, unless told otherwise, will be: straight between the rows."""
+    """Where the masses were and, without another command, will be: straight between the rows."""
 
     t: Series1  # s
     reported: Floats  # (n, k) m

@@ -1,12 +1,12 @@
 """The simulated bench: the same verbs as a real one, and a seed that reproduces everything.
 
 The motion is integrated from node to node. Nodes are moments that do not depend on how the bench
-is read: every look of every sensor, corners of the masses' tracks, the noise torque's grid and
-whole seconds. The state is kept at the last node that no later row can look behind, so reads of
-any length return the same rows.
+is read: every sample of every sensor, corners of the masses' tracks, the noise torque's grid and
+whole seconds. The state is kept at the last node that precedes every later sample, so reads of any
+length return the same rows.
 
 Rows come at most once: those stamped in (previous read, now], the first read with time zero. Mass
-rows reach back by the sensors' delay, as rows look back. A rate that is seen exactly when a mass
+rows reach back by the sensors' delay, as samples do. A rate that is sampled exactly when a mass
 starts or stops is the rate just before. Before time zero the masses stood at home and the platform
 moved as it must have to be at its first attitude and rate at time zero.
 """
@@ -104,7 +104,7 @@ class SimulatedBench:
 
     @property
     def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
+        """The testbed as stated."""
         return self._testbed
 
     @property
@@ -164,7 +164,7 @@ class SimulatedBench:
     def truth(self) -> MassProperties:
         """Return the mass properties as masses and gimbals really stand now, as they act level.
 
-        A platform that sags is told as the stiff one that behaves alike at small tilts.
+        A platform that sags is described by the stiff one that behaves alike at small tilts.
         """
         body, real = self.platform.body, self.displacements
         gimbals = stored(self._testbed, self._devices, np.array([self._time]))[1][0]
@@ -295,7 +295,7 @@ class SimulatedBench:
         return replace(observed, momentum=stored_momentum(observed, testbed))
 
     def _attitude(self, t: Series1, q: Floats, sensor: AttitudeSensor) -> Samples:
-        """Return the camera's rows stamped ``t`` from attitudes at its looks."""
+        """Return the camera's rows stamped ``t`` from attitudes at its samples."""
         errors = self.platform.truth.camera
         noisy = camera_rows(misread(q, errors, self._testbed.up), sensor, self._camera_rng)
         rows, bad = with_bad_rows(noisy, errors, self._bad_rng)
@@ -304,14 +304,14 @@ class SimulatedBench:
         return Samples(t[kept], whole_angles(rows, sensor.quantum)[kept])
 
     def _rate(self, t: Series1, w: Floats, sensor: Gyro) -> Samples:
-        """Return the gyro's rows stamped ``t`` from rates at its looks."""
+        """Return the gyro's rows stamped ``t`` from rates at its samples."""
         truth = self.platform.truth
         rows = gyro_rows(misfelt(w, truth.gyro), sensor, truth.gyro_bias, self._gyro_rng)
         kept = outside(t, truth.gaps)
         return Samples(t[kept], whole(rows, sensor.quantum)[kept])
 
     def _advance(self, t: Series1, path: Path) -> None:
-        """Keep the state now, and at the last node that no later row can look behind."""
+        """Keep the state now, and at the last node that precedes every later sample."""
         self._now = path.y[int(np.searchsorted(t, self._time))]
         behind = kept_until(self._testbed, self._time - self._lead)
         kept = max(int(np.searchsorted(t, behind, side="right")) - 1, 0)

@@ -52,7 +52,7 @@ def bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> Simul
 
 
 def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
-    """Return all that a bench is told, in order of time."""
+    """Return all commands to a bench, in order of time."""
     moves = [Command(t, targets, {}) for t, targets in manoeuvre.moves]
     drives = [Command(t, {}, inputs)
               for t, inputs in inputs_along(manoeuvre.waves, manoeuvre.duration)]  # fmt: skip

@@ -4,7 +4,7 @@
     slip      mu  += m shift         attitude and H go on as they were, and so does J: the part is
                                      taken to slip by so little that m d^2 does not count
 
-An event is felt after its moment: the state and the rate at its node are those just before.
+An event acts after its moment: the state and the rate at its node are those just before.
 """
 
 from collections.abc import Sequence

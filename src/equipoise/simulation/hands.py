@@ -2,8 +2,7 @@
 
 Every weight has its own mass and every place its own error, drawn once: what is taken off is what
 was put on. Each swing is a simulated bench of its own, whose truth is the platform as loaded; it is
-let go within ``truth.tilt`` of level and caught at the tilt limit, or when the person has seen
-enough.
+let go within ``truth.tilt`` of level and caught at the tilt limit, or after ``ENOUGH`` seconds.
 """
 
 from dataclasses import replace
@@ -44,7 +43,7 @@ class SimulatedHands:
 
     @property
     def testbed(self) -> Testbed:
-        """What is known of it beforehand, without any weights."""
+        """The testbed as stated, without any weights."""
         return self._testbed
 
     @property

@@ -8,7 +8,7 @@ does. Rows are prepared as `equipoise identify` prepares them (``procedure.sound
             sought (``SimulatedBench.truth``)
     bound   the Cramer-Rao bound at that truth, for a fit that is asked the same
 
-No method is told any of this.
+No method knows any of this.
 """
 
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""A recording shown at a speed: the clock, what a person sees, the others who look on."""
+"""A recording shown at a speed: the clock, the lines for a person, other onlookers."""
 
 import math
 import time
@@ -24,7 +24,7 @@ LINE = 1.0  # s of the recording from line to line, where there is no terminal (
 
 
 def begun_ns(recording: Recording) -> int:
-    """Return UTC at the recording's time zero (ns), as if its first row were seen now."""
+    """Return UTC at the recording's time zero (ns), as if its first row arrived now."""
     return time.time_ns() - nanoseconds(recording.span[0])
 
 

@@ -93,13 +93,13 @@ class Limits:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Through:
-    """How somebody looks on: what the procedure sees of the bench, how its steps are awaited."""
+    """How a run is observed: the bench as the procedure gets it, how its steps are awaited."""
 
     observe: Callable[[Bench], Bench]
     awaited: Callable[[Iterator[Step], str], Iterator[Step]]
 
 
-QUIETLY = Through(lambda bench: bench, as_they_come)  # nobody looks on
+QUIETLY = Through(lambda bench: bench, as_they_come)  # nobody observes
 
 
 def run(
@@ -112,7 +112,7 @@ def run(
     """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
 
     What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a
-    simulated one alone. Who looks on is as ``through`` says.
+    simulated one alone. ``through`` says how the run is observed.
     """
     simulated = bench if isinstance(bench, SimulatedBench) else None
     before = None if simulated is None else simulated.truth()
@@ -132,7 +132,7 @@ def run(
         steps.append(stop_step(bench, VerdictReason.STOPPED_BY_HAND, reported))
         if on_step is not None:
             on_step(steps[-1])
-    # A look of a law's may hold what is not known; its estimate is no belief to begin with.
+    # A law's first estimate may hold parameters that are not known: it is no prior.
     body, sd = bench.testbed.body, bench.testbed.com_sd
     known = None if limits.law == OWN.name else ComEstimate(body.com, sd)
     planned = limits.plan is not None and bool(truths)

@@ -1,4 +1,4 @@
-"""The demo: a record with a known move, what it tells, then balancing the same platform."""
+"""The demo: a record with a known move, its estimate, then balancing the same platform."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -46,7 +46,7 @@ class Demonstration:
 
     @property
     def estimate(self) -> Estimate:
-        """Return what the record with the known move told."""
+        """Return the estimate from the record with the known move."""
         found = self.identified[-1].estimate
         assert found is not None
         return found

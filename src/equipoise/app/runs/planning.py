@@ -35,7 +35,7 @@ class Request:
     moves: int
     rate: float  # rad/s, greatest
     options: Options  # of the fit that the record is meant for
-    earlier: Recording | None  # what it tells is known, masses stand where it left them
+    earlier: Recording | None  # its estimate is the prior, masses stand where it left them
     trials: int
     seed: int
 
@@ -46,7 +46,7 @@ class Request:
 
     @property
     def params(self) -> Params:
-        """Return what a fit of the record is told."""
+        """Return the parameters of a fit of the record."""
         return params_of(self.testbed, self.options)
 
 
@@ -57,7 +57,7 @@ class Planning(Shown):
     request: Request
     usual: Promise
     planned: Promise
-    alone: Promise  # the plan's record, without what was seen before
+    alone: Promise  # the plan's record, without the earlier recording
 
     @property
     def plan(self) -> Plan:
@@ -92,9 +92,9 @@ def run(request: Request, waiting: Waiting = QUIET) -> Planning:
 
 
 def learnt_from(recording: Recording, request: Request, waiting: Waiting) -> RecordPrior:
-    """Return what an earlier recording tells, the testbed's body being its prior."""
+    """Return the estimate of an earlier recording, the testbed's body being its prior."""
     testbed, requested = request.testbed, request.options
-    with waiting.doing("identifying what was seen"):
+    with waiting.doing("identifying the earlier recording"):
         rows, as_observed = sound(recording, testbed)
         found = METHOD.run(
             rows, as_observed, Options(requested.terms, requested.hold, use_prior=True)

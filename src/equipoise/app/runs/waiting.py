@@ -1,4 +1,4 @@
-"""How somebody waits for a run: at a terminal with signs of life, or not looking at all."""
+"""How somebody waits for a run: at a terminal with signs of life, or quietly."""
 
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor

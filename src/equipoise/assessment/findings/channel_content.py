@@ -9,8 +9,8 @@ from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples
 
 GAP = 3.0  # median intervals; chosen: one missed row makes 2, two make 3
-NAMED = 5  # gaps that are told one by one; chosen: a screen
-UNEVEN = 0.1  # of the median interval, as a robust scatter, before it is told (chosen)
+NAMED = 5  # gaps that are named one by one; chosen: a screen
+UNEVEN = 0.1  # of the median interval, as a robust scatter, before it is reported (chosen)
 
 
 def content_findings(recording: Recording) -> list[Finding]:

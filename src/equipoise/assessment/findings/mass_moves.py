@@ -11,7 +11,7 @@ from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording
 
 STILL = 1e-6  # m between rows; chosen: below any actuator's step, above an encoder's flicker
-NAMED = 12  # moves that are told one by one; chosen: two rounds of six masses
+NAMED = 12  # moves that are named one by one; chosen: two rounds of six masses
 
 
 def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[Finding]:

@@ -19,7 +19,7 @@ from equipoise.model.testbed import Testbed
 
 
 def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Finding, ...]:
-    """Return all findings; a testbed adds what only it can tell, such as which axis is up."""
+    """Return all findings; a testbed adds what only it states, such as which axis is up."""
     masses = tuple(mass.name for mass in testbed.masses) if testbed else None
     devices = testbed.device_names if testbed else None
     sensors = (None, None) if testbed is None else (testbed.attitude, testbed.gyro)

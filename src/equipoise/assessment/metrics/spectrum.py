@@ -6,7 +6,7 @@
 The two signals are the components of the vertical across ``up``, so that a swing about either axis
 shows in one of them. A record of T seconds resolves 1/T: two swings nearer than that are one peak.
 
-Cannot tell a swing from anything else that repeats; that is ``swing_modes``' part.
+Cannot distinguish a swing from anything else that repeats; that is ``swing_modes``' part.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The noise of an attitude sensor, told from differences of neighbouring rows.
+"""The noise of an attitude sensor, estimated from differences of neighbouring rows.
 
 The k-th difference of white noise with variance s^2 has variance s^2 C(2k, k) (20 s^2 for the
 third), while that of a smooth motion dies away with k. The least over several k is an upper bound
@@ -22,7 +22,7 @@ FEWEST = 20  # differences that a scatter is estimated from (chosen)
 
 
 def noise_findings(attitude: Samples | None) -> list[Finding]:
-    """Return the noise in deg per axis, if the record is long enough to tell."""
+    """Return the noise in deg per axis, if the record is long enough to show it."""
     noise = None if attitude is None else attitude_noise(attitude)
     if noise is None:
         return []

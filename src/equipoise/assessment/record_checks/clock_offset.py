@@ -1,10 +1,10 @@
-"""How much later the attitude is stamped than the gyro, by the motion that both saw.
+"""How much later the attitude is stamped than the gyro, by the motion that both measured.
 
     turn(t, t + D) / D = 1/D int w(s - lag) ds + zero        least squares in the lag and the zero
 
 The turn between two attitudes is compared with the integral of the gyro, as in ``gyro_agreement``.
 A camera that is ``lag`` seconds late shows at t what the gyro showed at t - lag. Only motion whose
-rate changes tells it. The sd is that of the fit, with the correlation that two turns have by the
+rate changes shows it. The sd is that of the fit, with the correlation that two turns have by the
 attitude that they share. Middles of averaging windows count as the moments of rows.
 """
 
@@ -32,7 +32,7 @@ from equipoise.model.testbed import AttitudeSensor, Gyro
 FARTHEST = 1.0  # s: later than this no camera is (chosen)
 TRIED = 81  # lags from which the best is refined; chosen: one each 25 ms
 ROUNDS = 6  # of refinement; chosen: the second changes nothing in smooth motion
-VAGUE = 0.1  # s: with a larger sd nothing is told (chosen)
+VAGUE = 0.1  # s: an offset with a larger sd is not reported (chosen)
 SURE_SD = 4.0  # sd from which an offset is one (chosen)
 MATTERS = 0.005  # s: a smaller offset does no harm to slow platforms (chosen)
 
@@ -63,7 +63,7 @@ def offset_findings(
 
 
 def clock_offset(attitude: Samples, rate: Samples) -> ClockOffset | None:
-    """Return the lag with its sd; None if the sensors or their motion do not tell it."""
+    """Return the lag with its sd; None if the sensors or their motion do not show it."""
     if min(len(attitude), len(rate)) < FEWEST:
         return None
     pairs = _Pairs.of(attitude, rate)

@@ -1,15 +1,15 @@
-"""Rows of a sensor that stand far from the smooth motion of their neighbours.
+"""Rows of a sensor that are outliers from the smooth motion of their neighbours.
 
 A row is suspect when what a local polynomial leaves of it (``local_fit``), in units of what it
 leaves of most rows, is more than chance would show once in ten records. A suspect is outlying when
 the few rows to be left out explain the misfit of the window, and a touch does not: a contact or a
 push bends an attitude (its rate jumps) and breaks a rate, on one side of a row for good, while an
-outlying row leaves both sides as they were. At an edge of the record nothing tells one from the
-other; there a jump of the rate by less than a tenth is taken for a touch.
+outlying row leaves both sides as they were. At an edge of the record nothing distinguishes the two;
+there a jump of the rate by less than a tenth is taken for a touch.
 
 The scale is what is left of most rows, near by and in the whole record, whichever is more. It holds
 the noise and what the polynomial cannot follow of fast motion, so that smooth motion, however fast,
-is nothing unusual. Runs of more than three odd rows are not seen as such.
+is nothing unusual. Runs of more than three odd rows are not recognised.
 """
 
 import math
@@ -51,10 +51,10 @@ SPANS = tuple(
 )  # chosen
 SAMPLE = 3000  # rows that the span is chosen by (chosen: a tenth of a second)
 NEAR = 51  # rows over which the scale is taken near by (chosen: a scatter to 10 %)
-TOUCH = 0.1  # of the platform's rate: at an edge no touch makes a greater jump (0.05 was seen)
+TOUCH = 0.1  # of the platform's rate: at an edge no touch makes a greater jump (0.05 was measured)
 PUSH = 0.5  # of the platform's rate: inside the record no touch makes a greater jump (chosen), ...
 HAND = math.radians(10)  # rad/s: ... but a hand may push a platform that hardly turns (chosen)
-PIECE, BESIDE = 20_000, 200  # rows looked at together, and looked at beside them (chosen)
+PIECE, BESIDE = 20_000, 200  # rows fitted together, and rows beside them (chosen)
 PASSES = 20  # chosen: each finds one odd row in every stretch
 UNSURE = 2.0  # times the scale by which a jump between two rows may come out too large (chosen)
 HALF = 0.5  # of the step of coarse values: the least scale, so that a flip by one step is nothing
@@ -63,14 +63,14 @@ EXACT = 1e-9  # rad, rad/s: below this rows are computed, not measured
 
 
 class Platform(NamedTuple):
-    """What a touch of the platform may look like."""
+    """Limits of a touch of the platform."""
 
     speed: float  # rad/s, at which it mostly turns
     attitude: bool  # its rows are attitudes, not rates
 
 
 class _Sensor(NamedTuple):
-    """Rows of a sensor, and how they are looked at."""
+    """Rows of a sensor, and how they are fitted."""
 
     t: Series1  # s
     vectors: Vectors
@@ -115,7 +115,7 @@ def _median(speed: Series1) -> float:
 def _outlying(t: Series1, vectors: Vectors, least: Vector3, platform: Platform) -> OutlyingRows:
     """Return the outlying rows; the scale is ``least`` or more.
 
-    A long record is looked at piece by piece, so that memory does not grow with it.
+    A long record is fitted piece by piece, so that memory does not grow with it.
     """
     n = len(t)
     off, rough, scales = np.zeros((n, 3)), np.full((n, 3), np.nan), list[float]()
@@ -158,7 +158,7 @@ def _piece_scale(
 
 
 def _reach(fit: LocalFit, span: Span) -> float:
-    """Return how far off a row must be to be told, in the middle and at an edge together.
+    """Return the least deviation of a row that is detected, middle and edge added up.
 
     At an edge it stands against the polynomial alone, in the middle against a touch besides.
     """

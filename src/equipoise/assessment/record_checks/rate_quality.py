@@ -1,4 +1,4 @@
-"""What a gyro's own numbers tell: coarse steps, a first row of zeros, a dead axis, its noise."""
+"""What a gyro's own numbers show: coarse steps, a first row of zeros, a dead axis, its noise."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""A slew by control moment gyros on a simulated platform, and all that was seen of it.
+"""A slew by control moment gyros on a simulated platform, and all measurements of it.
 
 The platform starts at rest at its truth's attitude and is brought to another by quaternion PID
 (Lee et al. Eq. 2 with erratum L4, ``control.attitude_pid``); the gimbals are steered by the

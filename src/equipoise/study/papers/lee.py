@@ -10,8 +10,8 @@ Gains are not printed. With those below the measure of the pyramid lies under 0.
 the large slew (theirs: "at about 10~15 sec") and never in the small one.
 
 Table 1 has a gyro's noise and no other error, so the gyro has no bias here; an attitude must have
-some noise to be weighed by, and has 0.02 deg at 100 Hz. What coarser sensors would make of it is
-told by a bound (``coarser``).
+some noise to be weighed by, and has 0.02 deg at 100 Hz. A bound shows what coarser sensors would
+achieve (``coarser``).
 
 Methods that share their record share its replicates.
 """
@@ -131,7 +131,7 @@ def coarser(recording: Recording, testbed: Testbed) -> Recording:
 
 
 def judged(testbed: Testbed, start: tuple[float, float, float], slew: Slew) -> Manoeuvre:
-    """Return what a slew from roll, pitch and yaw (deg) tells; the testbed has its own sensors."""
+    """Return the estimates from a slew from roll, pitch and yaw (deg); the testbed is as stated."""
     bed = with_printed_errors(testbed)
     found = estimates_of(slew.recording, bed)
     bound = information_by(slew.recording, bed, Params())
@@ -146,7 +146,7 @@ def singular_times(slew: Slew) -> tuple[float, float] | None:
 
 
 def warns(estimate: Estimate) -> bool:
-    """Say whether an estimate tells its reader not to rely on it: outcome or interval.
+    """Say whether an estimate warns its reader not to rely on it: outcome or interval.
 
     No interval, or an infinite one, counts: nobody can take a number for known that has none.
     """

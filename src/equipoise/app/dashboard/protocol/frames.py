@@ -2,7 +2,7 @@
 
     uint32 n    n bytes of JSON, padded with blanks until 4 + n is a multiple of 8    float64 ...
 
-All little-endian. The JSON tells the bench time and for each part its name, rows and columns; the
+All little-endian. The JSON has the bench time and for each part its name, rows and columns; the
 numbers follow part by part, row by row. The page reads them in place (``static/frames.js``).
 """
 

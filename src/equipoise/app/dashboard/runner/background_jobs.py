@@ -54,7 +54,7 @@ class Job:
         self.over = False
 
     def news(self) -> Iterator[News]:
-        """Yield what has been told since this was last asked."""
+        """Yield what it has reported since the last call."""
         try:
             while not self.over and self._pipe.poll():
                 yield self._pipe.recv()
@@ -70,7 +70,7 @@ class Job:
 
 
 def carry_out(pipe: Pipe, task: Task) -> None:
-    """Carry out a task and tell of it; the process's whole life."""
+    """Carry out a task and report on it; the process's whole life."""
     try:
         kept = _keep(task) if isinstance(task, Keep) else _fit(task, pipe)
         pipe.send(("kept", kept))
@@ -87,7 +87,7 @@ def _keep(task: Keep) -> str | None:
 def _fit(task: Fit, pipe: Pipe) -> str | None:
     each = passing_on(lambda step: pipe.send(("step", step)))
     done = run(task.recording, task.testbed, IdentifyOptions(task.method), each)
-    # What was seen live is in no file yet: it is kept with the run.
+    # The live rows are in no file yet: they are kept with the run.
     logged = identify_views.logged_of(done, is_file=False)
     return _written(replace(identify_views.output_of(done), logged=logged), task.testbed)
 

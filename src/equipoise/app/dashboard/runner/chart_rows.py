@@ -1,4 +1,4 @@
-"""From rows and beliefs to the columns that the page draws; nothing is estimated here."""
+"""From rows and estimates to the columns that the page draws; nothing is estimated here."""
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from equipoise.model.devices import recorded_name
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-COM = slice(0, 3)  # of a belief's covariance
+COM = slice(0, 3)  # of an estimate's covariance
 
 
 def parts_of(
@@ -50,7 +50,7 @@ def _attitude(rows: Recording, testbed: Testbed) -> list[Part]:
 
 
 def _rate(rows: Recording, testbed: Testbed, track: Track | None) -> list[Part]:
-    """Return the gyro's rate with its stated noise; without a gyro what the tracker believes."""
+    """Return the gyro's rate with its stated noise; without a gyro the tracker's estimate."""
     if rows.rate is not None:
         t, rate = rows.rate.t, rows.rate.values
         sd = np.full_like(rate, np.nan if testbed.gyro is None else testbed.gyro.noise)
@@ -64,7 +64,7 @@ def _rate(rows: Recording, testbed: Testbed, track: Track | None) -> list[Part]:
 def _limits(rows: Recording, testbed: Testbed) -> Floats:
     """Return tilt and, of a real bench, rate as shares of what stops the masses, in time's order.
 
-    What a row does not tell is NaN.
+    What a row does not contain is NaN.
     """
     hardware = testbed.hardware
     width, found = 2 if hardware is None else 3, list[Floats]()

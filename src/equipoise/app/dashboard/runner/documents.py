@@ -1,4 +1,4 @@
-"""What the runner tells as documents: what is shown, a step, how it stands."""
+"""Messages of the runner as documents: the view, a step, the state."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""The column of controls: what a person can ask. Whoever only looks on sees it, and is refused."""
+"""The column of controls: a person's requests. Observers see it, their requests are refused."""
 
 from collections.abc import Callable, Sequence
 
@@ -86,7 +86,7 @@ class Controls:
         self.method = ui.select(methods, value="auto", label="Method").props(
             "dense outlined options-dense"
         )
-        self._button("Identify from what was seen", self._identify)
+        self._button("Identify from the recorded motion", self._identify)
 
     def _masses(self) -> None:
         if not self._counter.testbed.masses:

@@ -24,7 +24,7 @@ Receive = Callable[[], Awaitable[Event]]
 Send = Callable[[Event], Awaitable[None]]
 App = Callable[[Scope, Receive, Send], Awaitable[None]]
 
-LARGEST = 64 * 1024  # bytes of a request or message, chosen: far more than any control says
+LARGEST = 64 * 1024  # bytes of a request or message, chosen: many times what any control sends
 COOKIE = "equipoise_token"
 # Nothing from outside, whatever a text holds; the shell makes its templates in the page.
 POLICY = (

@@ -10,9 +10,9 @@ from equipoise.model.units import MINUTE, UM
 from equipoise.procedure.identification.drift_metrics import OverHours
 
 CAPTION = (
-    "Looks at the centre of mass along the recording, um in body axes (bars: two standard "
-    "deviations), and their Allan deviation: what it goes to from one span of time to the next. "
-    "Dashed: what looks that only err would leave."
+    "Centre of mass in windows along the recording, um in body axes (bars: two standard "
+    "deviations), and its Allan deviation: the typical change from one span of time to the next. "
+    "Dashed: the Allan deviation of measurement errors alone."
 )
 
 

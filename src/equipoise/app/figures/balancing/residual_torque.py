@@ -1,4 +1,4 @@
-"""The torque that the platform felt, with the noise of feeling it."""
+"""The torque that acted on the platform, with the noise of its measurement."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -10,8 +10,7 @@ from equipoise.model.units import UN_M
 
 CAPTION = (
     "Torque on the platform in body axes, from its motion and inertia alone (Savitzky-Golay). "
-    "Shaded: two standard deviations of what noise would show of a platform that feels nothing, "
-    "a mean over the three axes."
+    "Shaded: two standard deviations of the noise without any torque, a mean over the three axes."
 )
 
 

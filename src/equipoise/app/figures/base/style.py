@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 import matplotlib as mpl
 
-# Okabe and Ito's colours, which colour-blind readers can tell apart.
+# Okabe and Ito's colours, which colour-blind readers can distinguish.
 BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#777777"
 SKY, AMBER = "#56B4E9", "#E69F00"
 XYZ = (BLUE, ORANGE, GREEN)

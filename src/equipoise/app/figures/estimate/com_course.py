@@ -1,4 +1,4 @@
-"""Centre of mass along a record, as a method that goes along it believes."""
+"""Centre of mass along a record, estimated by a recursive method."""
 
 from matplotlib.figure import Figure
 

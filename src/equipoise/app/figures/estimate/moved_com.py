@@ -1,4 +1,4 @@
-"""Centre of mass across a move, told to the tracker and kept from it (Ivanov 2021 Fig. 13)."""
+"""Centre of mass across a move, fed to the tracker and withheld (Ivanov 2021 Fig. 13)."""
 
 from matplotlib.figure import Figure
 

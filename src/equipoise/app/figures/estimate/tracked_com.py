@@ -1,4 +1,4 @@
-"""Centre of mass as the tracker saw it, masses still (Ivanov 2021 Fig. 12)."""
+"""Centre of mass estimated by the tracker, masses at rest (Ivanov 2021 Fig. 12)."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,7 +11,7 @@ from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 
 CAPTION = (
-    "Centre of mass with the masses at home as the tracker (Kalman filter) sees it, um in body "
+    "Centre of mass with the masses at home, estimated by the tracker (Kalman filter), um in body "
     "axes. Bands: two standard deviations. Dashed, if drawn: the simulated truth."
 )
 

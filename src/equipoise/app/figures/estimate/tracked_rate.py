@@ -1,4 +1,4 @@
-"""Angular velocity as the tracker saw it (Ivanov 2021 Fig. 11)."""
+"""Angular velocity estimated by the tracker (Ivanov 2021 Fig. 11)."""
 
 from matplotlib.figure import Figure
 
@@ -9,7 +9,7 @@ from equipoise.model.recording import Recording
 from equipoise.model.units import DEG
 
 CAPTION = (
-    "Angular velocity in body axes as the tracker (Kalman filter) sees it, deg/s. "
+    "Angular velocity in body axes, estimated by the tracker (Kalman filter), deg/s. "
     "Bands: two standard deviations."
 )
 SETTLED = 0.05  # share of the rows before the scale is taken; chosen: the filter starts at rest

@@ -69,7 +69,7 @@ def slew_pictures(done: Manoeuvre) -> Iterator[Picture]:
             "Attitude angles, deg, 3-2-1 with the roll axis vertical.",
             Shown(t, angles, "angle, deg", ("roll", "pitch", "yaw")),
         ),
-        "figure04_rate": ("Angular velocity as the gyro saw it, deg/s.", gyro_rate(done)),
+        "figure04_rate": ("Angular velocity measured by the gyro, deg/s.", gyro_rate(done)),
         "figure05_gimbal_angles": (
             "Gimbal angles, deg.",
             Shown(t, slew.angles / DEG, "gimbal angle, deg", GYROS),
@@ -79,7 +79,7 @@ def slew_pictures(done: Manoeuvre) -> Iterator[Picture]:
             Shown(t, slew.measure[:, None], "singularity index", ("measure",), NEAR),
         ),
         "figure07_gimbal_rates": (
-            "Gimbal rates asked for, deg/s.",
+            "Commanded gimbal rates, deg/s.",
             Shown(t, slew.rates / DEG, "gimbal rate, deg/s", GYROS),
         ),
         "figure08_required_torque": (
@@ -96,7 +96,7 @@ def slew_pictures(done: Manoeuvre) -> Iterator[Picture]:
 
 
 def gyro_rate(done: Manoeuvre) -> Shown:
-    """Return the rates of a slew as the gyro saw them."""
+    """Return the rates of a slew measured by the gyro."""
     rate = done.slew.recording.rate
     assert rate is not None
     return Shown(rate.t, rate.values / DEG, "angular velocity, deg/s", RATES)
@@ -132,7 +132,7 @@ def course_pictures(done: Manoeuvre, sides: Courses) -> Iterator[Picture]:
 
 def small_pictures(done: Manoeuvre, sides: Courses) -> Iterator[Picture]:
     """Yield Figs. 17 and 18."""
-    caption = "Lee Fig. 17. Angular velocity as the gyro saw it, deg/s, from small angles."
+    caption = "Lee Fig. 17. Angular velocity measured by the gyro, deg/s, from small angles."
     drawn = lee_slew.draw(gyro_rate(done), singular_times(done.slew))
     yield Picture("figure17_rate_small", caption, drawn)
     yield estimates("figure18_moi_small", MOI, done, sides, ", from small angles")

@@ -1,4 +1,4 @@
-"""What one look saw, small enough to stand below its step in a report."""
+"""The recording of one measurement, small enough to stand below its step in a report."""
 
 from matplotlib.figure import Figure
 
@@ -16,7 +16,7 @@ CAPTION = (
 
 @styled
 def draw(recording: Recording, up: Vector3 | None) -> Figure:
-    """Return the figure; ``up`` is the body axis that tilt is told of."""
+    """Return the figure; ``up`` is the body axis whose tilt is shown."""
     parts = panels_of_motion(recording, up)
     figure, column = panels(max(len(parts), 1), height=0.85)
     for axes, part in zip(column, parts, strict=False):

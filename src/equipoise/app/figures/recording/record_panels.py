@@ -17,7 +17,7 @@ from equipoise.model.recording import Recording, Samples
 from equipoise.model.units import DEG, MM, MS
 
 Panel = Callable[[Axes], None]
-FEWEST = 3  # rows that a rate is told from
+FEWEST = 3  # rows for a rate
 RARE = 0.005  # share of values at either end that may be drawn beyond the range (chosen)
 WIDENED = 0.5  # of the range of the others, within which they are not beyond it (chosen)
 TINY = 1e-9  # deg, deg/s: a range is never empty
@@ -38,7 +38,7 @@ def panels_of(recording: Recording, up: Vector3 | None) -> list[Panel]:
 
 
 def panels_of_motion(recording: Recording, up: Vector3 | None) -> list[Panel]:
-    """Return the panels that tell how platform and masses moved."""
+    """Return the panels of the motion of platform and masses."""
     found: list[Panel] = []
     attitude, rate = _enough(recording.attitude), _enough(recording.rate)
     if attitude is not None:
