@@ -178,7 +178,7 @@ def test_stuck_mass_is_reported_to_move(rail):
 
 
 def test_slipping_mass_goes_its_share_of_the_distance_from_home(rail):
-    """Gain 0.5: told 40, then -20, then 0; it goes to 20, -10, 0."""
+    """Gain 0.5: commanded 40, then -20, then 0; it goes to 20, -10, 0."""
     motors = Motors(rail(), faults=(Fault("x", 0.5),))
     for i, (reported, goes) in enumerate(((40, 20), (-20, -10), (0, 0))):
         motors.move(20.0 * i, x=reported)

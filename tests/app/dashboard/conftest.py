@@ -1,4 +1,4 @@
-"""A runner in this process, and all that it tells."""
+"""A runner in this process, and all its messages."""
 
 import json
 from dataclasses import dataclass, field
@@ -33,7 +33,7 @@ def decoded(message):
 
 @dataclass
 class Reported:
-    """What the runner has told, by kind, and what is to be asked when something is told."""
+    """Messages of the runner, by kind, and what is to be done at each."""
 
     about: list[dict] = field(default_factory=list)
     steps: list[dict] = field(default_factory=list)

@@ -173,7 +173,7 @@ def test_what_reading_mended_is_passed_on() -> None:
 
 
 def test_steps_finer_than_the_noise_are_no_problem() -> None:
-    """Rounding to a tenth of the noise is told, as content."""
+    """Rounding to a tenth of the noise is reported, as content."""
     recording = recorded(lambda w: np.round(w / 1e-4) * 1e-4)
     assert "steps" not in said(recording)
     assert "gyro x comes in steps of 0.00573 deg/s" in said(recording, "content")
