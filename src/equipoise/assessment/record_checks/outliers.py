@@ -243,7 +243,7 @@ def _alone(fit: LocalFit, k: int, side: int) -> bool:
 
 
 def _no_touch(window: Window, odd: tuple[int, ...], limit: float, platform: Platform) -> bool:
-    """Say that no touch explains the window; each leaves far more than the odd rows do."""
+    """Say that no touch explains the window; each leaves much more than the odd rows do."""
     left = misfit(window, out(window, odd))
     inside = min(odd) >= ASIDE and max(odd) < len(window.t) - ASIDE
     interval = float(np.min(np.diff(window.t))) if platform.attitude else 1.0
