@@ -50,14 +50,10 @@ class FiledHands:
     def __init__(
         self, testbed: Testbed, recordings: Sequence[Recording], placed: Sequence[Ints | None]
     ) -> None:
-        self._testbed, self._recordings, self._filed = testbed, recordings, placed
+        self.testbed = testbed  # as stated, without any weights
+        self._recordings, self._filed = recordings, placed
         self.placed: list[Ints] = []
         self.swings = 0
-
-    @property
-    def testbed(self) -> Testbed:
-        """The testbed as stated, without any weights."""
-        return self._testbed
 
     @property
     def time(self) -> float:
