@@ -88,7 +88,7 @@ class MethodSummary:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MethodComparison:
-    """What was asked, and what came of it."""
+    """The request, and its results."""
 
     scene: Scene
     seeds: Sequence[int]

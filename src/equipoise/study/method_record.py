@@ -6,7 +6,7 @@ does. Rows are prepared as `equipoise identify` prepares them (``procedure.sound
     truth   com with the masses at home when the record begins, com as they stand when it ends, and
             the inertia about P with the masses at home; elastic sag is part of com unless it is
             sought (``SimulatedBench.truth``)
-    bound   the Cramer-Rao bound at that truth, for a fit that is asked the same
+    bound   the Cramer-Rao bound at that truth, for a fit with the same options
 
 No method knows any of this.
 """
@@ -37,7 +37,7 @@ from equipoise.simulation.record import Moves, recorded
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
-    """What is recorded of each platform, and what is asked of methods."""
+    """What is recorded of each platform, and the options of the methods."""
 
     testbed: Testbed
     duration: float  # s

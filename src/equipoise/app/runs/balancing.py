@@ -170,7 +170,7 @@ def stop_step(bench: Bench, code: VerdictReason, *about: str, **numbers: Number)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
-    """Return the steps of balancing and, when that passes and it is asked for, of holding."""
+    """Return the steps of balancing and, when that passes and a hold is requested, of holding."""
     holding = HoldOptions(limits.hold, goal.target, goal.tolerance)
     usual = holding.balancing if limits.hold > 0 else BalanceOptions(goal.target, goal.tolerance)
     moves = usual.max_moves if limits.max_moves is None else limits.max_moves

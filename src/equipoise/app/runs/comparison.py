@@ -1,4 +1,4 @@
-"""What laws and methods are compared by, as it is asked for, and the comparison carried out.
+"""A comparison of laws and methods: the request, and its run.
 
 Time of a record is the processor's, so that other work on the machine does not count. Memory is
 the peak of what Python and NumPy allocate meanwhile (``tracemalloc``), which slows the work down:
@@ -64,7 +64,7 @@ class Contest:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Compared(Plotted):
-    """What was compared; None: not asked for."""
+    """What was compared; None: not requested."""
 
     testbed: Testbed
     requested: Mapping[str, str]
@@ -95,7 +95,7 @@ def run_all(contest: Contest, workers: int, waiting: Waiting = QUIET) -> Compare
 
 
 def texts_of(contest: Contest) -> dict[str, str]:
-    """Return what was asked, as the report has it."""
+    """Return the request, as the report has it."""
     scene, seeds, goal = contest.scene, contest.seeds, contest.goal
     moves = ", ".join(
         f"{t:g}: " + " ".join(f"{name}={d / MM:.6g}" for name, d in targets.items())

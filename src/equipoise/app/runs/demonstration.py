@@ -88,7 +88,7 @@ def measured(bench: SimulatedBench) -> tuple[Recording, TrueCourse]:
     bed = bench.testbed
     travel = max(abs(d) / bed.mass_named(name).speed for name, d in MOVE.items())
     t = np.array([0.0, MEASURED, MEASURED, MEASURED + travel, 2 * MEASURED])
-    under_way = np.full(3, np.nan)  # the truth is asked for when masses stand
+    under_way = np.full(3, np.nan)  # the truth is taken when masses stand
     return join(first, second), (t, np.array([before, before, under_way, after, after]))
 
 

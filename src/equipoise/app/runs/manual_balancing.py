@@ -45,7 +45,7 @@ class Filed:
 
 
 class FiledHands:
-    """The verbs of ``model.hands.Hands``, played back; a placing not filed yet is the one asked."""
+    """The verbs of ``model.hands.Hands``, played back; a placing not filed yet is as requested."""
 
     def __init__(
         self, testbed: Testbed, recordings: Sequence[Recording], placed: Sequence[Ints | None]
@@ -95,7 +95,7 @@ class ByHand:
 
 
 def options_of(goal: Goal, rounds: int) -> HandOptions:
-    """Return what is asked of the procedure."""
+    """Return the options of the procedure."""
     return HandOptions(goal.target, goal.tolerance, rounds)
 
 

@@ -26,7 +26,7 @@ from equipoise.procedure.steps.clean_record import sound
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Request:
-    """What is asked for."""
+    """What is to be planned."""
 
     testbed: Testbed
     duration: float  # s
@@ -41,7 +41,7 @@ class Request:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Return what is asked for, by name."""
+        """Return the names of the wanted parameters."""
         return tuple(n for n in NAMES[self.requested] if n not in self.options.hold)
 
     @property

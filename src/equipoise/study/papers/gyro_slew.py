@@ -2,8 +2,8 @@
 
 The platform starts at rest at its truth's attitude and is brought to another by quaternion PID
 (Lee et al. Eq. 2 with erratum L4, ``control.attitude_pid``); the gimbals are steered by the
-singularity-robust inverse. What the law asked for and what the gyros gave differ in a singularity:
-both are kept, and what identifies the platform is the second, from measured gimbal angles.
+singularity-robust inverse. The torque that the law requests and that of the gyros differ in a
+singularity: both are kept, and the second, from measured gimbal angles, identifies the platform.
 """
 
 from typing import NamedTuple
@@ -30,8 +30,8 @@ class Slew(NamedTuple):
     q: Series4  # as filtered
     rate: Series3  # rad/s, as filtered
     angles: Floats  # (n, k) rad, of the gimbals, as measured
-    rates: Floats  # (n, k) rad/s, asked of the gimbals
-    required: Series3  # N m, asked of the gyros on the platform
+    rates: Floats  # (n, k) rad/s, commanded to the gimbals
+    required: Series3  # N m, requested of the gyros on the platform
     output: Series3  # N m, -D angles', what the rates give
     measure: Series1  # -, 0 in a singularity
     recording: Recording

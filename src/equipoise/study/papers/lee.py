@@ -41,7 +41,7 @@ from equipoise.study.papers.gyro_slew import Slew, slewed
 LARGE, SMALL = (70.0, 30.0, -30.0), (30.0, 10.0, -10.0)  # deg: roll, pitch, yaw
 DURATION = 100.0  # s, chosen: the slew is over after 60, the integral's tail after 100
 FREQUENCY, DAMPING, INTEGRAL = 0.112, 0.5, 0.03  # rad/s, -, rad/s, chosen: singular at 10 to 15 s
-MOST = 0.1  # N m, chosen: ten times what the unbalance asks for
+MOST = 0.1  # N m, chosen: ten times the torque of the unbalance
 NEAR = 0.2  # -, chosen: half of the measure below which steering gives way
 ATTITUDE_RATE, ATTITUDE_NOISE = 100.0, np.radians(0.02)  # Hz, rad, chosen: next to none
 COMPARED = ("averaged_printed", "averaged", "momentum_corrected", "trajectory")
@@ -148,7 +148,7 @@ def singular_times(slew: Slew) -> tuple[float, float] | None:
 def warns(estimate: Estimate) -> bool:
     """Say whether an estimate warns its reader not to rely on it: outcome or interval.
 
-    No interval, or an infinite one, counts: nobody can take a number for known that has none.
+    No interval, or an infinite one, counts: a number without an interval is not known.
     """
     open_ended = not all(estimate.has(name) and estimate.sees((name,)) for name in SOUGHT)
     return estimate.outcome.warns or open_ended

@@ -30,7 +30,7 @@ class Desk:
     def handle(self, longest: float) -> None:
         """Wait so long (s) at most for a request, and carry out what has come.
 
-        Raises EOFError where whoever asks has gone.
+        Raises EOFError where the other end of the pipe is closed.
         """
         wait = longest
         while self._pipe.poll(wait):

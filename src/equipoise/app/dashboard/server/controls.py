@@ -127,7 +127,7 @@ class Controls:
         self.seed = ui.number("Seed", value=2, min=0, precision=0).props("dense outlined")
         self._button("Another simulated platform", self._anew)
 
-    # --- What is asked -----------------------------------------------------------------------
+    # --- Requests ----------------------------------------------------------------------------
 
     def _button(self, text: str, do: Callable[[], None], style: str = "outline") -> ui.button:
         made = button(text, do, style)

@@ -1,4 +1,4 @@
-"""What stands in front of the server: who may speak with it at all, and how much at once.
+"""The gate in front of the server: which requests pass, and how large they may be.
 
     Host          one of the addresses at which it listens: another name means a foreign page that
                   was led here (DNS rebinding)
@@ -72,7 +72,7 @@ class Gate:
         if (origin is None and needs_origin) or not (
             origin is None or self._doors.welcomes(origin)
         ):
-            return 403, f"A page of {origin or 'no origin'} may not speak with this dashboard."
+            return 403, f"A page of {origin or 'no origin'} may not use this dashboard."
         if self._doors.exposed and not self._guard.is_right(_token(asking)):
             return 401, "The token is missing or wrong: open the address that was printed."
         size = asking.headers.get("content-length", "0")

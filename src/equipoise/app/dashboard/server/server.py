@@ -59,7 +59,7 @@ class RemoteRunner:
 
 def listen(pipe: Pipe, watch: Watch, loop: asyncio.AbstractEventLoop) -> None:
     """Pass the runner's messages to the watch until it ends; a thread's whole life."""
-    with suppress(RuntimeError):  # the loop is closed: nobody is here any more
+    with suppress(RuntimeError):  # the loop is closed: the server has ended
         try:
             while True:
                 loop.call_soon_threadsafe(watch.take, *pipe.recv())

@@ -40,7 +40,7 @@ STYLE: Any = {
     "legend.frameon": False,
     "legend.fontsize": 8.5,
     "figure.dpi": 100,
-    "figure.autolayout": False,  # nor "tight" nor "constrained" but where a figure asks for it
+    "figure.autolayout": False,  # nor "tight" nor "constrained" but where a figure sets it
     "figure.constrained_layout.use": False,
     "savefig.dpi": 160,
     "svg.hashsalt": "equipoise",  # the same figure, the same bytes

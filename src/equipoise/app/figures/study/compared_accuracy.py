@@ -15,7 +15,7 @@ CAPTION = (
     "records that did not fail. Open: the method failed on some records, so that the easier ones "
     "are left."
 )
-LIMITS = (0.3, 1e4)  # chosen: beyond these nobody asks by how much
+LIMITS = (0.3, 1e4)  # chosen: beyond these the factor no longer matters
 
 
 class Accuracy(NamedTuple):
