@@ -169,7 +169,7 @@ class Runner:
     # --- What is done ------------------------------------------------------------------------
 
     def balance(self, goal: Goal, limits: Limits, seed: int) -> None:
-        """Balance, and have the report written in a process beside; a stop is its last step."""
+        """Balance, and have the report written by a background job; a stop is the last step."""
         self.phase, self.goal, self.trip, self.kept, self.note = "balancing", goal, None, None, ""
         self.report_state()
         try:
@@ -194,7 +194,7 @@ class Runner:
         return run(bench, goal, limits, self.step, Through(self._replayed, as_they_come))
 
     def identify(self, method: str) -> None:
-        """Identify from the recent rows, in a process beside; a note where there are none."""
+        """Identify from the recent rows, as a background job; a note where there are none."""
         if not self._observed:
             self.say("Nothing has been recorded yet.")
             return
@@ -202,13 +202,13 @@ class Runner:
         self._begin(Job(task), f"identifying ({method})")
 
     def stop_work(self) -> None:
-        """End the processes beside."""
+        """End the background jobs."""
         for job in self._jobs:
             job.end()
         self._jobs, self.working = [], ""
 
     def close(self) -> None:
-        """End recordings and the processes beside."""
+        """End recordings and background jobs."""
         self.stop_work()
         self.recorder.end()
 
@@ -223,7 +223,7 @@ class Runner:
         self.report_state()
 
     def _work(self) -> None:
-        """Send what the processes beside have reported."""
+        """Send what the background jobs have reported."""
         for job in self._jobs:
             for kind, what in job.news():
                 self._received_of(job, kind, what)

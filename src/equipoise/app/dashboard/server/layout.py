@@ -79,7 +79,7 @@ def _phase(counter: Counter) -> str:
 
 
 def _time_slider(counter: Counter, page: str) -> None:
-    """Lay the slider of a replay's time; ``timebar.js`` moves it, a person's change is a request."""
+    """Lay the slider of a replay's time; ``timebar.js`` moves it, a person's hand requests."""
 
     def seek(event: GenericEventArguments) -> None:
         why = counter.request(page, requests.Seek(float(event.args)))
