@@ -79,7 +79,7 @@ def _phase(counter: Counter) -> str:
 
 
 def _time_slider(counter: Counter, page: str) -> None:
-    """Lay the slider of a replay's time; ``timebar.js`` moves it, a person's hand requests."""
+    """Lay the slider of a replay's time; ``timebar.js`` moves it, a person's change seeks."""
 
     def seek(event: GenericEventArguments) -> None:
         why = counter.request(page, requests.Seek(float(event.args)))
