@@ -48,11 +48,6 @@ class Watch:
         self.ended = why
         self.take("state", {**self.state, "kind": "state", "phase": "stopped", "note": why})
 
-    @property
-    def kept_bytes(self) -> int:
-        """Return how many bytes of rows are kept."""
-        return self._bytes
-
     def join(self) -> "asyncio.Queue[Message]":
         """Return what a page gets: all that is kept, then what comes."""
         page: asyncio.Queue[Message] = asyncio.Queue()
