@@ -52,37 +52,37 @@ class Gate:
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
-        asking, is_websocket = HTTPConnection(scope), scope["type"] == "websocket"
-        why = self._refusal(asking)
+        request, is_websocket = HTTPConnection(scope), scope["type"] == "websocket"
+        why = self._refusal(request)
         if why is not None:
             status, sentence = why
             json = JSONResponse({"refused": sentence}, status)
             answer = WebSocketClose(reason=sentence, code=1008) if is_websocket else json
             await answer(scope, receive, send)
             return
-        sender = send if is_websocket else self._marked(asking, send)
+        sender = send if is_websocket else self._marked(request, send)
         await self._app(scope, _limited(receive), sender)
 
-    def _refusal(self, asking: HTTPConnection) -> tuple[int, str] | None:
+    def _refusal(self, request: HTTPConnection) -> tuple[int, str] | None:
         """Return status and sentence for who may not pass."""
-        host, origin = asking.headers.get("host", ""), asking.headers.get("origin")
+        host, origin = request.headers.get("host", ""), request.headers.get("origin")
         if host not in self._doors.hosts:
             return 403, f"This dashboard is not at {host or 'a host without a name'}."
-        needs_origin = asking.scope["type"] == "websocket" and self._doors.exposed
+        needs_origin = request.scope["type"] == "websocket" and self._doors.exposed
         if (origin is None and needs_origin) or not (
             origin is None or self._doors.welcomes(origin)
         ):
             return 403, f"A page of {origin or 'no origin'} may not use this dashboard."
-        if self._doors.exposed and not self._guard.is_right(_token(asking)):
+        if self._doors.exposed and not self._guard.is_right(_token(request)):
             return 401, "The token is missing or wrong: open the address that was printed."
-        size = asking.headers.get("content-length", "0")
+        size = request.headers.get("content-length", "0")
         if not size.isdigit() or int(size) > LARGEST:
             return 413, f"A request has at most {LARGEST} bytes."
         return None
 
-    def _marked(self, asking: HTTPConnection, send: Send) -> Send:
+    def _marked(self, request: HTTPConnection, send: Send) -> Send:
         """Return a sender that adds what a browser should keep to: the policy, the token."""
-        given = asking.query_params.get("token", "")
+        given = request.query_params.get("token", "")
 
         async def marked(event: Message) -> None:
             if event["type"] == "http.response.start":
@@ -98,9 +98,9 @@ class Gate:
         return marked
 
 
-def _token(asking: HTTPConnection) -> str:
+def _token(request: HTTPConnection) -> str:
     """Return the token of the address, else of the cookie, else nothing."""
-    return asking.query_params.get("token", "") or asking.cookies.get(COOKIE, "")
+    return request.query_params.get("token", "") or request.cookies.get(COOKIE, "")
 
 
 def _limited(receive: Receive) -> Receive:
