@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from equipoise.estimation.output_error.free_vertical import PLUMB
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import pack_symmetric
+from equipoise.maths.straight_lines import read_at
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.manoeuvre import Manoeuvre
@@ -105,9 +106,7 @@ def by_mujoco(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Run:
     platform = built(testbed, truth, min(float(soft), STIFF))
     t = oracle.middles(manoeuvre.duration, STEP)
     reported, real = sent(testbed, manoeuvre, rng)
-    run = oracle.driven(
-        platform, actuator.lines(t, real.t, real.values), np.zeros((len(t), 3)), STEP
-    )
+    run = oracle.driven(platform, read_at(t, real.t, real.values), np.zeros((len(t), 3)), STEP)
     assert testbed.attitude is not None
     log = oracle.sensor_log(run, rng, testbed.attitude.rate, testbed.attitude.noise)
     found = estimated(replace(log, masses=reported), testbed)

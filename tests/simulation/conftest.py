@@ -1,4 +1,4 @@
-"""Testbeds of round numbers, so that what they do can be worked out by hand."""
+"""Testbeds of round numbers, so that their motion can be computed by hand."""
 
 from dataclasses import replace
 
@@ -13,7 +13,7 @@ LEVEL = np.zeros(3)
 
 @pytest.fixture
 def rail():
-    """Return a maker of masses: 0.5 kg, from -50 to 50 mm at 10 mm/s, exact unless told."""
+    """Return a maker of masses: 0.5 kg, from -50 to 50 mm at 10 mm/s, exact unless stated."""
 
     def make(name="x", axis=(1.0, 0.0, 0.0), home=(0.0, 0.2, -0.05), **changes):
         mass = SlidingMass(name, 0.5, np.array(home), np.array(axis), (-0.05, 0.05), 0.0, 0.0, 0.0,
@@ -25,7 +25,7 @@ def rail():
 
 @pytest.fixture
 def truth():
-    """Return a maker of truths: level, at rest and balanced unless told."""
+    """Return a maker of truths: level, at rest and balanced unless stated."""
 
     def make(**changes):
         given = Truth(LEVEL, LEVEL, LEVEL, None, 0.0, LEVEL, 0.0, LEVEL, 0.0, {}, 0.0, 30.0, LEVEL)

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.bench_requests import in_steps
 from equipoise.model.errors import InputError, MoveRefused
 from equipoise.model.testbed import Fault
@@ -14,7 +15,6 @@ from equipoise.simulation.actuator import (
     checked,
     displacement,
     halted,
-    lines,
     reported_rows,
     retracked,
     sent,
@@ -178,7 +178,7 @@ def test_stuck_mass_is_reported_to_move(rail):
 
 
 def test_slipping_mass_goes_its_share_of_the_distance_from_home(rail):
-    """Gain 0.5: told 40, then -20, then 0; it goes to 20, -10, 0."""
+    """Gain 0.5: commanded 40, then -20, then 0; it goes to 20, -10, 0."""
     motors = Motors(rail(), faults=(Fault("x", 0.5),))
     for i, (reported, goes) in enumerate(((40, 20), (-20, -10), (0, 0))):
         motors.move(20.0 * i, x=reported)
@@ -229,7 +229,7 @@ def test_reported_rows_hold_the_ends_and_every_corner(rail):
     np.testing.assert_allclose(rows.t, [1.0, 2.0, 3.0, 4.0])
     np.testing.assert_allclose(rows.values, [[0, 0], [0, 0], [0.01, -0.01], [0.02, -0.01]])
     between = np.linspace(1.0, 4.0, 301)
-    straight = lines(between, rows.t, rows.values)
+    straight = read_at(between, rows.t, rows.values)
     np.testing.assert_allclose(
-        straight, lines(between, motors.track.t, motors.track.reported), atol=1e-15
+        straight, read_at(between, motors.track.t, motors.track.reported), atol=1e-15
     )

@@ -174,7 +174,7 @@ def test_truth_drifts_at_its_rate(testbed):
 
 
 def test_tilt_now_is_the_angle_from_the_vertical(testbed):
-    """Roll 0.3 then rolling on at 0.05 rad/s; seen at a moment at which no sensor looks."""
+    """Roll 0.3 then rolling on at 0.05 rad/s; taken at a moment without a sample of any sensor."""
     start = {"attitude": np.array([0.3, 0.0, 1.0]), "rate": np.array([0.05, 0.0, 0.0])}
     bench = SimulatedBench(testbed(truth=start), 0)
     assert bench.tilt_now() == pytest.approx(0.3)

@@ -74,7 +74,7 @@ def test_a_wheel_at_its_limit_stays_there_until_driven_back():
 
 
 def inertia_with_gimbals(bench, rows):
-    """Return J (n, 3, 3) with the gimbals as they stand, worked out gyro by gyro."""
+    """Return J (n, 3, 3) with the gimbals as they stand, computed gyro by gyro."""
     J = np.repeat(bench.platform.body.inertia_P[None], len(rows), axis=0)
     for k, gyro in enumerate(GYROS):
         n = np.cross(gyro.gimbal_axis, gyro.spin_axis)
@@ -153,7 +153,7 @@ def test_tachometers_and_encoders_err_by_their_noise_and_not_at_rest(testbed):
 
 
 def test_coils_are_in_the_field_as_it_really_is(testbed):
-    """Truth has it along y; what is known of it beforehand has not."""
+    """Truth has it along y; the testbed as stated has not."""
     start = {"attitude": np.zeros(3), "rate": np.zeros(3), "field_N": np.array([0.0, 5e-5, 0.0])}
     bench = SimulatedBench(with_devices(testbed((0.0, 0.0, 0.0), truth=start, **SENSORS)), 0)
     before = momentum_N(bench, bench.read(1.0))[-1]

@@ -29,7 +29,7 @@ def test_what_is_given_is_used(testbed):
     np.testing.assert_array_equal(platform.body.inertia_P, np.diag([1.0, 2.0, 2.5]))
     np.testing.assert_allclose(platform.attitude, from_euler321(0.1, -0.2, 0.3))
     np.testing.assert_array_equal(platform.rate, rate)
-    np.testing.assert_array_equal(platform.gyro_bias, bias)
+    np.testing.assert_array_equal(platform.truth.gyro_bias, bias)
     assert dict(zip(TERMS, platform.torque, strict=True)) == {
         t: 2.0 * (t == "swirl") for t in TERMS
     }

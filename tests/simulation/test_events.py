@@ -55,7 +55,7 @@ def test_a_slip_is_in_the_truth(testbed):
         observed.append(bench.truth().com)
     by_hand = [[0, 0, -1e-4], [2e-5, 0, -1e-4], [2e-5, 1e-5, -1.1e-4]]
     np.testing.assert_allclose(observed, by_hand, atol=1e-15)
-    assert bench.platform.com_steps == steps
+    assert bench.platform.truth.com_steps == steps
 
 
 def test_reads_that_end_at_a_contact_apply_it_once(testbed):

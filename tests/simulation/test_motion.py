@@ -44,7 +44,7 @@ def test_energy_is_kept_for_ten_minutes(testbed, com, attitude, rate):
 
 
 def momentum_N(recording, masses, body):
-    """Return R (J(d) w + h), worked out mass by mass from the rows, N m s."""
+    """Return R (J(d) w + h), computed mass by mass from the rows, N m s."""
     t, w = recording.rate.t, recording.rate.values
     track = recording.masses
     H = w @ body.inertia_P

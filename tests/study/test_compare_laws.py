@@ -1,4 +1,4 @@
-"""Laws compared: numbers of made-up runs by hand, refusals told, nothing left out."""
+"""Laws compared: numbers of made-up runs by hand, refusals reported, nothing left out."""
 
 import numpy as np
 import pytest

@@ -12,7 +12,7 @@ from tests.support.synthetic_runs import made_up
 
 
 def test_bias_sd_and_rmse_of_errors_of_1_and_3_um():
-    """Bias 2, sd sqrt(2) with n - 1, RMSE sqrt(5), all in um; what is not told has none."""
+    """Bias 2, sd sqrt(2) with n - 1, RMSE sqrt(5), all in um; what is not stated has none."""
     reported = summary([made_up([1.0]), made_up([3.0])])
     assert reported.bias[0] == pytest.approx(2 * UM)
     assert reported.sd[0] == pytest.approx(2**0.5 * UM)
@@ -112,7 +112,7 @@ def test_a_method_that_always_fails_has_no_numbers():
 
 
 def test_time_is_the_middle_and_memory_the_greatest_that_was_measured():
-    """A refusal takes no time worth telling."""
+    """A refusal takes no time worth reporting."""
     costs = [Cost(1.0, 100), Cost(9.0, 300), Cost(2.0, None)]
     runs = [made_up(cost=cost) for cost in costs]
     reported = summary([*runs, made_up(ending="refused", cost=Cost(0.0, 1))])

@@ -26,7 +26,7 @@ TARGET, TILT = np.array([0.0, 0.0, -1e-4]), np.radians(20.0)
 
 
 def bench_of(com, torque=None, masses=None, **of_truth):
-    """A platform whose truth is as given; its first guess is not looked at."""
+    """A platform whose truth is as given; its first guess is not used."""
     zero, J = np.zeros(3), np.diag([1.0, 2.0, 2.5])
     truth = Truth(np.array(com, float), zero, zero, J, 0.0, zero, 0.0, zero, 0.0, torque or {},
                   0.0, 30.0, zero, **of_truth)  # fmt: skip

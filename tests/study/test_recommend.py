@@ -67,7 +67,7 @@ WANTING = {
 
 @pytest.mark.parametrize(("more", "reason"), WANTING.values(), ids=WANTING.keys())
 def test_a_method_that_is_not_honest_is_passed_over(more, reason):
-    """However accurate it is; when there is no other, nobody is recommended and it is told why."""
+    """However accurate it is; without another, none is recommended and the sentence says why."""
     liar = reported("smoother", 0.5, **more)
     assert advised_method([liar, reported("trajectory", 2.0)], "com").name == "trajectory"
     alone = advised_method([liar], "com")

@@ -1,8 +1,8 @@
 """Sliding masses that are driven open loop, and where they really go.
 
-A stepper reports the steps it was told to make, so the reported displacement is the target rounded
-to the mass's resolution, reached in a straight line at the mass's speed. The mass stands while the
-play is taken up, and goes in a straight line, in the time that is left, to where it really stops:
+A stepper reports its commanded steps, so the reported displacement is the target rounded to the
+mass's resolution, reached in a straight line at the mass's speed. The mass stands while the play is
+taken up, and goes in a straight line, in the time that is left, to where it really stops:
 
     carriage   += gain * (reported target - reported before)     gain 1: sound, 0: stuck
     held        = carriage, followed with a play of +-backlash/2
@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.bench_requests import checked_targets
 from equipoise.model.recording import Samples
@@ -148,7 +149,7 @@ def halted(travel: Travel, now: float) -> Travel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
-    """Where the masses were and, unless told otherwise, will be: straight between the rows."""
+    """Where the masses were and, without another command, will be: straight between the rows."""
 
     t: Series1  # s
     reported: Floats  # (n, k) m
@@ -179,16 +180,8 @@ def without_past(track: Track, before: float) -> Track:
     return Track(track.t[first:], track.reported[first:], track.real[first:]) if first else track
 
 
-def lines(t: Series1, track_t: Series1, values: Floats) -> Floats:
-    """Return a track's displacements (m) at times ``t``; constant outside its rows."""
-    if not values.shape[1]:
-        return np.zeros((len(t), 0))
-    columns: list[Floats] = [np.interp(t, track_t, column) for column in values.T]
-    return np.column_stack(columns)
-
-
 def reported_rows(track: Track, start: float, end: float) -> Samples:
     """Return what a recording from ``start`` to ``end`` (s) holds: both ends and all corners."""
     corners = track.t[(track.t > start) & (track.t < end)]
     t = np.unique(np.concatenate([[start], corners, [end]]))
-    return Samples(tick(t), lines(t, track.t, track.reported))
+    return Samples(tick(t), read_at(t, track.t, track.reported))

@@ -1,12 +1,12 @@
 """The simulated bench: the same verbs as a real one, and a seed that reproduces everything.
 
 The motion is integrated from node to node. Nodes are moments that do not depend on how the bench
-is read: every look of every sensor, corners of the masses' tracks, the noise torque's grid and
-whole seconds. The state is kept at the last node that no later row can look behind, so reads of
-any length return the same rows.
+is read: every sample of every sensor, corners of the masses' tracks, the noise torque's grid and
+whole seconds. The state is kept at the last node that precedes every later sample, so reads of any
+length return the same rows.
 
 Rows come at most once: those stamped in (previous read, now], the first read with time zero. Mass
-rows reach back by the sensors' delay, as rows look back. A rate that is seen exactly when a mass
+rows reach back by the sensors' delay, as samples do. A rate that is sampled exactly when a mass
 starts or stops is the rate just before. Before time zero the masses stood at home and the platform
 moved as it must have to be at its first attitude and rate at time zero.
 """
@@ -24,6 +24,7 @@ from equipoise.dynamics.regressor import DRIFT
 from equipoise.dynamics.sag_trim import SAG_TERMS, acting_com, sag_matrix
 from equipoise.maths.attitude import tilt
 from equipoise.maths.linalg import pack_symmetric, unpack_symmetric
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Matrix3, Series1, Vector3
 from equipoise.model.bench_requests import check_duration
 from equipoise.model.mass_properties import MassProperties
@@ -80,12 +81,12 @@ class SimulatedBench:
         self._bad_rng, self._bad = streams[5], np.zeros(0)
         self._states_rng, self._field_rng = streams[6:]
         self._devices = started(testbed)
-        self._testbed, self._seed = testbed, seed
+        self.testbed, self.seed = testbed, seed  # as stated; of all that is drawn
         self.platform = draw_truth(testbed, rng)
-        truth, masses = self.platform, self.platform.masses
-        inertia = pack_symmetric(truth.body.inertia_P)
-        moment = truth.body.first_moment
-        self._body = body_of(truth.body.mass, testbed.gravity, inertia, moment, truth.torque)
+        body, truth, masses = self.platform.body, self.platform.truth, self.platform.masses
+        inertia = pack_symmetric(body.inertia_P)
+        torque = self.platform.torque
+        self._body = body_of(body.mass, testbed.gravity, inertia, body.first_moment, torque)
         self._happens = times([*truth.contacts, *truth.com_steps])
         self._rails = mass_maps(masses)
         self._maps = np.vstack([stacked(self._rails), stacked(gimbal_maps(testbed.cmgs))])
@@ -100,16 +101,6 @@ class SimulatedBench:
         if self._lead > 0:
             self._node = -self._lead
             self._state = self._follow(np.array([0.0, self._node])).y[-1]
-
-    @property
-    def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
-        return self._testbed
-
-    @property
-    def seed(self) -> int:
-        """What all that is drawn comes from."""
-        return self._seed
 
     @property
     def time(self) -> float:
@@ -130,7 +121,7 @@ class SimulatedBench:
 
     def move(self, targets: Mapping[str, float]) -> None:
         """Set masses on their way to displacements from home (m); all of them or none."""
-        masses, faults = self.platform.masses, self.platform.faults
+        masses, faults = self.platform.masses, self.platform.truth.faults
         goals = actuator.checked(self._travel, self._time, targets, masses)
         travel = actuator.sent(self._travel, self._time, goals, masses, faults, self._stops_rng)
         self._command(travel)
@@ -141,43 +132,43 @@ class SimulatedBench:
         Nothing is checked: that is the drive's matter. A leg that follows at once has the stop
         error of the one before.
         """
-        i = self._testbed.mass_names.index(name)
+        i = self.testbed.mass_names.index(name)
         fresh = start > self._travel.arrive[i] + AT_ONCE
         if fresh:
             self._travel = replace(self._travel, moves=self._travel.moves + 1)
             self._normals[i] = self._stops_rng.standard_normal()
         platform, leg = self.platform, (start, end, displacement)
         mass, normal = platform.masses[i], float(self._normals[i])
-        travel = actuator.led(self._travel, i, leg, mass, platform.faults, normal)
+        travel = actuator.led(self._travel, i, leg, mass, platform.truth.faults, normal)
         self._travel, self._track = travel, actuator.retracked(self._track, travel, start)
 
     def drive(self, inputs: Mapping[str, float]) -> None:
         """Give devices their inputs (``model.devices``); all of them or none."""
-        self._devices = driven(self._devices, self._time, *inputs_of(self._testbed, inputs))
+        self._devices = driven(self._devices, self._time, *inputs_of(self.testbed, inputs))
 
     def stop(self) -> None:
         """Halt every mass where it is, and every device."""
         self._command(actuator.halted(self._travel, self._time))
-        self._devices = driven(self._devices, self._time, all_off(self._testbed), {})
+        self._devices = driven(self._devices, self._time, all_off(self.testbed), {})
 
     def truth(self) -> MassProperties:
         """Return the mass properties as masses and gimbals really stand now, as they act level.
 
-        A platform that sags is told as the stiff one that behaves alike at small tilts.
+        A platform that sags is described by the stiff one that behaves alike at small tilts.
         """
         body, real = self.platform.body, self.displacements
-        gimbals = stored(self._testbed, self._devices, np.array([self._time]))[1][0]
+        gimbals = stored(self.testbed, self._devices, np.array([self._time]))[1][0]
         shift = inertia_shift(self._rails, real)
-        shift += inertia_shift(gimbal_maps(self._testbed.cmgs), gimbals)
+        shift += inertia_shift(gimbal_maps(self.testbed.cmgs), gimbals)
         inertia = body.inertia_P + unpack_symmetric(shift)
-        return MassProperties(body.mass, acting_com(self.com, self.sag, self._testbed.up), inertia)
+        return MassProperties(body.mass, acting_com(self.com, self.sag, self.testbed.up), inertia)
 
     @property
     def com(self) -> Vector3:
         """Where the centre of mass really is now, elastic sag apart, m."""
         body, coefficients = self.platform.body, self.platform.torque
         drift = coefficients[DRIFT : DRIFT + 3] * self._time
-        slipped = com_moved(self.platform.com_steps, self._time)
+        slipped = com_moved(self.platform.truth.com_steps, self._time)
         return body.com + drift + slipped + com_shift(self._rails, body.mass, self.displacements)
 
     @property
@@ -198,13 +189,13 @@ class SimulatedBench:
 
     def tilt_now(self) -> float:
         """Return the angle between the axis that should point up and the vertical, rad."""
-        return float(tilt(self._now[:4], self._testbed.up))
+        return float(tilt(self._now[:4], self.testbed.up))
 
     def _first_state(self) -> Floats:
         """Return the state at time zero: masses where they were left, devices as they start."""
         truth = self.platform
-        h, gimbals = stored(self._testbed, self._devices, np.zeros(1))
-        shift = inertia_shift(gimbal_maps(self._testbed.cmgs), gimbals[0])
+        h, gimbals = stored(self.testbed, self._devices, np.zeros(1))
+        shift = inertia_shift(gimbal_maps(self.testbed.cmgs), gimbals[0])
         shift += inertia_shift(self._rails, self._travel.end[actuator.REAL])
         inertia = truth.body.inertia_P + unpack_symmetric(shift)
         return np.concatenate([truth.attitude, inertia @ truth.rate + h[0]])
@@ -218,11 +209,11 @@ class SimulatedBench:
         start, now = self._node, self._time
         self._noise = extended(self._noise, now, self._noise_rng)
         observed = [
-            samples_between(s, start, now) for s in (self._testbed.attitude, self._testbed.gyro)
+            samples_between(s, start, now) for s in (self.testbed.attitude, self.testbed.gyro)
         ]
-        turns = tick(self._track.t + self.platform.mass_lag)
+        turns = tick(self._track.t + self.platform.truth.mass_lag)
         others = [turns, self._happens, bends(self._devices, start, now)]
-        others.append(multiples(grid_of(self._testbed), start, now))
+        others.append(multiples(grid_of(self.testbed), start, now))
         if self._noise.sd > 0:
             others.append(self._noise.t)
         t = np.unique(np.concatenate([[start], *observed, *others]))
@@ -230,9 +221,9 @@ class SimulatedBench:
 
     def _follow(self, t: Series1) -> Path:
         """Return the motion along nodes, from where the state is kept."""
-        truth = self.platform
-        h, gimbals = stored(self._testbed, self._devices, t)
-        dipole, jets = effects(self._testbed, self._devices, t)
+        truth = self.platform.truth
+        h, gimbals = stored(self.testbed, self._devices, t)
+        dipole, jets = effects(self.testbed, self._devices, t)
         known = np.hstack([h, torque_at(self._noise, t) + jets, self._real(t), gimbals])
         platform = (self._body, self._maps, self._state, t, known)
         events = (truth.contacts, truth.com_steps)
@@ -242,11 +233,11 @@ class SimulatedBench:
 
     def _real(self, t: Series1) -> Floats:
         """Return where the masses really are, m from home, (n, k)."""
-        return actuator.lines(t - self.platform.mass_lag, self._track.t, self._track.real)
+        return read_at(t - self.platform.truth.mass_lag, self._track.t, self._track.real)
 
     def _recording(self, t: Series1, path: Path, after: float, since: float) -> Recording:
         """Return the rows stamped after a time (s), masses since a time (s)."""
-        testbed, names = self._testbed, tuple(mass.name for mass in self._testbed.masses)
+        testbed, names = self.testbed, tuple(mass.name for mass in self.testbed.masses)
 
         def observed(sensor: Sensor, motion: Floats) -> tuple[Series1, Floats]:
             stamps = samples(sensor.rate, after, self._time)
@@ -260,19 +251,15 @@ class SimulatedBench:
         if names:
             start = max(since - self._lead, 0.0)
             masses = actuator.reported_rows(self._track, start, self._time)
-        observed_so_outlying = Recording(
-            attitude, rate, names, masses, source=f"simulated {testbed.name}, seed {self._seed}"
-        )
-        reported = (
-            self._with_devices(observed_so_outlying, after)
-            if testbed.devices
-            else observed_so_outlying
-        )
-        return replace(reported, field=self._magnetometer(t, path, after))
+        source = f"simulated {testbed.name}, seed {self.seed}"
+        found = Recording(attitude, rate, names, masses, source=source)
+        if testbed.devices:
+            found = self._with_devices(found, after)
+        return replace(found, field=self._magnetometer(t, path, after))
 
     def _magnetometer(self, t: Series1, path: Path, after: float) -> Samples | None:
         """Return the magnetometer's rows, at the attitude of the node at or before each stamp."""
-        known, field_N = self._testbed.magnetic_field, self.platform.field_N
+        known, field_N = self.testbed.magnetic_field, self.platform.field_N
         if known is None or known.noise is None or field_N is None:
             return None
         stamps = samples(self._reports, after, self._time)
@@ -282,39 +269,39 @@ class SimulatedBench:
     @property
     def _reports(self) -> float:
         """How often devices report, Hz."""
-        sensor = self._testbed.gyro or self._testbed.attitude
+        sensor = self.testbed.gyro or self.testbed.attitude
         return REPORTS if sensor is None else sensor.rate
 
     def _with_devices(self, recording: Recording, after: float) -> Recording:
         """Return the recording with what the devices report, and what follows from it."""
-        testbed, rng = self._testbed, self._states_rng
+        testbed, rng = self.testbed, self._states_rng
         t = samples(self._reports, after, self._time)
         rows = reported_states(testbed, self._devices, t, rng, 1 / self._reports)
         observed = replace(recording, device_names=testbed.device_names, devices=Samples(t, rows))
         return replace(observed, momentum=stored_momentum(observed, testbed))
 
     def _attitude(self, t: Series1, q: Floats, sensor: AttitudeSensor) -> Samples:
-        """Return the camera's rows stamped ``t`` from attitudes at its looks."""
-        errors = self.platform.camera
-        noisy = camera_rows(misread(q, errors, self._testbed.up), sensor, self._camera_rng)
+        """Return the camera's rows stamped ``t`` from attitudes at its samples."""
+        errors = self.platform.truth.camera
+        noisy = camera_rows(misread(q, errors, self.testbed.up), sensor, self._camera_rng)
         rows, bad = with_bad_rows(noisy, errors, self._bad_rng)
-        kept = outside(t, self.platform.gaps)
+        kept = outside(t, self.platform.truth.gaps)
         self._bad = np.append(self._bad, t[bad & kept])
         return Samples(t[kept], whole_angles(rows, sensor.quantum)[kept])
 
     def _rate(self, t: Series1, w: Floats, sensor: Gyro) -> Samples:
-        """Return the gyro's rows stamped ``t`` from rates at its looks."""
-        truth = self.platform
+        """Return the gyro's rows stamped ``t`` from rates at its samples."""
+        truth = self.platform.truth
         rows = gyro_rows(misfelt(w, truth.gyro), sensor, truth.gyro_bias, self._gyro_rng)
         kept = outside(t, truth.gaps)
         return Samples(t[kept], whole(rows, sensor.quantum)[kept])
 
     def _advance(self, t: Series1, path: Path) -> None:
-        """Keep the state now, and at the last node that no later row can look behind."""
+        """Keep the state now, and at the last node that precedes every later sample."""
         self._now = path.y[int(np.searchsorted(t, self._time))]
-        behind = kept_until(self._testbed, self._time - self._lead)
+        behind = kept_until(self.testbed, self._time - self._lead)
         kept = max(int(np.searchsorted(t, behind, side="right")) - 1, 0)
         self._node, self._state = float(t[kept]), path.y[kept]
         self._noise = forgotten(self._noise, self._node)
         self._devices = without_past(self._devices, self._node - 1 / self._reports)
-        self._track = actuator.without_past(self._track, self._node - self.platform.mass_lag)
+        self._track = actuator.without_past(self._track, self._node - self.platform.truth.mass_lag)

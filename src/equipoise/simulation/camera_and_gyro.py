@@ -1,9 +1,9 @@
 """What camera and gyro report, each at its own times.
 
 Row k is stamped k / rate on the bench's clock. It is the mean over [t - delay - averaging,
-t - delay], by Gauss-Legendre quadrature with five looks; without averaging there is one look.
+t - delay], by Gauss-Legendre quadrature with five samples; without averaging there is one.
 
-    attitude   q (x) exp(noise)      mean attitude: mean rotation vector from the middle look
+    attitude   q (x) exp(noise)      mean attitude: mean rotation vector from the middle sample
     rate       w + bias + noise
 
 What else is wrong with them is in ``sensor_errors``.
@@ -26,19 +26,19 @@ WEIGHTS = 0.5 * np.polynomial.legendre.leggauss(5)[1]
 
 
 def lead(sensor: Sensor | None) -> float:
-    """Return how far back (s) a row may look."""
+    """Return how long before its stamp (s) the earliest sample of a row may be."""
     return 0.0 if sensor is None else sensor.delay + sensor.averaging
 
 
 def sampled_at(sensor: Sensor, t: Series1) -> Floats:
-    """Return when rows stamped ``t`` looked, (n, 1) or (n, 5) s."""
+    """Return the times of the samples of rows stamped ``t``, (n, 1) or (n, 5) s."""
     if sensor.averaging == 0:
         return tick(t - sensor.delay)[:, None]
     return tick(t[:, None] - sensor.delay - sensor.averaging * (1.0 - NODES))
 
 
 def samples_between(sensor: Sensor | None, after: float, until: float) -> Series1:
-    """Return every look in (after, until] s, of rows not yet stamped too."""
+    """Return the times of all samples in (after, until] s, also of rows not yet stamped."""
     if sensor is None:
         return np.zeros(0)
     t = sampled_at(
@@ -56,7 +56,7 @@ def outside(t: Series1, gaps: Sequence[Gap]) -> Bools:
 
 
 def camera_rows(q: Floats, sensor: AttitudeSensor, rng: np.random.Generator) -> Series4:
-    """Return measured attitudes from those at the looks, (n, 1 or 5, 4)."""
+    """Return measured attitudes from those at the samples, (n, 1 or 5, 4)."""
     mean = q[:, 0]
     if q.shape[1] > 1:
         middle = q[:, q.shape[1] // 2]
@@ -66,6 +66,6 @@ def camera_rows(q: Floats, sensor: AttitudeSensor, rng: np.random.Generator) -> 
 
 
 def gyro_rows(w: Floats, sensor: Gyro, bias: Vector3, rng: np.random.Generator) -> Series3:
-    """Return measured rates from those at the looks, (n, 1 or 5, 3) rad/s."""
+    """Return measured rates from those at the samples, (n, 1 or 5, 3) rad/s."""
     mean = w[:, 0] if w.shape[1] == 1 else np.einsum("j,njk->nk", WEIGHTS, w)
     return mean + bias + sensor.noise * rng.standard_normal((len(w), 3))

@@ -44,13 +44,15 @@ def let_go(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> Testbed:
     return replace(testbed, truth=truth)
 
 
-def bench_for(testbed: Testbed, manoeuvre: Manoeuvre, seed: int) -> SimulatedBench:
-    """Return a bench whose platform is let go as planned."""
+def bench_for(testbed: Testbed, manoeuvre: Manoeuvre | None, seed: int) -> SimulatedBench:
+    """Return a bench whose platform is let go as planned, if there is a plan."""
+    if manoeuvre is None:
+        return SimulatedBench(testbed, seed)
     return SimulatedBench(let_go(testbed, manoeuvre, seed), seed, manoeuvre.standing)
 
 
 def commands_of(manoeuvre: Manoeuvre) -> list[Command]:
-    """Return all that a bench is told, in order of time."""
+    """Return all commands to a bench, in order of time."""
     moves = [Command(t, targets, {}) for t, targets in manoeuvre.moves]
     drives = [Command(t, {}, inputs)
               for t, inputs in inputs_along(manoeuvre.waves, manoeuvre.duration)]  # fmt: skip

@@ -6,8 +6,7 @@
     magnetorquer         dipole         dipole
     jet pair             impulse        torque, a pulse of impulse / torque seconds
 
-They report what they do, with the noise of tachometers and encoders; nothing is reported of what
-they were told.
+They report what they do, with the noise of tachometers and encoders; their inputs are not reported.
 """
 
 from collections.abc import Mapping
@@ -136,7 +135,7 @@ def reported_states(
 ) -> Floats:
     """Return what the devices report at times (s), (n, k), with the noise of their sensors.
 
-    A wheel at rest is seen to be at rest; a jet reports the mean since ``gap`` (s) before, so that
+    A wheel at rest is reported at rest; a jet reports the mean since ``gap`` (s) before, so that
     no pulse is lost between two rows.
     """
     y, Y = followed(devices, t)

@@ -10,19 +10,19 @@ What is given does not change what is drawn for the rest. The errors are laid on
 the centre of mass, as a drawn centre of mass would otherwise be paid for by the inertia.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
 
 from equipoise.maths.attitude import exponential, from_euler321, level, multiply
 from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
-from equipoise.model.defects import CameraErrors, ComStep, Contact, Gap, GyroErrors
 from equipoise.model.mass_properties import MassProperties, from_centre, smallest_second_moment
-from equipoise.model.testbed import Fault, SlidingMass, Testbed, TrueDrive, Truth
+from equipoise.model.testbed import SlidingMass, Testbed, TrueDrive, Truth
 from equipoise.model.torque_terms import TERMS
 from equipoise.model.units import DEG, in_si
 
+DRIVE = ("gain", "axis", "backlash", "accuracy")  # of a mass, what its true drive may change
 LITTLE = 0.05  # -, chosen: of the moments' geometric mean, what CAD may miss in a product
 # Without a truth: the testbed's own body, let go by hand (chosen: as the preset sputnix).
 SMALL_TILT = in_si(3.0, DEG)  # rad
@@ -37,18 +37,9 @@ class SimulatedPlatform:
     attitude: Quaternion
     rate: Vector3  # rad/s
     torque: Floats  # (16,) coefficients in the order of TERMS, SI
-    gyro_bias: Vector3  # rad/s
-    masses: tuple[SlidingMass, ...] = ()  # with the drives that they really have
-    noise_torque: float = 0.0  # N m, one sd per axis
-    noise_correlation: float = 30.0  # s
-    faults: tuple[Fault, ...] = ()
-    mass_lag: float = 0.0  # s
-    contacts: tuple[Contact, ...] = ()
-    com_steps: tuple[ComStep, ...] = ()
-    gaps: tuple[Gap, ...] = ()
-    camera: CameraErrors = field(default_factory=CameraErrors)
-    gyro: GyroErrors = field(default_factory=GyroErrors)
-    field_N: Vector3 | None = None  # T, magnetic, laboratory axes
+    masses: tuple[SlidingMass, ...]  # with the drives that they really have
+    field_N: Vector3 | None  # T, magnetic, laboratory axes
+    truth: Truth  # as given: noise, faults, events and errors of sensors, of which nothing is drawn
 
 
 def own_truth(testbed: Testbed) -> Truth:
@@ -90,20 +81,12 @@ def field_of(testbed: Testbed) -> Vector3 | None:
 def real_masses(
     stated: tuple[SlidingMass, ...], drives: tuple[TrueDrive, ...]
 ) -> tuple[SlidingMass, ...]:
-    """Return the masses with the drives that they really have, the stated where nothing is told."""
-    reported = {drive.mass: drive for drive in drives}
-    return tuple(really(m, reported[m.name]) if m.name in reported else m for m in stated)
-
-
-def really(mass: SlidingMass, drive: TrueDrive) -> SlidingMass:
-    """Return a mass with its true drive."""
-    return replace(
-        mass,
-        gain=mass.gain if drive.gain is None else drive.gain,
-        axis=mass.axis if drive.axis is None else drive.axis,
-        backlash=mass.backlash if drive.backlash is None else drive.backlash,
-        accuracy=mass.accuracy if drive.accuracy is None else drive.accuracy,
-    )
+    """Return the masses with the drives that they really have, as stated where none is given."""
+    true = {
+        drive.mass: {k: v for k in DRIVE if (v := getattr(drive, k)) is not None}
+        for drive in drives
+    }
+    return tuple(replace(mass, **true.get(mass.name, {})) for mass in stated)
 
 
 def coefficients(torque: dict[str, float]) -> Floats:
@@ -127,16 +110,7 @@ def draw_truth(testbed: Testbed, rng: np.random.Generator) -> SimulatedPlatform:
         attitude=attitude if truth.attitude is None else from_euler321(*truth.attitude),
         rate=rate if truth.rate is None else truth.rate,
         torque=coefficients(dict(truth.torque)),
-        gyro_bias=truth.gyro_bias,
         masses=real_masses(testbed.masses, truth.drives),
-        noise_torque=truth.noise_torque,
-        noise_correlation=truth.noise_correlation,
-        faults=truth.faults,
-        mass_lag=truth.mass_lag,
-        contacts=truth.contacts,
-        com_steps=truth.com_steps,
-        gaps=truth.gaps,
-        camera=truth.camera,
-        gyro=truth.gyro,
         field_N=field_of(testbed),
+        truth=truth,
     )

@@ -4,11 +4,10 @@
     slip      mu  += m shift         attitude and H go on as they were, and so does J: the part is
                                      taken to slip by so little that m d^2 does not count
 
-An event is felt after its moment: the state and the rate at its node are those just before.
+An event acts after its moment: the state and the rate at its node are those just before.
 """
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from equipoise.maths.attitude import to_matrix
 from equipoise.model.arrays import Floats, Series1, Vector3
 from equipoise.model.defects import ComStep, Contact
 from equipoise.simulation.clock import tick, tick_one
-from equipoise.simulation.motion import Path, run
+from equipoise.simulation.motion import Path, in_pieces, run
 
 Event = Contact | ComStep
 
@@ -59,13 +58,10 @@ def run_through(
     if not contacts and not steps:
         return run(body, maps, y, t, known)
     happens = np.isin(t[1:-1], times([*contacts, *steps]))
-    edges = [0, *(np.flatnonzero(happens) + 1), len(t) - 1]
-    path = Path(np.zeros((len(t), len(y))), np.zeros((len(t), 3)))
-    path.y[0] = y
-    for a, b in pairwise(edges):
-        start = struck(path.y[a], contacts, t[a])
-        part = run(slipped(body, steps, t[a]), maps, start, t[a : b + 1], known[a : b + 1])
-        path.y[a + 1 : b + 1], path.rate[a + 1 : b + 1] = part.y[1:], part.rate[1:]
-        if a == 0:
-            path.rate[0] = part.rate[0]
-    return path
+
+    def follow(here: Floats, piece: slice) -> Path:
+        now = float(t[piece.start])
+        start = struck(here, contacts, now)
+        return run(slipped(body, steps, now), maps, start, t[piece], known[piece])
+
+    return in_pieces([0, *(np.flatnonzero(happens) + 1).tolist(), len(t) - 1], y, follow)

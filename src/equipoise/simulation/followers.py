@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.model.arrays import Floats, Series1
+from equipoise.model.arrays import Bools, Floats, Series1
 from equipoise.simulation.clock import tick
 
 SETTLES = 8.0  # lags after which what is left of a step no longer counts, chosen: e^-8 = 3e-4
@@ -60,45 +60,40 @@ def driven(
 
     What is not named goes on as it was, pulses to their end.
     """
-    past = devices.t < now
-    kept = replace(devices, t=devices.t[past], goal=devices.goal[past], y=devices.y[past],
-                   Y=devices.Y[past])  # fmt: skip
-    goal, ends = _goal_at(devices, now).copy(), devices.ends.copy()
+    past, latest = _rows(devices, devices.t < now), int(np.searchsorted(devices.t, now, "right"))
+    goal, ends = devices.goal[max(latest - 1, 0)].copy(), devices.ends.copy()
     for i, value in goals.items():
         goal[i] = value
         ends[i] = now + lasting[i] if i in lasting else -np.inf
-    found = _with_row(kept if past.any() else devices, now, goal, bool(past.any()))
+    found = _with_row(past if len(past.t) else devices, past, now, goal)
     for end in np.unique(tick(ends[ends > now])):
         goal = np.where(tick(ends) == end, 0.0, found.goal[-1])
-        found = _with_row(found, float(end), goal, True)
+        found = _with_row(found, found, float(end), goal)
     return replace(found, ends=ends)
 
 
-def _goal_at(devices: Followers, t: float) -> Floats:
-    return devices.goal[max(int(np.searchsorted(devices.t, t, side="right")) - 1, 0)]
+def _rows(devices: Followers, keep: Bools | slice) -> Followers:
+    """Return the devices with some of their inputs."""
+    return replace(devices, t=devices.t[keep], goal=devices.goal[keep], y=devices.y[keep],
+                   Y=devices.Y[keep])  # fmt: skip
 
 
-def _with_row(devices: Followers, t: float, goal: Floats, keep: bool) -> Followers:
-    """Return the devices with one more input, after those they have or (not ``keep``) alone."""
+def _with_row(devices: Followers, past: Followers, t: float, goal: Floats) -> Followers:
+    """Return the devices given an input at ``t`` (s), after the inputs of ``past``."""
     y, Y = followed(devices, np.array([t]))
-    if not keep:
-        return replace(devices, t=np.array([t]), goal=goal[None], y=y, Y=Y)
     return replace(
-        devices,
-        t=np.append(devices.t, t),
-        goal=np.vstack([devices.goal, goal]),
-        y=np.vstack([devices.y, y]),
-        Y=np.vstack([devices.Y, Y]),
+        past,
+        t=np.append(past.t, t),
+        goal=np.vstack([past.goal, goal]),
+        y=np.vstack([past.y, y]),
+        Y=np.vstack([past.Y, Y]),
     )
 
 
 def without_past(devices: Followers, before: float) -> Followers:
     """Return the devices without what only matters before a time (s)."""
     first = max(int(np.searchsorted(devices.t, before, side="right")) - 1, 0)
-    if first == 0:
-        return devices
-    return replace(devices, t=devices.t[first:], goal=devices.goal[first:], y=devices.y[first:],
-                   Y=devices.Y[first:])  # fmt: skip
+    return _rows(devices, slice(first, None))
 
 
 def bends(devices: Followers, start: float, end: float) -> Series1:

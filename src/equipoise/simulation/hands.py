@@ -2,8 +2,7 @@
 
 Every weight has its own mass and every place its own error, drawn once: what is taken off is what
 was put on. Each swing is a simulated bench of its own, whose truth is the platform as loaded; it is
-let go within ``truth.tilt`` of level and caught at the tilt limit, or when the person has seen
-enough.
+let go within ``truth.tilt`` of level and caught at the tilt limit, or after ``ENOUGH`` seconds.
 """
 
 from dataclasses import replace
@@ -28,7 +27,8 @@ class SimulatedHands:
     """The verbs of ``model.hands.Hands``; the seed's platform is that of the simulated bench."""
 
     def __init__(self, testbed: Testbed, seed: int) -> None:
-        self._testbed, self._seed, self._swings, self._time = testbed, seed, 0, 0.0
+        self.testbed = testbed  # as stated, without any weights
+        self._seed, self._swings, self._time = seed, 0, 0.0
         self._platform = SimulatedBench(testbed, seed).platform.body
         rng = np.random.default_rng(np.random.SeedSequence(seed).spawn(9)[-1])
         self._box: list[list[float]] = [
@@ -43,11 +43,6 @@ class SimulatedHands:
         self._loading = unloaded(testbed.grids, testbed.weights)
 
     @property
-    def testbed(self) -> Testbed:
-        """What is known of it beforehand, without any weights."""
-        return self._testbed
-
-    @property
     def time(self) -> float:
         """Time recorded so far, s."""
         return self._time
@@ -58,14 +53,14 @@ class SimulatedHands:
         seed = np.random.SeedSequence([self._seed, self._swings]).generate_state(1)[0]
         bench = SimulatedBench(self._as_loaded(), int(seed))
         parts = [bench.read(GLANCE)]
-        while bench.time < ENOUGH and bench.tilt_now() <= self._testbed.tilt_limit:
+        while bench.time < ENOUGH and bench.tilt_now() <= self.testbed.tilt_limit:
             parts.append(bench.read(GLANCE))
         self._time += bench.time
         return joined(parts)
 
     def place(self, wanted: Ints) -> Ints:
         """Load the platform as wanted: first what comes off, then what goes on."""
-        why = refusal(self._testbed, wanted)
+        why = refusal(self.testbed, wanted)
         if why:
             raise InputError("placing", why, "what stock and piles allow")
         change = wanted - self._loading
@@ -86,11 +81,11 @@ class SimulatedHands:
 
     def _load(self) -> Load:
         mass, moment, inertia = 0.0, np.zeros(3), np.zeros((3, 3))
-        for p, place in enumerate(places_of(self._testbed.grids)):
+        for p, place in enumerate(places_of(self.testbed.grids)):
             if not self._loading[p].any():
                 continue
             real = [m for pile in self._piles[p] for m in pile]
-            middles = stages(place, self._testbed.weights, self._loading[p])
+            middles = stages(place, self.testbed.weights, self._loading[p])
             for m, (_, middle) in zip(real, middles, strict=True):
                 x = middle + self._off[p]
                 mass, moment, inertia = mass + m, moment + m * x, inertia + parallel_axis(m, x)
@@ -98,6 +93,6 @@ class SimulatedHands:
 
     def _as_loaded(self) -> Testbed:
         """Return the testbed that a simulated bench takes for the platform as it is loaded."""
-        body, testbed = self.truth(), self._testbed
+        body, testbed = self.truth(), self.testbed
         truth = replace(testbed.truth or own_truth(testbed), com=body.com, inertia_P=body.inertia_P)
         return replace(testbed, body=body, truth=truth)

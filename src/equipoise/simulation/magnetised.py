@@ -5,7 +5,6 @@ short piece; what the rate changes within a piece, 0.05 s, turns the torque by l
 """
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from equipoise.model.arrays import Floats, Quaternion, Series1, Series3, Vector3
 from equipoise.model.defects import ComStep, Contact
 from equipoise.simulation.clock import tick
 from equipoise.simulation.events import run_through
-from equipoise.simulation.motion import Path
+from equipoise.simulation.motion import Path, in_pieces
 
 PIECE = 0.05  # s, chosen: see above
 
@@ -52,15 +51,11 @@ def run_magnetised(
     """Return the motion as ``events.run_through`` does, with dipoles (n, 3) in a field (T)."""
     whole = np.flatnonzero(tick(t - PIECE * np.round(t / PIECE)) == 0)
     edges = np.unique(np.concatenate([[0], whole, [len(t) - 1]]))
-    path = Path(np.zeros((len(t), len(y))), np.zeros((len(t), 3)))
-    path.y[0] = y
-    for a, b in pairwise(edges):
-        piece, here = slice(a, b + 1), path.y[a]
-        rate = rate_at(body, maps, here, known[a])
+
+    def follow(here: Floats, piece: slice) -> Path:
         torqued = known[piece].copy()
+        rate = rate_at(body, maps, here, torqued[0])
         torqued[:, 3:6] += magnetic_torque(dipole[piece], field_N, t[piece], here[:4], rate)
-        part = run_through(body, maps, here, t[piece], torqued, contacts, steps)
-        path.y[a + 1 : b + 1], path.rate[a + 1 : b + 1] = part.y[1:], part.rate[1:]
-        if a == 0:
-            path.rate[0] = part.rate[0]
-    return path
+        return run_through(body, maps, here, t[piece], torqued, contacts, steps)
+
+    return in_pieces(edges.tolist(), y, follow)

@@ -9,6 +9,8 @@ short enough for the fastest of what may happen at their start:
 so that the motion depends on the nodes alone, not on how they are cut into runs.
 """
 
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +33,22 @@ class Path(NamedTuple):
 
     y: Floats  # (n, 7) attitude, then angular momentum about P in body axes, N m s
     rate: Floats  # (n, 3) rad/s
+
+
+def in_pieces(edges: Sequence[int], y: Floats, follow: Callable[[Floats, slice], Path]) -> Path:
+    """Return the motion from state ``y``, followed piece by piece between nodes (``edges``).
+
+    ``follow`` returns the motion along a slice of nodes, from the state at its first.
+    """
+    nodes = edges[-1] + 1
+    path = Path(np.zeros((nodes, len(y))), np.zeros((nodes, 3)))
+    path.y[0] = y
+    for a, b in pairwise(edges):
+        part = follow(path.y[a], slice(a, b + 1))
+        path.y[a + 1 : b + 1], path.rate[a + 1 : b + 1] = part.y[1:], part.rate[1:]
+        if a == 0:
+            path.rate[0] = part.rate[0]
+    return path
 
 
 @part

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from equipoise.maths.compiled import kernel
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Series1, Series3
 from equipoise.simulation.clock import tick
 
@@ -77,5 +78,4 @@ def torque_at(noise: NoiseTorque, t: Series1) -> Series3:
     """Return the torque at times within what was drawn; as at time zero before it, N m."""
     if noise.sd == 0:
         return np.zeros((len(t), 3))
-    axes: list[Floats] = [np.interp(t, noise.t, axis) for axis in noise.values.T]
-    return np.column_stack(axes)
+    return read_at(t, noise.t, noise.values)

@@ -13,7 +13,7 @@ Moves = Sequence[tuple[float, Mapping[str, float]]]
 
 
 class Command(NamedTuple):
-    """What a bench is told at a time (s): targets of masses (m), inputs of devices."""
+    """What a bench is commanded at a time (s): targets of masses (m), inputs of devices."""
 
     t: float
     targets: Mapping[str, float]
@@ -31,7 +31,7 @@ def recorded(bench: Bench, duration: float, moves: Moves) -> Recording:
 
 
 def commanded(bench: Bench, duration: float, commands: Sequence[Command]) -> Recording:
-    """Return ``duration`` seconds of a fresh bench that is told these in order."""
+    """Return ``duration`` seconds of a fresh bench that gets these commands in order."""
     recording = bench.read(0.0)
     for command in commands:
         if not bench.time <= command.t <= duration:

@@ -33,7 +33,7 @@ def heading(q: Floats, up: Vector3) -> Floats:
 
 
 def misread(q: Floats, errors: CameraErrors, up: Vector3) -> Floats:
-    """Return attitudes as a camera sees them whose laboratory leans and whose error turns."""
+    """Return attitudes from a camera whose laboratory leans and whose error turns with heading."""
     plumb, c, s = errors.plumb, errors.heading_cos, errors.heading_sin
     if not np.any([plumb, c, s]):
         return q

@@ -62,7 +62,7 @@ class LawSummary:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Comparison:
-    """What was asked, and what came of it."""
+    """The request, and its results."""
 
     testbed: Testbed
     seeds: Sequence[int]

@@ -10,7 +10,7 @@ the truth (``method_run``). Over the runs that ended in a usable estimate:
     coverage         95 % intervals that hold the truth; an estimate that warns of its own intervals
                      states none
     NEES             mean of e^T P^-1 e / n over the same runs; 1 where covariances are true
-    confident wrong  runs with an interval that is believed and misses by more than 5 sd (``WRONG``)
+    confident wrong  runs with an interval that misses by more than 5 sd (``WRONG``) unwarned
 
 Runs that failed are counted and are in no statistic. A method that gives nothing in hard cases is
 easily better than its bound in the others: read the failures first.
@@ -78,7 +78,7 @@ class MethodSummary:
     confident_wrong: int
     time: float  # s of the processor, median of the runs that were not refused
     memory: int | None  # bytes, greatest that was measured
-    settled: float | None  # s, median; infinite: mostly never; None: it tells no course
+    settled: float | None  # s, median; infinite: mostly never; None: it states no course
 
     @property
     def failed(self) -> int:
@@ -88,7 +88,7 @@ class MethodSummary:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MethodComparison:
-    """What was asked, and what came of it."""
+    """The request, and its results."""
 
     scene: Scene
     seeds: Sequence[int]

@@ -41,7 +41,7 @@ class LawRun:
     seed: int
     offset: Vector3  # m, from the target
     torque: float  # N m, rms over the tilt range
-    followed: float | None  # N m, with masses that follow; None: the law does not tell them what
+    followed: float | None  # N m, with masses that follow; None: the law does not command them
     torque_before: float  # N m, standing, before the run
     time: float  # s on the bench's clock
     travel: float  # m

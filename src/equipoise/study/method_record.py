@@ -6,9 +6,9 @@ does. Rows are prepared as `equipoise identify` prepares them (``procedure.sound
     truth   com with the masses at home when the record begins, com as they stand when it ends, and
             the inertia about P with the masses at home; elastic sag is part of com unless it is
             sought (``SimulatedBench.truth``)
-    bound   the Cramer-Rao bound at that truth, for a fit that is asked the same
+    bound   the Cramer-Rao bound at that truth, for a fit with the same options
 
-No method is told any of this.
+No method knows any of this.
 """
 
 from collections.abc import Mapping
@@ -37,7 +37,7 @@ from equipoise.simulation.record import Moves, recorded
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
-    """What is recorded of each platform, and what is asked of methods."""
+    """What is recorded of each platform, and the options of the methods."""
 
     testbed: Testbed
     duration: float  # s
@@ -82,7 +82,7 @@ def bounds(
     six = pseudo_inertia.from_inertia(platform.body.inertia_C)
     truth = Unknowns(
         platform.attitude, platform.rate, six, platform.body.com, platform.torque,
-        np.zeros(len(sensor_terms.TERMS)), np.zeros(0), platform.gyro_bias,
+        np.zeros(len(sensor_terms.TERMS)), np.zeros(0), platform.truth.gyro_bias,
     )  # fmt: skip
     found = least_sd(recording, testbed, params, truth)
     found = dict(zip(END, (found[name] for name in COM), strict=True)) | found

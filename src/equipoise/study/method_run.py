@@ -4,9 +4,9 @@
     z       e / sd, where the method states an sd
     NEES    e^T P^-1 e / n over what it states, P its covariance: 1 on average if P is true
 
-A method that tells the centre of mass only as the masses stand at the end is judged by that. What
-it takes as known it does not state. What it is worth is not asked of an estimate that the method
-itself calls unusable: that is a failure, and so is a refusal, or an end in an error.
+A method that states the centre of mass only as the masses stand at the end is judged by that. What
+it takes as known it does not state. An estimate that the method itself calls unusable is a failure,
+as is a refusal, or an end in an error.
 
     settled   of a method that goes along the record: the time from which on its error of com is
               below a tenth (``SETTLED``) of that of the testbed's guess; infinite: never
@@ -75,7 +75,7 @@ class MethodRun:
 
     @property
     def stated(self) -> bool:
-        """Say whether intervals were stated that are to be believed."""
+        """Say whether intervals were stated without a warning."""
         return self.ending == "done" and not self.warned and bool(np.any(np.isfinite(self.sd)))
 
 
@@ -105,8 +105,8 @@ def method_run(method: Method, record: JudgedRecord, task: MethodTask) -> Method
 def tried(method: Method, record: JudgedRecord) -> Found:
     """Return the estimate, or why there is none.
 
-    A method that ends in an error it should not end in is counted, and told: a comparison of hours
-    is not lost on it.
+    A method that ends in an unexpected error is counted and reported: it does not cost the rest of
+    a comparison of hours.
     """
     try:
         found = estimated(method, record.recording, record.testbed, record.options)
@@ -146,7 +146,7 @@ def names_in(found: Found) -> tuple[str, ...]:
 
 
 def states(found: Estimate, name: str) -> bool:
-    """Say whether a parameter was sought and seen."""
+    """Say whether a parameter was sought and observable."""
     if not found.has(name):
         return False
     p = found.parameters[found.index(name)]

@@ -3,8 +3,8 @@
 A method qualifies for a group of parameters (com, inertia) if on all records
 
     it failed in no run and missed by more than 5 sd in none,
-    it stated everything in the group that the record shows, and believed its intervals in at least
-    nine runs of ten (``MOSTLY``),
+    it stated everything in the group that the record shows, and did not warn of its intervals in at
+    least nine runs of ten (``MOSTLY``),
     its coverage is not below what chance leaves of 95 % once in a hundred times (``RARE``).
 
 Chance is that of as many draws as there are runs: parameters of one run err together. Intervals
@@ -97,7 +97,7 @@ def advised_method(methods: Sequence[MethodSummary], group: Group) -> Advice:
         sentence += f" Quicker and within {NEAR:g} times its error: {quick.method}, "
         sentence += f"{numbers(quick, group)}."
     if best.runs < FEW:
-        sentence += f" {best.runs} runs are few: more of them tell better who is honest."
+        sentence += f" {best.runs} runs are few: more show better whose intervals are honest."
     return Advice(best.method, sentence)
 
 

@@ -28,7 +28,7 @@ from equipoise.study.method_families import Family
 
 
 class Span(NamedTuple):
-    """From the best to the worst of several; nan where none tells."""
+    """From the best to the worst of several; nan where none is stated."""
 
     best: float
     worst: float
@@ -118,7 +118,7 @@ TABLE_3: dict[Printed, tuple[str, ...]] = {
 
 
 def span(values: Sequence[float | None]) -> Span:
-    """Return the least and the greatest of what is told."""
+    """Return the least and the greatest of what is stated."""
     reported = [value for value in values if value is not None and not np.isnan(value)]
     return Span(min(reported), max(reported)) if reported else Span(np.nan, np.nan)
 

@@ -315,7 +315,7 @@ def test_a_hand_leads_the_platform_back_at_its_own_rate():
         gone = np.linalg.norm(difference(rows.attitude.values, q0), axis=1)
         assert np.abs(gone - np.minimum(0.5 * t, angle)).max() < np.radians(2)
         on_the_way = rows.rate.values[(t > 0.05) & (t < 0.8 * angle / 0.5)]
-        mean = on_the_way.mean(axis=0) - found.emulated.platform.platform.gyro_bias
+        mean = on_the_way.mean(axis=0) - found.emulated.platform.platform.truth.gyro_bias
         assert mean == pytest.approx(0.5 * way / angle, abs=0.01)
 
 

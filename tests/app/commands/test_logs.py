@@ -122,7 +122,8 @@ class Clock:
 def test_a_replay_keeps_its_pace(equipoise, record_file, monkeypatch):
     """Two seconds of the record at four times the speed: waits of half a second in all."""
     clock = Clock()
-    monkeypatch.setattr("equipoise.app.live.replay.time", clock)
+    for module in ("pace", "replay"):
+        monkeypatch.setattr(f"equipoise.app.live.{module}.time", clock)
     words = ("--speed", 4, "--from-s", 10, "--to-s", 12)
     reported = equipoise("replay", record_file, "--testbed", "sputnix", *words)
     assert reported.code == 0

@@ -1,5 +1,6 @@
-"""A runner in this process, and all that it tells."""
+"""A runner in this process, and all its messages."""
 
+import json
 from dataclasses import dataclass, field
 from multiprocessing import Pipe
 from typing import Any
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 from equipoise.app.dashboard.protocol import requests
-from equipoise.app.dashboard.protocol.frames import decoded
+from equipoise.app.dashboard.protocol.frames import HEAD
 from equipoise.app.dashboard.runner.benches import simulated
 from equipoise.app.dashboard.runner.outbox import Post
 from equipoise.app.dashboard.runner.request_handler import Desk
@@ -18,9 +19,21 @@ from equipoise.io.testbed.presets import read_preset
 BALANCE = requests.Balance((0.0, 0.0, -100e-6), (2e-6, 2e-6, 3e-6), "measure_and_move")
 
 
+def decoded(message):
+    """Return bench time and the parts by name of a message of rows."""
+    (size,) = HEAD.unpack_from(message)
+    header = json.loads(message[HEAD.size : HEAD.size + size])
+    values = np.frombuffer(message, "<f8", offset=HEAD.size + size)
+    at, found = 0, {}
+    for name, rows, columns in header["parts"]:
+        found[name] = values[at : at + rows * columns].reshape(rows, columns)
+        at += rows * columns
+    return header["t"], found
+
+
 @dataclass
 class Reported:
-    """What the runner has told, by kind, and what is to be asked when something is told."""
+    """Messages of the runner, by kind, and what is to be done at each."""
 
     about: list[dict] = field(default_factory=list)
     steps: list[dict] = field(default_factory=list)

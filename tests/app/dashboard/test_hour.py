@@ -20,7 +20,7 @@ def test_a_quarter_of_a_minute_at_100_hz_costs_little():
 
 
 def test_growth_is_the_relative_change_from_the_first_sample_to_the_last():
-    """100, 105, 110 MB: ten of 105; a look that is high in the middle alone is none."""
+    """100, 105, 110 MB: ten of 105; a curve that is high in the middle alone is none."""
     assert growth([at(100.0), at(105.0), at(110.0)], "server") == pytest.approx(10 / 105)
     assert growth([at(100.0), at(130.0), at(100.0)], "server") == pytest.approx(0.0)
 

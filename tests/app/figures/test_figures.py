@@ -12,7 +12,8 @@ import pytest
 
 from equipoise.app.figures.balancing.balanced_com import Story
 from equipoise.app.figures.base.files import rendered
-from equipoise.app.figures.base.style import MOST, STYLE, thinned
+from equipoise.app.figures.base.strokes import MOST, thinned
+from equipoise.app.figures.base.style import STYLE
 from equipoise.app.figures.catalogue import of_balancing, of_fit, of_move, of_tracking
 from equipoise.app.figures.recording import record
 from equipoise.app.runs.demonstration import measured

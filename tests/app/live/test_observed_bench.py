@@ -1,4 +1,4 @@
-"""Who looks on at a bench sees each row once and soon; who reads gets what there was without."""
+"""An onlooker gets each row of a bench once and soon; readings are as without one."""
 
 import math
 from dataclasses import replace

@@ -95,7 +95,7 @@ def test_unknown_quantities_are_not_shown():
     found = view()
     sd = np.array([1e-7, np.inf, 1e-6])
     found.step(Step("verify", 4.0, VERDICT.reasons, verdict=replace(VERDICT, sd=sd)))
-    assert any("y not seen" in line for line in drawn(found))
+    assert any("y unobservable" in line for line in drawn(found))
 
 
 def test_recording_progress_shows_share_file_and_rows_of_each_channel(tmp_path):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from equipoise.assessment.findings.record_findings import findings, problems
+from equipoise.assessment.findings.record_findings import findings
 from equipoise.assessment.record_checks.attitude_noise import attitude_noise
 from equipoise.assessment.record_checks.gyro_consistency import correlation, rate_pairs
 from equipoise.assessment.record_checks.quantisation import step_of
@@ -106,7 +106,8 @@ def test_gaps_are_found_with_their_span() -> None:
     """1000 rows lost from 20 s on."""
     q, _ = swing(np.random.default_rng(3))
     keep = np.r_[0:1001, 2000:3000]
-    found = problems(findings(Recording(attitude=Samples(T[keep], q[keep]))))
+    found = findings(Recording(attitude=Samples(T[keep], q[keep])))
+    found = [finding for finding in found if finding.kind == "problem"]
     assert [f.span for f in found] == [(pytest.approx(20.0), pytest.approx(40.0))]
     assert "a gap of 20 s at 20 s" in found[0].sentence
 
@@ -172,7 +173,7 @@ def test_what_reading_mended_is_passed_on() -> None:
 
 
 def test_steps_finer_than_the_noise_are_no_problem() -> None:
-    """Rounding to a tenth of the noise is told, as content."""
+    """Rounding to a tenth of the noise is reported, as content."""
     recording = recorded(lambda w: np.round(w / 1e-4) * 1e-4)
     assert "steps" not in said(recording)
     assert "gyro x comes in steps of 0.00573 deg/s" in said(recording, "content")

@@ -38,14 +38,14 @@ def test_the_deviation_of_pure_measurement_noise_falls_with_the_root_of_the_coun
 
 
 def test_a_walk_grows_with_the_root_of_time():
-    """c sqrt(m T / 3), where means of m looks are long against one look."""
+    """c sqrt(m T / 3), where means of m estimates are long against one estimate."""
     squares = [allan_deviation(walk(s), 16) ** 2 for s in range(60)]
     expected = 1e-8 * np.sqrt(16 * 60.0 / 3)
     assert np.sqrt(np.mean(squares)) == pytest.approx(expected, rel=0.08)
 
 
 def test_drift_and_walk_are_found_with_honest_doubt():
-    """1 nm/s under a walk and errors of looks: sixty courses, errors as large as stated."""
+    """1 nm/s under a walk and white errors: sixty courses, errors as large as stated."""
     true, off, walks = np.array([1e-9, 0.0, -3e-10]), [], []
     for seed in range(60):
         found = wander_of(T, noise(seed) + walk(seed + 100) + T[:, None] * true, SD)

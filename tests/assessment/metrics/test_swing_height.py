@@ -1,4 +1,4 @@
-"""Which swing is which, and the height that it tells."""
+"""Which swing is which, and the height that follows from it."""
 
 from dataclasses import replace
 
@@ -45,7 +45,7 @@ def test_a_swing_alone_is_named_by_its_direction():
 
 
 def test_two_indistinguishable_swing_modes_are_reported_as_one():
-    """Thirty seconds: 15 % of a period of 27 s cannot be seen."""
+    """Thirty seconds: 15 % of a period of 27 s cannot be resolved."""
     (both,) = reported(swing(0.5 * (SLOW + QUICK), (0.7, 0.7)), duration=30.0)
     assert both.mode is None
     assert abs(both.moment - MOMENT) < both.sd
@@ -58,7 +58,7 @@ def test_an_overtone_is_no_swing():
 
 
 def test_a_spin_goes_into_the_height():
-    """Told without it the height is off by more than its sd."""
+    """Without it the height is off by more than its sd."""
     rates = swing_rates(MOMENT, J, DOWN, 0.05) / (2 * np.pi)
     pair = swing(rates[0]), swing(rates[1], (0.0, 1.0))
     assert reported(*pair, spin=0.05)[0].moment == pytest.approx(MOMENT, rel=1e-9)

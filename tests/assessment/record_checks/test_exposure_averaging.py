@@ -139,7 +139,7 @@ def test_the_rows_of_a_sensor_with_the_window_stand_for_the_same_moments() -> No
 
 
 def test_the_testbed_is_held_against_the_record() -> None:
-    """0.0968 s is told by the record; 0 s and 0.05 s are wrong by more than matters."""
+    """0.0968 s is shown by the record; 0 s and 0.05 s are wrong by more than matters."""
     rows = means(3.0, 0.025 * np.arange(4))
     bed = read_preset("sputnix")
     assert bed.attitude is not None

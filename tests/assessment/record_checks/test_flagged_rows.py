@@ -22,7 +22,7 @@ SPIN = np.radians([0.5, 10.0, 105.0, 280.0])
 
 
 def motion(t: np.ndarray, spin: float) -> np.ndarray:
-    """A tilt that swings by 5 deg within seconds and, seen from the body, goes round with it."""
+    """A tilt that swings by 5 deg within seconds and, in body axes, goes round with it."""
     tilt = np.radians(5) * np.stack([np.cos(1.9 * t), np.sin(1.3 * t), 0 * t], axis=-1)
     heading = spin * (t - t**2 / 400)
     return multiply(exponential(tilt), exponential(heading[:, None] * [0.0, 0.0, 1.0]))

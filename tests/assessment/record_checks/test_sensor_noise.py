@@ -46,7 +46,7 @@ def test_without_steps_the_stated_noise_stays() -> None:
 
 @pytest.mark.parametrize(("step", "wanted"), [(0.0, NOISE), (STEP, np.sqrt(21) * 1e-3)])
 def test_a_gyro_that_nobody_described(step, wanted) -> None:
-    """White noise by third differences to some per cent; rounded rows tell it to a third."""
+    """White noise by third differences to some per cent; rounded rows show it to a third."""
     found = shown_gyro(rates(NOISE, step), None)
     assert found is not None
     assert found.noise == pytest.approx(wanted, rel=0.35 if step else 0.05)
@@ -72,7 +72,7 @@ def test_a_camera_that_nobody_described() -> None:
 def test_assumed_sensor_noise_is_reported() -> None:
     testbed, recording = builders.platform(), Recording(rate=rates(0.01))
     (reported,) = unstated_findings(recording, testbed)
-    # 0.01 rad/s = 0.573 deg/s, told to some per cent by 4000 rows
+    # 0.01 rad/s = 0.573 deg/s, estimated to some per cent from 4000 rows
     assert "no sensor.gyro: its noise is taken as 0.5" in reported.sentence
     assert unstated_findings(recording, builders.platform(gyro=True)) == []
     assert unstated_findings(recording, None) == []

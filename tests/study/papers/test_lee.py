@@ -1,4 +1,4 @@
-"""Lee et al.'s slews: angles about a vertical roll axis, a singularity, and what rows tell in time.
+"""Lee et al.'s slews: angles about a vertical roll axis, a singularity, estimates as rows grow.
 
 A short slew is enough for what is exact; what the methods make of whole ones is in
 `tests/statistical/test_lee.py`.

@@ -6,10 +6,10 @@ from dataclasses import replace
 from equipoise.app.arguments import checks
 from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
-from equipoise.app.runs.simulation import bench_of
 from equipoise.model.bench import Bench
 from equipoise.model.step import Step
 from equipoise.procedure.balancing.catalogue import CARDS, OWN
+from equipoise.simulation.carried_out import bench_for
 
 Triple = tuple[float, float, float]
 
@@ -72,5 +72,5 @@ def balance(
     bed = platform.testbed if own else testbed_from(platform)
     if plan is not None:
         limits = replace(limits, plan=plan_from(plan, bed).manoeuvre)
-    bench = platform if own else bench_of(bed, checks.seed_of(seed), limits.plan)
+    bench = platform if own else bench_for(bed, limits.plan, checks.seed_of(seed))
     return run(bench, goal, limits, on_step)

@@ -4,9 +4,10 @@ from collections.abc import Mapping, Sequence
 
 from equipoise.app.arguments.checks import positive, seed_of
 from equipoise.app.arguments.inputs import AnyPlan, AnyTestbed, plan_from, testbed_from
-from equipoise.app.runs.simulation import free_swing, planned_swing
 from equipoise.model.errors import InputError
 from equipoise.model.recording import Recording
+from equipoise.simulation.carried_out import simulated
+from equipoise.simulation.record import record
 
 USUAL = 120.0  # s
 
@@ -46,7 +47,7 @@ def simulate(
     bed, drawn = testbed_from(testbed), seed_of(seed)
     if plan is None:
         length = positive("duration", USUAL if duration is None else duration)
-        return free_swing(bed, length, moves, drawn)
+        return record(bed, length, moves, drawn)
     if moves or duration is not None:
         raise InputError("plan", "moves or duration beside it", "the plan alone")
-    return planned_swing(bed, plan_from(plan, bed).manoeuvre, drawn)
+    return simulated(bed, plan_from(plan, bed).manoeuvre, drawn)

@@ -47,7 +47,7 @@ class HeldPlatform:
         if gyro is not None:
             t = samples(gyro.rate, after, until)
             w = np.where(self._share_left(t)[:, None] > 0, self._way / self._takes, 0.0)
-            rows = gyro_rows(w[:, None], gyro, self._truth.gyro_bias, self._rng)
+            rows = gyro_rows(w[:, None], gyro, self._truth.truth.gyro_bias, self._rng)
             rate = Samples(t, rows)
         return Recording(attitude, rate)
 

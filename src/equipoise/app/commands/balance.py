@@ -91,14 +91,14 @@ def balance(
     with busy("preparing the bench", announce=False):
         from equipoise.app.logbook.output import hand_over_run
         from equipoise.app.runs.balancing import Goal, Limits, run
-        from equipoise.app.runs.simulation import bench_of
         from equipoise.app.runs.terminal_waiting import at_terminal, show_step
         from equipoise.app.views.balance_views import output_of
         from equipoise.procedure.balancing.catalogue import CARDS
+        from equipoise.simulation.carried_out import bench_for
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
         goal = Goal(*where)
-        simulated = None if on_bench.bench else bench_of(bed, seed, planned)
+        simulated = None if on_bench.bench else bench_for(bed, planned, seed)
     if simulated is None:
         prepare(bed, goal, limits, on_bench)
     with let_go(bed, on_bench) if simulated is None else nullcontext(simulated) as bench:

@@ -67,7 +67,7 @@ def plan(
     check_outputs(out, write)
     earlier = None if prior_record is None else fitting_recording_of(str(prior_record), WHOLE, bed)
     from equipoise.app.logbook.output import hand_over
-    from equipoise.app.runs.planning import Request, plan_file_of, run
+    from equipoise.app.runs.planning import Request, run
     from equipoise.app.runs.terminal_waiting import AT_TERMINAL
     from equipoise.app.views.plan_views import output_of
 
@@ -80,6 +80,6 @@ def plan(
         from equipoise.app.console.terminal import show_paths
         from equipoise.io.documents.plan_file import write_plan
 
-        write_plan(plan_file_of(done), bed, write)
+        write_plan(done.plan, bed, write)
         show_paths([write], json)
     return 0 if done.planned.keeps else 1

@@ -47,12 +47,13 @@ def simulate(
         raise InputError("--plan", "--move or --duration-s beside it", "the plan alone")
     check_writable(out)
     with busy("simulating"):
-        from equipoise.app.runs.simulation import free_swing, planned_swing
+        from equipoise.simulation.carried_out import simulated
+        from equipoise.simulation.record import record
 
         recording = (
-            free_swing(bed, duration, moves, drawn)
+            record(bed, duration, moves, drawn)
             if planned is None
-            else planned_swing(bed, planned.manoeuvre, drawn)
+            else simulated(bed, planned.manoeuvre, drawn)
         )
         write_recording(recording, out)
     show_paths([out])

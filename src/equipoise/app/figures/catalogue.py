@@ -1,4 +1,4 @@
-"""Which figures tell a fit, a track, a move and a balancing run; names, captions, drawings."""
+"""Figures of a fit, a track, a move and a balancing run; names, captions, drawings."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -63,7 +63,7 @@ def of_fit(recording: Recording, testbed: Testbed, motions: FitMotions) -> Itera
 
 
 def of_course(recording: Recording, estimate: Estimate) -> Iterator[Picture]:
-    """Yield the centre of mass along the record, of a method that tells it with its sd."""
+    """Yield the centre of mass along the record, of a method that states it with its sd."""
     course = estimate.course
     if course is None or not set(COM) <= set(course.names) or not np.all(np.isfinite(course.sd)):
         return

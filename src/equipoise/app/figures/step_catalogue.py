@@ -1,4 +1,4 @@
-"""Which figure tells a step of a procedure."""
+"""The figure that shows a step of a procedure."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -15,7 +15,7 @@ SPAN = 60  # s, chosen: so far back tilts are kept
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Newest:
-    """Never changed: whoever draws it in another thread sees what belongs together."""
+    """Never changed: another thread that draws it gets numbers that belong together."""
 
     time: float = 0.0  # s, of the newest row
     tilt: float | None = None  # rad

@@ -1,4 +1,4 @@
-"""A bench of which somebody sees every row soon after it was heard, also within a long reading."""
+"""A bench whose rows an onlooker gets soon after they arrive, also within a long reading."""
 
 from collections.abc import Callable
 
@@ -13,15 +13,15 @@ ROUNDING = 1e-6  # s, chosen: a clock of whole nanoseconds may end a reading so 
 
 
 class WatchedBench(OuterBench):
-    """The same bench, its readings cut into slices for who looks on.
+    """The same bench, its readings cut into slices for an onlooker.
 
     A reading is made of slices of ``slice_s`` seconds; ``inf``: of one. ``between`` is called
     before each slice and may raise to stop; ``onlooker`` gets the rows after each. An onlooker
-    that fails is told of and left out: who looks on does not stop a bench.
+    that fails is reported and dropped: observation does not stop a bench.
 
     What was read before something raised within a reading is given by the next one. A real bench's
     slice lasts until some sensor has given a row, so that a reading may end so much later. A
-    simulated bench tells where masses are at both ends of a reading: slices add rows of those.
+    simulated bench reports where masses are at both ends of a reading: slices add such rows.
     """
 
     def __init__(

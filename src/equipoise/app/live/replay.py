@@ -1,5 +1,6 @@
-"""A recording shown at a speed: the clock, what a person sees, the others who look on."""
+"""A recording shown at a speed: the clock, the lines for a person, other onlookers."""
 
+import math
 import time
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
@@ -11,6 +12,7 @@ from rich.live import Live
 from equipoise.app.console.terminal import stdout
 from equipoise.app.live.latest_rows import Newest, after, masses_of, tilt_of, time_of
 from equipoise.app.live.observed_bench import Onlooker
+from equipoise.app.live.pace import Pace
 from equipoise.app.live.status_block import TerminalView
 from equipoise.hardware.bench.replayed_bench import RecordingEnded, ReplayedBench
 from equipoise.io.formats.clock_units import nanoseconds
@@ -21,21 +23,8 @@ FRAME = 0.1  # s, chosen: as often as a person can follow numbers
 LINE = 1.0  # s of the recording from line to line, where there is no terminal (chosen)
 
 
-class Pace:
-    """A wait that keeps to a speed over all readings, whatever each of them takes."""
-
-    def __init__(self, speed: float) -> None:
-        self._speed, self._due = speed, time.monotonic()
-
-    def __call__(self, duration: float) -> None:
-        """Wait until a reading of this length (s of the recording) is over."""
-        if self._speed:
-            self._due += duration / self._speed
-            time.sleep(max(self._due - time.monotonic(), 0.0))
-
-
 def begun_ns(recording: Recording) -> int:
-    """Return UTC at the recording's time zero (ns), as if its first row were seen now."""
+    """Return UTC at the recording's time zero (ns), as if its first row arrived now."""
     return time.time_ns() - nanoseconds(recording.span[0])
 
 
@@ -43,7 +32,8 @@ def replayed(
     testbed: Testbed, recording: Recording, speed: float, onlookers: Sequence[Onlooker]
 ) -> None:
     """Show a recording from its beginning to its end; 0: as fast as possible."""
-    bench = ReplayedBench(testbed, recording, Pace(speed))
+    pace = Pace(speed, lagging=math.inf)  # readings keep to the speed, whatever each takes
+    bench = ReplayedBench(testbed, recording, lambda passed: time.sleep(pace.wait(passed)))
     step = FRAME * (speed or LINE / FRAME)
     while True:
         try:

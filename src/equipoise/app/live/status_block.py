@@ -1,8 +1,8 @@
-"""What a person sees of a bench while something runs: the newest numbers, as a block of lines.
+"""The newest numbers of a bench while something runs, as a block of lines at the terminal.
 
 A view: every number was measured or is a procedure's. The block stands above the sign of life
-(``terminal.busy``) and is drawn by rich's thread, which must neither stop a bench nor be seen by
-who prints results: so it draws what never changes, and what it cannot draw it says.
+(``terminal.busy``) and is drawn by rich's thread, which must neither stop a bench nor disturb the
+printing of results: so it draws what never changes, and says what it cannot draw.
 """
 
 import math
@@ -33,7 +33,7 @@ AXES = "xyz"
 
 
 class TerminalView:
-    """The newest numbers of a bench, to be drawn at any time; ``rows`` and ``step`` tell them."""
+    """The newest numbers of a bench, to be drawn at any time; ``rows`` and ``step`` update them."""
 
     def __init__(self, testbed: Testbed) -> None:
         self.testbed, self.newest = testbed, Newest()
@@ -91,7 +91,7 @@ class TerminalView:
         return [f"{INDENT}{name}{drawn} to {greatest:.1f} deg, {seconds} s"]
 
     def _offset(self) -> list[str]:
-        """Return the last that was told of the centre of mass, um."""
+        """Return the last estimate of the centre of mass, um."""
         estimated = None if self._step is None else com_after(self._step)
         if self._step is None or estimated is None:
             return []
@@ -128,9 +128,9 @@ def filled(group: Sequence[str], width: int) -> list[str]:
 
 
 def watched_by(view: TerminalView, bench: Bench) -> Bench:
-    """Return a bench whose rows a view sees, if there is a terminal to draw it at.
+    """Return a bench whose rows a view gets, if there is a terminal to draw it at.
 
-    A simulated bench is not cut into slices: it is faster than anybody can look.
+    A simulated bench is not cut into slices: it is faster than anybody can read.
     """
     if not stderr().is_interactive:
         return bench
@@ -140,4 +140,4 @@ def watched_by(view: TerminalView, bench: Bench) -> Bench:
 
 def _um(value: float, sd: float) -> str:
     """Return a coordinate in the digits of the steps' sentences."""
-    return f"{fixed(value, 1)} +/- {fixed(sd, 1)}" if math.isfinite(sd) else "not seen"
+    return f"{fixed(value, 1)} +/- {fixed(sd, 1)}" if math.isfinite(sd) else "unobservable"

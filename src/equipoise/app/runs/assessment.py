@@ -77,7 +77,7 @@ def _assessed(
 
 def _along(done: Assessment, seconds: float, waiting: Waiting) -> OverHours:
     """Return the centre of mass window by window, at the inertia that was found."""
-    with waiting.doing("looking again and again"):
+    with waiting.doing("estimating window by window"):
         return metrics_over_hours(
             done.recording, done.testbed, seconds, done.estimate.outcome.usable
         )

@@ -7,7 +7,7 @@ import numpy as np
 
 from equipoise.app.bench.bench_proxy import RecordedBench
 from equipoise.app.figures.balancing.balanced_com import Marked
-from equipoise.app.runs.waiting import as_they_come
+from equipoise.app.runs.waiting import as_they_come, shown
 from equipoise.app.text.before_after import Change
 from equipoise.app.text.com_estimate import ComEstimate, com_after
 from equipoise.model.arrays import Matrix3, Vector3
@@ -93,18 +93,13 @@ class Limits:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Through:
-    """How somebody looks on: what the procedure sees of the bench, how its steps are awaited."""
+    """How a run is observed: the bench as the procedure gets it, how its steps are awaited."""
 
     observe: Callable[[Bench], Bench]
     awaited: Callable[[Iterator[Step], str], Iterator[Step]]
 
 
-def unobserved(bench: Bench) -> Bench:
-    """Return the bench as it is: nobody looks on."""
-    return bench
-
-
-QUIETLY = Through(unobserved, as_they_come)
+QUIETLY = Through(lambda bench: bench, as_they_come)  # nobody observes
 
 
 def run(
@@ -117,7 +112,7 @@ def run(
     """Balance a bench, show each step as it comes; Ctrl-C halts the bench.
 
     What stops a real bench, a person's Ctrl-C too, is the last step. The truth is known of a
-    simulated one alone. Who looks on is as ``through`` says.
+    simulated one alone. ``through`` says how the run is observed.
     """
     simulated = bench if isinstance(bench, SimulatedBench) else None
     before = None if simulated is None else simulated.truth()
@@ -126,9 +121,7 @@ def run(
     truths: list[MassProperties] = []
     try:
         awaited = until_stopped(recorded, procedure(recorded, goal, limits))
-        for step in through.awaited(awaited, "balancing"):
-            if on_step is not None:
-                on_step(step)
+        for step in shown(through.awaited(awaited, "balancing"), on_step):
             steps.append(step)
             if simulated is not None:
                 truths.append(simulated.truth())
@@ -139,7 +132,7 @@ def run(
         steps.append(stop_step(bench, VerdictReason.STOPPED_BY_HAND, reported))
         if on_step is not None:
             on_step(steps[-1])
-    # A look of a law's may hold what is not known; its estimate is no belief to begin with.
+    # A law's first estimate may hold parameters that are not known: it is no prior.
     body, sd = bench.testbed.body, bench.testbed.com_sd
     known = None if limits.law == OWN.name else ComEstimate(body.com, sd)
     planned = limits.plan is not None and bool(truths)
@@ -177,7 +170,7 @@ def stop_step(bench: Bench, code: VerdictReason, *about: str, **numbers: Number)
 
 
 def procedure(bench: Bench, goal: Goal, limits: Limits) -> Iterator[Step]:
-    """Return the steps of balancing and, when that passes and it is asked for, of holding."""
+    """Return the steps of balancing and, when that passes and a hold is requested, of holding."""
     holding = HoldOptions(limits.hold, goal.target, goal.tolerance)
     usual = holding.balancing if limits.hold > 0 else BalanceOptions(goal.target, goal.tolerance)
     moves = usual.max_moves if limits.max_moves is None else limits.max_moves

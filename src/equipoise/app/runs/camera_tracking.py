@@ -1,7 +1,7 @@
 """Attitudes from pictures of a board of markers: what `equipoise track` does.
 
 The recording is of the board's axes, turned to the body's by the alignment of the testbed's camera
-where one is told.
+where one is stated.
 """
 
 import math
@@ -41,7 +41,7 @@ class Track:
     t: Sequence[float]  # s
     attitudes: Sequence[Floats]  # quaternions, body to laboratory
     sds: Sequence[float]  # rad, per axis, as stated; none where the port does not hand it on
-    without: int  # pictures in which the board was not seen
+    without: int  # pictures in which the board was not found
     ambiguous: int  # in which two attitudes fitted alike
     broken: int = 0  # that could not be read
 
@@ -114,7 +114,7 @@ def watched_camera(unit: SensorUnit, duration: float, reported: OnProgress) -> T
 
 
 def recording_of_track(track: Track, source: str) -> Recording:
-    """Return what was seen as a recording; InputError if that is nothing."""
+    """Return the attitudes as a recording; InputError if there are none."""
     if not track.t:
         found = f"the board in none of {track.pictures} pictures"
         raise InputError(source, found, "the board, lit evenly, as its settings describe it")

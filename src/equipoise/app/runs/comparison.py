@@ -1,4 +1,4 @@
-"""What laws and methods are compared by, as it is asked for, and the comparison carried out.
+"""A comparison of laws and methods: the request, and its run.
 
 Time of a record is the processor's, so that other work on the machine does not count. Memory is
 the peak of what Python and NumPy allocate meanwhile (``tracemalloc``), which slows the work down:
@@ -45,16 +45,6 @@ class LawGoal:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Request:
-    """Which laws are to be compared, and how."""
-
-    testbed: Testbed
-    cards: Sequence[LawCard]
-    seeds: Sequence[int]
-    goal: LawGoal
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class Names:
     """Which methods and laws are compared; of a kind that is not compared, none."""
 
@@ -74,7 +64,7 @@ class Contest:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Compared(Plotted):
-    """What was compared; None: not asked for."""
+    """What was compared; None: not requested."""
 
     testbed: Testbed
     requested: Mapping[str, str]
@@ -100,13 +90,12 @@ def run_all(contest: Contest, workers: int, waiting: Waiting = QUIET) -> Compare
     if names.methods is not None:
         measured = run_methods(scene, names.methods, seeds, workers, waiting)
     if names.laws is not None:
-        requested = Request(scene.testbed, names.laws, seeds, contest.goal)
-        balanced = run(requested, workers, waiting)
+        balanced = run(contest, names.laws, workers, waiting)
     return Compared(scene.testbed, texts_of(contest), measured, balanced)
 
 
 def texts_of(contest: Contest) -> dict[str, str]:
-    """Return what was asked, as the report has it."""
+    """Return the request, as the report has it."""
     scene, seeds, goal = contest.scene, contest.seeds, contest.goal
     moves = ", ".join(
         f"{t:g}: " + " ".join(f"{name}={d / MM:.6g}" for name, d in targets.items())
@@ -150,16 +139,18 @@ def by_kind(only: Sequence[str], methods: bool, laws: bool) -> tuple[list[str], 
     return [n for n in names if methods and n in METHODS], [n for n in names if n in CARDS]
 
 
-def run(requested: Request, workers: int, waiting: Waiting = QUIET) -> Comparison:
-    """Return the comparison; runs of one platform by all laws come one after the other."""
-    goal = requested.goal
+def run(
+    contest: Contest, cards: Sequence[LawCard], workers: int, waiting: Waiting = QUIET
+) -> Comparison:
+    """Return the comparison of laws; runs of one platform by all laws follow each other."""
+    goal, testbed = contest.goal, contest.scene.testbed
     options = BalanceOptions(goal.target, goal.tolerance, FIRST_MOVES, goal.max_time)
     tasks = [
-        Task(card.name, requested.testbed, seed, options, goal.max_time, goal.tilt)
-        for seed in requested.seeds
-        for card in requested.cards
+        Task(card.name, testbed, seed, options, goal.max_time, goal.tilt)
+        for seed in contest.seeds
+        for card in cards
     ]
-    return compared(tasks, requested.cards, goal.required, waiting.spread(workers, "balancing"))
+    return compared(tasks, cards, goal.required, waiting.spread(workers, "balancing"))
 
 
 def run_methods(

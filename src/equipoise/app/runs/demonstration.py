@@ -1,4 +1,4 @@
-"""The demo: a record with a known move, what it tells, then balancing the same platform."""
+"""The demo: a record with a known move, its estimate, then balancing the same platform."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -10,6 +10,7 @@ from equipoise.app.console.terminal import busy, watched
 from equipoise.app.figures.catalogue import TrueCourse
 from equipoise.app.runs.balancing import Balancing, Goal, Limits, run
 from equipoise.app.runs.terminal_waiting import at_terminal
+from equipoise.app.runs.waiting import shown
 from equipoise.app.text.blocks import Heading
 from equipoise.app.text.com_estimate import at_home
 from equipoise.app.text.estimate_text import estimate_tables
@@ -45,7 +46,7 @@ class Demonstration:
 
     @property
     def estimate(self) -> Estimate:
-        """Return what the record with the known move told."""
+        """Return the estimate from the record with the known move."""
         found = self.identified[-1].estimate
         assert found is not None
         return found
@@ -67,10 +68,8 @@ def run_demo(testbed: Testbed, seed: int, show_step: Callable[[Step], None]) -> 
     show((Heading("1  Identify: free motion, masses moved half way"),), below=True)
     with busy("simulating"):
         recording, truth = measured(SimulatedBench(testbed, seed))
-    steps: list[Step] = []
-    for step in watched(identify(recording, testbed, IdentifyOptions()), "identifying"):
-        show_step(step)
-        steps.append(step)
+    identifying = watched(identify(recording, testbed, IdentifyOptions()), "identifying")
+    steps = list(shown(identifying, show_step))
     estimate = steps[-1].estimate
     assert estimate is not None
     show(estimate_tables(estimate)[:1], below=True)
@@ -89,7 +88,7 @@ def measured(bench: SimulatedBench) -> tuple[Recording, TrueCourse]:
     bed = bench.testbed
     travel = max(abs(d) / bed.mass_named(name).speed for name, d in MOVE.items())
     t = np.array([0.0, MEASURED, MEASURED, MEASURED + travel, 2 * MEASURED])
-    under_way = np.full(3, np.nan)  # the truth is asked for when masses stand
+    under_way = np.full(3, np.nan)  # the truth is taken when masses stand
     return join(first, second), (t, np.array([before, before, under_way, after, after]))
 
 

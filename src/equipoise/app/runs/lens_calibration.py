@@ -16,7 +16,7 @@ LEAST = 3  # squares each way, chosen: fewer have no corner in between
 def lens_from_files(
     files: Sequence[Path], board: Charuco, reported: Callable[[float], None]
 ) -> Calibration:
-    """Return the lens; InputError if files are no pictures of one size, or do not tell it."""
+    """Return the lens; InputError if files are no pictures of one size, or do not determine it."""
     if min(board.columns, board.rows) < LEAST or not board.marker < board.square:
         found = f"{board.columns} x {board.rows} squares of {board.square / MM:g} mm"
         wanted = f"at least {LEAST} each way, and markers smaller than a square"

@@ -9,7 +9,7 @@ from equipoise.app.arguments.inputs import fitting_recording_of
 from equipoise.app.arguments.options import Reading
 from equipoise.app.console.terminal import watched
 from equipoise.app.runs.balancing import Balancing, Goal
-from equipoise.app.runs.recorded_operator import FiledHands
+from equipoise.app.runs.waiting import shown
 from equipoise.app.text.com_estimate import ComEstimate
 from equipoise.io.documents.manual_session import Piles, Round, Session
 from equipoise.io.toml.write_toml import as_written
@@ -44,6 +44,37 @@ class Filed:
     placed: Sequence[Ints | None]
 
 
+class FiledHands:
+    """The verbs of ``model.hands.Hands``, played back; a placing not filed yet is as requested."""
+
+    def __init__(
+        self, testbed: Testbed, recordings: Sequence[Recording], placed: Sequence[Ints | None]
+    ) -> None:
+        self.testbed = testbed  # as stated, without any weights
+        self._recordings, self._filed = recordings, placed
+        self.placed: list[Ints] = []
+        self.swings = 0
+
+    @property
+    def time(self) -> float:
+        """Time recorded so far, s."""
+        spans = [recording.span for recording in self._recordings[: self.swings]]
+        return sum(end - start for start, end in spans)
+
+    def swing(self) -> Recording:
+        """Return the next recording."""
+        if self.swings == len(self._recordings):
+            raise Awaited
+        self.swings += 1
+        return self._recordings[self.swings - 1]
+
+    def place(self, wanted: Ints) -> Ints:
+        """Return how the platform was loaded after the last recording."""
+        filed = self._filed[len(self.placed)] if len(self.placed) < len(self._filed) else None
+        self.placed.append(wanted if filed is None else filed)
+        return self.placed[-1]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class ByHand:
     """What was done so far."""
@@ -64,7 +95,7 @@ class ByHand:
 
 
 def options_of(goal: Goal, rounds: int) -> HandOptions:
-    """Return what is asked of the procedure."""
+    """Return the options of the procedure."""
     return HandOptions(goal.target, goal.tolerance, rounds)
 
 
@@ -72,9 +103,8 @@ def run(hands: SimulatedHands, goal: Goal, rounds: int, show: Show) -> ByHand:
     """Balance a simulated platform, show each step as it comes."""
     before, truths = hands.truth(), list[MassProperties]()
     steps: list[Step] = []
-    for step in watched(balance_by_hand(hands, options_of(goal, rounds)), "balancing"):
-        if show is not None:
-            show(step)
+    procedure = watched(balance_by_hand(hands, options_of(goal, rounds)), "balancing")
+    for step in shown(procedure, show):
         steps.append(step)
         truths.append(hands.truth())
     return summary(hands, goal, steps, before, truths)
@@ -84,11 +114,7 @@ def resume(filed: Filed, goal: Goal, show: Show) -> tuple[ByHand, list[Ints]]:
     """Play a session back as far as it has come; return it, and what lies where since."""
     hands = FiledHands(filed.testbed, filed.recordings, filed.placed)
     procedure = balance_by_hand(hands, options_of(goal, filed.session.max_rounds))
-    steps: list[Step] = []
-    for step in until_awaited(watched(procedure, "balancing")):
-        if show is not None:
-            show(step)
-        steps.append(step)
+    steps = list(shown(until_awaited(watched(procedure, "balancing")), show))
     if hands.swings < len(filed.recordings):
         wanted = f"no recording after the verdict, which came with number {hands.swings}"
         raise InputError("--recording", f"number {len(filed.recordings)}", wanted)

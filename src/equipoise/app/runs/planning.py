@@ -26,7 +26,7 @@ from equipoise.procedure.steps.clean_record import sound
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Request:
-    """What is asked for."""
+    """What is to be planned."""
 
     testbed: Testbed
     duration: float  # s
@@ -35,18 +35,18 @@ class Request:
     moves: int
     rate: float  # rad/s, greatest
     options: Options  # of the fit that the record is meant for
-    earlier: Recording | None  # what it tells is known, masses stand where it left them
+    earlier: Recording | None  # its estimate is the prior, masses stand where it left them
     trials: int
     seed: int
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Return what is asked for, by name."""
+        """Return the names of the wanted parameters."""
         return tuple(n for n in NAMES[self.requested] if n not in self.options.hold)
 
     @property
     def params(self) -> Params:
-        """Return what a fit of the record is told."""
+        """Return the parameters of a fit of the record."""
         return params_of(self.testbed, self.options)
 
 
@@ -57,12 +57,16 @@ class Planning(Shown):
     request: Request
     usual: Promise
     planned: Promise
-    alone: Promise  # the plan's record, without what was seen before
+    alone: Promise  # the plan's record, without the earlier recording
 
     @property
     def plan(self) -> Plan:
         """Return the plan as it is written down, with what a fit of its record should find."""
-        return plan_file_of(self)
+        promised = self.alone
+        inertia, com = promised.sd_of(INERTIA), promised.sd_of(COM)
+        all_observed = bool(np.all(np.isfinite([*inertia, *com])))
+        reported = (inertia, com) if all_observed else (None, None)
+        return Plan(self.request.testbed.name, promised.manoeuvre, *reported)
 
 
 def run(request: Request, waiting: Waiting = QUIET) -> Planning:
@@ -88,20 +92,11 @@ def run(request: Request, waiting: Waiting = QUIET) -> Planning:
 
 
 def learnt_from(recording: Recording, request: Request, waiting: Waiting) -> RecordPrior:
-    """Return what an earlier recording tells, the testbed's body being its prior."""
+    """Return the estimate of an earlier recording, the testbed's body being its prior."""
     testbed, requested = request.testbed, request.options
-    with waiting.doing("identifying what was seen"):
+    with waiting.doing("identifying the earlier recording"):
         rows, as_observed = sound(recording, testbed)
         found = METHOD.run(
             rows, as_observed, Options(requested.terms, requested.hold, use_prior=True)
         )
     return record_prior(recording, found, testbed)
-
-
-def plan_file_of(done: Planning) -> Plan:
-    """Return the plan as it is written down, with what a fit of its record alone should find."""
-    promised, bed = done.alone, done.request.testbed
-    inertia, com = promised.sd_of(INERTIA), promised.sd_of(COM)
-    all_observed = bool(np.all(np.isfinite([*inertia, *com])))
-    said = (inertia, com) if all_observed else (None, None)
-    return Plan(bed.name, promised.manoeuvre, *said)

@@ -1,7 +1,6 @@
 """A person at the terminal who waits for a run: signs of life, live numbers, steps as they come."""
 
 from collections.abc import Iterator
-from contextlib import AbstractContextManager
 from functools import partial
 
 from equipoise.app.console.rich_blocks import show
@@ -13,12 +12,7 @@ from equipoise.app.text.run_blocks import moment_of
 from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
 
-
-def _doing(what: str) -> AbstractContextManager[None]:
-    return busy(what)
-
-
-AT_TERMINAL = Waiting(watched, _doing, counted, spread_over)
+AT_TERMINAL = Waiting(watched, busy, counted, spread_over)
 
 
 def at_terminal(testbed: Testbed) -> Through:

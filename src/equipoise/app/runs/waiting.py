@@ -1,8 +1,8 @@
-"""How somebody waits for a run: at a terminal with signs of life, or not looking at all."""
+"""How somebody waits for a run: at a terminal with signs of life, or quietly."""
 
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from typing import Any
@@ -29,16 +29,6 @@ def as_they_come(steps: Iterator[Step], _what: str) -> Iterator[Step]:
     return steps
 
 
-@contextmanager
-def _doing(_what: str) -> Generator[None]:
-    yield
-
-
-@contextmanager
-def _search(_what: str) -> Generator[Share]:
-    yield lambda _share: None
-
-
 def spread_quietly(workers: int, _what: str) -> Spreading:
     """Return a way to do work on items in so many processes; one is this process itself."""
 
@@ -52,17 +42,26 @@ def spread_quietly(workers: int, _what: str) -> Spreading:
     return spread
 
 
-QUIET = Waiting(as_they_come, _doing, _search, spread_quietly)
+QUIET = Waiting(
+    as_they_come,
+    doing=lambda _what: nullcontext(),
+    search=lambda _what: nullcontext(lambda _share: None),
+    spread=spread_quietly,
+)
+
+
+def shown(steps: Iterator[Step], on_step: Callable[[Step], None] | None) -> Iterator[Step]:
+    """Yield steps, each shown as it is done, if there is somebody to show it to."""
+    for step in steps:
+        if on_step is not None:
+            on_step(step)
+        yield step
 
 
 def passing_on(on_step: Callable[[Step], None] | None) -> Waiting:
     """Return how to wait quietly, each step being passed on as it is done."""
-    if on_step is None:
-        return QUIET
 
     def passed_on(steps: Iterator[Step], _what: str) -> Iterator[Step]:
-        for step in steps:
-            on_step(step)
-            yield step
+        return shown(steps, on_step)
 
     return replace(QUIET, steps=passed_on)

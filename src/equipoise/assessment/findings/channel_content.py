@@ -2,15 +2,15 @@
 
 import numpy as np
 
+from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples
 
 GAP = 3.0  # median intervals; chosen: one missed row makes 2, two make 3
-NAMED = 5  # gaps that are told one by one; chosen: a screen
-UNEVEN = 0.1  # of the median interval, as a robust scatter, before it is told (chosen)
-ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
+NAMED = 5  # gaps that are named one by one; chosen: a screen
+UNEVEN = 0.1  # of the median interval, as a robust scatter, before it is reported (chosen)
 
 
 def content_findings(recording: Recording) -> list[Finding]:
@@ -69,7 +69,7 @@ def _gaps(name: str, channel: Samples) -> list[Finding]:
 
 def _unevenness(name: str, channel: Samples) -> list[Finding]:
     middle = channel.period
-    scatter = ROBUST_SD * float(np.median(np.abs(np.diff(channel.t) - middle)))
+    scatter = float(robust_sd(np.diff(channel.t) - middle))
     if scatter < UNEVEN * middle:
         return []
     numbers = {"scatter": scatter, "interval": middle}

@@ -1,4 +1,4 @@
-"""What happened to the platform while it was watched, as findings."""
+"""What happened to the platform during the recording, as findings."""
 
 import math
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from equipoise.assessment.findings.unknown_names import unknown_name_findings
+from equipoise.assessment.record_checks.frozen_rows import runs
 from equipoise.model.arrays import Series1
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
@@ -10,7 +11,7 @@ from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording
 
 STILL = 1e-6  # m between rows; chosen: below any actuator's step, above an encoder's flicker
-NAMED = 12  # moves that are told one by one; chosen: two rounds of six masses
+NAMED = 12  # moves that are named one by one; chosen: two rounds of six masses
 
 
 def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[Finding]:
@@ -34,16 +35,9 @@ def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[F
 
 def _moves(name: str, t: Series1, x: Series1) -> list[Finding]:
     """Return the moves of one mass: runs of rows between which it changes."""
-    moving = np.concatenate([[False], np.abs(np.diff(x)) > STILL, [False]])
-    starts = np.flatnonzero(~moving[:-1] & moving[1:])
-    ends = np.flatnonzero(moving[:-1] & ~moving[1:])
-    return [
-        _move(name, (float(t[a]), float(t[b])), float(x[a]), float(x[b]))
-        for a, b in zip(starts.tolist(), ends.tolist(), strict=True)
-    ]
-
-
-def _move(name: str, span: tuple[float, float], start: float, end: float) -> Finding:
-    """Return one move, from ``start`` to ``end`` (m)."""
-    numbers = {"start": start, "end": end, "t_start": span[0], "t_end": span[1]}
-    return Finding("motion", one_reason(Why.MASS_MOVES, name, **numbers), span, name)
+    found: list[Finding] = []
+    for first, last in runs(np.abs(np.diff(x)) > STILL):
+        span, way = ((float(of[first]), float(of[last + 1])) for of in (t, x))
+        numbers = {"start": way[0], "end": way[1], "t_start": span[0], "t_end": span[1]}
+        found.append(Finding("motion", one_reason(Why.MASS_MOVES, name, **numbers), span, name))
+    return found

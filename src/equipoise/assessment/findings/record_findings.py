@@ -1,7 +1,5 @@
 """What a recording holds and what is wrong with it, as findings in the order of reading."""
 
-import numpy as np
-
 from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.mass_moves import move_findings
 from equipoise.assessment.findings.motion_range import motion_findings
@@ -21,7 +19,7 @@ from equipoise.model.testbed import Testbed
 
 
 def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Finding, ...]:
-    """Return all findings; a testbed adds what only it can tell, such as which axis is up."""
+    """Return all findings; a testbed adds what only it states, such as which axis is up."""
     masses = tuple(mass.name for mass in testbed.masses) if testbed else None
     devices = testbed.device_names if testbed else None
     sensors = (None, None) if testbed is None else (testbed.attitude, testbed.gyro)
@@ -40,9 +38,3 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *unstated_findings(recording, testbed),
         *(Finding("mended", one_reason(Why.SET_RIGHT, note)) for note in recording.notes),
     )
-
-
-def problems(found: tuple[Finding, ...]) -> tuple[Finding, ...]:
-    """Return those that an estimate will suffer from, in order of time."""
-    wrong = [finding for finding in found if finding.kind == "problem"]
-    return tuple(sorted(wrong, key=lambda f: -np.inf if f.span is None else f.span[0]))

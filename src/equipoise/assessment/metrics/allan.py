@@ -1,16 +1,16 @@
-"""How a centre of mass moves over hours: drift, walk, and the Allan deviation of looks at it.
+"""How a centre of mass moves over hours: drift, walk, and the Allan deviation of its estimates.
 
-    sigma^2(m T) = 1 / (2 (n - 2 m + 1)) sum_k (y_{k+m} - y_k)^2,   y_k the mean of m looks from k
+    sigma^2(m T) = 1 / (2 (n - 2 m + 1)) sum_k (y_{k+m} - y_k)^2,   y_k the mean of m from k
 
-for n looks, T apart, each axis by itself (overlapping; the statistic of clocks, Allan 1966, here of
-r where clocks have frequency). Looks that only err leave sd / sqrt(m); a walk of c m/sqrt(s) leaves
-c sqrt(m T / 3), a steady drift of D m/s leaves D m T / sqrt(2). Where the deviation stops falling,
-longer looks tell no more of where the centre of mass is now.
+for n estimates, T apart, each axis by itself (overlapping; the statistic of clocks, Allan 1966,
+here of r where clocks have frequency). Estimates with white errors alone leave sd / sqrt(m); a walk
+of c m/sqrt(s) leaves c sqrt(m T / 3), a steady drift of D m/s leaves D m T / sqrt(2). Where the
+deviation stops falling, longer averages do not locate the present centre of mass any better.
 
     c^2 = ( mean of (r_{k+1} - r_k)^2 - mean of (sd_k^2 + sd_{k+1}^2) ) / T,  after the drift, >= 0
-    D     by least squares; variance of the looks' errors + 6 c^2 / (5 n T)
+    D     by least squares; variance from the estimates' errors + 6 c^2 / (5 n T)
 
-Cannot tell a walk from a cycle longer than the record, nor see what is quicker than a look.
+Cannot distinguish a walk from a cycle longer than the record, nor show motion within one estimate.
 """
 
 from dataclasses import dataclass
@@ -19,24 +19,24 @@ import numpy as np
 
 from equipoise.model.arrays import Floats, Series1, Series3, Vector3
 
-FEWEST = 4  # looks, chosen: of fewer nothing is told
+FEWEST = 4  # estimates, chosen: fewer show nothing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Wander:
-    """What looks that follow one another say."""
+    """Drift and walk shown by successive estimates."""
 
-    span: Floats  # (k,) s, over which looks are averaged
+    span: Floats  # (k,) s, over which estimates are averaged
     deviation: Floats  # (k, 3) m, Allan's
     error: Floats  # (k,) relative sd of it
-    measurements_alone: Floats  # (k, 3) m, what looks that only err would leave
+    measurements_alone: Floats  # (k, 3) m, of measurement errors alone
     drift: Vector3  # m/s
     drift_sd: Vector3  # m/s
     walk: Vector3  # m/sqrt(s)
 
 
 def allan_deviation(r: Series3, m: int) -> Vector3:
-    """Return sigma of means of m looks."""
+    """Return sigma of means of m estimates."""
     running = np.vstack([np.zeros(3), np.cumsum(r, axis=0)])
     means: Floats = (running[m:] - running[:-m]) / m
     steps: Floats = means[m:] - means[:-m]
@@ -44,7 +44,7 @@ def allan_deviation(r: Series3, m: int) -> Vector3:
 
 
 def wander_of(t: Series1, r: Series3, sd: Series3) -> Wander:
-    """Return drift, walk and Allan deviation of looks r (n, 3) m with their sd, at times t (s)."""
+    """Return drift, walk and Allan deviation of estimates r (n, 3) m with sd, at times t (s)."""
     n, separation = len(t), float(np.median(np.diff(t)))
     sizes = [2**k for k in range(n.bit_length()) if 2 * 2**k <= n]
     deviation = np.array([allan_deviation(r, m) for m in sizes])

@@ -49,6 +49,6 @@ def with_doubtful_inertia(period: Uncertain, inertia_sd: float) -> Uncertain:
     """Return a period of swing whose inertia has a relative sd.
 
     T goes with sqrt(J / r), so half of it adds to the sd. J and r count as independent, which is
-    too wide where one fit told both.
+    too wide where one fit estimated both.
     """
     return Uncertain(period.value, float(np.hypot(period.sd, period.value / 2 * inertia_sd)))

@@ -6,7 +6,7 @@
 The two signals are the components of the vertical across ``up``, so that a swing about either axis
 shows in one of them. A record of T seconds resolves 1/T: two swings nearer than that are one peak.
 
-Cannot tell a swing from anything else that repeats; that is ``swing_modes``' part.
+Cannot distinguish a swing from anything else that repeats; that is ``swing_modes``' part.
 """
 
 from dataclasses import dataclass
@@ -28,7 +28,6 @@ class Spectrum:
 
     frequency: Series1  # Hz
     amplitude: Series  # (n, 2), in the signals' unit
-    even: bool  # by FFT, not by least squares
     resolution: float  # Hz
 
 
@@ -57,14 +56,14 @@ def spectrum(t: Series1, s: Series) -> Spectrum:
         frequency = np.arange(size // 2 + 1.0) * ((len(t) - 1) / (length * size))
         amplitude = 2.0 / len(t) * np.abs(np.fft.rfft(centred, size, axis=0))
         keep = (frequency > 0) & (frequency <= highest)
-        return Spectrum(frequency[keep], amplitude[keep], True, 1 / length)
+        return Spectrum(frequency[keep], amplitude[keep], 1 / length)
     # Of less than a period sine and constant are nearly one, and their amplitudes run away.
     frequency = np.arange(float(FINER), int(highest * length * FINER) + 1) / (length * FINER)
     by_least_squares = [
         lombscargle(t, column, 2 * np.pi * frequency, floating_mean=True, normalize="amplitude")
         for column in s.T
     ]
-    return Spectrum(frequency, np.abs(np.column_stack(by_least_squares)), False, 1 / length)
+    return Spectrum(frequency, np.abs(np.column_stack(by_least_squares)), 1 / length)
 
 
 def highest_peak(found: Spectrum) -> tuple[float, float]:

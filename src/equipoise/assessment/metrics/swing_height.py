@@ -1,17 +1,17 @@
 """How far below the centre of rotation the centre of mass hangs, by the periods of its swings.
 
-    m g h = the moment at which ``swing_modes`` has the frequency that was seen
+    m g h = the moment at which ``swing_modes`` has the measured frequency
 
 for each swing of roll and pitch (``period``), which is named by the ratio of both frequencies that
-the inertia leads to: that ratio needs no h. Two swings that the record is too short to tell apart
-are seen as one between them, and h is known no better than that. A single swing that stands alone
-is the one about whose axis the platform swung.
+the inertia leads to: that ratio needs no h. Two swings that the record is too short to separate
+appear as one between them, and h is known no better than that. A single swing is the one about
+whose axis the platform swung.
 
-The inertia goes into h in proportion; its sd is told apart, as all metrics share it.
+h is proportional to the inertia, whose sd is stated separately, as all metrics share it.
 
 (da Silva 2021 section 5, where the period is said to fall as balance improves: it grows.)
 
-Cannot see a height of which the record shows less than one swing, nor one above P.
+Cannot determine a height from less than one swing, nor one above P.
 """
 
 from dataclasses import dataclass

@@ -43,7 +43,7 @@ def swing_rates(moment: float, inertia_P: Matrix3, down: Vector3, spin: float = 
 
 
 def across(down: Vector3) -> Floats:
-    """Return two body axes (2, 3) at right angles to gravity, in which swings are told."""
+    """Return two body axes (2, 3) at right angles to gravity, in which swings are stated."""
     R = to_matrix(level(-down))
     return R[:2]
 

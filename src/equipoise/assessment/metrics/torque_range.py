@@ -5,7 +5,7 @@
 n is the direction of gravity in body axes. Over all n within a tilt of level, each direction
 counting alike, the mean square is x^T Q x, and the greatest that of the worst direction. Both are
 lengths of an uncertain vector (``maths.gaussian_length``): what matters is the combination of
-height and sag that the record shows, though it may not tell these apart.
+height and sag that the record shows, though it may not separate these.
 
 (Residual torque: da Silva 2021 section 5; with sag, ``dynamics.sag_trim``.)
 

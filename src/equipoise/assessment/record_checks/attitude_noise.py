@@ -1,4 +1,4 @@
-"""The noise of an attitude sensor, told from differences of neighbouring rows.
+"""The noise of an attitude sensor, estimated from differences of neighbouring rows.
 
 The k-th difference of white noise with variance s^2 has variance s^2 C(2k, k) (20 s^2 for the
 third), while that of a smooth motion dies away with k. The least over several k is an upper bound
@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from equipoise.assessment.record_checks.attitude_steps import EVEN, steps
+from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.model.arrays import Series3
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
@@ -17,12 +18,11 @@ from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
 
 ORDERS = range(3, 8)  # chosen: beyond, neighbouring differences are all but the same number
-ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
-FEWEST = 20  # differences that a scatter is told from (chosen)
+FEWEST = 20  # differences that a scatter is estimated from (chosen)
 
 
 def noise_findings(attitude: Samples | None) -> list[Finding]:
-    """Return the noise in deg per axis, if the record is long enough to tell."""
+    """Return the noise in deg per axis, if the record is long enough to show it."""
     noise = None if attitude is None else attitude_noise(attitude)
     if noise is None:
         return []
@@ -47,5 +47,5 @@ def _scatter(turn: Series3, order: int) -> float | None:
     high = high[~np.isnan(high).any(axis=1)]
     if len(high) < FEWEST:
         return None
-    spread = ROBUST_SD * np.median(np.abs(high), axis=0) / math.sqrt(math.comb(2 * order, order))
+    spread = robust_sd(high) / math.sqrt(math.comb(2 * order, order))
     return float(np.sqrt(np.mean(spread**2)))

@@ -1,10 +1,10 @@
-"""How much later the attitude is stamped than the gyro, by the motion that both saw.
+"""How much later the attitude is stamped than the gyro, by the motion that both measured.
 
     turn(t, t + D) / D = 1/D int w(s - lag) ds + zero        least squares in the lag and the zero
 
 The turn between two attitudes is compared with the integral of the gyro, as in ``gyro_agreement``.
 A camera that is ``lag`` seconds late shows at t what the gyro showed at t - lag. Only motion whose
-rate changes tells it. The sd is that of the fit, with the correlation that two turns have by the
+rate changes shows it. The sd is that of the fit, with the correlation that two turns have by the
 attitude that they share. Middles of averaging windows count as the moments of rows.
 """
 
@@ -21,7 +21,8 @@ from equipoise.assessment.record_checks.gyro_consistency import (
     integral,
     lag_of,
 )
-from equipoise.model.arrays import Floats, Series1, Series3
+from equipoise.maths.straight_lines import read_at
+from equipoise.model.arrays import Series1, Series3
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
@@ -31,7 +32,7 @@ from equipoise.model.testbed import AttitudeSensor, Gyro
 FARTHEST = 1.0  # s: later than this no camera is (chosen)
 TRIED = 81  # lags from which the best is refined; chosen: one each 25 ms
 ROUNDS = 6  # of refinement; chosen: the second changes nothing in smooth motion
-VAGUE = 0.1  # s: with a larger sd nothing is told (chosen)
+VAGUE = 0.1  # s: an offset with a larger sd is not reported (chosen)
 SURE_SD = 4.0  # sd from which an offset is one (chosen)
 MATTERS = 0.005  # s: a smaller offset does no harm to slow platforms (chosen)
 
@@ -62,7 +63,7 @@ def offset_findings(
 
 
 def clock_offset(attitude: Samples, rate: Samples) -> ClockOffset | None:
-    """Return the lag with its sd; None if the sensors or their motion do not tell it."""
+    """Return the lag with its sd; None if the sensors or their motion do not show it."""
     if min(len(attitude), len(rate)) < FEWEST:
         return None
     pairs = _Pairs.of(attitude, rate)
@@ -122,12 +123,9 @@ def _left(pairs: _Pairs, rate: Samples, lag: float) -> Series3:
 def _slope(pairs: _Pairs, rate: Samples, lag: float) -> Series3:
     """Return how that changes with the lag, rad/s^2."""
     length = (pairs.end - pairs.start)[:, None]
-    slope = (_rate_at(rate, pairs.end - lag) - _rate_at(rate, pairs.start - lag)) / length
+    first, last = (read_at(t - lag, rate.t, rate.values) for t in (pairs.start, pairs.end))
+    slope = (last - first) / length
     return slope - slope.mean(axis=0)
-
-
-def _rate_at(rate: Samples, t: Floats) -> Series3:
-    return np.stack([np.interp(t, rate.t, rate.values[:, i]) for i in range(3)], axis=1)
 
 
 def _sd(slope: Series3, left: Series3) -> float:

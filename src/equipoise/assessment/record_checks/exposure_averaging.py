@@ -5,10 +5,10 @@ mean, and a turn at the rate w (rad/s) between them,
 
     |q| = 1 - |w|^2 var / 8        var = T^2 / 12: a uniform window of T seconds
 
-to second order in |w| T / 4 (at 280 deg/s and 0.1 s T comes out 0.04 % short). The lengths tell how
+to second order in |w| T / 4 (at 280 deg/s and 0.1 s T comes out 0.04 % short). The lengths show how
 wide the window is, not where in it the row is stamped: that is a delay, which a record of free
 motion does not show and one with a gyro does (``gyro_agreement``). Rows that were normalised before
-they were written tell nothing. Taken as moments, such rows show a motion of the angular frequency W
+they were written show nothing. Taken as moments, such rows show a motion of the angular frequency W
 smaller by W^2 T^2 / 24; that is given for a motion as fast as the platform turns. Inertia fitted to
 them is off by about as much: once to twice, in simulated spins at 100 and 200 deg/s.
 """
@@ -19,6 +19,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.maths.local_motion import half_window, local_motion
 from equipoise.model.arrays import Floats, Series1
 from equipoise.model.finding import Finding
@@ -27,9 +28,9 @@ from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor
 
-NAMED = 5  # odd rows that are told one by one; chosen: a screen
-FEWEST = 20  # rows that a window is told from (chosen)
-SURE = 5.0  # sd of the window's square, from which it is told (chosen)
+NAMED = 5  # odd rows that are named one by one; chosen: a screen
+FEWEST = 20  # rows for the estimate of a window (chosen)
+SURE = 5.0  # sd of the window's square, from which it is reported (chosen)
 TRIMMED = 4.0  # robust sd beyond which a row has no say in the window (chosen)
 ROUNDS = 5  # of trimming; chosen: the rows left do not change after two or three
 ODD = 6.0  # robust sd of a row's length from that of a mean (chosen: one row in 10^9)
@@ -39,8 +40,7 @@ PIECES = 8  # of the record, whose windows are compared (chosen)
 UNSTEADY = 0.05  # of the window, by which a piece may differ however sure it is (chosen)
 LONGEST = 3.0  # row intervals; chosen: a moving mean over more smooths the motion away
 EXACT = 1e-12  # to which a length is computed
-MATTERS = 1e-4  # of inertia; chosen: below what any record of a minute tells
-ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
+MATTERS = 1e-4  # of inertia; chosen: below what any record of a minute shows
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,7 @@ def averaging_findings(recording: Recording, sensor: AttitudeSensor | None) -> l
 
 
 def row_averaging(attitude: Samples | None, lengths: Samples | None) -> RowAveraging | None:
-    """Return the window; None if the lengths do not tell one."""
+    """Return the window; None if the lengths do not show one."""
     if attitude is None or lengths is None or len(lengths) < FEWEST:
         return None
     rows = np.searchsorted(attitude.t, lengths.t)
@@ -90,7 +90,7 @@ def row_averaging(attitude: Samples | None, lengths: Samples | None) -> RowAvera
 
 
 def with_window(sensor: AttitudeSensor, averaging: RowAveraging) -> AttitudeSensor:
-    """Return the sensor with the window told, its rows standing for the same moments as before.
+    """Return the sensor with this window, its rows standing for the same moments as before.
 
     A row stamped t stands for t - delay - averaging / 2. The window grows about that moment, so the
     delay shrinks by half of what the averaging gains: below zero for rows stamped at their middle.
@@ -113,7 +113,7 @@ def _window_squared(short: Series1, speed: Series1) -> tuple[float, float, float
     scatter = 0.0
     for _ in range(ROUNDS):
         left = short - square * speed / 96.0
-        scatter = ROBUST_SD * float(np.median(np.abs(left - np.median(left))))
+        scatter = float(robust_sd(left - np.median(left)))
         keep = np.abs(left) <= TRIMMED * scatter + EXACT
         weight = float(np.sum(speed[keep] ** 2))
         if weight == 0:
@@ -124,7 +124,7 @@ def _window_squared(short: Series1, speed: Series1) -> tuple[float, float, float
 
 
 def _steady(short: Series1, speed: Series1, window: float) -> bool:
-    """Say whether each piece of the record tells the same window."""
+    """Say whether each piece of the record shows the same window."""
     for piece in np.array_split(np.arange(len(short)), min(PIECES, len(short) // FEWEST)):
         square, sd, _ = _window_squared(short[piece], speed[piece])
         if abs(square - window**2) > max(SURE * sd, 2.0 * UNSTEADY * window**2):
@@ -161,7 +161,7 @@ def _unsteady(averaging: RowAveraging) -> list[Finding]:
 
 def _odd_rows(averaging: RowAveraging, recording: Recording, t: Series1) -> list[Finding]:
     lengths = recording.attitude_norm
-    assert lengths is not None  # a window was told from them
+    assert lengths is not None  # the window was estimated from them
     norm = dict(zip(lengths.t.tolist(), lengths.values[:, 0].tolist(), strict=True))
     theirs = 1 - averaging.shortness
     found = [_odd_row(k + 1, float(t[k]), norm[float(t[k])], theirs) for k in averaging.odd[:NAMED]]

@@ -16,7 +16,7 @@ from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Recording, Samples
 
-NAMED = 5  # rows and runs that are told one by one; chosen: a screen
+NAMED = 5  # rows and runs that are named one by one; chosen: a screen
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,7 +1,7 @@
 """Rows that repeat the row before them: a camera that lost its target, a gyro that was not read.
 
 By chance a row repeats the one before with a probability p, about the product over its axes of the
-finest step that is seen over the typical step. A run of m repeats is named when n p^m is small:
+finest observed step over the typical step. A run of m repeats is named when n p^m is small:
 slow motion in coarse steps repeats itself often, and then only long runs mean anything.
 """
 

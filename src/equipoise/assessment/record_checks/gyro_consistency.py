@@ -1,4 +1,4 @@
-"""Whether gyro and attitude tell of the same turning: signs, axes, units, zero.
+"""Whether gyro and attitude show the same rotation: signs, axes, units, zero.
 
 The turn between two attitudes is compared with the integral of the gyro between their times. They
 are taken far enough apart for the turn to stand out from the noise, near enough for it to be small.
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from equipoise.assessment.record_checks.attitude_noise import attitude_noise
 from equipoise.assessment.record_checks.attitude_steps import steps
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Matrix3, Series3
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
@@ -23,9 +24,9 @@ GAP = 3.0  # median intervals of either sensor
 SURE = 0.8  # correlation from which axes are called the same (chosen)
 UNSURE = 0.5  # correlation below which they are called different (chosen)
 FEWEST = 10  # pairs (chosen)
-ABOVE = 2.0  # of the noise of a turn, chosen: a gyro axis that felt less tells nothing of axes
-OFF = 0.2  # of the scale, before it is told (chosen: no gyro's scale is this wrong)
-ZERO_OFF = math.radians(0.05)  # rad/s: a zero worth telling (chosen)
+ABOVE = 2.0  # of the noise of a turn, chosen: a gyro axis that turned less shows nothing of axes
+OFF = 0.2  # of the scale, before it is reported (chosen: no gyro's scale is this wrong)
+ZERO_OFF = math.radians(0.05)  # rad/s: a zero worth a finding (chosen)
 
 
 def agreement_findings(attitude: Samples | None, rate: Samples | None) -> list[Finding]:
@@ -46,7 +47,7 @@ def agreement_findings(attitude: Samples | None, rate: Samples | None) -> list[F
 
 
 def rate_pairs(attitude: Samples, rate: Samples) -> tuple[Series3, Series3]:
-    """Return mean rates (rad/s) between pairs of attitudes, as the attitude and as the gyro saw."""
+    """Return mean rates (rad/s) between pairs of attitudes, from the attitude and from the gyro."""
     lag = lag_of(attitude)
     duration, turn = steps(attitude, lag)
     start, end = attitude.t[:-lag], attitude.t[lag:]
@@ -81,8 +82,7 @@ def integral(rate: Samples, at: Floats) -> Series3:
     free = rate.values - mean
     panels = 0.5 * np.diff(rate.t)[:, None] * (free[1:] + free[:-1])
     whole = np.vstack([np.zeros(3), np.cumsum(panels, axis=0)])
-    turned = np.stack([np.interp(at, rate.t, whole[:, i]) for i in range(3)], axis=1)
-    return turned + np.multiply.outer(at - rate.t[0], mean)
+    return read_at(at, rate.t, whole) + np.multiply.outer(at - rate.t[0], mean)
 
 
 def across_gap(rate: Samples, start: Floats, end: Floats) -> NDArray[np.bool_]:
@@ -96,7 +96,7 @@ def across_gap(rate: Samples, start: Floats, end: Floats) -> NDArray[np.bool_]:
 
 
 def _noise(attitude: Samples) -> float:
-    """Return the noise of the rates that attitudes tell, rad/s; 0 where it cannot be told."""
+    """Return the noise of rates from attitudes, rad/s; 0 where there are too few rows for it."""
     return math.sqrt(2) * (attitude_noise(attitude) or 0.0) / (lag_of(attitude) * attitude.period)
 
 
@@ -126,7 +126,7 @@ def _slope(axis: int, camera: Series3, gyro: Series3) -> float:
 
 
 def _zero(likeness: Matrix3, camera: Series3, gyro: Series3) -> list[Finding]:
-    """Return the gyro's zero and that its axes agree, if the motion is enough to tell."""
+    """Return the gyro's zero and that its axes agree, if the motion suffices."""
     offset = np.median(gyro - camera, axis=0)
     reported = [name for name, c in zip("xyz", np.diag(likeness), strict=True) if c > SURE]
     agree = (

@@ -1,15 +1,15 @@
-"""Rows of a sensor that stand far from the smooth motion of their neighbours.
+"""Rows of a sensor that are outliers from the smooth motion of their neighbours.
 
 A row is suspect when what a local polynomial leaves of it (``local_fit``), in units of what it
 leaves of most rows, is more than chance would show once in ten records. A suspect is outlying when
 the few rows to be left out explain the misfit of the window, and a touch does not: a contact or a
 push bends an attitude (its rate jumps) and breaks a rate, on one side of a row for good, while an
-outlying row leaves both sides as they were. At an edge of the record nothing tells one from the
-other; there a jump of the rate by less than a tenth is taken for a touch.
+outlying row leaves both sides as they were. At an edge of the record nothing distinguishes the two;
+there a jump of the rate by less than a tenth is taken for a touch.
 
 The scale is what is left of most rows, near by and in the whole record, whichever is more. It holds
 the noise and what the polynomial cannot follow of fast motion, so that smooth motion, however fast,
-is nothing unusual. Runs of more than three odd rows are not seen as such.
+is nothing unusual. Runs of more than three odd rows are not recognised.
 """
 
 import math
@@ -32,6 +32,7 @@ from equipoise.assessment.record_checks.local_fit import (
     rate_vectors,
 )
 from equipoise.assessment.record_checks.quantisation import step_of
+from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.assessment.record_checks.window_misfit import (
     ASIDE,
     Window,
@@ -50,27 +51,26 @@ SPANS = tuple(
 )  # chosen
 SAMPLE = 3000  # rows that the span is chosen by (chosen: a tenth of a second)
 NEAR = 51  # rows over which the scale is taken near by (chosen: a scatter to 10 %)
-TOUCH = 0.1  # of the platform's rate: at an edge no touch makes a greater jump (0.05 was seen)
+TOUCH = 0.1  # of the platform's rate: at an edge no touch makes a greater jump (0.05 was measured)
 PUSH = 0.5  # of the platform's rate: inside the record no touch makes a greater jump (chosen), ...
 HAND = math.radians(10)  # rad/s: ... but a hand may push a platform that hardly turns (chosen)
-PIECE, BESIDE = 20_000, 200  # rows looked at together, and looked at beside them (chosen)
+PIECE, BESIDE = 20_000, 200  # rows fitted together, and rows beside them (chosen)
 PASSES = 20  # chosen: each finds one odd row in every stretch
 UNSURE = 2.0  # times the scale by which a jump between two rows may come out too large (chosen)
 HALF = 0.5  # of the step of coarse values: the least scale, so that a flip by one step is nothing
 REPEATS = 0.1  # share of rows as the one before, from which an attitude is coarse (chosen)
 EXACT = 1e-9  # rad, rad/s: below this rows are computed, not measured
-ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
 
 
 class Platform(NamedTuple):
-    """What a touch of the platform may look like."""
+    """Limits of a touch of the platform."""
 
     speed: float  # rad/s, at which it mostly turns
     attitude: bool  # its rows are attitudes, not rates
 
 
 class _Sensor(NamedTuple):
-    """Rows of a sensor, and how they are looked at."""
+    """Rows of a sensor, and how they are fitted."""
 
     t: Series1  # s
     vectors: Vectors
@@ -92,12 +92,11 @@ class OutlyingRows:
 def outlying_attitudes(attitude: Samples) -> OutlyingRows:
     """Return the outlying rows of an attitude sensor."""
     duration, turn = steps(attitude)
-    speed = np.linalg.norm(turn, axis=1) / duration
     size = np.linalg.norm(turn, axis=1)
     coarse = bool(size.any()) and np.count_nonzero(size == 0) > REPEATS * len(size)
     least = HALF * float(size[size > 0].min()) if coarse else 0.0
     vectors = attitude_vectors(attitude.t, attitude.values)
-    platform = Platform(_median(speed), attitude=True)
+    platform = Platform(_median(size / duration), attitude=True)
     return _outlying(attitude.t, vectors, np.full(3, least), platform)
 
 
@@ -116,7 +115,7 @@ def _median(speed: Series1) -> float:
 def _outlying(t: Series1, vectors: Vectors, least: Vector3, platform: Platform) -> OutlyingRows:
     """Return the outlying rows; the scale is ``least`` or more.
 
-    A long record is looked at piece by piece, so that memory does not grow with it.
+    A long record is fitted piece by piece, so that memory does not grow with it.
     """
     n = len(t)
     off, rough, scales = np.zeros((n, 3)), np.full((n, 3), np.nan), list[float]()
@@ -159,7 +158,7 @@ def _piece_scale(
 
 
 def _reach(fit: LocalFit, span: Span) -> float:
-    """Return how far off a row must be to be told, in the middle and at an edge together.
+    """Return the least deviation of a row that is detected, middle and edge added up.
 
     At an edge it stands against the polynomial alone, in the middle against a touch besides.
     """
@@ -188,15 +187,15 @@ def _standard(fit: LocalFit, at: int) -> Floats:
 
 
 def _spread(fit: LocalFit, at: int) -> Vector3:
-    return ROBUST_SD * np.median(np.abs(_standard(fit, at)), axis=0)
+    return robust_sd(_standard(fit, at))
 
 
 def _scale(fit: LocalFit) -> Floats:
     """Return the scale (n, 3) that counts in each window."""
     middle = fit.rows.shape[1] // 2
-    left = np.abs(_standard(fit, middle))
+    left = _standard(fit, middle)
     near = min(NEAR, len(left))
-    local = ROBUST_SD * np.median(sliding_window_view(left, near, axis=0), axis=2)
+    local = robust_sd(sliding_window_view(left, near, axis=0), axis=2)
     inner = np.flatnonzero(fit.place == middle)
     at = np.clip(np.searchsorted(inner, np.arange(len(fit.rows))) - near // 2, 0, len(local) - 1)
     whole = np.where((fit.place == middle)[:, None], _spread(fit, middle), _spread(fit, 0))
@@ -244,7 +243,7 @@ def _alone(fit: LocalFit, k: int, side: int) -> bool:
 
 
 def _no_touch(window: Window, odd: tuple[int, ...], limit: float, platform: Platform) -> bool:
-    """Say that no touch explains the window; each leaves far more than the odd rows do."""
+    """Say that no touch explains the window; each leaves much more than the odd rows do."""
     left = misfit(window, out(window, odd))
     inside = min(odd) >= ASIDE and max(odd) < len(window.t) - ASIDE
     interval = float(np.min(np.diff(window.t))) if platform.attitude else 1.0

@@ -1,7 +1,7 @@
-"""The steps in which a gyro tells its rate, and whether they are coarser than its noise.
+"""The steps in which a gyro reports its rate, and whether they are coarser than its noise.
 
 Rounding to steps of d adds an error of d / sqrt(12). Noise of half a step and more makes it white;
-below that it follows the motion, and rows that stand still tell nothing.
+below that it follows the motion, and rows that stand still show nothing.
 """
 
 import math
@@ -17,7 +17,7 @@ from equipoise.model.recording import Samples
 MANY = 0.5  # share of rows with a value of their own above which nothing is quantised (chosen)
 WHOLE = 1e-3  # of a step, by which values may miss whole multiples of it (chosen: rounding)
 COARSE = 2.0  # sd of the noise: finer steps are smeared by it and do no harm
-FEWEST = 20  # rows that quantisation is told from (chosen)
+FEWEST = 20  # rows for a verdict on quantisation (chosen)
 THIRD = math.sqrt(20)  # sd of the third difference of unit white noise
 
 

@@ -1,18 +1,14 @@
-"""What a gyro's own numbers tell: coarse steps, a first row of zeros, a dead axis, its noise."""
-
-import math
+"""What a gyro's own numbers show: coarse steps, a first row of zeros, a dead axis, its noise."""
 
 import numpy as np
 
-from equipoise.assessment.record_checks.quantisation import quantisation_findings
+from equipoise.assessment.record_checks.quantisation import THIRD, quantisation_findings
+from equipoise.assessment.record_checks.robust_scatter import robust_sd
 from equipoise.model.arrays import Series1
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
 from equipoise.model.recording import Samples
-
-THIRD = math.sqrt(20)  # sd of the third difference of unit white noise
-ROBUST_SD = 1.4826  # median absolute deviation to sd, for normal scatter
 
 
 def rate_findings(rate: Samples | None) -> list[Finding]:
@@ -47,7 +43,7 @@ def _zero_start(rate: Samples) -> list[Finding]:
 def rate_noise(rate: Samples) -> float:
     """Return the white noise, rad/s per axis and sample, at most; 0 if steps are coarser."""
     third = np.diff(rate.values, n=3, axis=0)
-    spread = ROBUST_SD * np.median(np.abs(third), axis=0) / THIRD
+    spread = robust_sd(third) / THIRD
     return float(np.sqrt(np.mean(spread**2)))
 
 

@@ -3,7 +3,7 @@
 Rounding to steps of d adds an error of d / sqrt(12) to each row, white when the noise or the motion
 from row to row is half a step and more (Widrow and Kollar 2008).
 
-Cannot see noise below a step: rows then show that of the rounding alone. Rounded roll, pitch and
+Cannot show noise below a step: rows then show that of the rounding alone. Rounded roll, pitch and
 yaw count as rounded about the body axes, which they are near level.
 """
 
@@ -20,7 +20,7 @@ from equipoise.model.recording import Recording, Samples
 from equipoise.model.testbed import AttitudeSensor, Gyro, Testbed
 
 ROUNDED = math.sqrt(12)  # a step over the sd of its rounding
-USUAL = math.radians(0.2)  # rad, of a camera that has too few rows to tell (chosen)
+USUAL = math.radians(0.2)  # rad, of a camera that has too few rows to show it (chosen)
 EXACT = 1e-7  # rad, rad/s: least noise taken for a sensor (chosen: rows that were computed)
 BIAS = math.radians(1.0)  # rad/s, sd: usual for a low-cost gyro, as in a testbed file
 

@@ -61,7 +61,7 @@ def out(window: Window, places: tuple[int, ...]) -> Floats:
 def _worst(window: Window, places: tuple[int, ...], allowed: tuple[int, ...]) -> int:
     """Return the row whose absence takes most off the misfit, beside those at given places."""
     basis = _basis(window, out(window, places))
-    left = (window.y - basis @ (basis.T @ window.y)) / window.sd
+    left = _left(window, basis)
     free = 1.0 - np.sum(basis**2, axis=1)
     gain = np.sum(left**2, axis=1) / np.maximum(free, FREE)
     others = [place for place in allowed if place not in places]
@@ -70,8 +70,7 @@ def _worst(window: Window, places: tuple[int, ...], allowed: tuple[int, ...]) ->
 
 def away(window: Window, places: tuple[int, ...]) -> Floats:
     """Return how far (count, 3) the rows left out are off the motion of the others."""
-    columns = np.hstack([window.basis, out(window, places)])
-    return _solved(columns, window.y)[-len(places) :]
+    return _coefficients(window, out(window, places))
 
 
 def touch_misfit(window: Window, most: float, attitude: bool) -> float:
@@ -89,12 +88,11 @@ def touch_misfit(window: Window, most: float, attitude: bool) -> float:
 
 def misfit(window: Window, columns: Floats) -> float:
     """Return the sum of squares that polynomial and columns leave, in units of the scale."""
-    return float(np.sum((_left(window, columns) / window.sd) ** 2))
+    return float(np.sum(_left(window, _basis(window, columns)) ** 2))
 
 
-def _left(window: Window, columns: Floats) -> Floats:
-    basis = _basis(window, columns)
-    return window.y - basis @ (basis.T @ window.y)
+def _left(window: Window, basis: Floats) -> Floats:
+    return (window.y - basis @ (basis.T @ window.y)) / window.sd
 
 
 def _basis(window: Window, columns: Floats) -> Floats:
@@ -122,9 +120,7 @@ def _breaks(window: Window, most: float) -> Iterator[Floats]:
 
 
 def _coefficients(window: Window, columns: Floats) -> Floats:
+    """Return the coefficients (k, 3) of columns fitted beside the polynomials."""
     both = np.hstack([window.basis, columns])
-    return _solved(both, window.y)[window.basis.shape[1] :]
-
-
-def _solved(columns: Floats, y: Floats) -> Floats:
-    return np.asarray(np.linalg.lstsq(columns, y, rcond=None)[0], np.float64)
+    found = np.asarray(np.linalg.lstsq(both, window.y, rcond=None)[0], np.float64)
+    return found[window.basis.shape[1] :]

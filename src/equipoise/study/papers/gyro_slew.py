@@ -1,9 +1,9 @@
-"""A slew by control moment gyros on a simulated platform, and all that was seen of it.
+"""A slew by control moment gyros on a simulated platform, and all measurements of it.
 
 The platform starts at rest at its truth's attitude and is brought to another by quaternion PID
 (Lee et al. Eq. 2 with erratum L4, ``control.attitude_pid``); the gimbals are steered by the
-singularity-robust inverse. What the law asked for and what the gyros gave differ in a singularity:
-both are kept, and what identifies the platform is the second, from measured gimbal angles.
+singularity-robust inverse. The torque that the law requests and that of the gyros differ in a
+singularity: both are kept, and the second, from measured gimbal angles, identifies the platform.
 """
 
 from typing import NamedTuple
@@ -30,21 +30,14 @@ class Slew(NamedTuple):
     q: Series4  # as filtered
     rate: Series3  # rad/s, as filtered
     angles: Floats  # (n, k) rad, of the gimbals, as measured
-    rates: Floats  # (n, k) rad/s, asked of the gimbals
-    required: Series3  # N m, asked of the gyros on the platform
+    rates: Floats  # (n, k) rad/s, commanded to the gimbals
+    required: Series3  # N m, requested of the gyros on the platform
     output: Series3  # N m, -D angles', what the rates give
     measure: Series1  # -, 0 in a singularity
     recording: Recording
 
 
-class Row(NamedTuple):
-    """One step."""
-
-    observed: Sample
-    angles: Floats
-    rates: Floats
-    required: Floats
-    output: Floats
+Row = tuple[float | Floats, ...]  # one step: what ``Slew`` has before its recording, in order
 
 
 def slewed(testbed: Testbed, target: Quaternion, gains: Gains, duration: float, seed: int) -> Slew:
@@ -56,39 +49,25 @@ def slewed(testbed: Testbed, target: Quaternion, gains: Gains, duration: float, 
     while bench.time < duration:
         observed = sample_of(before, eyes, fresh, testbed)
         assert observed is not None  # a camera's first row is at time zero
-        pid, row = stepped(testbed, eyes, observed, (pid, target, gains))
+        pid, rates, row = stepped(testbed, eyes, observed, (pid, target, gains))
         rows.append(row)
-        named = zip(testbed.cmgs, row.rates, strict=True)
+        named = zip(testbed.cmgs, rates, strict=True)
         bench.drive({cmg.name: float(rate) for cmg, rate in named})
         fresh = bench.read(PERIOD)
         parts.append(fresh)
         before, eyes = eyes, sampled(eyes, fresh, testbed)
-    return slew_of(testbed, rows, parts)
+    return Slew(*(np.array(column) for column in zip(*rows, strict=True)), recording=joined(parts))
 
 
 def stepped(
     testbed: Testbed, eyes: Eyes, sample: Sample, law: tuple[Pid, Quaternion, Gains]
-) -> tuple[Pid, Row]:
-    """Return the law's state and what is done, at one step."""
+) -> tuple[Pid, Floats, Row]:
+    """Return the law's state, the gimbal rates (rad/s) and the row of one step."""
     pid, target, gains = law
     pid, required = torque(pid, sample, at_rest(target), gains, np.zeros(3))
     angles = eyes.states[len(testbed.wheels) :][: len(testbed.cmgs)]
     rates = limited_rates(testbed.cmgs, singularity_robust(testbed.cmgs, angles, required))
     output: Floats = -jacobian(testbed.cmgs, angles) @ rates
-    return pid, Row(sample, angles, rates, required, output)
-
-
-def slew_of(testbed: Testbed, rows: list[Row], parts: list[Recording]) -> Slew:
-    """Return the rows as columns, and one recording."""
-    measure = [singularity_measure(testbed.cmgs, row.angles) for row in rows]
-    return Slew(
-        np.array([row.observed.t for row in rows]),
-        np.array([row.observed.q for row in rows]),
-        np.array([row.observed.rate for row in rows]),
-        np.array([row.angles for row in rows]),
-        np.array([row.rates for row in rows]),
-        np.array([row.required for row in rows]),
-        np.array([row.output for row in rows]),
-        np.array(measure),
-        joined(parts),
-    )
+    measure = singularity_measure(testbed.cmgs, angles)
+    row = (sample.t, sample.q, sample.rate, angles, rates, required, output, measure)
+    return pid, rates, row

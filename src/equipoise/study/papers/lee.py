@@ -10,8 +10,8 @@ Gains are not printed. With those below the measure of the pyramid lies under 0.
 the large slew (theirs: "at about 10~15 sec") and never in the small one.
 
 Table 1 has a gyro's noise and no other error, so the gyro has no bias here; an attitude must have
-some noise to be weighed by, and has 0.02 deg at 100 Hz. What coarser sensors would make of it is
-told by a bound (``coarser``).
+some noise to be weighed by, and has 0.02 deg at 100 Hz. A bound shows what coarser sensors would
+achieve (``coarser``).
 
 Methods that share their record share its replicates.
 """
@@ -41,7 +41,7 @@ from equipoise.study.papers.gyro_slew import Slew, slewed
 LARGE, SMALL = (70.0, 30.0, -30.0), (30.0, 10.0, -10.0)  # deg: roll, pitch, yaw
 DURATION = 100.0  # s, chosen: the slew is over after 60, the integral's tail after 100
 FREQUENCY, DAMPING, INTEGRAL = 0.112, 0.5, 0.03  # rad/s, -, rad/s, chosen: singular at 10 to 15 s
-MOST = 0.1  # N m, chosen: ten times what the unbalance asks for
+MOST = 0.1  # N m, chosen: ten times the torque of the unbalance
 NEAR = 0.2  # -, chosen: half of the measure below which steering gives way
 ATTITUDE_RATE, ATTITUDE_NOISE = 100.0, np.radians(0.02)  # Hz, rad, chosen: next to none
 COMPARED = ("averaged_printed", "averaged", "momentum_corrected", "trajectory")
@@ -131,7 +131,7 @@ def coarser(recording: Recording, testbed: Testbed) -> Recording:
 
 
 def judged(testbed: Testbed, start: tuple[float, float, float], slew: Slew) -> Manoeuvre:
-    """Return what a slew from roll, pitch and yaw (deg) tells; the testbed has its own sensors."""
+    """Return the estimates from a slew from roll, pitch and yaw (deg); the testbed is as stated."""
     bed = with_printed_errors(testbed)
     found = estimates_of(slew.recording, bed)
     bound = information_by(slew.recording, bed, Params())
@@ -146,9 +146,9 @@ def singular_times(slew: Slew) -> tuple[float, float] | None:
 
 
 def warns(estimate: Estimate) -> bool:
-    """Say whether an estimate tells its reader not to rely on it: outcome or interval.
+    """Say whether an estimate warns its reader not to rely on it: outcome or interval.
 
-    No interval, or an infinite one, counts: nobody can take a number for known that has none.
+    No interval, or an infinite one, counts: a number without an interval is not known.
     """
     open_ended = not all(estimate.has(name) and estimate.sees((name,)) for name in SOUGHT)
     return estimate.outcome.warns or open_ended

@@ -5,7 +5,7 @@ At growing times t_j, of all rows up to then:
     x_j = (H^T H)^-1 H^T y,    EI and PEI of the same H and y      (``error_indices``)
 
 Recursive least squares without forgetting (Eq. 8, W = E) that begin with a batch come to the same
-at every t_j. Like theirs it begins where the platform already turns: at rest H tells nothing.
+at every t_j. Like theirs it begins where the platform already turns: H is singular at rest.
 
 Cannot see what biases x: rows are taken to err alike and independently.
 """
@@ -27,13 +27,13 @@ from equipoise.model.recording import Recording, window
 from equipoise.model.testbed import Testbed
 
 TURNING = np.radians(1.0)  # rad/s, chosen: fifty times the gyro's noise
-BATCH = 2.0  # s, chosen: of the first rows, before which nothing is told
+BATCH = 2.0  # s, chosen: of the first rows, before which nothing is estimated
 EVERY = 1.0  # s
 SMOOTHED = 20  # rows of the gyro, to see whether it turns
 
 
 class Reported(NamedTuple):
-    """What rows up to each time tell; columns in the order of ``names``."""
+    """Estimates from the rows up to each time; columns in the order of ``names``."""
 
     names: tuple[str, ...]
     t: Series1  # s
@@ -80,7 +80,7 @@ def reported_along(formulation: Formulation, recording: Recording, testbed: Test
 
 
 def reported_at(rows: Rows, t: float) -> tuple[Floats, float, Floats]:
-    """Return values, EI and PEI of the rows up to a time; nan where they tell nothing."""
+    """Return values, EI and PEI of the rows up to a time; nan where they determine nothing."""
     first = centred(rows_until(rows, t))
     H, y = flat(first)
     nothing = np.full(len(rows.names), np.nan)

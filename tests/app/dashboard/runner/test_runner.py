@@ -8,7 +8,7 @@ from equipoise.app.dashboard.protocol.series import series_of
 from equipoise.app.dashboard.runner.benches import replayed, simulated
 from equipoise.app.dashboard.runner.chart_rows import parts_of
 from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
-from equipoise.app.dashboard.runner.pace import Pace
+from equipoise.app.live.pace import Pace
 from equipoise.estimation.tracker import tracker
 from equipoise.io.recording.recording_file import read_recording, write_recording
 from equipoise.maths.attitude import tilt, to_euler321
@@ -284,7 +284,7 @@ def test_a_real_bench_is_not_balanced_unless_somebody_holds_it(nanosat, tmp_path
 
 def test_time_is_held_to_the_wall_and_what_is_late_is_forgotten(monkeypatch):
     now = [100.0]
-    monkeypatch.setattr("equipoise.app.dashboard.runner.pace.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("equipoise.app.live.pace.time.monotonic", lambda: now[0])
     pace = Pace(2.0)
     assert pace.wait(0.1) == pytest.approx(0.05)
     now[0] += 0.02

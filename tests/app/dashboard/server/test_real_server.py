@@ -93,7 +93,7 @@ def test_pages_and_files_need_the_token(running):
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium: apt-get install chromium")
 def test_the_address_that_was_printed_opens_the_page(running):
-    """The token of the address lets look on; to command it is asked for once more."""
+    """The token of the address lets a page observe; to command it is asked for once more."""
     with browser() as chromium:
         page = chromium.new_page()
         received = Received(page)

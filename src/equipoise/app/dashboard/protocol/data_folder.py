@@ -19,7 +19,7 @@ def data_folder() -> Path:
 def within(folder: Path, name: str) -> Path:
     """Return a file of the folder by its name in it; InputError for what is outside, or not there.
 
-    Links are followed before it is asked where a file is.
+    Links are followed before the location of a file is checked.
     """
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()) or not path.is_file():

@@ -2,7 +2,7 @@
 
     uint32 n    n bytes of JSON, padded with blanks until 4 + n is a multiple of 8    float64 ...
 
-All little-endian. The JSON tells the bench time and for each part its name, rows and columns; the
+All little-endian. The JSON has the bench time and for each part its name, rows and columns; the
 numbers follow part by part, row by row. The page reads them in place (``static/frames.js``).
 """
 
@@ -25,15 +25,3 @@ def encoded(t: float, parts: Sequence[Part]) -> bytes:
     header += b" " * (-(HEAD.size + len(header)) % 8)
     numbers = [np.ascontiguousarray(values, "<f8").tobytes() for _, values in parts]
     return b"".join([HEAD.pack(len(header)), header, *numbers])
-
-
-def decoded(message: bytes) -> tuple[float, dict[str, Floats]]:
-    """Return bench time and the parts by name: the way back."""
-    (size,) = HEAD.unpack_from(message)
-    header = json.loads(message[HEAD.size : HEAD.size + size])
-    values = np.frombuffer(message, "<f8", offset=HEAD.size + size)
-    at, found = 0, dict[str, Floats]()
-    for name, rows, columns in header["parts"]:
-        found[name] = values[at : at + rows * columns].reshape(rows, columns)
-        at += rows * columns
-    return header["t"], found

@@ -1,4 +1,4 @@
-"""What a person at the page can ask of the runner."""
+"""Requests of a person at the page to the runner."""
 
 from dataclasses import dataclass
 
@@ -16,14 +16,14 @@ class Balance:
 
 @dataclass(frozen=True, slots=True)
 class Identify:
-    """Identify from what was seen since the platform was let go."""
+    """Identify from the rows since the platform was let go."""
 
     method: str
 
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """End what is being done and halt every mass."""
+    """End the running procedure and halt every mass."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,7 +37,7 @@ class Series:
 
 
 def series_of(testbed: Testbed) -> list[Series]:
-    """Return what can be seen of a testbed, in the order of the charts."""
+    """Return the series of a testbed, in the order of the charts."""
     limits = ("tilt",) if testbed.hardware is None else ("tilt", "rate")
     found = [
         Series("pose", "Attitude quaternion", ("w", "x", "y", "z"), "", Unit("", 1.0), chart=False),

@@ -11,14 +11,13 @@ from equipoise.app.logbook.run_folder import own_folder
 from equipoise.app.report.run_record import Output
 from equipoise.app.report.write import write_output
 from equipoise.app.runs.balancing import Balancing
-from equipoise.app.runs.identification import Identification
+from equipoise.app.runs.identification import run
+from equipoise.app.runs.waiting import passing_on
 from equipoise.app.views import balance_views, identify_views
-from equipoise.assessment.findings.record_findings import findings
 from equipoise.model.errors import EquipoiseError
 from equipoise.model.recording import Recording
-from equipoise.model.step import Step
 from equipoise.model.testbed import Testbed
-from equipoise.procedure.identification.identify import IdentifyOptions, identify
+from equipoise.procedure.identification.identify import IdentifyOptions
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,7 +54,7 @@ class Job:
         self.over = False
 
     def news(self) -> Iterator[News]:
-        """Yield what has been told since this was last asked."""
+        """Yield what it has reported since the last call."""
         try:
             while not self.over and self._pipe.poll():
                 yield self._pipe.recv()
@@ -71,7 +70,7 @@ class Job:
 
 
 def carry_out(pipe: Pipe, task: Task) -> None:
-    """Carry out a task and tell of it; the process's whole life."""
+    """Carry out a task and report on it; the process's whole life."""
     try:
         kept = _keep(task) if isinstance(task, Keep) else _fit(task, pipe)
         pipe.send(("kept", kept))
@@ -86,14 +85,9 @@ def _keep(task: Keep) -> str | None:
 
 
 def _fit(task: Fit, pipe: Pipe) -> str | None:
-    steps: list[Step] = []
-    options = IdentifyOptions(task.method)
-    for step in identify(task.recording, task.testbed, options):
-        pipe.send(("step", step))
-        steps.append(step)
-    found = findings(task.recording, task.testbed)
-    done = Identification(task.testbed, task.recording, found, steps)
-    # What was seen live is in no file yet: it is kept with the run.
+    each = passing_on(lambda step: pipe.send(("step", step)))
+    done = run(task.recording, task.testbed, IdentifyOptions(task.method), each)
+    # The live rows are in no file yet: they are kept with the run.
     logged = identify_views.logged_of(done, is_file=False)
     return _written(replace(identify_views.output_of(done), logged=logged), task.testbed)
 

@@ -22,7 +22,7 @@ BEFORE = 60.0  # s, chosen: of a recording, shown at once in front of the time t
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Station:
-    """A bench and what kind it is. ``before``: rows that were seen before it began."""
+    """A bench and what kind it is. ``before``: rows recorded before it began."""
 
     kind: Kind
     bench: Bench
@@ -34,7 +34,7 @@ class Station:
 
     @property
     def testbed(self) -> Testbed:
-        """What is known of it beforehand."""
+        """The testbed as stated."""
         return self.bench.testbed
 
     @property

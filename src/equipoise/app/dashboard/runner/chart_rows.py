@@ -1,4 +1,4 @@
-"""From rows and beliefs to the columns that the page draws; nothing is estimated here."""
+"""From rows and estimates to the columns that the page draws; nothing is estimated here."""
 
 import numpy as np
 
@@ -9,12 +9,13 @@ from equipoise.assessment.metrics.gravity_torque import gravity_torque
 from equipoise.assessment.metrics.motion_energy import motion_energy
 from equipoise.estimation.tracker.tracker import Track
 from equipoise.maths.attitude import euler321_sd, tilt, to_euler321
+from equipoise.maths.straight_lines import read_at
 from equipoise.model.arrays import Floats, Series1, Series3
 from equipoise.model.devices import recorded_name
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-COM = slice(0, 3)  # of a belief's covariance
+COM = slice(0, 3)  # of an estimate's covariance
 
 
 def parts_of(
@@ -32,9 +33,7 @@ def standing_com(rows: Recording, testbed: Testbed, t: Series1, com: Series3) ->
     """Return the centre of mass (m) with the masses as they stand, of that with them at home."""
     if rows.masses is None or not len(rows.masses):
         return com
-    masses = rows.masses
-    columns: list[Floats] = [np.interp(t, masses.t, column) for column in masses.values.T]
-    at = _columns(*columns)
+    at = read_at(t, rows.masses.t, rows.masses.values)
     return com + com_shift(mass_maps(testbed.masses), testbed.body.mass, at)
 
 
@@ -45,13 +44,13 @@ def _attitude(rows: Recording, testbed: Testbed) -> list[Part]:
     angles = to_euler321(q)
     noise = np.nan if testbed.attitude is None else testbed.attitude.noise
     return [
-        ("pose", _columns(t, *q.T)),
-        ("attitude", _columns(t, *angles, *euler321_sd(angles[1], noise))),
+        ("pose", np.column_stack([t, q])),
+        ("attitude", np.column_stack([t, *angles, *euler321_sd(angles[1], noise)])),
     ]
 
 
 def _rate(rows: Recording, testbed: Testbed, track: Track | None) -> list[Part]:
-    """Return the gyro's rate with its stated noise; without a gyro what the tracker believes."""
+    """Return the gyro's rate with its stated noise; without a gyro the tracker's estimate."""
     if rows.rate is not None:
         t, rate = rows.rate.t, rows.rate.values
         sd = np.full_like(rate, np.nan if testbed.gyro is None else testbed.gyro.noise)
@@ -59,13 +58,13 @@ def _rate(rows: Recording, testbed: Testbed, track: Track | None) -> list[Part]:
         t, rate, sd = track.t, track.rate, track.rate_sd
     else:
         return []
-    return [("rate", _columns(t, *rate.T, *sd.T))]
+    return [("rate", np.column_stack([t, rate, sd]))]
 
 
 def _limits(rows: Recording, testbed: Testbed) -> Floats:
     """Return tilt and, of a real bench, rate as shares of what stops the masses, in time's order.
 
-    What a row does not tell is NaN.
+    What a row does not contain is NaN.
     """
     hardware = testbed.hardware
     width, found = 2 if hardware is None else 3, list[Floats]()
@@ -88,11 +87,11 @@ def _beside(t: Series1, share: Series1, column: int, width: int) -> Floats:
 def _masses(rows: Recording, testbed: Testbed) -> list[Part]:
     parts: list[Part] = []
     if rows.masses is not None:
-        parts.append(("masses", _columns(rows.masses.t, *rows.masses.values.T)))
+        parts.append(("masses", np.column_stack([rows.masses.t, rows.masses.values])))
     if rows.devices is not None and testbed.wheels:
         names = [recorded_name(wheel) for wheel in testbed.wheels]
         where = [rows.device_names.index(name) for name in names]
-        parts.append(("wheels", _columns(rows.devices.t, *rows.devices.values[:, where].T)))
+        parts.append(("wheels", np.column_stack([rows.devices.t, rows.devices.values[:, where]])))
     return parts
 
 
@@ -105,11 +104,7 @@ def _estimated(known: Recording, testbed: Testbed, track: Track, covariance: Flo
         testbed, motion, track.end.inertia_P, covariance, track.rate_sd
     )
     return [
-        ("com", _columns(track.t, *com.T, *track.com_sd.T)),
-        ("torque", _columns(track.t, *torque.T, *torque_sd.T)),
-        ("energy", _columns(track.t, *energy.T, *energy_sd.T)),
+        ("com", np.column_stack([track.t, com, track.com_sd])),
+        ("torque", np.column_stack([track.t, torque, torque_sd])),
+        ("energy", np.column_stack([track.t, energy, energy_sd])),
     ]
-
-
-def _columns(*columns: Floats) -> Floats:
-    return np.stack(columns, axis=1)

@@ -1,7 +1,6 @@
-"""What the runner tells as documents: what is shown, a step, how it stands."""
+"""Messages of the runner as documents: the view, a step, the state."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,6 @@ from equipoise.app.dashboard.runner.chart_rows import COM, standing_com
 from equipoise.app.dashboard.runner.live_estimate import LiveEstimate
 from equipoise.app.runs.balancing import Goal
 from equipoise.model.devices import recorded_name
-from equipoise.model.step import Step
 
 Document = dict[str, Any]
 
@@ -33,47 +31,25 @@ def about(station: Station, clock: int, session: str) -> Document:
     }  # fmt: skip
 
 
-def step_document(index: int, step: Step) -> Document:
-    """Return a step, with the outcome of its verdict."""
-    outcome = None if step.verdict is None else step.verdict.outcome
-    return _line(index, step.kind, step.time, step.sentence, outcome)
-
-
-def mark_document(index: int, t: float, text: str) -> Document:
-    """Return what a person noted, as a line among the steps."""
-    return _line(index, "mark", t, text, None)
-
-
-def _line(index: int, of: str, t: float, sentence: str, outcome: str | None) -> Document:
+def line_document(
+    index: int, of: str, t: float, sentence: str, outcome: str | None = None
+) -> Document:
+    """Return a line of the story: a step with the outcome of its verdict, or a person's mark."""
     return {
         "kind": "step", "index": index, "of": of, "t": t, "sentence": sentence, "outcome": outcome,
     }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Standing:
-    """How the runner stands."""
-
-    phase: str
-    speed: float
-    recording: str | None
-    goal: Goal | None
-    trip: str | None
-    note: str
-    kept: str | None  # folder of the last run that was kept
-    working: str  # what is done beside, such as a report being written
-
-    def document(self, station: Station, posterior: LiveEstimate) -> Document:
-        """Return it for the page."""
-        goal = self.goal
-        wanted = None if goal is None else {
-            "target": goal.target.tolist(), "tolerance": goal.tolerance.tolist()}  # fmt: skip
-        return {
-            "kind": "state", "t": station.bench.time, "phase": self.phase, "speed": self.speed,
-            "recording": self.recording, "goal": wanted, "trip": self.trip, "note": self.note,
-            "kept": self.kept, "working": self.working, "span": station.span,
-            "seed": station.seed, "estimate": _estimated(posterior),
-        }  # fmt: skip
+def state_document(
+    station: Station, posterior: LiveEstimate, goal: Goal | None, **state: object
+) -> Document:
+    """Return the state of the runner; ``state`` stands in the document as it is."""
+    wanted = None if goal is None else {
+        "target": goal.target.tolist(), "tolerance": goal.tolerance.tolist()}  # fmt: skip
+    return {
+        "kind": "state", "t": station.bench.time, "goal": wanted, "span": station.span,
+        "seed": station.seed, "estimate": _estimated(posterior), **state,
+    }  # fmt: skip
 
 
 def _estimated(posterior: LiveEstimate) -> Mapping[str, Any] | None:

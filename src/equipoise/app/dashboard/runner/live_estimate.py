@@ -1,7 +1,7 @@
-"""What the tracker believes while rows arrive: the same numbers as of the whole recording at once.
+"""The tracker's estimate while rows arrive: the same numbers as of the whole recording at once.
 
-The tracker (``estimation.tracker``) is fed part by part. A tail of the rows before goes with each
-part, so that a mass that was on its way is seen to stop.
+The tracker (``estimation.tracker``) is fed part by part. Each part is preceded by a tail of the
+earlier rows, so that it contains the stop of a mass that was moving.
 """
 
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class LiveEstimate:
 
 
 def grown(posterior: LiveEstimate, rows: Recording) -> tuple[LiveEstimate, tracker.Track | None]:
-    """Return the belief after more rows, and its course along them; None without an attitude."""
+    """Return the posterior after more rows, and its course along them; None without an attitude."""
     observed = rows if posterior.tail is None else join(posterior.tail, rows)
     state = posterior.state or _first(observed, posterior.testbed)
     if state is None:

@@ -1,4 +1,4 @@
-"""What the runner tells: rows, steps and how it stands, gathered and sent a few times a second."""
+"""Messages of the runner: rows, steps and its state, gathered and sent a few times a second."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -22,12 +22,12 @@ class Post:
         self._state: Mapping[str, Any] = {}
 
     def about(self, document: Mapping[str, Any]) -> None:
-        """Tell what is shown from now on; rows that wait belong to what was shown before."""
+        """Send what is shown from now on; pending rows belong to the previous view."""
         self._waiting = {}
         self._send("about", document)
 
     def step(self, document: Mapping[str, Any]) -> None:
-        """Tell of a step, rows before it first."""
+        """Send a step, after the rows before it."""
         self.flush()
         self._send("step", document)
 
@@ -38,7 +38,7 @@ class Post:
             self._waiting.setdefault(name, []).append(values)
 
     def state(self, document: Mapping[str, Any]) -> None:
-        """Take how the runner stands; told with the next rows, and only if it is new."""
+        """Send the state of the runner, if it is new."""
         if document != self._state:
             self._state = document
             self._send("state", document)

@@ -1,4 +1,4 @@
-"""What is asked of the runner: allowed or not now, and done."""
+"""Requests to the runner: carried out, kept for later, or refused."""
 
 from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
@@ -20,7 +20,7 @@ FASTEST = 100.0  # times, chosen
 
 
 class Desk:
-    """Hears requests at a pipe; what comes of each is told as a note."""
+    """Receives requests from a pipe; the result of each is a note."""
 
     def __init__(self, runner: Runner, pipe: Pipe, folder: Path, seed: int) -> None:
         self._runner, self._pipe, self._folder, self._seed = runner, pipe, folder, seed
@@ -30,7 +30,7 @@ class Desk:
     def handle(self, longest: float) -> None:
         """Wait so long (s) at most for a request, and carry out what has come.
 
-        Raises EOFError where whoever asks has gone.
+        Raises EOFError where the other end of the pipe is closed.
         """
         wait = longest
         while self._pipe.poll(wait):

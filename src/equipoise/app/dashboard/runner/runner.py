@@ -1,8 +1,8 @@
-"""The runner: it has the bench, balances it, shows it, and does what the page asks.
+"""The runner: it has the bench, balances it, shows it, and carries out the page's requests.
 
-One thread. Between two slices of a reading it hears what is asked (``desk``); a procedure that runs
-is a reading like any other, so that the view goes on and a stop is heard at once. It knows no page
-and no server; whoever listens gets the same.
+One thread. Between two slices of a reading it handles requests (``desk``). A running procedure is a
+reading like any other, so that the view goes on and a stop acts at once. It knows no page and no
+server; every receiver gets the same.
 """
 
 import time
@@ -14,17 +14,12 @@ from equipoise.app.console.terminal import COMPILING
 from equipoise.app.dashboard.runner.background_jobs import Fit, Job, Keep
 from equipoise.app.dashboard.runner.benches import Station, let_go
 from equipoise.app.dashboard.runner.chart_rows import parts_of
-from equipoise.app.dashboard.runner.documents import (
-    Standing,
-    about,
-    mark_document,
-    step_document,
-)
+from equipoise.app.dashboard.runner.documents import about, line_document, state_document
 from equipoise.app.dashboard.runner.live_estimate import LiveEstimate, grown
 from equipoise.app.dashboard.runner.outbox import Post
-from equipoise.app.dashboard.runner.pace import Pace
 from equipoise.app.dashboard.runner.recorder import Recorder
 from equipoise.app.live.observed_bench import WatchedBench
+from equipoise.app.live.pace import Pace
 from equipoise.app.runs.balancing import HALTED, Balancing, Goal, Limits, Through, run
 from equipoise.app.runs.rehearsal import practised
 from equipoise.app.runs.waiting import as_they_come
@@ -52,7 +47,7 @@ class Runner:
         self.phase, self.note, self.working = "idle", "", ""
         self.goal: Goal | None = None
         self.trip: str | None = None
-        self.kept: str | None = None
+        self.kept: str | None = None  # folder of the last run that was kept
         self.stopping = False
         self._receive: Callable[[float], None] = lambda _: None
         self._clock, self._steps, self._due = 0, 0, 0.0
@@ -60,7 +55,7 @@ class Runner:
         self.show(station)
 
     def handling(self, receive: Callable[[float], None]) -> None:
-        """Let somebody be asked between two slices; he waits so long (s) at most for a request."""
+        """Set what handles requests between two slices; it waits so long (s) at most for one."""
         self._receive = receive
 
     # --- What is shown -----------------------------------------------------------------------
@@ -80,33 +75,36 @@ class Runner:
         self.report_state()
 
     def report_state(self) -> None:
-        """Tell how things stand."""
-        standing = Standing(self.phase, self.pace.speed, self.recorder.name, self.goal, self.trip,
-                            self.note, self.kept, self.working)  # fmt: skip
-        self.post.state(standing.document(self.station, self._posterior))
+        """Send the state."""
+        self.post.state(state_document(
+            self.station, self._posterior, self.goal, phase=self.phase, speed=self.pace.speed,
+            recording=self.recorder.name, trip=self.trip, note=self.note, kept=self.kept,
+            working=self.working,
+        ))  # fmt: skip
 
     def say(self, sentence: str) -> None:
-        """Tell a sentence at once."""
+        """Send a sentence at once."""
         self.note = sentence
         self.report_state()
 
     def mark(self, text: str) -> None:
         """Note that something happened now."""
-        t = self.station.bench.time
-        self.post.step(mark_document(self._steps, t, text))
-        self._steps += 1
-        self.recorder.event(t, "mark", text)
+        self._line("mark", self.station.bench.time, text)
 
     def step(self, step: Step) -> None:
-        """Tell of a step."""
-        self.post.step(step_document(self._steps, step))
+        """Send a step."""
+        outcome = None if step.verdict is None else step.verdict.outcome
+        self._line(step.kind, step.time, step.sentence, outcome)
+
+    def _line(self, of: str, t: float, sentence: str, outcome: str | None = None) -> None:
+        self.post.step(line_document(self._steps, of, t, sentence, outcome))
         self._steps += 1
-        self.recorder.event(step.time, step.kind, step.sentence)
+        self.recorder.event(t, of, sentence)
 
     # --- Time passes -------------------------------------------------------------------------
 
     def turn(self) -> None:
-        """Hear what is asked and let a slice of time pass."""
+        """Handle requests and let a slice of time pass."""
         if self.phase == "paused":
             self._idle(SLICE)
             return
@@ -118,7 +116,7 @@ class Runner:
             self.trip = self.note = str(stopped)
 
     def _between(self) -> None:
-        """Wait for the next slice's time and hear what is asked; a stop ends who reads."""
+        """Handle requests until the next slice is due; a stop ends the reading."""
         while (left := self._due - time.monotonic()) > 0:
             self._idle(left)
         self._idle(0.0)
@@ -130,7 +128,7 @@ class Runner:
             raise BenchStopped(BY_HAND)
 
     def _idle(self, longest: float) -> None:
-        """Hear what is asked, for so long (s) at most, and tell what is due."""
+        """Handle requests, for so long (s) at most, and send what is due."""
         self._receive(longest)
         self._work()
         if self.post.turn():
@@ -171,7 +169,7 @@ class Runner:
     # --- What is done ------------------------------------------------------------------------
 
     def balance(self, goal: Goal, limits: Limits, seed: int) -> None:
-        """Balance, and have the report written beside; what stops it is its last step."""
+        """Balance, and have the report written by a background job; a stop is the last step."""
         self.phase, self.goal, self.trip, self.kept, self.note = "balancing", goal, None, None, ""
         self.report_state()
         try:
@@ -196,26 +194,26 @@ class Runner:
         return run(bench, goal, limits, self.step, Through(self._replayed, as_they_come))
 
     def identify(self, method: str) -> None:
-        """Identify from what was seen, beside; InputError where nothing was."""
+        """Identify from the recent rows, as a background job; a note where there are none."""
         if not self._observed:
-            self.say("Nothing has been seen yet.")
+            self.say("Nothing has been recorded yet.")
             return
         task = Fit(joined(self._observed), self.station.testbed, method)
         self._begin(Job(task), f"identifying ({method})")
 
     def stop_work(self) -> None:
-        """End what is done beside."""
+        """End the background jobs."""
         for job in self._jobs:
             job.end()
         self._jobs, self.working = [], ""
 
     def close(self) -> None:
-        """End recordings and what is done beside."""
+        """End recordings and background jobs."""
         self.stop_work()
         self.recorder.end()
 
     def _replayed(self, bench: Bench) -> Bench:
-        """Return the bench as a procedure is to see it: with who looks on, and this very desk."""
+        """Return the bench as a procedure gets it: shown, and stopped by requests."""
         assert bench is self.station.bench
         return self._watched
 
@@ -225,7 +223,7 @@ class Runner:
         self.report_state()
 
     def _work(self) -> None:
-        """Tell what those have to say who work beside."""
+        """Send what the background jobs have reported."""
         for job in self._jobs:
             for kind, what in job.news():
                 self._received_of(job, kind, what)

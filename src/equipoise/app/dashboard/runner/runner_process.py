@@ -1,7 +1,8 @@
-"""The runner's process: it has the bench, and lives as long as whoever began it.
+"""The runner's process: it has the bench, and lives as long as the server that started it.
 
-It hears requests and tells what happens through one pipe. When the pipe breaks, because the server
-has ended or crashed, a procedure that runs is ended, every mass is halted, and so is the process.
+It receives requests and sends its messages through one pipe. When the pipe breaks, because the
+server has ended or crashed, a running procedure is ended, every mass is halted, and the process
+ends.
 Ctrl-C reaches the server alone.
 """
 

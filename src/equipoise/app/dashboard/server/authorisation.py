@@ -1,4 +1,4 @@
-"""Who commands: whoever has the token, and one page at a time. All others look on."""
+"""Who commands: whoever has the token, and one page at a time. All others observe."""
 
 import hmac
 import secrets
@@ -17,7 +17,7 @@ class Guard:
         self._commander: str | None = None
 
     def is_right(self, token: str) -> bool:
-        """Say whether a token is the right one, in a time that tells nothing of it."""
+        """Say whether a token is the right one, in constant time."""
         return hmac.compare_digest(token.encode(), self._token.encode())
 
     def take(self, page: str, token: str) -> str:

@@ -1,8 +1,7 @@
-"""What the runner has told, kept for pages that come later, and handed on to those that are here.
+"""Messages of the runner: kept for pages that connect later, passed on to those connected.
 
-Rows are kept up to a number of bytes, the oldest go first; steps, what is shown and how things
-stand are kept whole. A page that does not keep up is let go: it connects again and gets all that
-is kept.
+Rows are kept up to a number of bytes, the oldest go first. Steps, the view and the state are kept
+whole. A page that does not keep up is disconnected: it connects again and gets all that is kept.
 """
 
 import asyncio
@@ -13,7 +12,7 @@ from typing import Any
 MOST = 12_000_000  # bytes of rows, chosen: about five minutes at 100 Hz
 BEHIND = 300  # messages, chosen: twenty seconds of them
 Message = bytes | str
-GONE = ""  # told to a page that is let go
+GONE = ""  # sent to a page that is disconnected
 
 
 class Watch:
@@ -23,13 +22,13 @@ class Watch:
         self.about: dict[str, Any] = {}
         self.state: dict[str, Any] = {}
         self.steps: dict[int, dict[str, Any]] = {}
-        self.ended = ""  # why the runner is no more
+        self.ended = ""  # why the runner has ended
         self._rows: deque[bytes] = deque()
         self._bytes = 0
         self._pages: set[asyncio.Queue[Message]] = set()
 
     def take(self, kind: str, what: Any) -> None:
-        """Take something that the runner tells."""
+        """Take a message of the runner."""
         match kind:
             case "rows":
                 self._keep(what)
@@ -45,14 +44,9 @@ class Watch:
         self._hand_on(json.dumps(what))
 
     def end(self, why: str) -> None:
-        """Note that the runner is no more; the pages are told."""
+        """Note that the runner has ended, and inform the pages."""
         self.ended = why
         self.take("state", {**self.state, "kind": "state", "phase": "stopped", "note": why})
-
-    @property
-    def kept_bytes(self) -> int:
-        """Return how many bytes of rows are kept."""
-        return self._bytes
 
     def join(self) -> "asyncio.Queue[Message]":
         """Return what a page gets: all that is kept, then what comes."""

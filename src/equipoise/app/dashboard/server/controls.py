@@ -1,4 +1,4 @@
-"""The column of controls: what a person can ask. Whoever only looks on sees it, and is refused."""
+"""The column of controls: a person's requests. Observers see it, their requests are refused."""
 
 from collections.abc import Callable, Sequence
 
@@ -6,15 +6,16 @@ from nicegui import ui
 
 from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.data_folder import recordings
-from equipoise.app.dashboard.server.fields import button, triple
+from equipoise.app.dashboard.protocol.series import AXES
 from equipoise.app.dashboard.server.request_queue import Counter
 from equipoise.app.text.units import TRAVEL
 from equipoise.model.testbed import SlidingMass
-from equipoise.model.units import in_si
+from equipoise.model.units import UM, in_si
 
 TARGET_UM, TOLERANCE_UM = (0.0, 0.0, -100.0), (2.0, 2.0, 3.0)  # as ``equipoise balance`` has them
 SPEEDS = {0.5: "half", 1.0: "real time", 2.0: "2 x", 5.0: "5 x", 20.0: "20 x", 0.0: "fastest"}
 TABS = ("Balance", "Masses", "Data", "Bench")
+Triple = tuple[float, float, float]
 
 
 class Controls:
@@ -85,7 +86,7 @@ class Controls:
         self.method = ui.select(methods, value="auto", label="Method").props(
             "dense outlined options-dense"
         )
-        self._button("Identify from what was seen", self._identify)
+        self._button("Identify from the recorded motion", self._identify)
 
     def _masses(self) -> None:
         if not self._counter.testbed.masses:
@@ -126,7 +127,7 @@ class Controls:
         self.seed = ui.number("Seed", value=2, min=0, precision=0).props("dense outlined")
         self._button("Another simulated platform", self._anew)
 
-    # --- What is asked -----------------------------------------------------------------------
+    # --- Requests ----------------------------------------------------------------------------
 
     def _button(self, text: str, do: Callable[[], None], style: str = "outline") -> ui.button:
         made = button(text, do, style)
@@ -150,7 +151,7 @@ class Controls:
         self.refresh()
 
     def _start(self) -> None:
-        target, tolerance = self.target.read(), self.tolerance.read()
+        target, tolerance = lengths(self.target), lengths(self.tolerance)
         if target is None or tolerance is None or min(tolerance) <= 0:
             ui.notify("Target and tolerance need three numbers each, tolerances above 0.")
             return
@@ -181,3 +182,28 @@ class Controls:
 
 def _first_let_go(paused: bool) -> Sequence[requests.Request]:
     return (requests.Pause(False),) if paused else ()
+
+
+def triple(what: str, shown_um: Triple) -> list[ui.number]:
+    """Lay three number fields side by side, labelled by axis."""
+    ui.label(f"{what} (µm)").classes("eq-label")
+    with ui.row().classes("eq-triple"):
+        return [
+            ui.number(axis, value=value, format="%g").props(
+                f'dense outlined aria-label="{what} {axis} in um"'
+            )
+            for axis, value in zip(AXES, shown_um, strict=True)
+        ]
+
+
+def lengths(fields: Sequence[ui.number]) -> Triple | None:
+    """Return the lengths (m) in three fields in um; None if one is missing."""
+    x, y, z = (field.value for field in fields)
+    if x is None or y is None or z is None:
+        return None
+    return (in_si(x, UM), in_si(y, UM), in_si(z, UM))
+
+
+def button(text: str, do: Callable[[], None], style: str = "outline") -> ui.button:
+    """Lay a button; its text is what it does."""
+    return ui.button(text, on_click=do).props(f"{style} no-caps dense").classes("eq-button")

@@ -1,4 +1,4 @@
-"""What stands in front of the server: who may speak with it at all, and how much at once.
+"""The gate in front of the server: which requests pass, and how large they may be.
 
     Host          one of the addresses at which it listens: another name means a foreign page that
                   was led here (DNS rebinding)
@@ -9,22 +9,17 @@
 An ASGI middleware; a WebSocket is refused before it is accepted (403).
 """
 
-import json
-from collections.abc import Awaitable, Callable, MutableMapping
 from dataclasses import dataclass
-from http.cookies import SimpleCookie
-from typing import Any
-from urllib.parse import parse_qs
+
+from starlette.datastructures import MutableHeaders
+from starlette.requests import HTTPConnection
+from starlette.responses import JSONResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.websockets import WebSocketClose
 
 from equipoise.app.dashboard.server.authorisation import Guard
 
-Scope = MutableMapping[str, Any]
-Event = MutableMapping[str, Any]
-Receive = Callable[[], Awaitable[Event]]
-Send = Callable[[Event], Awaitable[None]]
-App = Callable[[Scope, Receive, Send], Awaitable[None]]
-
-LARGEST = 64 * 1024  # bytes of a request or message, chosen: far more than any control says
+LARGEST = 64 * 1024  # bytes of a request or message, chosen: many times what any control sends
 COOKIE = "equipoise_token"
 # Nothing from outside, whatever a text holds; the shell makes its templates in the page.
 POLICY = (
@@ -49,7 +44,7 @@ class Doors:
 class Gate:
     """See above."""
 
-    def __init__(self, app: App, doors: Doors, guard: Guard) -> None:
+    def __init__(self, app: ASGIApp, doors: Doors, guard: Guard) -> None:
         self._app, self._doors, self._guard = app, doors, guard
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -57,66 +52,62 @@ class Gate:
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
-        headers = {name.decode("latin-1"): value.decode("latin-1")
-                   for name, value in scope["headers"]}  # fmt: skip
-        why = self._refusal(scope, headers)
+        request, is_websocket = HTTPConnection(scope), scope["type"] == "websocket"
+        why = self._refusal(request)
         if why is not None:
-            await _refuse(scope, send, *why)
+            status, sentence = why
+            json = JSONResponse({"refused": sentence}, status)
+            answer = WebSocketClose(reason=sentence, code=1008) if is_websocket else json
+            await answer(scope, receive, send)
             return
-        sender = send if scope["type"] == "websocket" else self._marked(scope, send)
+        sender = send if is_websocket else self._marked(request, send)
         await self._app(scope, _limited(receive), sender)
 
-    def _refusal(self, scope: Scope, headers: dict[str, str]) -> tuple[int, str] | None:
+    def _refusal(self, request: HTTPConnection) -> tuple[int, str] | None:
         """Return status and sentence for who may not pass."""
-        host, origin = headers.get("host", ""), headers.get("origin")
+        host, origin = request.headers.get("host", ""), request.headers.get("origin")
         if host not in self._doors.hosts:
             return 403, f"This dashboard is not at {host or 'a host without a name'}."
-        needs_origin = scope["type"] == "websocket" and self._doors.exposed
+        needs_origin = request.scope["type"] == "websocket" and self._doors.exposed
         if (origin is None and needs_origin) or not (
             origin is None or self._doors.welcomes(origin)
         ):
-            return 403, f"A page of {origin or 'no origin'} may not speak with this dashboard."
-        if self._doors.exposed and not self._guard.is_right(_token(scope, headers)):
+            return 403, f"A page of {origin or 'no origin'} may not use this dashboard."
+        if self._doors.exposed and not self._guard.is_right(_token(request)):
             return 401, "The token is missing or wrong: open the address that was printed."
-        size = headers.get("content-length", "0")
+        size = request.headers.get("content-length", "0")
         if not size.isdigit() or int(size) > LARGEST:
             return 413, f"A request has at most {LARGEST} bytes."
         return None
 
-    def _marked(self, scope: Scope, send: Send) -> Send:
+    def _marked(self, request: HTTPConnection, send: Send) -> Send:
         """Return a sender that adds what a browser should keep to: the policy, the token."""
-        given = _given(scope)
+        given = request.query_params.get("token", "")
 
-        async def marked(event: Event) -> None:
+        async def marked(event: Message) -> None:
             if event["type"] == "http.response.start":
-                more = [(b"content-security-policy", POLICY.encode()),
-                        (b"x-content-type-options", b"nosniff"),
-                        (b"referrer-policy", b"no-referrer")]  # fmt: skip
+                headers = MutableHeaders(scope=event)
+                headers["content-security-policy"] = POLICY
+                headers["x-content-type-options"] = "nosniff"
+                headers["referrer-policy"] = "no-referrer"
                 if given and self._doors.exposed:
                     cookie = f"{COOKIE}={given}; HttpOnly; SameSite=Strict; Path=/"
-                    more.append((b"set-cookie", cookie.encode()))
-                event = {**event, "headers": [*event.get("headers", []), *more]}
+                    headers.append("set-cookie", cookie)
             await send(event)
 
         return marked
 
 
-def _given(scope: Scope) -> str:
-    """Return the token of the address, if there is one."""
-    return parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
-
-
-def _token(scope: Scope, headers: dict[str, str]) -> str:
+def _token(request: HTTPConnection) -> str:
     """Return the token of the address, else of the cookie, else nothing."""
-    kept = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
-    return _given(scope) or ("" if kept is None else kept.value)
+    return request.query_params.get("token", "") or request.cookies.get(COOKIE, "")
 
 
 def _limited(receive: Receive) -> Receive:
     """Return a receiver that ends a request which turns out larger than it said."""
     received = 0
 
-    async def limited() -> Event:
+    async def limited() -> Message:
         nonlocal received
         event = await receive()
         if event["type"] == "http.request":
@@ -126,13 +117,3 @@ def _limited(receive: Receive) -> Receive:
         return event
 
     return limited
-
-
-async def _refuse(scope: Scope, send: Send, status: int, sentence: str) -> None:
-    if scope["type"] == "websocket":
-        await send({"type": "websocket.close", "code": 1008, "reason": sentence})
-        return
-    body = json.dumps({"refused": sentence}).encode()
-    headers = [(b"content-type", b"application/json"), (b"content-length", b"%d" % len(body))]
-    await send({"type": "http.response.start", "status": status, "headers": headers})
-    await send({"type": "http.response.body", "body": body})

@@ -19,7 +19,7 @@ EVERY = 0.3  # s, chosen: how often the controls follow how things stand
 
 
 def build(counter: Counter) -> None:
-    """Build the page for whoever has just opened it."""
+    """Build a page that has just been opened."""
     page = ui.context.client
     ui.add_head_html(HEAD)
     dark = ui.dark_mode(value=False)
@@ -56,7 +56,7 @@ def _container(name: str) -> None:
 
 
 def _views(dark: ui.dark_mode) -> None:
-    """Lay the switches that are this page's own: nobody needs a token for them."""
+    """Lay the switches of this page alone, which need no token."""
 
     def themed(on: bool) -> None:
         dark.set_value(on)
@@ -79,7 +79,7 @@ def _phase(counter: Counter) -> str:
 
 
 def _time_slider(counter: Counter, page: str) -> None:
-    """Lay the slider of a replay's time; it follows by itself (``timebar.js``), and asks here."""
+    """Lay the slider of a replay's time; ``timebar.js`` moves it, a person's change seeks."""
 
     def seek(event: GenericEventArguments) -> None:
         why = counter.request(page, requests.Seek(float(event.args)))

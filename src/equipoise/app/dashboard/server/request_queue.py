@@ -1,4 +1,4 @@
-"""Where pages hand in what they ask: past the guard, to the runner."""
+"""Requests of pages, past the guard, to the runner."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,12 +9,12 @@ from equipoise.app.dashboard.server.authorisation import Guard
 from equipoise.app.dashboard.server.broadcast import Watch
 from equipoise.model.testbed import Testbed
 
-OBSERVER = "You look on. Enter the token to command."
+OBSERVER = "This page only observes. Enter the token to command."
 
 
 @dataclass(frozen=True, slots=True)
 class Counter:
-    """What all pages have in common."""
+    """What all pages share."""
 
     testbed: Testbed
     folder: Path  # of runs and recordings

@@ -30,7 +30,7 @@ ENDED = "The runner has ended; start the dashboard again."
 
 
 class RemoteRunner:
-    """The runner's process, and what it tells."""
+    """The runner's process, and the pipe of its messages."""
 
     def __init__(self, opening: Opening) -> None:
         context = get_context("spawn")
@@ -58,8 +58,8 @@ class RemoteRunner:
 
 
 def listen(pipe: Pipe, watch: Watch, loop: asyncio.AbstractEventLoop) -> None:
-    """Hand what the runner tells to the watch, until it ends; a thread's whole life."""
-    with suppress(RuntimeError):  # the loop is closed: nobody is here any more
+    """Pass the runner's messages to the watch until it ends; a thread's whole life."""
+    with suppress(RuntimeError):  # the loop is closed: the server has ended
         try:
             while True:
                 loop.call_soon_threadsafe(watch.take, *pipe.recv())
@@ -103,7 +103,7 @@ def _routes(app: FastAPI, counter: Counter) -> None:
 
 
 async def _shown(page: WebSocket, watch: Watch) -> None:
-    """Send a page all that is told; a page has nothing to say here, and is let go if it does."""
+    """Send a page all messages; a page that sends anything here is disconnected."""
     reported = watch.join()
     silent = asyncio.ensure_future(page.receive())
     try:

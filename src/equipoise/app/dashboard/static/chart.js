@@ -9,7 +9,7 @@ import { extent, niceRange } from "./nice.js";
 import { tick, unitOf } from "./units.js";
 
 const FONT = '11px system-ui, "DejaVu Sans", sans-serif';
-const BAND_ALPHA = "30"; // of 255 in hexadecimal, chosen: three bands on one another can be seen
+const BAND_ALPHA = "30"; // of 255 in hexadecimal, chosen: three bands on one another are visible
 const TARGETED = "com"; // the series that the goal's target and tolerance are of
 const FEWEST_BUCKETS = 50; // of a chart that has no size yet
 

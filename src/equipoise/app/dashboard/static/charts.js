@@ -60,7 +60,7 @@ export function showCharts(place, store, shown) {
   return { about, rows: request, state: request, redraw: request, recolour };
 }
 
-/** Keeps `inSight` to the elements that can be seen, and asks for a drawing when one comes. */
+/** Keeps `inSight` to the elements that are visible, and asks for a drawing when one comes. */
 function watchSight(inSight, request) {
   return new IntersectionObserver((entries) => {
     for (const { target, isIntersecting } of entries) {

@@ -1,6 +1,6 @@
 /**
  * Colours from the style sheet, for canvases. x, y and z have the same ones in charts and scene;
- * they and the rest are told apart by colour-blind people too (Okabe and Ito 2008).
+ * colour-blind people distinguish them and the rest, too (Okabe and Ito 2008).
  */
 
 const AXES = { x: 0, y: 1, z: 2 };

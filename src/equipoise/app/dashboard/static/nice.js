@@ -38,8 +38,8 @@ const KEPT = [0.3, 1.2]; // the factor stays while the thing is shown between th
 
 /**
  * The factor by which to exaggerate a small length: steady, in steps of 1-2-5, never below 1.
- * @param {number} length  m, what is to be seen
- * @param {number} radius  m, in which it is to be seen
+ * @param {number} length  m, what is to be visible
+ * @param {number} radius  m, in which it is to be visible
  * @param {number} before  the factor until now; 0: none yet
  */
 export function exaggeration(length, radius, before) {

@@ -1,5 +1,5 @@
 /**
- * The page's beginning: one store of what the server tells, views of it in the containers that
+ * The page's beginning: one store of what the server sends, views of it in the containers that
  * the shell makes, and `window.equipoise` for the shell's buttons and the tests.
  */
 

@@ -99,8 +99,8 @@ class View {
 }
 
 /**
- * Where the centre of mass is, from the rows, which come oftener, and how it is known, from the
- * belief, which tells how its components go together.
+ * Where the centre of mass is, from the rows, which come oftener, and its covariance, from the
+ * estimate.
  * @returns {{com: number[], covariance: number[]}|null} m, m2
  */
 function estimated(store) {

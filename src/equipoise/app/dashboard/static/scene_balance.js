@@ -9,7 +9,7 @@ import { exaggeration } from "./nice.js";
 import { along, arrow, label, lines, solid } from "./scene_makings.js";
 
 const DOWN = [0, 0, -1];
-const THINNEST = 0.012; // of the radius: a flat ellipsoid is still seen; chosen
+const THINNEST = 0.012; // of the radius: a flat ellipsoid is still visible; chosen
 
 export class Balance {
   /** @param {number} radius  m, of the platform */

@@ -3,9 +3,9 @@
 import * as THREE from "./vendor/three.module.js";
 import { along, arrow, label, lines, solid } from "./scene_makings.js";
 
-const SMALLEST = 0.15; // m, radius of a platform that tells no places of masses
+const SMALLEST = 0.15; // m, radius of a platform whose masses have no stated places
 const AXES = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
-// A wheel is seen to turn at a fiftieth of its rate; at the whole one it would seem to stand or
+// A wheel is drawn turning at a fiftieth of its rate; at the whole one it would seem to stand or
 // to turn back in a picture that is drawn 10 to 30 times a second. Chosen.
 const SLOWER = 0.02;
 
@@ -67,7 +67,7 @@ export class Platform {
     return spun;
   }
 
-  /** Where wheels are is not told: they stand round the centre, on top. */
+  /** The places of wheels are not stated: they stand round the centre, on top. */
   wheelPlace(i) {
     const turn = 0.5 + (2 * Math.PI * i) / this.about.wheels.length;
     const place = new THREE.Vector3(Math.cos(turn), Math.sin(turn), 0.45).multiplyScalar(0.5 * this.radius);

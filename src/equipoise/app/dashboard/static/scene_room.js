@@ -12,7 +12,7 @@ export function room(radius, colours) {
   group.add(floor(radius, colours), pedestal(radius, colours));
   const up = arrow(0.5 * radius, colours.quiet);
   const word = label("up", colours.quiet, 0.17 * radius);
-  up.position.set(-1.3 * radius, -0.95 * radius, FLOOR * radius); // to the left, as one looks first
+  up.position.set(-1.3 * radius, -0.95 * radius, FLOOR * radius); // to the left, in the first view
   word.position.copy(up.position).add(new THREE.Vector3(0, 0, 0.62 * radius));
   return group.add(up, word);
 }

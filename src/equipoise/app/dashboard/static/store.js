@@ -1,4 +1,4 @@
-/** Everything that the server has told since its last `about`, and who wants to hear of it. */
+/** Everything that the server has sent since its last `about`, and the views that receive it. */
 
 import { decodeFrame } from "./frames.js";
 import { Series } from "./series.js";
@@ -22,7 +22,7 @@ export class Store {
     this.forget(null);
   }
 
-  /** Add a view, which hears at once what is known already. @param {View} view */
+  /** Add a view, which receives at once what is there already. @param {View} view */
   show(view) {
     this.views.push(view);
     if (!this.about) return;

@@ -1,7 +1,7 @@
 /** The time of a recording: a slider that follows the replay, except while a hand is on it. */
 
 /**
- * The shell makes the slider and hears its "change"; it is shown where there is a recording.
+ * The shell makes the slider and receives its "change"; it is shown where there is a recording.
  * @param {HTMLInputElement} place
  * @param {import("./store.js").Store} store
  */

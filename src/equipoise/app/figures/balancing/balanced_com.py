@@ -3,11 +3,13 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.com_panels import draw_com, include
-from equipoise.app.figures.base.style import BAND, legend, panels, styled
+from equipoise.app.figures.base.strokes import panels, with_legend
+from equipoise.app.figures.base.style import BAND, styled
 from equipoise.model.arrays import Series1, Series3, Vector3
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
@@ -30,33 +32,36 @@ class Story(NamedTuple):
     tolerance: Vector3  # m
     truth: tuple[Series1, Series3] | None  # s, m; where the simulated centre really was
 
+    def off_target(self) -> "Story":
+        """Return the same of the distance from the target."""
+        measurements = [(t, com - self.target, sd) for t, com, sd in self.measurements]
+        truth = None if self.truth is None else (self.truth[0], self.truth[1] - self.target)
+        return Story(measurements, np.zeros(3), self.tolerance, truth)
+
 
 @styled
 def draw(course: Course, recording: Recording, story: Story) -> Figure:
     """Return the figure."""
-    measurements, target, tolerance, truth = story
-    figure, grid = panels(3, height=1.5)
-    column = [row[0] for row in grid]
+    figure, column = panels(3, height=1.5)
     draw_com(column, course, recording)
     for i, axes in enumerate(column):
-        low, high = (target[i] - tolerance[i]) / UM, (target[i] + tolerance[i]) / UM
-        axes.axhspan(low, high, color="black", alpha=0.16, linewidth=0, label="target")
-        include(axes, low, high)
-        mark_measurements(axes, i, measurements)
-        if truth is not None:
-            t, y = truth[0], truth[1][:, i] / UM
-            axes.plot(t, y, "x", color="black", markersize=4.5, zorder=6, label="truth")
-    legend(figure, column[0])
-    figure.align_ylabels()
-    return figure
+        mark_story(axes, i, story, "target")
+    return with_legend(figure, column[0])
 
 
-def mark_measurements(axes: Axes, i: int, measurements: Sequence[Marked]) -> None:
-    """Draw one component of the procedure's estimates, with bars of two sd."""
-    for k, (t, com, sd) in enumerate(measurements):
+def mark_story(axes: Axes, i: int, story: Story, wanted: str) -> None:
+    """Draw one component of the target, of the estimates with bars of two sd, and of the truth."""
+    target, tolerance = story.target[i], story.tolerance[i]
+    low, high = (target - tolerance) / UM, (target + tolerance) / UM
+    axes.axhspan(low, high, color="black", alpha=0.16, linewidth=0, label=wanted)
+    include(axes, low, high)
+    for k, (t, com, sd) in enumerate(story.measurements):
         y, spread = com[i] / UM, BAND * sd[i] / UM
         axes.errorbar(
             t, y, spread, fmt="o", color="black", markersize=5, markerfacecolor="white",
             elinewidth=1, capsize=2.5, zorder=5, label=None if k else "estimate",
         )  # fmt: skip
         include(axes, y, y)  # long bars of a first estimate may run off the panel
+    if story.truth is not None:
+        t, y = story.truth[0], story.truth[1][:, i] / UM
+        axes.plot(t, y, "x", color="black", markersize=4.5, zorder=6, label="truth")

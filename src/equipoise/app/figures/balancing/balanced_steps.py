@@ -2,9 +2,10 @@
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.balancing.balanced_com import Story, mark_measurements
+from equipoise.app.figures.balancing.balanced_com import Story, mark_story
 from equipoise.app.figures.base.com_panels import include
-from equipoise.app.figures.base.style import AXES, legend, panels, styled
+from equipoise.app.figures.base.strokes import panels, with_legend
+from equipoise.app.figures.base.style import AXES, styled
 from equipoise.model.units import UM
 
 CAPTION = (
@@ -17,18 +18,13 @@ CAPTION = (
 @styled
 def draw(story: Story) -> Figure:
     """Return the figure."""
-    figure, grid = panels(3, height=1.5)
-    for i, axes in enumerate(row[0] for row in grid):
+    figure, column = panels(3, height=1.5)
+    for i, axes in enumerate(column):
         middle, near = story.target[i] / UM, story.tolerance[i] / UM
-        axes.axhspan(middle - near, middle + near, color="black", alpha=0.16, linewidth=0,
-                     label="target")  # fmt: skip
         axes.set_ylim(middle - 2 * near, middle + 2 * near)
-        mark_measurements(axes, i, story.measurements)
+        mark_story(axes, i, story, "target")
         if story.truth is not None:
-            t, y = story.truth[0], story.truth[1][:, i] / UM
-            axes.plot(t, y, "x", color="black", markersize=4.5, zorder=6, label="truth")
+            y = story.truth[1][:, i] / UM
             include(axes, float(y.min()), float(y.max()))
         axes.set_ylabel(f"$r_{AXES[i]}$, um")
-    legend(figure, grid[0][0])
-    figure.align_ylabels()
-    return figure
+    return with_legend(figure, column[0])

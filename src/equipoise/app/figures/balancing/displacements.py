@@ -2,7 +2,8 @@
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import XYZ, course, panels, styled
+from equipoise.app.figures.base.strokes import course, panels
+from equipoise.app.figures.base.style import XYZ, styled
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.model.units import MM
@@ -15,17 +16,17 @@ def draw(recording: Recording, testbed: Testbed) -> Figure:
     """Return the figure: one panel for each body axis along which masses move."""
     tracks = recording.masses
     groups = [g for axis in range(3) if (g := _along(axis, recording, testbed))]
-    figure, grid = panels(max(len(groups), 1), height=1.3)
-    for (axes,), group in zip(grid, groups, strict=False):
+    figure, column = panels(max(len(groups), 1), height=1.3)
+    for axes, group in zip(column, groups, strict=False):
         assert tracks is not None
-        for k, (column, mass) in enumerate(group):
-            y = tracks.values[:, column] / MM
+        for k, (of, mass) in enumerate(group):
+            y = tracks.values[:, of] / MM
             course(axes, tracks.t, y, XYZ[k % len(XYZ)], mass.name)
             for end in mass.travel:
                 axes.axhline(end / MM, color="#888888", linestyle=":", linewidth=0.9)
         axes.set_ylabel("mm")
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    grid[0][0].set_title("displacement from home")
+    column[0].set_title("displacement from home")
     return figure
 
 

@@ -34,9 +34,7 @@ def draw(done: Assessment) -> Figure:
         limit = done.options.require_torque / UN_M
         axes.plot([0, done.torque.tilt / DEG], [limit, limit], color="black", label="required")
     axes.axvspan(0, done.torque.tilt / DEG, color="black", alpha=0.05, linewidth=0)
-    axes.set_xlim(0, x[-1])
-    axes.set_ylim(0, None)
-    axes.set_xlabel("within a tilt of, deg")
-    axes.set_ylabel("torque, uN m")
+    axes.set(xlim=(0, x[-1]), ylim=(0, None), xlabel="within a tilt of, deg",
+             ylabel="torque, uN m")  # fmt: skip
     figure.legend(loc="outside upper center", ncols=4)
     return figure

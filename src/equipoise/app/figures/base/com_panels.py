@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 
-from equipoise.app.figures.base.style import AXES, XYZ, around, band, line, mark_travel
+from equipoise.app.figures.base.strokes import around, band, line, mark_travel
+from equipoise.app.figures.base.style import AXES, XYZ
 from equipoise.model.arrays import Series1, Series3
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording

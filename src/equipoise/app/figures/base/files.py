@@ -33,6 +33,6 @@ def check_picture_name(path: Path) -> None:
 
 
 def write_figure(figure: Figure, path: Path) -> None:
-    """Write one figure in the format that the file's name asks for."""
+    """Write one figure in the format of the file's suffix."""
     check_picture_name(path)
     write_whole(path, rendered(figure, path.suffix.lower().removeprefix(".")))

@@ -1,31 +1,21 @@
-"""One quiet style for every figure, and the few strokes that they share.
+"""One quiet style for every figure.
 
 Figures are made without pyplot: no window, no state kept between them.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import wraps
 from typing import Any, TypeVar
 
 import matplotlib as mpl
-import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from equipoise.model.arrays import Floats, Series1
-from equipoise.model.recording import Recording, Samples
-from equipoise.model.units import UM
-
-# Okabe and Ito's colours, which colour-blind readers can tell apart.
+# Okabe and Ito's colours, which colour-blind readers can distinguish.
 BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#777777"
 SKY, AMBER = "#56B4E9", "#E69F00"
 XYZ = (BLUE, ORANGE, GREEN)
 SIX = (BLUE, SKY, ORANGE, AMBER, GREEN, PURPLE)  # masses, mostly two along each axis
 AXES = ("x", "y", "z")
 BAND = 2.0  # sd on either side of a line
-MOST = 4000  # points of a line; chosen: more than a page has pixels across
-FEW = 250  # measurements that are drawn as larger dots; chosen: they do not touch
-RINGS = 90  # measurements of a curve drawn as rings; chosen: they do not touch
 WIDE = 6.6  # inches
 STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -50,7 +40,7 @@ STYLE: Any = {
     "legend.frameon": False,
     "legend.fontsize": 8.5,
     "figure.dpi": 100,
-    "figure.autolayout": False,  # nor "tight" nor "constrained" but where a figure asks for it
+    "figure.autolayout": False,  # nor "tight" nor "constrained" but where a figure sets it
     "figure.constrained_layout.use": False,
     "savefig.dpi": 160,
     "svg.hashsalt": "equipoise",  # the same figure, the same bytes
@@ -67,91 +57,3 @@ def styled(draw: Drawing) -> Drawing:
             return draw(*arguments, **named)
 
     return in_style  # pyright: ignore[reportReturnType]
-
-
-def panels(rows: int, columns: int = 1, height: float = 1.5) -> tuple[Figure, list[list[Axes]]]:
-    """Return a figure of panels that share their time axis."""
-    figure = Figure(figsize=(WIDE, height * rows + 0.7), layout="constrained")
-    grid = figure.subplots(rows, columns, sharex=True, squeeze=False)
-    for axes in grid[-1]:
-        axes.set_xlabel("time, s")
-    return figure, [list(row) for row in grid]
-
-
-def thinned(n: int) -> slice:
-    """Return every so-manieth of n points, so that a long record is still drawn quickly."""
-    return slice(None, None, max(1, n // MOST))
-
-
-def line(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
-    """Draw a line through rows, broken where the record has a gap."""
-    keep = thinned(len(t))
-    t, y = t[keep], y[keep]
-    if len(t) > 2:
-        gap = np.flatnonzero(np.diff(t) > 10 * np.median(np.diff(t)))
-        t, y = np.insert(t, gap + 1, t[gap]), np.insert(y, gap + 1, np.nan)
-    axes.plot(t, y, color=colour, label=label or None)
-
-
-def course(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
-    """Draw what is straight between its rows, however far apart they are."""
-    axes.plot(t, y, color=colour, label=label or None)
-
-
-def dots(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
-    """Draw measurements."""
-    keep = thinned(len(t))
-    few = len(t) <= FEW
-    axes.plot(
-        t[keep], y[keep], ".", color=colour, alpha=0.8 if few else 0.45, markeredgewidth=0,
-        markersize=5.5 if few else None, label=label or None,
-    )  # fmt: skip
-
-
-def rings(axes: Axes, t: Series1, y: Series1, colour: str, label: str = "") -> None:
-    """Draw some of the measurements so that a line of the same colour shows through."""
-    keep = slice(None, None, max(1, len(t) // RINGS))
-    axes.plot(
-        t[keep], y[keep], "o", markersize=3, color=colour, markerfacecolor="white",
-        markeredgewidth=0.8, label=label or None, zorder=3,
-    )  # fmt: skip
-
-
-def band(axes: Axes, t: Series1, y: Series1, sd: Series1, colour: str) -> None:
-    """Shade two sd on either side of a line."""
-    keep = thinned(len(t))
-    low, high = (y - BAND * sd)[keep], (y + BAND * sd)[keep]
-    axes.fill_between(t[keep], low, high, color=colour, alpha=0.2, linewidth=0, label="two sd")
-
-
-def travel_times(masses: Samples | None) -> list[tuple[float, float]]:
-    """Return when any mass travels, s."""
-    if masses is None or len(masses) < 2:
-        return []
-    moving = np.any(np.abs(np.diff(masses.values, axis=0)) > UM, axis=1)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], moving, [False]]).astype(int)))
-    return [(float(masses.t[a]), float(masses.t[b])) for a, b in edges.reshape(-1, 2)]
-
-
-def mark_travel(every: Sequence[Axes], recording: Recording) -> None:
-    """Shade the times at which masses travel."""
-    start, end = recording.span
-    for axes in every:
-        for a, b in travel_times(recording.masses):
-            if start <= b and a <= end:
-                axes.axvspan(a, b, color="#cccccc", alpha=0.35, linewidth=0, zorder=0)
-
-
-def legend(figure: Figure, axes: Axes) -> None:
-    """Put the legend above the panels, where it covers nothing; each label once."""
-    handles, labels = axes.get_legend_handles_labels()
-    first = dict(zip(reversed(labels), reversed(handles), strict=True))
-    order = list(dict.fromkeys(labels))
-    figure.legend([first[k] for k in order], order, loc="outside upper center", ncols=6)
-
-
-def around(values: Floats, sd: Floats, share: float = 0.12) -> tuple[float, float]:
-    """Return limits that hold values with their bands, and some air."""
-    low, high = float(np.min(values - BAND * sd)), float(np.max(values + BAND * sd))
-    air = share * max(high - low, 1e-9)
-    return low - air, high + air

@@ -3,18 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import (
-    BLUE,
-    GREEN,
-    ORANGE,
-    PURPLE,
-    legend,
-    line,
-    mark_travel,
-    panels,
-    rings,
-    styled,
-)
+from equipoise.app.figures.base.strokes import line, mark_travel, panels, rings, with_legend
+from equipoise.app.figures.base.style import BLUE, GREEN, ORANGE, PURPLE, styled
 from equipoise.maths.attitude import continuous
 from equipoise.model.arrays import Series4
 from equipoise.model.predicted_motion import PredictedMotion
@@ -23,8 +13,8 @@ from equipoise.model.recording import Recording
 COMPONENTS = ((0, "q0", PURPLE), (1, "q1", BLUE), (2, "q2", ORANGE), (3, "q3", GREEN))
 CAPTION = (
     "Attitude quaternion (body to laboratory, scalar first), measured (rings, not all of them) "
-    "and predicted by the model (lines): (a) with what was known beforehand, (b) with the "
-    "estimate. Grey: masses travel."
+    "and predicted by the model (lines): (a) with the prior, (b) with the estimate. Grey: masses "
+    "travel."
 )
 
 
@@ -34,16 +24,15 @@ def draw(recording: Recording, before: PredictedMotion, after: PredictedMotion) 
     measured = recording.attitude
     assert measured is not None
     q = continuous(measured.values)
-    figure, grid = panels(2, height=2.1)
+    figure, column = panels(2, height=2.1)
     titles = ("(a) before estimation", "(b) after estimation")
-    for (axes,), prediction, title in zip(grid, (before, after), titles, strict=True):
+    for axes, prediction, title in zip(column, (before, after), titles, strict=True):
         for i, name, colour in COMPONENTS:
             rings(axes, measured.t, q[:, i], colour)
             line(axes, prediction.t, nearest_sign(prediction.q, q)[:, i], colour, name)
         axes.set(title=title, ylabel="quaternion", ylim=(-1.08, 1.08))
         mark_travel([axes], recording)
-    legend(figure, grid[0][0])
-    return figure
+    return with_legend(figure, column[0])
 
 
 def nearest_sign(q: Series4, other: Series4) -> Series4:

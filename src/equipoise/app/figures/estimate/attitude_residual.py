@@ -3,17 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import (
-    AXES,
-    BAND,
-    GREY,
-    XYZ,
-    around,
-    dots,
-    mark_travel,
-    panels,
-    styled,
-)
+from equipoise.app.figures.base.strokes import around, dots, mark_travel, panels
+from equipoise.app.figures.base.style import AXES, BAND, GREY, XYZ, styled
 from equipoise.maths.attitude import difference
 from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording
@@ -31,11 +22,11 @@ def draw(recording: Recording, after: PredictedMotion, noise: float | None) -> F
     measured = recording.attitude
     assert measured is not None
     left = difference(measured.values, after.q) / DEG
-    figure, grid = panels(3, height=1.15)
-    grid[0][0].set_ylim(around(left, np.zeros(3)))
-    for i, (axes,) in enumerate(grid):
+    figure, column = panels(3, height=1.15)
+    column[0].set_ylim(around(left, np.zeros(3)))
+    for i, axes in enumerate(column):
         if i:
-            axes.sharey(grid[0][0])
+            axes.sharey(column[0])
         if noise is not None:
             limit = BAND * noise / DEG
             axes.axhspan(-limit, limit, color=GREY, alpha=0.12, linewidth=0)
@@ -43,6 +34,6 @@ def draw(recording: Recording, after: PredictedMotion, noise: float | None) -> F
         dots(axes, measured.t, left[:, i], XYZ[i])
         axes.set_ylabel(f"{AXES[i]}, deg")
         mark_travel([axes], recording)
-    grid[0][0].set_title("measured less predicted attitude")
+    column[0].set_title("measured less predicted attitude")
     figure.align_ylabels()
     return figure

@@ -1,9 +1,10 @@
-"""Centre of mass along a record, as a method that goes along it believes."""
+"""Centre of mass along a record, estimated by a recursive method."""
 
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.com_panels import draw_com
-from equipoise.app.figures.base.style import legend, panels, styled
+from equipoise.app.figures.base.strokes import panels, with_legend
+from equipoise.app.figures.base.style import styled
 from equipoise.model.estimate import COM, Course
 from equipoise.model.recording import Recording
 
@@ -17,10 +18,7 @@ CAPTION = (
 def draw(course: Course, method: str, recording: Recording) -> Figure:
     """Return the figure of a course that has the centre of mass."""
     where = [course.names.index(name) for name in COM]
-    figure, grid = panels(3, height=1.25)
-    column = [row[0] for row in grid]
+    figure, column = panels(3, height=1.25)
     com = Course(COM, course.t, course.values[:, where], course.sd[:, where])
     draw_com(column, com, recording, method)
-    legend(figure, column[0])
-    figure.align_ylabels()
-    return figure
+    return with_legend(figure, column[0])

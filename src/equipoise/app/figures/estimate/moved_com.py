@@ -1,9 +1,10 @@
-"""Centre of mass across a move, told to the tracker and kept from it (Ivanov 2021 Fig. 13)."""
+"""Centre of mass across a move, fed to the tracker and withheld (Ivanov 2021 Fig. 13)."""
 
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.com_panels import draw_com, draw_truth, include
-from equipoise.app.figures.base.style import legend, panels, styled
+from equipoise.app.figures.base.strokes import panel_grid, with_legend
+from equipoise.app.figures.base.style import styled
 from equipoise.model.arrays import Series1, Series3
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
@@ -23,7 +24,7 @@ def draw(
     truth: tuple[Series1, Series3] | None = None,
 ) -> Figure:
     """Return the figure; the centres of mass are with the masses as they stand."""
-    figure, grid = panels(3, 2, height=1.35)
+    figure, grid = panel_grid(3, 2, height=1.35)
     for k, (course, title) in enumerate(((fed, "(a) move fed"), (ignored, "(b) move ignored"))):
         column = [row[k] for row in grid]
         draw_com(column, course, recording)
@@ -34,6 +35,4 @@ def draw(
         include(left, *right.get_ylim())
         right.set(ylim=left.get_ylim(), ylabel="")
         right.tick_params(labelleft=False)
-    legend(figure, grid[0][0])
-    figure.align_ylabels()
-    return figure
+    return with_legend(figure, grid[0][0])

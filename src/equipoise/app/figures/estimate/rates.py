@@ -2,16 +2,8 @@
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import (
-    AXES,
-    XYZ,
-    dots,
-    legend,
-    line,
-    mark_travel,
-    panels,
-    styled,
-)
+from equipoise.app.figures.base.strokes import dots, line, mark_travel, panels, with_legend
+from equipoise.app.figures.base.style import AXES, XYZ, styled
 from equipoise.model.predicted_motion import PredictedMotion
 from equipoise.model.recording import Recording
 from equipoise.model.units import DEG
@@ -25,13 +17,11 @@ CAPTION = (
 @styled
 def draw(recording: Recording, after: PredictedMotion) -> Figure:
     """Return the figure."""
-    figure, grid = panels(1, height=2.8)
-    axes = grid[0][0]
+    figure, (axes,) = panels(1, height=2.8)
     for i, colour in enumerate(XYZ):
         if recording.rate is not None:
             dots(axes, recording.rate.t, recording.rate.values[:, i] / DEG, colour)
         line(axes, after.t, after.rate[:, i] / DEG, colour, f"$\\omega_{AXES[i]}$")
     axes.set_ylabel("angular velocity, deg/s")
     mark_travel([axes], recording)
-    legend(figure, axes)
-    return figure
+    return with_legend(figure, axes)

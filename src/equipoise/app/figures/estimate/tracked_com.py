@@ -1,16 +1,17 @@
-"""Centre of mass as the tracker saw it, masses still (Ivanov 2021 Fig. 12)."""
+"""Centre of mass estimated by the tracker, masses at rest (Ivanov 2021 Fig. 12)."""
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.com_panels import draw_com, draw_truth
-from equipoise.app.figures.base.style import legend, panels, styled
+from equipoise.app.figures.base.strokes import panels, with_legend
+from equipoise.app.figures.base.style import styled
 from equipoise.model.arrays import Vector3
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 
 CAPTION = (
-    "Centre of mass with the masses at home as the tracker (Kalman filter) sees it, um in body "
+    "Centre of mass with the masses at home, estimated by the tracker (Kalman filter), um in body "
     "axes. Bands: two standard deviations. Dashed, if drawn: the simulated truth."
 )
 
@@ -18,11 +19,8 @@ CAPTION = (
 @styled
 def draw(course: Course, recording: Recording, truth: Vector3 | None = None) -> Figure:
     """Return the figure; ``truth`` (m) is drawn when the bench is simulated."""
-    figure, grid = panels(3, height=1.25)
-    column = [row[0] for row in grid]
+    figure, column = panels(3, height=1.25)
     draw_com(column, course, recording)
     if truth is not None:
         draw_truth(column, course.t[[0, -1]], np.array([truth, truth]))
-    legend(figure, column[0])
-    figure.align_ylabels()
-    return figure
+    return with_legend(figure, column[0])

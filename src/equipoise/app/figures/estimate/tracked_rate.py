@@ -1,23 +1,15 @@
-"""Angular velocity as the tracker saw it (Ivanov 2021 Fig. 11)."""
+"""Angular velocity estimated by the tracker (Ivanov 2021 Fig. 11)."""
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import (
-    AXES,
-    XYZ,
-    band,
-    legend,
-    line,
-    mark_travel,
-    panels,
-    styled,
-)
+from equipoise.app.figures.base.strokes import band, line, mark_travel, panels, with_legend
+from equipoise.app.figures.base.style import AXES, XYZ, styled
 from equipoise.model.estimate import Course
 from equipoise.model.recording import Recording
 from equipoise.model.units import DEG
 
 CAPTION = (
-    "Angular velocity in body axes as the tracker (Kalman filter) sees it, deg/s. "
+    "Angular velocity in body axes, estimated by the tracker (Kalman filter), deg/s. "
     "Bands: two standard deviations."
 )
 SETTLED = 0.05  # share of the rows before the scale is taken; chosen: the filter starts at rest
@@ -26,8 +18,7 @@ SETTLED = 0.05  # share of the rows before the scale is taken; chosen: the filte
 @styled
 def draw(course: Course, recording: Recording) -> Figure:
     """Return the figure of an angular velocity, rad/s."""
-    figure, grid = panels(1, height=2.8)
-    axes = grid[0][0]
+    figure, (axes,) = panels(1, height=2.8)
     for i, colour in enumerate(XYZ):
         rate, sd = course.values[:, i] / DEG, course.sd[:, i] / DEG
         band(axes, course.t, rate, sd, colour)
@@ -37,5 +28,4 @@ def draw(course: Course, recording: Recording) -> Figure:
     air = 0.15 * (high - low)
     axes.set(ylabel="angular velocity, deg/s", ylim=(low - air, high + air))
     mark_travel([axes], recording)
-    legend(figure, axes)
-    return figure
+    return with_legend(figure, axes)

@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import XYZ, legend, line, panels, styled
+from equipoise.app.figures.base.strokes import line, panel_grid, with_legend
+from equipoise.app.figures.base.style import XYZ, styled
 from equipoise.model.arrays import Floats, Series, Series1
 
 TITLES = ("as printed", "corrected")
@@ -32,8 +33,7 @@ def draw_estimates(
             axes.axhline(truth[k], color=colour, linestyle="--", linewidth=0.9)
         axes.set(title=title, ylim=(float(truth.min()) - air, float(truth.max()) + air))
     grid[0].set_ylabel(ylabel)
-    legend(figure, grid[0])
-    return figure
+    return with_legend(figure, grid[0])
 
 
 @styled
@@ -50,14 +50,12 @@ def draw_indices(
         axes.set(title=title, yscale="log" if wide else "linear")
         axes.set_ylim(0.7 * low if wide else 0.0, (1.4 if wide else 1.05) * high)
     grid[0].set_ylabel(ylabel)
-    if len(labels) > 1:
-        legend(figure, grid[0])
-    return figure
+    return with_legend(figure, grid[0]) if len(labels) > 1 else figure
 
 
 def beside() -> tuple[Figure, list[Axes]]:
     """Return a figure with two panels side by side, of the same scale."""
-    figure, grid = panels(1, 2, height=2.6)
-    grid[0][1].sharey(grid[0][0])
-    grid[0][1].tick_params(which="both", labelleft=False)
-    return figure, grid[0]
+    figure, ((left, right),) = panel_grid(1, 2, height=2.6)
+    right.sharey(left)
+    right.tick_params(which="both", labelleft=False)
+    return figure, [left, right]

@@ -5,17 +5,8 @@ from typing import NamedTuple
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    legend,
-    panels,
-    styled,
-)
-from equipoise.app.figures.base.style import line as drawn_line
+from equipoise.app.figures.base.strokes import line, panels, with_legend
+from equipoise.app.figures.base.style import BLUE, GREEN, GREY, ORANGE, PURPLE, styled
 from equipoise.model.arrays import Series, Series1
 
 COLOURS = (BLUE, ORANGE, GREEN, PURPLE)
@@ -35,16 +26,13 @@ class Shown(NamedTuple):
 @styled
 def draw(shown: Shown, near: Span) -> Figure:
     """Return the figure; ``near`` (s) is shaded: the gyros are near a singularity."""
-    figure, grid = panels(1, height=2.6)
-    axes = grid[0][0]
+    figure, (axes,) = panels(1, height=2.6)
     if near is not None:
         axes.axvspan(*near, color="#cccccc", alpha=0.45, linewidth=0, zorder=0)
     for column, label, colour in zip(shown.values.T, shown.labels, COLOURS, strict=False):
-        drawn_line(axes, shown.t, column, colour, label)
+        line(axes, shown.t, column, colour, label)
     if shown.mark is not None:
         axes.axhline(shown.mark, color=GREY, linestyle="--", linewidth=0.9)
         axes.set_ylim(bottom=0.0)
     axes.set_ylabel(shown.ylabel)
-    if len(shown.labels) > 1:
-        legend(figure, axes)
-    return figure
+    return with_legend(figure, axes) if len(shown.labels) > 1 else figure

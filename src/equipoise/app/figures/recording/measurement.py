@@ -1,8 +1,9 @@
-"""What one look saw, small enough to stand below its step in a report."""
+"""The recording of one measurement, small enough to stand below its step in a report."""
 
 from matplotlib.figure import Figure
 
-from equipoise.app.figures.base.style import panels, styled
+from equipoise.app.figures.base.strokes import panels
+from equipoise.app.figures.base.style import styled
 from equipoise.app.figures.recording.record_panels import panels_of_motion
 from equipoise.model.arrays import Vector3
 from equipoise.model.recording import Recording
@@ -15,10 +16,10 @@ CAPTION = (
 
 @styled
 def draw(recording: Recording, up: Vector3 | None) -> Figure:
-    """Return the figure; ``up`` is the body axis that tilt is told of."""
+    """Return the figure; ``up`` is the body axis whose tilt is shown."""
     parts = panels_of_motion(recording, up)
-    figure, grid = panels(max(len(parts), 1), height=0.85)
-    for (axes,), part in zip(grid, parts, strict=False):
+    figure, column = panels(max(len(parts), 1), height=0.85)
+    for axes, part in zip(column, parts, strict=False):
         part(axes)
     figure.align_ylabels()
     return figure

@@ -12,7 +12,7 @@ from equipoise.model.finding import Finding
 ODD = {"problem": ORANGE, "motion": GREY, "content": GREY, "mended": GREY}
 SIGNS = {"problem": "!", "mended": "~", "content": "", "motion": ""}
 WHOLE = 0.9  # of the record: a finding that holds that long is not marked (chosen)
-LEAST = 0.002  # of the record: a shade is at least that wide, so that it is seen (chosen)
+LEAST = 0.002  # of the record: a shade is at least that wide, to be visible (chosen)
 SHELVES = 3  # rows of numbers above the panels, where they would cover each other
 LETTER = 0.011  # of the record: the width of a letter of a label (measured on the page)
 CHARACTERS = 128  # of a line of the list (measured: DejaVu Sans 7.5 over the page's width)

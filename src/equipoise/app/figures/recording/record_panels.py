@@ -5,7 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
-from equipoise.app.figures.base.style import AXES, BLUE, SIX, XYZ, course, dots
+from equipoise.app.figures.base.strokes import course, dots
+from equipoise.app.figures.base.style import AXES, BLUE, SIX, XYZ
 from equipoise.assessment.findings.channel_content import GAP
 from equipoise.assessment.findings.motion_range import AXES as BODY_AXES
 from equipoise.assessment.findings.motion_range import heading_rate, most_upright
@@ -16,7 +17,7 @@ from equipoise.model.recording import Recording, Samples
 from equipoise.model.units import DEG, MM, MS
 
 Panel = Callable[[Axes], None]
-FEWEST = 3  # rows that a rate is told from
+FEWEST = 3  # rows for a rate
 RARE = 0.005  # share of values at either end that may be drawn beyond the range (chosen)
 WIDENED = 0.5  # of the range of the others, within which they are not beyond it (chosen)
 TINY = 1e-9  # deg, deg/s: a range is never empty
@@ -29,21 +30,21 @@ def panels_of(recording: Recording, up: Vector3 | None) -> list[Panel]:
     attitude, rate = _enough(recording.attitude), _enough(recording.rate)
     if attitude is not None:
         rough = outlying_attitudes(attitude).rough
-        found.append(_rough(attitude.t, rough, "attitude\nroughness, deg"))
+        found.append(_by_axis(attitude.t, rough, "attitude\nroughness, deg"))
     if rate is not None:
         rough = outlying_rates(rate).rough
-        found.append(_rough(rate.t, rough, "gyro\nroughness, deg/s"))
+        found.append(_by_axis(rate.t, rough, "gyro\nroughness, deg/s"))
     return [*found, _spacing(attitude, rate)]
 
 
 def panels_of_motion(recording: Recording, up: Vector3 | None) -> list[Panel]:
-    """Return the panels that tell how platform and masses moved."""
+    """Return the panels of the motion of platform and masses."""
     found: list[Panel] = []
     attitude, rate = _enough(recording.attitude), _enough(recording.rate)
     if attitude is not None:
         found += [_tilt(attitude, up), _heading_rate(attitude)]
     if rate is not None:
-        found.append(_rate(rate))
+        found.append(_by_axis(rate.t, rate.values, "gyro, deg/s"))
     if recording.masses is not None and len(recording.masses):
         found.append(_masses(recording.masses, recording.mass_names))
     return found
@@ -74,25 +75,13 @@ def _heading_rate(attitude: Samples) -> Panel:
     return draw
 
 
-def _rate(rate: Samples) -> Panel:
+def _by_axis(t: Series1, values: Series3, label: str) -> Panel:
     def draw(axes: Axes) -> None:
-        _three(axes, rate.t, rate.values)
-        axes.set_ylabel("gyro, deg/s")
-
-    return draw
-
-
-def _rough(t: Series1, rough: Series3, label: str) -> Panel:
-    def draw(axes: Axes) -> None:
-        _three(axes, t, rough)
+        _dots_within(axes, t, list(values.T / DEG), list(XYZ), list(AXES))
+        _legend(axes)
         axes.set_ylabel(label)
 
     return draw
-
-
-def _three(axes: Axes, t: Series1, values: Series3) -> None:
-    _dots_within(axes, t, list(values.T / DEG), list(XYZ), list(AXES))
-    _legend(axes)
 
 
 def _dots_within(

@@ -34,9 +34,7 @@ def draw(done: Assessment) -> Figure:
     for k, f in enumerate(predicted):
         axes.axvline(float(f), color=GREY, linestyle="--", label=None if k else "predicted")
     last = SHOWN * max(float(predicted.max()), 2 * observed.resolution)
-    axes.set_xlim(0, min(last, float(observed.frequency[-1])))
-    axes.set_ylim(0, None)
-    axes.set_xlabel("frequency, Hz")
-    axes.set_ylabel("amplitude, deg")
+    axes.set(xlim=(0, min(last, float(observed.frequency[-1]))), ylim=(0, None),
+             xlabel="frequency, Hz", ylabel="amplitude, deg")  # fmt: skip
     figure.legend(loc="outside upper center", ncols=4)
     return figure

@@ -7,14 +7,15 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.by_name import named_axes, plain_log
-from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, legend, styled
+from equipoise.app.figures.base.strokes import with_legend
+from equipoise.app.figures.base.style import BLUE, GREY, ORANGE, styled
 
 CAPTION = (
     "Errors of each method in units of the Cramer-Rao bound (dashed), root mean square over all "
     "records that did not fail. Open: the method failed on some records, so that the easier ones "
     "are left."
 )
-LIMITS = (0.3, 1e4)  # chosen: beyond these nobody asks by how much
+LIMITS = (0.3, 1e4)  # chosen: beyond these the factor no longer matters
 
 
 class Accuracy(NamedTuple):
@@ -42,5 +43,4 @@ def draw(methods: Sequence[Accuracy]) -> Figure:
             axes.plot(x, lines + shift, "o", color=colour, markerfacecolor=face, markersize=4.5,
                       label=None if open_ended else label)  # fmt: skip
     plain_log(axes)
-    legend(figure, axes)
-    return figure
+    return with_legend(figure, axes)

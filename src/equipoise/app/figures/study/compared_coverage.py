@@ -17,7 +17,7 @@ CAPTION = (
 
 
 class Coverage(NamedTuple):
-    """One method that believes some of its intervals."""
+    """One method that states some of its intervals without a warning."""
 
     name: str
     share: float

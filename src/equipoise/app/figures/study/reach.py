@@ -5,7 +5,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Ellipse
 
-from equipoise.app.figures.base.style import AXES, BLUE, GREEN, GREY, ORANGE, WIDE, legend, styled
+from equipoise.app.figures.base.strokes import with_legend
+from equipoise.app.figures.base.style import AXES, BLUE, GREEN, GREY, ORANGE, WIDE, styled
 from equipoise.model.units import UM
 from equipoise.planning.sizing.case import Case
 from equipoise.planning.sizing.reachable_set import Reach, outline, tolerance
@@ -31,8 +32,7 @@ def draw(reach: Reach, case: Case) -> Figure:
         axes.set(xlim=(-half, half), ylim=(-half, half), aspect="equal")
         axes.set_xlabel(f"{AXES[plane[0]]}, um")
         axes.set_ylabel(f"{AXES[plane[1]]}, um")
-    legend(figure, every[0])
-    return figure
+    return with_legend(figure, every[0])
 
 
 def extent(reach: Reach, case: Case) -> float:

@@ -8,8 +8,8 @@ LAGGING = 0.5  # s, chosen: what is later than this is not made up for
 class Pace:
     """Bench time held to the clock on the wall, times a speed; 0: as fast as possible."""
 
-    def __init__(self, speed: float = 1.0) -> None:
-        self._speed = speed
+    def __init__(self, speed: float = 1.0, lagging: float = LAGGING) -> None:
+        self._speed, self._lagging = speed, lagging
         self._due = time.monotonic()
 
     @property
@@ -26,5 +26,5 @@ class Pace:
         if not self._speed:
             return 0.0
         now = time.monotonic()
-        self._due = max(self._due, now - LAGGING) + passed / self._speed
+        self._due = max(self._due, now - self._lagging) + passed / self._speed
         return max(self._due - now, 0.0)
