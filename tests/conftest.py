@@ -1,18 +1,37 @@
 """Settings of every test."""
 
 import signal
+from pathlib import Path
 
+import jaxtyping
 import pytest
 from hypothesis import settings
 
 from tests.support import thorough
 
 # Time is the benchmark's to judge; the first example of a test may have to compile its kernel.
-settings.register_profile("house", deadline=None, max_examples=thorough.count(100, 30))
+settings.register_profile("house", deadline=None, max_examples=thorough.count(100, 20))
 settings.load_profile("house")
 
 # A shell that runs the tests in the background lets Ctrl-C be ignored, by all that they start too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# Shapes and types are checked by the tests of the rooms that are decorated for it (pyproject.toml)
+# and of the front door; in runs of other rooms' tests the checks are up to half of the time.
+CHECKED = ("model", "io", "procedure", "assessment", "app/api")
+HERE = Path(__file__).parent
+
+
+def checks_shapes(item: pytest.Item) -> bool:
+    """Say whether a test does: in `make verify` all do but long statistics."""
+    room = item.path.relative_to(HERE).as_posix()
+    return room.startswith(CHECKED) or (thorough.THOROUGH and not room.startswith("statistical"))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Switch shape checks on or off before the fixtures of a test are made."""
+    jaxtyping.config.update("jaxtyping_disable", not checks_shapes(item))
 
 
 def may_run_in_part(item: pytest.Item) -> bool:

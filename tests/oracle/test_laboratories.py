@@ -18,6 +18,7 @@ from equipoise.model.errors import InputError
 from equipoise.procedure.identification.identify import IdentifyOptions, identify
 from tests.oracle import laboratories as labs
 from tests.oracle.defects import SIXTEENTH
+from tests.support import thorough
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -86,6 +87,7 @@ def test_a_platform_at_rest_shows_no_ratios() -> None:
     assert not any(np.isfinite(p.sd) or p.observable for p in moments)
 
 
+@thorough.whole
 def test_what_no_model_explains_is_not_usable_and_fails_nothing() -> None:
     """50 mN m, ten times what gravity does."""
     record = labs.motored(0, labs.bang_bang(0.05))

@@ -32,6 +32,7 @@ def test_a_camera_lean_is_estimated_and_reported_and_is_no_event(seed):
     assert f"The camera's vertical leans {size:.2g} deg" in found.outcome.sentence
 
 
+@thorough.whole
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_camera_that_is_said_not_to_lean_makes_events_of_bent_swings(seed):
     """What it is told is believed: that is why the testbed's default is that a camera leans."""

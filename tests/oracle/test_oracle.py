@@ -13,6 +13,7 @@ from equipoise.model.testbed import AttitudeSensor, Gyro  # noqa: E402
 from tests.oracle import mujoco_bench as oracle  # noqa: E402
 from tests.support import thorough  # noqa: E402
 
+LOCKED = 120.0 if thorough.THOROUGH else 30.0  # s
 SEEDS = range(thorough.count(20, 8))
 
 
@@ -29,7 +30,7 @@ def moved():
 
 @pytest.fixture(scope="module")
 def locked():
-    return oracle.simulate(platform_and_schedule(3)[0], locked=True)
+    return oracle.simulate(platform_and_schedule(3)[0], duration=LOCKED, locked=True)
 
 
 def matrices(q):

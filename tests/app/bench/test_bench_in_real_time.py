@@ -19,6 +19,7 @@ from equipoise.io.recording.recording_file import read_recording
 from tests.support.recorded_events import events_of
 
 pytest.importorskip("pty", reason="no pseudo terminals, no SIGINT")
+from tests.support import thorough
 from tests.support.pseudo_terminal import AtTerminal, screen, stripped
 
 TRIES, PATIENCE = 3, 120.0  # s
@@ -93,6 +94,7 @@ def test_record_writes_its_rows_while_other_clients_watch(bench):
     assert {"health", "start"} <= {event.kind for event in events_of(bench / "kept.mcap")}
 
 
+@thorough.whole
 def test_record_shows_at_a_terminal_what_it_sees(bench):
     """Ctrl-C ends it early and leaves nothing of the live block on the screen."""
     words = ("record", "there.toml", "--out", "shown.mcap", "--duration-s", 600)
@@ -136,6 +138,7 @@ def test_the_first_ctrl_c_stops_and_saves(bench):
     assert read_recording(record).attitude.t[-1] > 2.0
 
 
+@thorough.whole
 def test_the_second_ctrl_c_leaves_at_once(bench):
     """While it draws what it saves; the record is there all the same."""
     for k in range(TRIES):

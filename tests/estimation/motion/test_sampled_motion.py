@@ -17,6 +17,7 @@ from equipoise.maths.attitude import difference, exponential, tilt
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.recording import Recording, Samples
 from equipoise.procedure.steps.clean_record import sound
+from tests.support import thorough
 from tests.support.builders import (
     COM,
     INERTIA,
@@ -107,7 +108,7 @@ def test_start_from_a_gyro_corrects_the_inertia():
     np.testing.assert_allclose(inertia, INERTIA, rtol=0, atol=0.03 * INERTIA[2])
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", thorough.some(range(5), 2))
 def test_start_is_good_enough_with_noise(seed):
     """The fit begins at the whole record: within capture, camera alone, 0.2 deg."""
     observed, testbed = noisy(recording(track=MOVED), seed), guessed_wrong(platform())
@@ -124,7 +125,7 @@ def test_start_knows_nothing_but_the_record():
     assert not found.bias.any()
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", thorough.some(range(4), 2))
 def test_rows_of_an_impossible_body_do_not_start_wildly(seed):
     """Outliers, dropouts and a gap: the rate of the first second, within 10 deg/s.
 

@@ -25,10 +25,12 @@ from equipoise.maths.linalg import unpack_symmetric
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM as COM_NAMES
 from equipoise.model.estimate import INERTIA as INERTIA_NAMES
+from tests.support import thorough
 from tests.support.builders import COM, INERTIA
 from tests.support.driven_records import driven, driven_platform
 
 EVERY = [module.METHOD.card.name for module in REGRESSIONS]
+LONG = 120.0 if thorough.THOROUGH else 60.0  # s
 WITH_INERTIA = [name for name in EVERY if name != "simplified_recursive"]
 
 
@@ -47,7 +49,7 @@ def test_inertia_and_centre_of_mass_are_found(name, seed):
     Slopes of a cubic through half a second are so noisy that they bias J by up to 5 %. Everything
     is within 4 of its stated sd, the bias that noise brings among them.
     """
-    found = run(name, driven(seed), driven_platform())
+    found = run(name, driven(seed, LONG), driven_platform())
     values = found.values((*INERTIA_NAMES, *COM_NAMES))
     np.testing.assert_allclose(
         values[:3], INERTIA[:3], rtol=0.05 if name == "torque_recursive" else 0.01
@@ -60,7 +62,7 @@ def test_inertia_and_centre_of_mass_are_found(name, seed):
 
 @named(EVERY)
 def test_course_ends_at_the_estimate(name):
-    estimate = run(name, driven(1, 30.0), driven_platform())
+    estimate = run(name, driven(1, LONG / 4), driven_platform())
     names = estimate.course.names
     assert set(names) == {p.name for p in estimate.parameters}
     assert np.all(np.diff(estimate.course.t) > 0)
@@ -74,7 +76,7 @@ def test_inertia_can_be_held(name):
     """Held at the truth, J leaves the parameters, and com is found."""
     bed = driven_platform()
     bed = replace(bed, body=replace(bed.body, inertia_P=unpack_symmetric(INERTIA)))
-    estimate = run(name, driven(1, 60.0), bed, Options(hold=INERTIA_NAMES))
+    estimate = run(name, driven(1, LONG / 2), bed, Options(hold=INERTIA_NAMES))
     assert tuple(p.name for p in estimate.parameters) == COM_NAMES
     rough = 20e-6 if name == "simplified_recursive" else 1e-6
     np.testing.assert_allclose(estimate.com, COM, atol=rough)
@@ -84,7 +86,7 @@ def test_inertia_can_be_held(name):
 def test_terms_are_estimated(name):
     """A constant torque that is not there is found to be none: five sd."""
     options = Options(terms=("constant_x", "constant_y", "constant_z"))
-    estimate = run(name, driven(1), driven_platform(), options)
+    estimate = run(name, driven(1, LONG), driven_platform(), options)
     for term in options.terms:
         there = estimate.parameters[estimate.index(term)]
         assert abs(there.value) < 5 * there.sd
@@ -94,7 +96,7 @@ def test_terms_are_estimated(name):
 @named(WITH_INERTIA)
 def test_free_motion_gives_ratios(name):
     """Any multiple of J and com would do."""
-    estimate = run(name, replace(driven(1, 30.0), torque=None), driven_platform())
+    estimate = run(name, replace(driven(1, LONG / 4), torque=None), driven_platform())
     assert estimate.unobservable[0].code == "scale"
     assert not any(p.observable for p in estimate.parameters)
     assert estimate.ratios
@@ -148,6 +150,6 @@ def test_recursive_is_batch_without_forgetting():
     names = (*INERTIA_NAMES, *COM_NAMES)
     bed = driven_platform()
     ball = replace(bed, body=replace(bed.body, inertia_P=0.5 * np.eye(3)))
-    one, all_rows = (run(n, driven(1), ball) for n in ("momentum_recursive", "momentum_body"))
+    one, all_rows = (run(n, driven(1, LONG), ball) for n in ("momentum_recursive", "momentum_body"))
     sd = np.sqrt(np.diag(all_rows.covariance_of(names)))
     assert np.all(np.abs(one.values(names) - all_rows.values(names)) < 0.01 * sd)
