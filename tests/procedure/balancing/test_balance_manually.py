@@ -13,6 +13,7 @@ from equipoise.maths.attitude import tilt
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.hands import Hands
+from equipoise.model.mass_properties import MassProperties
 from equipoise.model.placing import Placing
 from equipoise.model.units import UM
 from equipoise.model.weights import places_of, unloaded
