@@ -78,6 +78,7 @@ def test_drag_over_many_turns_is_found() -> None:
     assert 2 * damped.at.cost == pytest.approx(rows, rel=0.1)
 
 
+@thorough.whole
 def test_a_platform_at_rest_shows_no_ratios() -> None:
     """Where it rests com is known up to its length; the moments of inertia are not seen at all."""
     record = labs.at_rest(0, rate_deg_s=0.05)

@@ -121,6 +121,7 @@ def balancing(bench, record):
     return command
 
 
+@thorough.whole
 def test_the_first_ctrl_c_stops_and_saves(bench):
     for k in range(TRIES):
         record = bench / f"first{k}.mcap"

@@ -7,9 +7,11 @@ pytest.importorskip("cv2", reason="the extra 'camera' is not installed")
 
 from equipoise.io.testbed.presets import read_preset
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
+from tests.support import thorough
 from tests.support.emulated_lab import lab, over_tcp
 
 
+@thorough.whole
 def test_it_balances_by_a_camera_and_the_verdict_is_true():
     """As on the simulated bench: (2, 2, 3) um in 3 moves and 120 s, errors as large as stated.
 

@@ -22,7 +22,7 @@ from equipoise.model.reasons.reason import Reason
 from equipoise.model.recording import Samples
 from equipoise.model.units import MM
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
-from tests.support import emulated_lab
+from tests.support import emulated_lab, thorough
 from tests.support.board_wire import board_of
 from tests.support.emulated_lab import over_tcp
 from tests.support.faulty_wire import garbage, half, noisy, repeated, silent
@@ -45,7 +45,9 @@ def bed_with(kind):
     return replace(BED, hardware=replace(BED.hardware, boards=(board,)))
 
 
-@pytest.mark.parametrize(("kind", "seed"), [("grbl", 0), ("grbl", 3), ("tmcl", 0)])
+@pytest.mark.parametrize(
+    ("kind", "seed"), thorough.some([("grbl", 0), ("grbl", 3), ("tmcl", 0)], 2)
+)
 def test_it_balances_through_real_ports_and_the_verdict_is_true(kind, seed):
     """As on the simulated bench: (2, 2, 3) um in 3 moves and 120 s, errors as large as stated."""
     options = BalanceOptions()

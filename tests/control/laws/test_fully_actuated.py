@@ -148,6 +148,7 @@ def test_a_moving_trajectory_balances_from_the_null_vector_too():
     assert np.linalg.norm(total(rows, bench)[-1]) < 1.5e-4
 
 
+@thorough.whole
 def test_it_balances_to_the_target():
     """450 um off, anywhere: a thousandth is left, as said, and what samples of 0.1 s add."""
     bench, target = Bench(bed(), COM), np.array([2e-5, -1e-5, -1e-4])
@@ -166,6 +167,7 @@ def test_it_balances_to_a_few_motor_steps_with_slow_masses_and_noise():
     np.testing.assert_allclose(total(rows, bench)[-1], target, atol=9e-6)
 
 
+@thorough.whole
 def test_a_wrong_inertia_is_left_along_up_as_foretold():
     """-dJ W^2 / (m g), here at 0.5 rad/s; W is chosen so that one inertia_sd is 20 um."""
     slow = LAW.begin(replace(bed(), inertia_sd=0.1), TARGET)[1].sweep.speed

@@ -71,7 +71,7 @@ def test_course_ends_at_the_estimate(name):
     np.testing.assert_allclose(estimate.course.sd[-1], sd, rtol=1e-12)
 
 
-@named(EVERY)
+@named(thorough.some(EVERY, 3))
 def test_inertia_can_be_held(name):
     """Held at the truth, J leaves the parameters, and com is found."""
     bed = driven_platform()
@@ -82,7 +82,7 @@ def test_inertia_can_be_held(name):
     np.testing.assert_allclose(estimate.com, COM, atol=rough)
 
 
-@named(WITH_INERTIA)
+@named(thorough.some(WITH_INERTIA, 2))
 def test_terms_are_estimated(name):
     """A constant torque that is not there is found to be none: five sd."""
     options = Options(terms=("constant_x", "constant_y", "constant_z"))

@@ -11,6 +11,7 @@ from equipoise.model.testbed import Fault
 from equipoise.model.units import UM
 from equipoise.procedure.balancing.balance import BalanceOptions, balance
 from equipoise.simulation.bench import SimulatedBench
+from tests.support import thorough
 
 SPUTNIX = read_preset("sputnix")
 
@@ -93,6 +94,7 @@ def test_the_number_of_moves_is_kept(moves):
     assert steps[-1].verdict is not None
 
 
+@thorough.whole
 def test_with_moves_to_spare_it_goes_below_again_to_learn_the_height():
     """For half a micrometre: more than one move below, and the height better known for it."""
     fine = BalanceOptions(tolerance=np.full(3, 0.5e-6), max_moves=8, max_time=240.0)
