@@ -91,8 +91,8 @@ def judged(job: tuple[int, float | None]) -> Answer:
     beyond = weight * residual_torque(true, np.zeros((3, 3)), bed.up, requested.tilt) > torque
     if not estimated[0].outcome.usable:
         return Answer((beyond, beyond), (UNDECIDED, UNDECIDED))
-    outlying = bool(np.linalg.norm(true) > distance)
-    return Answer((beyond, outlying), (found[0].outcome, found[1].outcome))
+    distant = bool(np.linalg.norm(true) > distance)
+    return Answer((beyond, distant), (found[0].outcome, found[1].outcome))
 
 
 def rates(name: str, found: Sequence[Answer], k: int) -> list[Row]:

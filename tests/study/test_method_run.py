@@ -109,21 +109,21 @@ def test_a_failure_states_its_reason_and_has_no_numbers():
     assert np.isnan(run.error).all()
 
 
-def course(*outlying):
+def course(*distances):
     """A course whose centre of mass is so far off, um, a row a second."""
-    values = np.zeros((len(outlying), 3))
-    values[:, 2] = np.array(outlying) * UM
-    return Course(COM, np.arange(len(outlying), dtype=float), values, np.ones((len(outlying), 3)))
+    values = np.zeros((len(distances), 3))
+    values[:, 2] = np.array(distances) * UM
+    return Course(COM, np.arange(len(distances), dtype=float), values, np.ones((len(distances), 3)))
 
 
 @pytest.mark.parametrize(
-    ("outlying", "when"),
+    ("distances", "when"),
     [((90, 50, 8, 20, 8, 7), 4.0), ((90, 50, 30), np.inf), ((8, 8), 0.0), ((50, np.nan, 1), 2.0)],
 )
-def test_com_has_settled_when_it_stays_within_a_tenth_of_the_first_error(outlying, when):
+def test_com_has_settled_when_it_stays_within_a_tenth_of_the_first_error(distances, when):
     """The testbed's guess is 90 um off: 9 um count as settled."""
     swing = judged_record(Scene(BED, 2.0, [], Options()), 1).recording
-    found = estimate({"com_x": 1.0}, [[1.0]], course=course(*outlying))
+    found = estimate({"com_x": 1.0}, [[1.0]], course=course(*distances))
     assert settled(found, record(recording=swing)) == when
     assert settled(replace(found, method="smoother"), record(recording=swing)) is None
 

@@ -87,8 +87,8 @@ def test_a_warning_in_one_run_of_ten_is_borne():
 
 
 def test_inertia_is_advised_by_its_own_errors():
-    outlying, near = (Ratios(ratio, 0.1, Share(240, 240)) for ratio in (5.0, 1.0))
-    methods = [replace(reported("tracker", 1.0), inertia=outlying),
+    poor, near = (Ratios(ratio, 0.1, Share(240, 240)) for ratio in (5.0, 1.0))
+    methods = [replace(reported("tracker", 1.0), inertia=poor),
                replace(reported("trajectory", 5.0), inertia=near)]  # fmt: skip
     assert advised_method(methods, "com").name == "tracker"
     assert advised_method(methods, "inertia").name == "trajectory"

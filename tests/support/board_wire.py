@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from equipoise.app.bench.emulation import ahead_of
 from equipoise.hardware.boards.registry import BOARDS
-from equipoise.hardware.emulated.registry import BOARDS as OUTLYING_SIDES
+from equipoise.hardware.emulated.registry import BOARDS as REMOTE_SIDES
 from equipoise.hardware.links.mass_interpolation import on_the_way
 from equipoise.io.testbed.presets import read_preset
 
@@ -27,7 +27,7 @@ class Wire:
     def __init__(self, kind, board=None, turn=TURN):
         self.board = board_of(kind) if board is None else board
         self.driver = BOARDS[kind](self.board, BED.masses)
-        self.outlying = OUTLYING_SIDES[kind](self.board, BED.masses)
+        self.remote = REMOTE_SIDES[kind](self.board, BED.masses)
         self.t, self.turn, self.sent, self.legs = 0.0, turn, b"", []
         self.cut = False  # what the board says does not arrive
         self.reported = []  # s, positions, which have to go: every state of another time
@@ -38,7 +38,7 @@ class Wire:
         end = self.t + seconds
         while self.t < end - 1e-9 and self.driver.state.phase != until:
             self.t = round(self.t + self.turn, 9)
-            said, legs = self.outlying.run(self.t)
+            said, legs = self.remote.run(self.t)
             self.legs += legs
             if listen:
                 self._talk(said)
@@ -49,7 +49,7 @@ class Wire:
             self.driver.feed(said, self.t)
         reported = self.driver.due(self.t)
         self.sent += reported
-        answer = self.outlying.take(reported, self.t) if reported else b""
+        answer = self.remote.take(reported, self.t) if reported else b""
         if not self.cut:
             self.driver.feed(answer, self.t)
         state = self.driver.state

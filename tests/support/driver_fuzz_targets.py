@@ -47,10 +47,10 @@ def reported(name: str) -> bytes:
     t = np.arange(3) * 0.025
     q = np.stack([np.cos(t), np.sin(t), 0 * t, 0 * t], axis=1)
     rows = Recording(Samples(t, q), Samples(t, np.stack([t, 1 - t, t / 7], axis=1)))
-    outlying, driver = SENSORS[name](unit(name)), DRIVERS[name](unit(name))
+    remote, driver = SENSORS[name](unit(name)), DRIVERS[name](unit(name))
     driver.opened()
-    outlying.take(driver.due(0.0), 0.0)
-    return b"".join(outlying.messages(rows))
+    remote.take(driver.due(0.0), 0.0)
+    return b"".join(remote.messages(rows))
 
 
 class Listened(Wire):

@@ -229,10 +229,10 @@ def without_delay(rails: Rails, now: Floats, here: Floats, wanted: Vector3) -> F
     """
     quantum = np.linalg.norm(rails.gain, axis=1)
     coarsest = rails.tier == rails.tier.max()
-    outlying = NEARBY * float(quantum[coarsest].min()) / quantum
+    nearby = NEARBY * float(quantum[coarsest].min()) / quantum
     steps = np.clip(here / rails.step, rails.low, rails.high)
-    low = np.where(coarsest, rails.low, np.maximum(rails.low, np.floor(steps - outlying)))
-    high = np.where(coarsest, rails.high, np.minimum(rails.high, np.ceil(steps + outlying)))
+    low = np.where(coarsest, rails.low, np.maximum(rails.low, np.floor(steps - nearby)))
+    high = np.where(coarsest, rails.high, np.minimum(rails.high, np.ceil(steps + nearby)))
     near = allocate(rails._replace(low=low, high=high), now, wanted)
     missed = float(abs(wanted / rails.unit - near / rails.step @ rails.gain).sum())
     return near if missed <= rails.allowed else allocate(rails, now, wanted)

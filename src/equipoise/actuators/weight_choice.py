@@ -154,8 +154,8 @@ def nearest(lever: Floats, rest: Vector3) -> Iterator[list[int]]:
     for steps, reached in ((one, lever), (two, sums)):
         yield from best(steps, np.linalg.norm(reached - rest, axis=1))
     for others, reached in ((one, lever), (two, sums)):
-        outlying, which = KDTree(reached).query(rest - sums)
-        yield from best(np.hstack([two, others[which]]), np.asarray(outlying))
+        distances, which = KDTree(reached).query(rest - sums)
+        yield from best(np.hstack([two, others[which]]), np.asarray(distances))
 
 
 def unlike(steps: Ints, reached: Floats) -> tuple[Ints, Floats]:

@@ -87,18 +87,18 @@ def clear(at: Table, out: int, j: int) -> None:
 @part
 def pivot(at: Table, j: int) -> None:
     """Let column j change as far as bounds allow; the basic column at its bound first goes out."""
-    way, outlying, out = (-1.0 if at.full[j] else 1.0), at.upper[j], -1
+    way, step, out = (-1.0 if at.full[j] else 1.0), at.upper[j], -1
     for i in range(3):
         reach = reach_of(at, j, way, i)
-        if reach < outlying:
-            outlying, out = reach, i
+        if reach < step:
+            step, out = reach, i
     for i in range(3):
-        at.value[i] -= outlying * way * at.rows[i, j]
+        at.value[i] -= step * way * at.rows[i, j]
     if out < 0:
         at.full[j] = not at.full[j]
         return
     at.full[at.basic[out]] = way * at.rows[out, j] < 0
-    at.value[out] = (at.upper[j] if at.full[j] else 0.0) + way * outlying
+    at.value[out] = (at.upper[j] if at.full[j] else 0.0) + way * step
     at.basic[out], at.full[j] = j, False
     clear(at, out, j)
 

@@ -100,14 +100,14 @@ def summary(runs: Sequence[LawRun], up: Vector3, required: float, near: Vector3)
     followed = np.array([run.followed for run in runs if run.followed is not None])
     left = np.array([run.left for run in runs])
     passed = np.array([run.verdict.passed for run in runs])
-    outlying = np.any(np.abs(offset) > 2 * near, axis=1)
+    beyond = np.any(np.abs(offset) > 2 * near, axis=1)
     return LawSummary(
         law=runs[0].law,
         runs=len(runs),
         halted=sum(halted(run) for run in runs),
         late=sum(run.late and not halted(run) for run in runs),
         within=int(np.count_nonzero(left <= required)),
-        false_passes=int(np.count_nonzero(passed & outlying)),
+        false_passes=int(np.count_nonzero(passed & beyond)),
         aside=middle(aside),
         height=middle(np.abs(height)),
         torque=middle(np.array([run.torque for run in runs])),

@@ -173,10 +173,10 @@ def settled(found: Estimate, record: JudgedRecord) -> float | None:
         return None
     where = [course.names.index(name) for name in COM]
     true = np.array([record.truth[name] for name in COM])
-    outlying = np.linalg.norm(course.values[:, where] - true, axis=1)
+    distance = np.linalg.norm(course.values[:, where] - true, axis=1)
     first = float(np.linalg.norm(record.testbed.body.com - true))
-    outside = np.flatnonzero(~(outlying <= SETTLED * first))
+    outside = np.flatnonzero(~(distance <= SETTLED * first))
     if not len(outside):
         return 0.0
     late = int(outside[-1]) + 1
-    return float(course.t[late] - record.recording.span[0]) if late < len(outlying) else np.inf
+    return float(course.t[late] - record.recording.span[0]) if late < len(distance) else np.inf

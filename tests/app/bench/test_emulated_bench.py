@@ -91,7 +91,7 @@ def with_sensor(driver):
 
 
 @pytest.mark.parametrize("driver", sorted(NEEDS.keys() - PICTURES))
-def test_each_sensor_returns_the_rows_given_to_its_outlying_side(driver):
+def test_each_sensor_returns_the_rows_given_to_its_remote_side(driver):
     """In number, in time, and in value: attitude and rate come back as they went in."""
     with lab(with_sensor(driver)) as found:
         device, reported = found.imu.device, []

@@ -64,11 +64,11 @@ class Room:
     """A runner, its desk, and a page's end of the pipe."""
 
     def __init__(self, station, folder, seed=1):
-        self.page, outlying = Pipe()
+        self.page, remote = Pipe()
         self.reported, self.folder = Reported(), folder
         self.runner = Runner(station, Post(self.reported), folder, "session")
         self.runner.pace.at(0.0)
-        self.desk = Desk(self.runner, outlying, folder, seed)
+        self.desk = Desk(self.runner, remote, folder, seed)
 
     def request(self, *requests):
         for request in requests:

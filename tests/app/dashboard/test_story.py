@@ -73,7 +73,7 @@ def test_the_whole_story(chromium, tmp_path):
     running = started(tmp_path, "nanosat")
     try:
         page, received = opened(chromium, running)
-        who_measurements_on_commands_nothing(page)
+        a_viewer_commands_nothing(page)
         a_wrong_token_is_refused(page, running)
         a_second_commander_is_refused(chromium, page, running)
         balanced_until_it_passes(page)
@@ -90,7 +90,7 @@ def test_the_whole_story(chromium, tmp_path):
         running.end()
 
 
-def who_measurements_on_commands_nothing(page):
+def a_viewer_commands_nothing(page):
     for name in ("Start balancing", "Stop", "Let go"):
         expect(button(page, name)).to_be_disabled()
     assert state(page)["steps"] == 0

@@ -114,9 +114,9 @@ def test_what_is_wrong_is_said(of, words, said):
 
 
 def test_the_same_recording_gives_the_same_numbers(of, strict_json):
-    outlying = strict_json(of("--compare", "2", "3", "--json").out)["sd_from_first"]
+    deviations = strict_json(of("--compare", "2", "3", "--json").out)["sd_from_first"]
     assert all(
-        value == 0 for each in outlying.values() for value in each.values() if value is not None
+        value == 0 for each in deviations.values() for value in each.values() if value is not None
     )
     shown = of("--compare", "1", "2")
     assert shown.code == 0

@@ -195,8 +195,8 @@ def test_what_the_masses_cannot_follow_does_not_wind_up():
     _, params = LAW.begin(bed(), TARGET)
     bench = Bench(bed(), COM)
     observed = sample(started(bench, LEVEL, np.zeros(3)), bench, np.random.default_rng(0))
-    outlying = State(np.array([1e-2, 0, 0]), np.zeros((3, 3)))
-    after, command = step(outlying, observed, params)
+    leading = State(np.array([1e-2, 0, 0]), np.zeros((3, 3)))
+    after, command = step(leading, observed, params)
     np.testing.assert_allclose(after.shift, [params.lead, 0, 0])
     np.testing.assert_array_equal(command.shift, after.shift)
 

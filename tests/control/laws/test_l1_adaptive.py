@@ -74,8 +74,8 @@ def test_the_largest_adaptation_is_where_the_sampled_estimates_swing_up():
 def test_the_adaptation_keeps_its_bounds():
     """Projection: whatever the error, th_hat stays in its ball and s_hat in its range."""
     axis = law.begin(guess(), np.zeros(3))[1].axes[0]
-    outlying = np.array([-1e3, -1e3])
-    th, s = law.adapted(axis, outlying, np.array([0.3, 0.1]), np.zeros(2), 0.0)
+    beyond = np.array([-1e3, -1e3])
+    th, s = law.adapted(axis, beyond, np.array([0.3, 0.1]), np.zeros(2), 0.0)
     assert np.linalg.norm(th) == pytest.approx(axis.most)
     assert s == axis.furthest
 

@@ -247,12 +247,12 @@ def test_a_measurement_trims_the_height_alone():
 
 def test_rounds_end_when_nothing_is_gained_or_they_are_used_up():
     state, params = measured()
-    outlying = reported(com_x=0.0, com_y=0.0, com_z=-1e-3)
-    gained = two_steps.step(replace(state, left=6e-4), outlying, params)[0]
+    low = reported(com_x=0.0, com_y=0.0, com_z=-1e-3)
+    gained = two_steps.step(replace(state, left=6e-4), low, params)[0]
     assert not gained.ending
-    stuck = two_steps.step(replace(state, left=4.1e-4), outlying, params)[0]
+    stuck = two_steps.step(replace(state, left=4.1e-4), low, params)[0]
     assert "nothing_gained" in [reason.code for reason in stuck.ending]
-    spent = two_steps.step(replace(state, rounds=params.rounds - 1), outlying, params)[0]
+    spent = two_steps.step(replace(state, rounds=params.rounds - 1), low, params)[0]
     assert "rounds_used_up" in [reason.code for reason in spent.ending]
 
 

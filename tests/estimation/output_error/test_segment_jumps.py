@@ -38,9 +38,9 @@ def test_jumps_of_one_time_are_one():
 
 def test_jumps_that_differ_by_rounding_are_one():
     """At the first of their times; a microsecond apart they are two."""
-    near, outlying = Jump(5.0 + 1e-12, ("com_y",), (1.0,)), Jump(5.0 + 1e-6, ("com_z",), (1.0,))
-    assert inside((outlying, near, SLIP), 0.0, 10.0) == (
-        Jump(5.0, ("com_x", "com_y"), (1e-3, 1.0)), outlying,
+    near, later = Jump(5.0 + 1e-12, ("com_y",), (1.0,)), Jump(5.0 + 1e-6, ("com_z",), (1.0,))
+    assert inside((later, near, SLIP), 0.0, 10.0) == (
+        Jump(5.0, ("com_x", "com_y"), (1e-3, 1.0)), later,
     )  # fmt: skip
 
 

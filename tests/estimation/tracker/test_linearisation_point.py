@@ -79,11 +79,11 @@ def test_the_way_does_not_matter():
 def test_the_distance_unit_is_one_percent_of_a_moment_or_three_percent_of_r():
     """1 % of sqrt(J_xx J_yy) = 4.35e-3 kg m^2; 3 % of |r| = 2.4 um."""
     for k, step in ((6, 4.35e-3), (3, 3.5e-3), (2, 2.4e-6)):
-        near, outlying = POINT.copy(), POINT.copy()
+        near, beyond = POINT.copy(), POINT.copy()
         near[k] += 0.98 * step
-        outlying[k] += 1.02 * step
+        beyond[k] += 1.02 * step
         assert distance(POINT, posterior_at(near)) == pytest.approx(0.98, rel=2e-3)
-        assert distance(POINT, posterior_at(outlying)) == pytest.approx(1.02, rel=2e-3)
+        assert distance(POINT, posterior_at(beyond)) == pytest.approx(1.02, rel=2e-3)
 
 
 def test_an_impossible_inertia_is_approached_and_stays_possible():

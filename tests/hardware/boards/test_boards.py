@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from equipoise.hardware.boards.legs import next_leg
 from equipoise.hardware.boards.registry import BOARDS
-from equipoise.hardware.emulated.registry import BOARDS as OUTLYING_SIDES
+from equipoise.hardware.emulated.registry import BOARDS as REMOTE_SIDES
 from equipoise.hardware.links.row_buffer import RowBuffer
 from equipoise.hardware.transport.driver_protocol import LEG
 from equipoise.model.errors import BenchStopped, InputError
@@ -20,8 +20,8 @@ SPEED = 8 * MM
 every_board = pytest.mark.parametrize("kind", sorted(BOARDS))
 
 
-def test_every_driver_has_a_outlying_side_and_is_tested_here():
-    assert set(BOARDS) == set(OUTLYING_SIDES) == set(LETTERS)
+def test_every_driver_has_a_remote_side_and_is_tested_here():
+    assert set(BOARDS) == set(REMOTE_SIDES) == set(LETTERS)
 
 
 @every_board
@@ -159,9 +159,9 @@ def stands_until_home(wire):
 @pytest.mark.parametrize(
     ("trouble", "said"),
     [
-        (lambda wire: wire.outlying.press_reset(), "position is lost"),
-        (lambda wire: wire.outlying.hit_limit(), "a limit switch was hit"),
-        (lambda wire: wire.outlying.switch(False), "without power"),
+        (lambda wire: wire.remote.press_reset(), "position is lost"),
+        (lambda wire: wire.remote.hit_limit(), "a limit switch was hit"),
+        (lambda wire: wire.remote.switch(False), "without power"),
     ],
 )
 def test_trouble_in_a_way_is_a_fault_in_words_and_ends_with_homing(kind, late, trouble, said):
@@ -173,7 +173,7 @@ def test_trouble_in_a_way_is_a_fault_in_words_and_ends_with_homing(kind, late, t
     state = wire.run(0.5)
     assert (state.phase, state.sure) == ("fault", False)
     assert said in state.sentence
-    wire.outlying.switch(True)
+    wire.remote.switch(True)
     stands_until_home(wire)
 
 
@@ -196,11 +196,11 @@ def test_a_board_that_is_silent_is_a_fault_within_half_a_second(kind):
 def test_trouble_while_masses_stand_is_noticed_too(kind, trouble):
     wire = Wire(kind).at_home()
     if trouble == "reset":
-        wire.outlying.press_reset()
+        wire.remote.press_reset()
     else:
-        wire.outlying.switch(False)
+        wire.remote.switch(False)
         wire.run(0.1)
-        wire.outlying.switch(True)
+        wire.remote.switch(True)
     wire.run(0.6)
     assert not wire.driver.state.sure
     with pytest.raises(BenchStopped):
@@ -250,7 +250,7 @@ def test_a_silent_board_is_reported_as_a_fault(kind):
 @every_board
 def test_an_axis_that_this_kind_of_board_does_not_have_is_refused(kind):
     axes = (replace(board_of(kind).axes[0], letter="9"),)
-    for make in (BOARDS[kind], OUTLYING_SIDES[kind]):
+    for make in (BOARDS[kind], REMOTE_SIDES[kind]):
         with pytest.raises(InputError, match="letter '9'"):
             make(replace(board_of(kind), axes=axes), BED.masses)
 

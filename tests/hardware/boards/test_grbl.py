@@ -80,7 +80,7 @@ def test_settings_that_differ_from_the_testbed_are_named(key, value, said):
 
 def test_a_board_that_is_set_otherwise_is_a_fault():
     wire = Wire("grbl")
-    wire.outlying._settings[100] = 80.0
+    wire.remote._settings[100] = 80.0
     state = wire.run(0.5)
     assert state.phase == "fault"
     assert "$100=80 steps per mm" in state.sentence

@@ -153,7 +153,7 @@ def test_a_search_that_a_reset_ends_is_not_taken_for_found():
     wire.run(0.5)
     wire.driver.home(wire.t)
     wire.run(1.2)
-    wire.outlying.press_reset()
+    wire.remote.press_reset()
     state = wire.run(0.5)
     assert (state.phase, state.sure) == ("fault", False)
     assert "began anew" in state.sentence
@@ -161,7 +161,7 @@ def test_a_search_that_a_reset_ends_is_not_taken_for_found():
 
 def test_a_search_that_finds_no_switch_ends():
     wire = Wire("tmcl")
-    for motor in wire.outlying._motors:
+    for motor in wire.remote._motors:
         motor.stored[194] = motor.now[194] = 100  # microsteps/s: 136 s to the switch
     wire.run(0.5)
     wire.driver.home(wire.t)
@@ -175,7 +175,7 @@ def test_a_search_that_finds_no_switch_ends():
 
 def test_a_disabled_limit_switch_is_not_queried():
     wire = Wire("tmcl")
-    for motor in wire.outlying._motors:
+    for motor in wire.remote._motors:
         motor.stored[12] = motor.stored[13] = motor.now[12] = motor.now[13] = 1
     left = packed(Request(6, 11, 0))  # the one ahead on the way down from the search's end
     assert left not in wire.at_home().sent
@@ -184,7 +184,7 @@ def test_a_disabled_limit_switch_is_not_queried():
 
 def test_a_way_away_from_a_pushed_switch_is_free():
     wire = Wire("tmcl").at_home()
-    wire.outlying._motors[0].pressed.add(11)
+    wire.remote._motors[0].pressed.add(11)
     wire.driver.go({"x": 4 * MM}, wire.t)
     assert wire.run(1.0).position["x"] == pytest.approx(4 * MM, abs=2e-6)
     wire.driver.go({"x": 0.0}, wire.t)
@@ -204,8 +204,8 @@ def test_a_way_away_from_a_pushed_switch_is_free():
 )
 def test_a_refusal_on_the_way_is_a_fault_in_words(command, status, said):
     wire = Wire("tmcl").at_home()
-    obey = wire.outlying._obey
-    wire.outlying._obey = lambda *all_: (status, 0) if all_[0] == command else obey(*all_)
+    obey = wire.remote._obey
+    wire.remote._obey = lambda *all_: (status, 0) if all_[0] == command else obey(*all_)
     wire.driver.go({"x": 14 * MM}, wire.t)
     state = wire.run(0.5)
     assert (state.phase, state.sure) == ("fault", False)
@@ -271,7 +271,7 @@ def test_switches_guard_the_end_that_they_stand_at():
 
 def test_a_module_that_is_set_otherwise_is_a_fault():
     wire = Wire("tmcl")
-    wire.outlying._motors[1].now[5] = 100
+    wire.remote._motors[1].now[5] = 100
     state = wire.run(0.5)
     assert state.phase == "fault"
     assert "mass y needs 64000 to stop" in state.sentence
@@ -279,17 +279,17 @@ def test_a_module_that_is_set_otherwise_is_a_fault():
 
 def test_a_module_answers_each_request_and_refuses_what_it_cannot():
     """The manual's replies: wrong checksum 1, unknown command 2, parameter 3, motor 4."""
-    outlying = EmulatedTmcl(BOARD, BED.masses)
+    remote = EmulatedTmcl(BOARD, BED.masses)
 
     def status(data):
-        return outlying.take(data, 0.0)[2]
+        return remote.take(data, 0.0)[2]
 
     assert status(packed(Request(6, 1, 0))) == 100
     assert status(packed(Request(6, 1, 0))[:-1] + b"\x00") == 1
     assert status(packed(Request(99, 0, 0))) == 2
     assert status(packed(Request(6, 250, 0))) == 3
     assert status(packed(Request(6, 1, 6))) == 4
-    assert outlying.take(b"\x07" + packed(Request(6, 1, 0))[1:], 0.0) == b""  # another module's
+    assert remote.take(b"\x07" + packed(Request(6, 1, 0))[1:], 0.0) == b""  # another module's
 
 
 def frame(status, command, value):
@@ -330,7 +330,7 @@ def test_a_reversed_axis_counts_down():
 def slowly_stopping(**changes):
     """Return the slowest ramps that are taken, 0.1 s, and the quickest conversation."""
     wire = Wire("tmcl", board_of("tmcl", **changes), turn=0.001)
-    for motor in wire.outlying._motors:
+    for motor in wire.remote._motors:
         motor.stored[5] = motor.now[5] = 64000
     return wire.at_home()
 
@@ -376,8 +376,8 @@ def test_a_way_is_over_when_masses_are_there_and_not_later():
 def test_a_mass_that_does_not_move_is_reported_short_of_its_goal():
     """The interlocks then say so."""
     wire = Wire("tmcl").at_home()
-    obey = wire.outlying._obey
-    wire.outlying._obey = lambda *all_: (100, 0) if all_[0] == 4 else obey(*all_)
+    obey = wire.remote._obey
+    wire.remote._obey = lambda *all_: (100, 0) if all_[0] == 4 else obey(*all_)
     wire.driver.go({"x": 4 * MM}, wire.t)
     state = wire.run(1.0)
     assert (state.phase, state.goal["x"]) == ("ready", 4 * MM)

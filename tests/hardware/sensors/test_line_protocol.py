@@ -122,7 +122,7 @@ def test_a_declaration_that_cannot_be_is_named(settings, said):
         LineProtocol(over("serial:X", **settings))
 
 
-def test_what_the_outlying_side_prints_in_any_columns_comes_back():
+def test_what_the_remote_side_prints_in_any_columns_comes_back():
     """Angles and JSON too: 0.3 deg/s is not the number that stands in rad/s."""
     t = np.array([0.0, 0.02])
     q = from_euler321(np.array([0.1, 0.2]), np.array([-0.3, 0.3]), np.array([1.0, 2.0]))

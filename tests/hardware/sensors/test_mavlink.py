@@ -118,16 +118,16 @@ def test_what_is_no_row_is_counted():
 def test_it_sends_heartbeats_and_requests_until_it_is_answered():
     """MAV_CMD_SET_MESSAGE_INTERVAL is 511: message, microseconds; 50 Hz are 20 000."""
     device = unit("mavlink", rate_hz=50.0)
-    driver, outlying = Mavlink(device), EmulatedMavlink(device)
+    driver, remote = Mavlink(device), EmulatedMavlink(device)
     driver.opened()
     first = driver.due(0.0)
     (beat,) = common.MAVLink(None).parse_buffer(first)
     assert (beat.get_type(), beat.type, beat.autopilot) == ("HEARTBEAT", 6, 8)
     assert driver.due(0.99) == b""
-    assert outlying.take(first, 0.0) == b""  # no vehicle yet, so nothing is asked for
+    assert remote.take(first, 0.0) == b""  # no vehicle yet, so nothing is asked for
     driver.feed(frame(0, 50, struct.pack("<IBBBBB", 0, 2, 12, 0, 4, 3)))
-    answer = outlying.take(driver.due(1.0), 1.0)
-    assert outlying.requested == {31: 20000.0, 105: 20000.0}
+    answer = remote.take(driver.due(1.0), 1.0)
+    assert remote.requested == {31: 20000.0, 105: 20000.0}
     kinds = [m.get_type() for m in common.MAVLink(None).parse_buffer(driver.due(2.0))]
     assert kinds == ["HEARTBEAT", "COMMAND_LONG", "COMMAND_LONG"]
     driver.feed(answer)
@@ -153,13 +153,13 @@ def test_two_clocks_of_one_device_do_not_disturb_each_other():
     """Time since boot and Unix time, 10 ms late both: no jump, rows in step with their stamps."""
     device = unit("mavlink")
     wire = Wire()
-    link, outlying = SensorLink(device, Mavlink(device), wire, UNSTATED), EmulatedMavlink(device)
+    link, remote = SensorLink(device, Mavlink(device), wire, UNSTATED), EmulatedMavlink(device)
     rows = []
     for k in range(1, 100):
         t = np.array([0.025 * k])
         q = np.array([[np.cos(t[0]), np.sin(t[0]), 0, 0]])
         wire.data = tuple(
-            outlying.messages(Recording(Samples(t, q), Samples(t, np.full((1, 3), t[0]))))
+            remote.messages(Recording(Samples(t, q), Samples(t, np.full((1, 3), t[0]))))
         )
         late = 0.01 + 0.003 * (k % 5)
         rows += [(row, t[0]) for row in link.turn(t[0] + late)]

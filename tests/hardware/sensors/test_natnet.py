@@ -150,7 +150,7 @@ def test_a_declaration_that_cannot_be_is_named(settings, said):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the library reads 4 of 8 bytes there")
-def test_the_library_reads_the_outlying_sides_frames_likewise():
+def test_the_library_reads_the_remote_sides_frames_likewise():
     """A second reader of the format, by others; it stops before the flags at the end."""
     natnet = pytest.importorskip("natnet")
     from natnet.data_frame import DataFrame

@@ -172,63 +172,61 @@ def until(take, patience=2.0):
 
 @pytest.fixture
 def socket():
-    outlying = counterpart(Port("ws://ros:9090/bridge"))
-    near = open_port(Port(outlying.address))
-    yield near, outlying
+    remote = counterpart(Port("ws://ros:9090/bridge"))
+    near = open_port(Port(remote.address))
+    yield near, remote
     near.close()
-    outlying.close()
+    remote.close()
 
 
 def test_messages_arrive_whole_both_ways(socket):
     """A message of 200 kB is still one; two lines that are sent are two messages."""
-    near, outlying = socket
-    assert outlying.address.endswith("/bridge")
+    near, remote = socket
+    assert remote.address.endswith("/bridge")
     big = json.dumps({"name": "ä" * 100_000}, ensure_ascii=False).encode()
-    outlying.send(big)
-    outlying.send(b"second")
+    remote.send(big)
+    remote.send(b"second")
     found = []
     assert until(lambda: found.extend(near.receive()) or len(found) == 2)
     assert found == [big, b"second"]
     near.send(b'{"a": 1}\n{"b": 2}\n')
     received = []
-    assert until(lambda: received.extend(outlying.receive().splitlines()) or len(received) == 2)
+    assert until(lambda: received.extend(remote.receive().splitlines()) or len(received) == 2)
     assert received == [b'{"a": 1}', b'{"b": 2}']
 
 
 def test_a_listener_who_takes_nothing_keeps_nobody_waiting(socket):
     """40 MB to one who takes nothing yet: who sends returns, what is too much is left out whole."""
-    near, outlying = socket
+    near, remote = socket
     for _ in range(400):
-        outlying.send(b"x" * 100_000)  # would never return if it waited for the other end
+        remote.send(b"x" * 100_000)  # would never return if it waited for the other end
     found = []
-    while until(
-        lambda: (outlying.receive(), found.extend(fresh := near.receive()), fresh)[-1], 0.2
-    ):
+    while until(lambda: (remote.receive(), found.extend(fresh := near.receive()), fresh)[-1], 0.2):
         pass
     assert 10 < len(found) < 400
     assert set(found) == {b"x" * 100_000}
-    outlying.send(b"last")
+    remote.send(b"last")
     assert until(near.receive) == [b"last"]
 
 
 def test_a_server_that_goes_is_a_port_that_is_lost(socket):
-    near, outlying = socket
-    outlying.close()
+    near, remote = socket
+    remote.close()
     with pytest.raises(PortLost):
         until(lambda: near.receive() and False)
 
 
 def test_the_newest_listener_counts(socket):
-    _, outlying = socket
-    other = open_port(Port(outlying.address))
-    outlying.send(b"hello")
+    _, remote = socket
+    other = open_port(Port(remote.address))
+    remote.send(b"hello")
     assert until(other.receive) == [b"hello"]
     other.close()
 
 
 def test_topics_without_subscription_are_not_sent():
     device = replace(two_topics(), gives=("rate",))
-    outlying = EmulatedRosBridge(device)
-    status = json.loads(outlying.take(b'{"op": "subscribe", "topic": "/x", "type": "y"}\n', 0.0))
+    remote = EmulatedRosBridge(device)
+    status = json.loads(remote.take(b'{"op": "subscribe", "topic": "/x", "type": "y"}\n', 0.0))
     assert status["op"] == "status"
-    assert outlying.take(RosBridge(device).due(0.0), 0.0) == b""
+    assert remote.take(RosBridge(device).due(0.0), 0.0) == b""

@@ -104,7 +104,7 @@ def test_frames_by_hand():
 
 @pytest.mark.parametrize("name", sorted(DRIVERS.keys() - PICTURES))  # see test_camera
 @pytest.mark.parametrize("laboratory", ["z_up", "ned", "y_up"])
-def test_rows_sent_by_the_outlying_side_are_decoded_unchanged(name, laboratory):
+def test_rows_sent_by_the_remote_side_are_decoded_unchanged(name, laboratory):
     """And turning agrees: the attitude's slope is the rate, for every frame."""
     rng = np.random.default_rng(1)
     turn = to_matrix(from_euler321(0.3, -1.2, 2.0))
@@ -115,9 +115,9 @@ def test_rows_sent_by_the_outlying_side_are_decoded_unchanged(name, laboratory):
     half = 0.5 * np.linalg.norm(rate[0]) * t
     spin = np.column_stack([np.cos(half), np.sin(half)[:, None] * axis])
     q = multiply(from_euler321(0.2, 0.1, 1.0), spin)
-    outlying, driver = SENSORS[name](device), DRIVERS[name](device)
-    outlying.take(driver.due(0.0), 0.0)
-    messages = outlying.messages(Recording(Samples(t, q), Samples(t, rate)))
+    remote, driver = SENSORS[name](device), DRIVERS[name](device)
+    remote.take(driver.due(0.0), 0.0)
+    messages = remote.messages(Recording(Samples(t, q), Samples(t, rate)))
     rows = {"attitude": [], "rate": []}
     for message in messages:
         for piece in pieces(name, message):

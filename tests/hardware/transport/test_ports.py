@@ -37,29 +37,29 @@ def wait_for(take, wanted=bytes):
 
 @pytest.fixture(params=KINDS)
 def wire(request):
-    outlying = counterpart(Port(request.param))
-    near = open_port(Port(outlying.address))
-    yield near, outlying
+    remote = counterpart(Port(request.param))
+    near = open_port(Port(remote.address))
+    yield near, remote
     near.close()
-    outlying.close()
+    remote.close()
 
 
-def near_speaks_first(outlying):
-    return outlying.address.startswith("udpout:")
+def near_speaks_first(remote):
+    return remote.address.startswith("udpout:")
 
 
 def test_bytes_arrive_unchanged_both_ways(wire):
     """All 256 values: a terminal that turned returns into line feeds would fail."""
-    near, outlying = wire
+    near, remote = wire
     message = bytes(range(256))
-    if near_speaks_first(outlying):
+    if near_speaks_first(remote):
         near.send(b"hello")
-        assert wait_for(outlying.receive) == b"hello"
-    outlying.receive()  # takes the connection
-    outlying.send(message)
+        assert wait_for(remote.receive) == b"hello"
+    remote.receive()  # takes the connection
+    remote.send(message)
     assert wait_for(lambda: b"".join(near.receive()), lambda d: len(d) == 256) == message
     near.send(message[::-1])
-    assert wait_for(outlying.receive, lambda d: len(d) == 256) == message[::-1]
+    assert wait_for(remote.receive, lambda d: len(d) == 256) == message[::-1]
 
 
 def test_receiving_returns_when_nothing_came(wire):
@@ -69,10 +69,10 @@ def test_receiving_returns_when_nothing_came(wire):
 
 @pytest.mark.parametrize("kind", KINDS[:2])
 def test_a_port_that_is_pulled_out_is_lost(kind):
-    outlying = counterpart(Port(kind))
-    near = open_port(Port(outlying.address))
-    outlying.receive()
-    outlying.close()
+    remote = counterpart(Port(kind))
+    near = open_port(Port(remote.address))
+    remote.receive()
+    remote.close()
     with pytest.raises(PortLost):
         wait_for(lambda: b"".join(near.receive()))
     near.close()
@@ -88,12 +88,12 @@ def test_an_unreachable_port_is_reported_with_its_address():
 
 
 def test_a_connection_comes_back_when_the_device_does():
-    outlying = counterpart(Port("tcp:host:23"))
-    line = Connection(Port(outlying.address), open_port)
+    remote = counterpart(Port("tcp:host:23"))
+    line = Connection(Port(remote.address), open_port)
     assert line.turn(0.0).opened
-    outlying.receive()
-    number = int(outlying.address.rpartition(":")[2])
-    outlying.close()
+    remote.receive()
+    number = int(remote.address.rpartition(":")[2])
+    remote.close()
     t, lost = 0.0, ""
     while not lost and t < 2:
         t, lost = t + 0.01, line.turn(t).lost

@@ -192,9 +192,9 @@ def test_what_no_mass_can_shift_stays():
 
 
 def test_the_budget_of_an_unreachable_platform_still_states_what_moves_leave():
-    outlying = replace(sputnix(), com_sd=np.full(3, 1e-6), body=replace(
+    central = replace(sputnix(), com_sd=np.full(3, 1e-6), body=replace(
         sputnix().body, com=np.array([0.0, 0.0, -500e-6])))  # fmt: skip
-    found = budget_of(case(outlying))
+    found = budget_of(case(central))
     assert found.within == 0.0
     assert 0 < torque_of(found, "steps") < 1e-4
 

@@ -353,8 +353,8 @@ def test_masses_have_arrived_before_the_proof():
 def test_a_platform_beyond_its_tilt_limit_is_stopped():
     """Its masses stop on their way, wheels give nothing; the verdict is that it was halted."""
     thrown = platform(HANGING, rate=(0.3, 0.0, 0.0))
-    outlying = Command(shift=np.array([0.0, 0.0, 2e-3]), torque=TORQUE)
-    steps, bench = ended(reported(*[outlying] * 50), thrown)
+    wide = Command(shift=np.array([0.0, 0.0, 2e-3]), torque=TORQUE)
+    steps, bench = ended(reported(*[wide] * 50), thrown)
     verdict = steps[-1].verdict
     assert (steps[-1].kind, verdict.outcome) == ("stop", "halted")
     assert "tilts beyond its limit" in verdict.sentence

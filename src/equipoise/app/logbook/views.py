@@ -118,8 +118,8 @@ def _by_name(book: Logbook, run: LoggedRun) -> dict[str, Parameter]:
 
 
 def _separation(parameter: Parameter, other: Parameter) -> str:
-    outlying = normalised_difference(parameter, other)
-    return f"{outlying:+.1f}" if math.isfinite(outlying) and outlying else "unobservable"
+    deviation = normalised_difference(parameter, other)
+    return f"{deviation:+.1f}" if math.isfinite(deviation) and deviation else "unobservable"
 
 
 def runs_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
@@ -130,7 +130,7 @@ def runs_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
 def compared_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
     """Return several runs, and how far each is from the first."""
     first = _by_name(book, runs[0])
-    outlying = {
+    deviations = {
         run.name: {
             n: normalised_difference(p, first[n])
             for n, p in _by_name(book, run).items()
@@ -138,7 +138,7 @@ def compared_json(book: Logbook, runs: Sequence[LoggedRun]) -> View:
         }
         for run in runs[1:]
     }
-    return RUNS_COMPARED.write({"runs": [_run(book, r) for r in runs], "sd_from_first": outlying})
+    return RUNS_COMPARED.write({"runs": [_run(book, r) for r in runs], "sd_from_first": deviations})
 
 
 def _run(book: Logbook, run: LoggedRun) -> View:

@@ -146,8 +146,8 @@ def weakest_jet(testbed: Testbed) -> float:
 
 def likely_weight(testbed: Testbed) -> float:
     """Return the torque (N m) of an offset that few exceed."""
-    outlying = np.linalg.norm(testbed.body.com) + LIKELY * np.linalg.norm(testbed.com_sd)
-    return float(testbed.body.mass * testbed.gravity * outlying)
+    offset = np.linalg.norm(testbed.body.com) + LIKELY * np.linalg.norm(testbed.com_sd)
+    return float(testbed.body.mass * testbed.gravity * offset)
 
 
 def refuse(found: str, wanted: str) -> InputError:

@@ -42,16 +42,16 @@ PRICE = 9.0  # chosen: -2 ln probability that process noise about three axes mus
 
 def quiet(model: RecordModel, cuts: Series1) -> Bools:
     """Return which cuts are away from every event."""
-    outlying = np.ones(len(cuts), dtype=bool)
+    calm = np.ones(len(cuts), dtype=bool)
     for event in model.events:
-        outlying &= np.abs(cuts - event.t) > 0.75 * model.spacing
-    return outlying
+        calm &= np.abs(cuts - event.t) > 0.75 * model.spacing
+    return calm
 
 
-def surprises(outlying: Bools, after: Smoothed) -> dict[str, Floats]:
+def surprises(calm: Bools, after: Smoothed) -> dict[str, Floats]:
     """Return the surprise of every cut for each kind of event; events themselves surprise not."""
     tests = {kind: disturbances(after, columns) for kind, columns in KINDS.items()}
-    return {kind: np.where(outlying, test.surprise, 0.0) for kind, test in tests.items()}
+    return {kind: np.where(calm, test.surprise, 0.0) for kind, test in tests.items()}
 
 
 def first_walk(model: RecordModel) -> float:
@@ -95,11 +95,11 @@ def noisier(model: RecordModel, camera: float, gyro: float) -> Testbed:
     )
 
 
-def excesses(after: Smoothed, outlying: Bools) -> Vector3:
+def excesses(after: Smoothed, calm: Bools) -> Vector3:
     """Return, for each body axis, the median score of the cuts over what it should be."""
     test = disturbances(after, RATE)
     square = test.score**2 / np.einsum("kaa->ka", test.information)
-    return np.sqrt(np.median(square[outlying], axis=0) / MEDIAN_1)
+    return np.sqrt(np.median(square[calm], axis=0) / MEDIAN_1)
 
 
 def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitted]:
@@ -107,8 +107,8 @@ def calibrated(model: RecordModel) -> tuple[RecordModel, dict[str, Floats], Fitt
     for calibration in count():
         model = refitted(model)
         fit, after = smoothed(model)
-        outlying = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
-        surprise, excess = surprises(outlying, after), excesses(after, outlying)
+        calm = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
+        surprise, excess = surprises(calm, after), excesses(after, calm)
         factors = noise_factors(fit, after)
         steady = not model.wanders or bool(np.all(np.abs(np.log(np.maximum(excess, 1e-9))) < CALM))
         camera, gyro = (len(rows) for rows in (fit.at.left_q, fit.at.left_w))

@@ -123,9 +123,9 @@ def is_drowned(model: RecordModel) -> bool:
 def is_calm(model: RecordModel) -> bool:
     """Say whether what is left is white noise, and no cut has to be surprised."""
     fit, after = smoothed(model)
-    outlying = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
+    undisturbed = quiet(model, np.array([jump.t for jump in fit.problem.jumps]))
     white = min(portmanteau(left) for left in (fit.at.left_q, fit.at.left_w)) > WHITE
-    return white and bool(excesses(after, outlying).max() < WRONG)
+    return white and bool(excesses(after, undisturbed).max() < WRONG)
 
 
 def driven(model: RecordModel) -> RecordModel:

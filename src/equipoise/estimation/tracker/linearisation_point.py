@@ -27,16 +27,16 @@ POSSIBLE = 0.5  # chosen: a point's inertia shrinks to no less than this at a ti
 @part
 def distance(point: Floats, end: Floats) -> float:
     """Return the distance of an estimate from the point; beyond 1 the point has to move."""
-    size, off, outlying = 0.0, 0.0, 0.0
+    size, off, moved = 0.0, 0.0, 0.0
     for k in range(6):
         i = 0 if k == 0 or k == 3 or k == 4 else (1 if k == 1 or k == 5 else 2)
         j = 0 if k == 0 else (1 if k == 1 or k == 3 else 2)
         share = (end[AT + 3 + k] - point[3 + k]) ** 2 / (point[3 + i] * point[3 + j])
-        outlying = max(outlying, share / (MOVED * MOVED))
+        moved = max(moved, share / (MOVED * MOVED))
     for k in range(3):
         size += point[k] * point[k]
         off += (end[AT + k] - point[k]) ** 2
-    return max(outlying, off / (MOVED_COM * MOVED_COM * size)) ** 0.5
+    return max(moved, off / (MOVED_COM * MOVED_COM * size)) ** 0.5
 
 
 @kernel

@@ -125,10 +125,10 @@ class DistantKeeper:
 
     def __init__(self, testbed: Testbed, make: Callable[[Any], Kept], what: Any) -> None:
         context = get_context("spawn")
-        self._pipe, outlying = context.Pipe()
-        self._process = context.Process(target=run_keeper, args=(outlying, make, what), daemon=True)
+        self._pipe, remote = context.Pipe()
+        self._process = context.Process(target=run_keeper, args=(remote, make, what), daemon=True)
         self._process.start()
-        outlying.close()
+        remote.close()
         self.testbed = testbed
         self._news = News(0.0, BenchState(), None)
         self._parts: list[Recording] = []

@@ -143,8 +143,8 @@ def timely(state: tracker.State, com: Vector3, shift: Vector3, testbed: Testbed)
     Corrections at any moment would pump an undamped platform; once it swings far, only those that
     calm it are made, and soon there is one.
     """
-    outlying = swing_amplitude(state, com, testbed) > WIDE * testbed.tilt_limit
-    return not outlying or calming(state, shift, testbed)
+    wide = swing_amplitude(state, com, testbed) > WIDE * testbed.tilt_limit
+    return not wide or calming(state, shift, testbed)
 
 
 def hold(bench: Bench, knowledge: Knowledge, options: HoldOptions) -> Iterator[Step]:

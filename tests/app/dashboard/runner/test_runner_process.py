@@ -8,11 +8,11 @@ from tests.app.dashboard.conftest import BALANCE
 
 
 def test_the_runner_ends_with_who_began_it_in_the_middle_of_a_balance(nanosat, tmp_path):
-    page, outlying = Pipe()
+    page, remote = Pipe()
     opening = Opening(nanosat, tmp_path, 1)
-    process = get_context("spawn").Process(target=run_runner, args=(outlying, opening))
+    process = get_context("spawn").Process(target=run_runner, args=(remote, opening))
     process.start()
-    outlying.close()
+    remote.close()
     assert page.poll(300)  # it may have to compile
     assert page.recv() == ("ready", None)
     page.send(requests.Pause(False))

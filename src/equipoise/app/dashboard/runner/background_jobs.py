@@ -47,10 +47,10 @@ class Job:
 
     def __init__(self, task: Task) -> None:
         context = get_context("spawn")
-        self._pipe, outlying = context.Pipe(duplex=False)
-        self._process = context.Process(target=carry_out, args=(outlying, task), daemon=True)
+        self._pipe, remote = context.Pipe(duplex=False)
+        self._process = context.Process(target=carry_out, args=(remote, task), daemon=True)
         self._process.start()
-        outlying.close()
+        remote.close()
         self.over = False
 
     def news(self) -> Iterator[News]:

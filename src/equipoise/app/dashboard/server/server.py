@@ -34,10 +34,10 @@ class RemoteRunner:
 
     def __init__(self, opening: Opening) -> None:
         context = get_context("spawn")
-        self.pipe, outlying = context.Pipe()
-        self._process = context.Process(target=run_runner, args=(outlying, opening))
+        self.pipe, remote = context.Pipe()
+        self._process = context.Process(target=run_runner, args=(remote, opening))
         self._process.start()
-        outlying.close()
+        remote.close()
 
     def wait_until_ready(self) -> None:
         """Wait until it shows something; EquipoiseError where it cannot."""
