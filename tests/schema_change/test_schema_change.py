@@ -17,6 +17,7 @@ from tests.schema_change.changes import (
 from tests.schema_change.compare import Comparison
 from tests.schema_change.inputs import CASES, chosen
 from tests.schema_change.run import document_of, read
+from tests.support import thorough
 
 FOLDER = Path(__file__).parent
 SOURCE = FOLDER.parents[1] / "src"
@@ -38,7 +39,7 @@ VERDICT = {"passed": True, "com_um": [1.5, -2.25, None], "sentence": "Passed."}
 BEFORE = {"schema": "equipoise/balance/1", "steps": [{"verdict": VERDICT}], "cautions": []}
 
 
-@pytest.mark.parametrize("case", chosen(list(FAST)), ids=lambda case: case.name)
+@pytest.mark.parametrize("case", chosen(thorough.some(FAST, 2)), ids=lambda case: case.name)
 def test_document_is_as_it_was(case):
     before = read(FOLDER / "before" / f"{case.name}.json")
     assert Comparison(rtol=RTOL).differences(case.name, before, document_of(case, SOURCE)) == []

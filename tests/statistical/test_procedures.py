@@ -9,6 +9,7 @@ def test_balancing_ends_within_tolerance_and_its_verdict_knows() -> None:
     assert balanced.measure(range(thorough.count(10, 3))).missed == ()
 
 
+@thorough.whole
 def test_drifting_platform_is_held() -> None:
-    """A platform for minutes, within 3 um on every axis all the time."""
-    assert drift.measure(range(1), hold=thorough.count(600, 240)).missed == ()
+    """A platform for ten minutes, within 3 um on every axis all the time."""
+    assert drift.measure(range(1), hold=600.0).missed == ()

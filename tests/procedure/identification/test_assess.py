@@ -23,7 +23,7 @@ from tests.support.builders import COM, INERTIA, move_at, noisy, platform, recor
 from verification.verdicts import swing
 
 STIFF = np.zeros((3, 3))
-PLATFORMS = range(thorough.count(12, 4))
+PLATFORMS = range(thorough.count(12, 3))
 
 
 def assessed(record, testbed, **requested):
