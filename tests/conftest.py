@@ -18,7 +18,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Shapes and types are checked by the tests of the rooms that are decorated for it (pyproject.toml)
 # and of the front door; in runs of other rooms' tests the checks are up to half of the time.
-CHECKED = ("model", "io", "procedure", "assessment", "app/api")
+CHECKED = ("model", "io", "procedure/steps", "assessment", "app/api")
 HERE = Path(__file__).parent
 
 

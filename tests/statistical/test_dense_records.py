@@ -92,6 +92,7 @@ def erring_together(rho: float, seed: int) -> Recording:
     return replace(clean, attitude=Samples(clean.attitude.t, q))
 
 
+@thorough.whole
 def test_rows_that_err_together_widen_the_intervals() -> None:
     """By the root of the spectral peak (1 + rho) / (1 - rho), or a little more by chance.
 

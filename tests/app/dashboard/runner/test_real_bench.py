@@ -10,7 +10,7 @@ from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.runner.benches import Station
 from equipoise.io.testbed.presets import read_preset
 from tests.app.dashboard.conftest import BALANCE, Room
-from tests.support import emulated_lab
+from tests.support import emulated_lab, thorough
 from tests.support.emulated_lab import over_tcp
 from tests.support.faulty_wire import silent
 
@@ -42,6 +42,7 @@ def in_turn(room, *words):
     return all(any(word in note for note in said) for word in words)
 
 
+@thorough.whole
 def test_a_real_bench_is_practised_homed_let_go_and_balanced(tmp_path, monkeypatch):
     """The truth is where the verdict says, within 4 sd; the page's rows are the devices' own."""
     monkeypatch.setenv("EQUIPOISE_RUNS", "")
