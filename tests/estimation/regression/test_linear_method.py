@@ -23,7 +23,7 @@ from tests.support.outcomes import codes_of
 NAMES = (*COM_NAMES, *INERTIA_NAMES)
 TRUTH = np.array([*COM, *INERTIA])
 LENGTH, SHORT = (60.0, 30.0) if thorough.THOROUGH else (30.0, 15.0)  # s
-RECORDS = thorough.count(12, 4)
+RECORDS = thorough.count(12, 6)
 
 
 def run(name, recording_, testbed, **options):
