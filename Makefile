@@ -32,7 +32,7 @@ test bench verify mutants: export PYTHONDONTWRITEBYTECODE :=
 
 test: $(TEST) $(VENDORED)  ## run every test, and the examples of README and docs, on two cores
 	@$(BIN)/python -m tests.support.warm_cache
-	@$(BIN)/pytest -q -n 4 --dist worksteal
+	@$(BIN)/pytest -q -n 3 --dist worksteal
 
 bench: $(TEST)  ## time the fit, the tracker and the simulator beside other tools
 	@$(BIN)/python -m benchmarks
