@@ -55,9 +55,7 @@ def test_outliers_dropouts_and_a_gap_cost_less_than_twice():
 
 
 @pytest.mark.skipif(not RECORD.is_file(), reason="the real recording is not at hand")
-@pytest.mark.parametrize(
-    "name", thorough.some(["ekf_9", "trajectory", "smoother", "momentum_corrected"], 2)
-)
+@pytest.mark.parametrize("name", thorough.some(PREDICTING, 2))
 def test_a_body_found_on_the_real_record_predicts_its_other_half(name):
     """Nearer than 2 deg rms per axis, of turns by 200 deg/s for half a minute."""
     said, left = real_methods.judged(name)

@@ -54,16 +54,18 @@ def ended(command):
 
 
 def test_check_finds_a_sound_bench_sound(bench):
-    """But for the intervals of rows, which scatter where the computer is busy."""
     for _ in range(TRIES):
         code, out, _err = ended(begun(bench, "check", "there.toml", "--yes"))
         if code == 0:
             break
     problems = [line for line in out.splitlines() if "PROBLEM" in line]
-    assert [line for line in problems if "intervals scatter" not in line] == []
+    scattered = [line for line in problems if "intervals scatter" in line]
+    assert problems == scattered
     assert "board masses: answers, agrees, x, y, z at home" in out
     assert [f"mass {name}: went 1 mm out and back" in out for name in "xyz"] == [True] * 3
     assert "messages" in out
+    if scattered:
+        pytest.skip("the computer was too busy for real time: rows came at odd intervals")
 
 
 def offered(address):

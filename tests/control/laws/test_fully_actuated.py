@@ -97,14 +97,14 @@ def test_energy_falls_as_printed():
     bench = with_momentum(Bench(bed(), COM, period=2e-3))
     begun = with_params(LAW.begin(bench.testbed, TARGET), period=2e-3)
     params = begun[1]
-    rows = closed_loop(bench, LAW.step, begun, thorough.count(8, 4), TILTED)[:-1]
+    rows = closed_loop(bench, LAW.step, begun, 8.0, TILTED)[:-1]
     e = np.array([error_of(r, params, INERTIA) for r in rows])
     off = np.array([r.state.shift for r in rows]) + COM
     V = 0.5 * np.sum(e**2, axis=1) + np.sum(off**2, axis=1) / (2 * params.adaption)
     taken = params.gain * np.sum(e**2, axis=1)
     spent = np.concatenate([[0.0], np.cumsum((taken[1:] + taken[:-1]) / 2 * 2e-3)])
     np.testing.assert_allclose(V + spent, V[0], rtol=5e-3)
-    assert spent[-1] > 0.1 * V[0]
+    assert spent[-1] > 0.2 * V[0]
     assert np.all(np.diff(V) < 1e-9 * V[0])
 
 
