@@ -54,10 +54,8 @@ def identify(
     InputError
         For files that cannot be read, unknown names, and a recording that does not fit the testbed.
     """
-    bed, requested = (
-        inputs.testbed_from(testbed),
-        inputs.options_from(terms, hold, use_prior, robust),
-    )
+    bed = inputs.testbed_from(testbed)
+    requested = inputs.options_from(terms, hold, use_prior, robust)
     planned = None if plan is None else inputs.plan_from(plan, bed)
     options = IdentifyOptions(method, requested.terms, requested.hold, use_prior, robust)
     rows = inputs.recording_from(recording, bed)

@@ -17,7 +17,9 @@ from equipoise.app.commands.on_bench import SIMULATED, OnBench, check_on_bench, 
 from equipoise.app.console.terminal import busy
 
 if TYPE_CHECKING:
+    from equipoise.app.runs.balancing import Balancing, Goal, Limits
     from equipoise.model.arrays import Vector3
+    from equipoise.model.testbed import Testbed
 
 Until = tuple[int | None, float | None, float]  # moves, s, s of holding
 
@@ -90,21 +92,30 @@ def balance(
     check_outputs(out)
     with busy("preparing the bench", announce=False):
         from equipoise.app.logbook.output import hand_over_run
-        from equipoise.app.runs.balancing import Goal, Limits, run
-        from equipoise.app.runs.terminal_waiting import at_terminal, show_step
+        from equipoise.app.runs.balancing import Goal, Limits
         from equipoise.app.views.balance_views import output_of
         from equipoise.procedure.balancing.catalogue import CARDS
-        from equipoise.simulation.carried_out import bench_for
 
         limits = Limits(*until, one_of("--law", law, list(CARDS)), planned)
-        goal = Goal(*where)
-        simulated = None if on_bench.bench else bench_for(bed, planned, seed)
+    done = _run(bed, Goal(*where), limits, seed, on_bench, show=not json)
+    hand_over_run(output_of(done), json, out, bed.name)
+    return 0 if done.verdict.passed else 1
+
+
+def _run(
+    bed: "Testbed", goal: "Goal", limits: "Limits", seed: int, on_bench: OnBench, *, show: bool
+) -> "Balancing":
+    """Balance the simulated platform, or the real one, and show each step."""
+    with busy("preparing the bench", announce=False):
+        from equipoise.app.runs.balancing import run
+        from equipoise.app.runs.terminal_waiting import at_terminal, show_step
+        from equipoise.simulation.carried_out import bench_for
+
+        simulated = None if on_bench.bench else bench_for(bed, limits.plan, seed)
     if simulated is None:
         prepare(bed, goal, limits, on_bench)
     with let_go(bed, on_bench) if simulated is None else nullcontext(simulated) as bench:
-        done = run(bench, goal, limits, None if json else show_step, at_terminal(bed))
-    hand_over_run(output_of(done), json, out, bed.name)
-    return 0 if done.verdict.passed else 1
+        return run(bench, goal, limits, show_step if show else None, at_terminal(bed))
 
 
 def _where(target_um: Triple, tolerance_um: Triple) -> "tuple[Vector3, Vector3]":

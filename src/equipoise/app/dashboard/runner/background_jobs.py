@@ -25,8 +25,6 @@ class Keep:
     """Write the report of a balancing into a folder of its own."""
 
     done: Balancing
-    law: str
-    seed: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -125,7 +125,7 @@ class Desk:
             raise InputError("the platform", "not said to be held", "somebody who holds it level")
         goal = Goal(np.array(request.target), np.array(request.tolerance))
         limits = Limits(None, request.max_time, 0.0, request.law)
-        self._runner.balance(goal, limits, self._seed)
+        self._runner.balance(goal, limits)
 
     def _jog(self, request: requests.Jog) -> None:
         runner = self._runner

@@ -168,7 +168,7 @@ class Runner:
 
     # --- What is done ------------------------------------------------------------------------
 
-    def balance(self, goal: Goal, limits: Limits, seed: int) -> None:
+    def balance(self, goal: Goal, limits: Limits) -> None:
         """Balance, and have the report written by a background job; a stop is the last step."""
         self.phase, self.goal, self.trip, self.kept, self.note = "balancing", goal, None, None, ""
         self.report_state()
@@ -180,7 +180,7 @@ class Runner:
         else:
             self.note = done.verdict.sentence
             self.trip = self.note if done.verdict.outcome is VerdictOutcome.HALTED else None
-            self._begin(Job(Keep(done, limits.law, seed)), "writing the report")
+            self._begin(Job(Keep(done)), "writing the report")
         self.phase, self.stopping = "idle", False
         self.report_state()
 
