@@ -122,8 +122,8 @@ CONTROL = _of(
      "control/plant/test_settling.py"),
     ("plant/actuator_limits.py", "vector if size <= most else", "vector if size >= most else",
      "control/plant/test_actuator_limits.py"),
-    ("plant/pendulum.py", "np.cross(plant.axes.T @ v, plant.up)",
-     "np.cross(plant.up, plant.axes.T @ v)", "control/plant/test_pendulum.py"),
+    ("plant/pendulum.py", "cross(plant.axes.T @ v, plant.up)",
+     "cross(plant.up, plant.axes.T @ v)", "control/plant/test_pendulum.py"),
 )  # fmt: skip
 
 ASSESSMENT = _of(

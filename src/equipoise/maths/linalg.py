@@ -14,6 +14,13 @@ def skew(a: Vector3) -> Matrix3:
     return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
 
 
+def cross(a: Vector3, b: Vector3) -> Vector3:
+    """Return a x b, as ``np.cross`` does for one pair in ten times as long."""
+    return np.array(
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    )
+
+
 def pack_symmetric(matrix: Matrix3) -> Vector6:
     """Return xx yy zz xy xz yz."""
     return np.array([matrix[i, j] for i, j in PAIRS])

@@ -81,54 +81,58 @@ INPUTS = ("masses", "momentum", "torque", "devices")  # straight lines between t
 
 def window(recording: Recording, start: float, end: float) -> Recording:
     """Return the part from ``start`` to ``end`` (s); inputs keep the row before and after it."""
-
-    def sensor(channel: Samples | None) -> Samples | None:
-        if channel is None:
-            return None
-        keep = (channel.t >= start) & (channel.t <= end)
-        return Samples(channel.t[keep], channel.values[keep])
-
-    def known(channel: Samples | None) -> Samples | None:
-        if channel is None or not len(channel):
-            return channel
-        first = max(int(np.searchsorted(channel.t, start, side="right")) - 1, 0)
-        last = int(np.searchsorted(channel.t, end, side="left")) + 1
-        return Samples(channel.t[first:last], channel.values[first:last])
-
     parts = {
-        name: (known if name in INPUTS else sensor)(getattr(recording, name))
+        name: (_known if name in INPUTS else _sensed)(getattr(recording, name), start, end)
         for name in (*CHANNELS, "attitude_norm")
     }
     return replace(recording, **parts)
 
 
+def _sensed(channel: Samples | None, start: float, end: float) -> Samples | None:
+    if channel is None:
+        return None
+    keep = (channel.t >= start) & (channel.t <= end)
+    return Samples(channel.t[keep], channel.values[keep])
+
+
+def _known(channel: Samples | None, start: float, end: float) -> Samples | None:
+    if channel is None or not len(channel):
+        return channel
+    first = max(int(np.searchsorted(channel.t, start, side="right")) - 1, 0)
+    last = int(np.searchsorted(channel.t, end, side="left")) + 1
+    return Samples(channel.t[first:last], channel.values[first:last])
+
+
 def rows_between(recording: Recording, since: float, until: float) -> Recording:
     """Return the rows after one time (s) and up to another; a channel without any is absent."""
-
-    def part(channel: Samples | None) -> Samples | None:
-        if channel is None:
-            return None
-        first, last = np.searchsorted(channel.t, [since, until], side="right")
-        return Samples(channel.t[first:last], channel.values[first:last]) if last > first else None
-
-    parts = {name: part(getattr(recording, name)) for name in (*CHANNELS, "attitude_norm")}
+    parts = {
+        name: _between(getattr(recording, name), since, until)
+        for name in (*CHANNELS, "attitude_norm")
+    }
     return replace(recording, **parts)
+
+
+def _between(channel: Samples | None, since: float, until: float) -> Samples | None:
+    if channel is None:
+        return None
+    first, last = np.searchsorted(channel.t, [since, until], side="right")
+    return Samples(channel.t[first:last], channel.values[first:last]) if last > first else None
 
 
 def join(first: Recording, second: Recording) -> Recording:
     """Return the two, one after the other; rows of the second at or before the first's end go."""
-
-    def both(a: Samples | None, b: Samples | None) -> Samples | None:
-        if a is None or b is None or not len(a):
-            return b if a is None or not len(a) else a
-        new = b.t > a.t[-1]
-        return Samples(np.append(a.t, b.t[new]), np.vstack([a.values, b.values[new]]))
-
-    parts = {name: both(getattr(first, name), getattr(second, name)) for name in CHANNELS}
-    lengths = both(first.attitude_norm, _lengths_after(first.attitude, second.attitude_norm))
+    parts = {name: _both(getattr(first, name), getattr(second, name)) for name in CHANNELS}
+    lengths = _both(first.attitude_norm, _lengths_after(first.attitude, second.attitude_norm))
     names = first.mass_names or second.mass_names
     devices = first.device_names or second.device_names
     return replace(first, mass_names=names, device_names=devices, attitude_norm=lengths, **parts)
+
+
+def _both(a: Samples | None, b: Samples | None) -> Samples | None:
+    if a is None or b is None or not len(a):
+        return b if a is None or not len(a) else a
+    new = b.t > a.t[-1]
+    return Samples(np.append(a.t, b.t[new]), np.vstack([a.values, b.values[new]]))
 
 
 def joined(parts: Sequence[Recording]) -> Recording:

@@ -29,6 +29,7 @@ import numpy as np
 
 from equipoise.control.law import Sample
 from equipoise.maths.attitude import conjugate, multiply
+from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Matrix3, Quaternion, Vector3
 
 FREQUENCY, DAMPING, INTEGRAL = 0.5, 0.8, 0.1  # rad/s, -, rad/s, chosen: settles in ten seconds
@@ -104,5 +105,5 @@ def torque(
         + 2.0 * gains.damping * w_n * (reference.rate - w)
         + w_n**2 * (e + gains.integral * total)
     )
-    u = np.cross(w, J @ w + sample.momentum) - np.cross(moment, sample.gravity) + J @ a
+    u = cross(w, J @ w + sample.momentum) - cross(moment, sample.gravity) + J @ a
     return Pid(total, u, sample.t), u

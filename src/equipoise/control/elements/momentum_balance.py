@@ -35,6 +35,7 @@ from equipoise.dynamics.regressor import TORQUE, WIDTH, torque_columns
 from equipoise.dynamics.sag_trim import sag_matrix
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.compiled import kernel
+from equipoise.maths.linalg import cross, skew
 from equipoise.model.arrays import Floats, Matrix3, Square, Vector3
 from equipoise.model.testbed import SlidingMass, Testbed
 from equipoise.model.torque_terms import GROUPS, TERMS, typical
@@ -108,8 +109,8 @@ def rows_at(sample: Sample, book: Book, begin: float) -> Floats:
     """Return the torque (N m, laboratory axes) of r, of each c, and of the weight at s."""
     g, w = sample.gravity, sample.rate
     regress = torques_at(w, g, sample.t - begin, book.mass)
-    weight = -book.mass * np.cross(np.eye(3), g)  # its row i is -m e_i x g
-    known = book.mass * np.cross(sample.shift, g)
+    weight = -book.mass * skew(g)  # its row i is -m e_i x g
+    known = book.mass * cross(sample.shift, g)
     columns = np.column_stack([-weight.T, regress[:, book.columns], known])
     return to_matrix(sample.q) @ columns
 

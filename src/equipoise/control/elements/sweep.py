@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Matrix3, Vector3
 
 
@@ -57,7 +58,5 @@ def cone(sweep: Sweep, t: float) -> tuple[Vector3, Vector3, Vector3]:
 def wanted(sweep: Sweep, t: float, down: Vector3, rate: Vector3) -> Wanted:
     """Return the rate to have at time t (s), from gravity's direction and the rate as they are."""
     n, n1, n2 = cone(sweep, t)
-    back = np.cross(n1, down) + np.cross(n, np.cross(down, rate))
-    return Wanted(
-        np.cross(n1, n) + sweep.hold * np.cross(n, down), np.cross(n2, n) + sweep.hold * back
-    )
+    back = cross(n1, down) + cross(n, cross(down, rate))
+    return Wanted(cross(n1, n) + sweep.hold * cross(n, down), cross(n2, n) + sweep.hold * back)

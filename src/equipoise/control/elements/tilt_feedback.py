@@ -49,6 +49,7 @@ from typing import NamedTuple
 import numpy as np
 
 from equipoise.control.plant import offset_bounds as offsets
+from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.testbed import Testbed
 
@@ -105,8 +106,8 @@ def followed(gains: Gains, held: Vector3, before: Vector3, now: Vector3, wait: b
 def shift_for(gains: Gains, held: Vector3, gravity: Vector3, rate: Vector3) -> Vector3:
     """Return the shift (m) that gives the torque of the law."""
     # The product with g_b leaves of w, too, only what is across gravity.
-    torque = gains.mass * np.cross(gravity, held) - gains.damping * rate
-    return np.cross(gravity, torque) / (gains.mass * float(gravity @ gravity))
+    torque = gains.mass * cross(gravity, held) - gains.damping * rate
+    return cross(gravity, torque) / (gains.mass * float(gravity @ gravity))
 
 
 def polynomial(frequency: float, integral: float, swing: float) -> Floats:

@@ -48,6 +48,7 @@ from equipoise.control.law import Law, Sample
 from equipoise.control.plant import offset_bounds as offsets
 from equipoise.control.plant.actuator_limits import greatest_slew, limited
 from equipoise.control.plant.wheel_capacity import Capacity, capacity
+from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Matrix3, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -175,7 +176,7 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
     want = wanted(params.sweep, sample.t - start, down, sample.rate)
     own = params.inertia @ sample.rate
     error = own - params.inertia @ want.rate
-    requested = np.cross(sample.rate, own + sample.momentum) - params.gain * error
+    requested = cross(sample.rate, own + sample.momentum) - params.gain * error
     requested += steering(params, sample, sample.t - start, want)
     rest = error - mean_moment(params) * sample.rate
     ahead = adapted(state, sample, rest, params) - sample.shift
@@ -188,10 +189,10 @@ def step(state: State, sample: Sample | Estimate, params: Params) -> tuple[State
 def steering(params: Params, sample: Sample, past: float, want: Wanted) -> Vector3:
     """Return H_d' - m r* x g_b (N m) in the middle of the period for which a torque is held."""
     half = params.period / 2
-    gravity = sample.gravity + half * np.cross(sample.gravity, sample.rate)
+    gravity = sample.gravity + half * cross(sample.gravity, sample.rate)
     rate = sample.rate + half * want.slope
     slope = wanted(params.sweep, past + half, gravity / float(np.linalg.norm(gravity)), rate).slope
-    return params.inertia @ slope - params.mass * np.cross(params.target, gravity)
+    return params.inertia @ slope - params.mass * cross(params.target, gravity)
 
 
 def mean_moment(params: Params) -> float:
@@ -206,7 +207,7 @@ def adapted(state: State, sample: Sample, rest: Vector3, params: Params) -> Vect
     if float(np.linalg.norm(state.torque - sample.torque)) > params.short:
         return state.shift
     turned = mean_moment(params) * (sample.gravity - state.gravity)
-    middle = np.cross(state.gravity, state.rest) + np.cross(sample.gravity, rest)
+    middle = cross(state.gravity, state.rest) + cross(sample.gravity, rest)
     total = turned + params.period / 2 * middle
     return state.shift - params.adaption * params.mass * total
 

@@ -44,7 +44,7 @@ from equipoise.control.law import Law, Sample
 from equipoise.control.plant.actuator_limits import greatest_shift, limited
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.axes_across import axes_across
-from equipoise.maths.linalg import skew
+from equipoise.maths.linalg import cross, skew
 from equipoise.model.arrays import Matrix3, Series, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -182,7 +182,7 @@ def begin(testbed: Testbed, target: Vector3) -> tuple[State, Params]:
 def impulse_for(sample: Sample, vertical: Vector3, params: Params) -> Vector3 | None:
     """Return the impulse (N m s) that gives the rate back to ``vertical``; None within the band."""
     n = -sample.gravity / float(np.linalg.norm(sample.gravity))
-    wanted = limited(RETURN * np.cross(vertical, n), FASTEST)
+    wanted = limited(RETURN * cross(vertical, n), FASTEST)
     off: Vector3 = wanted - sample.rate
     off = np.where(np.abs(off) > params.dead, off, 0.0)
     return params.inertia @ off if off.any() else None

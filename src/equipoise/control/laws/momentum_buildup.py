@@ -39,6 +39,7 @@ from equipoise.control.plant.actuator_limits import fastest_slew
 from equipoise.control.plant.wheel_capacity import capacity
 from equipoise.dynamics.sag_trim import sag_matrix, trimmed_com
 from equipoise.maths.attitude import to_matrix
+from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Floats, Matrix3, Quaternion, Vector3
 from equipoise.model.command import Command
 from equipoise.model.errors import InputError
@@ -148,7 +149,7 @@ def unloading(ledger: balance.Ledger, sample: Sample, params: Params) -> Vector3
     """Return the offset (m) from the goal by which gravity takes the horizontal momentum out."""
     outward = -UNLOAD * np.array([ledger.x[0], ledger.x[1], 0.0])
     g = sample.gravity
-    off = np.cross(g, to_matrix(sample.q).T @ outward) / (params.book.mass * (g @ g))
+    off = cross(g, to_matrix(sample.q).T @ outward) / (params.book.mass * (g @ g))
     size = float(np.linalg.norm(off))
     return off * min(1.0, params.reach / max(size, 1e-12))
 

@@ -34,6 +34,7 @@ from equipoise.control.plant.actuator_limits import fastest_slew
 from equipoise.control.plant.move_timing import Waiting
 from equipoise.control.plant.settling import UNREPORTED, Stand, standing
 from equipoise.maths.attitude import level, to_matrix
+from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Vector3
 from equipoise.model.command import Command, Measurement
 from equipoise.model.errors import InputError
@@ -124,7 +125,7 @@ def watched(state: State, sample: Sample, params: Params) -> State:
     """Return the state with this sample in its running means."""
     began = state.since is not None
     n = sample.gravity / float(np.linalg.norm(sample.gravity))
-    swing = float(np.linalg.norm(np.cross(sample.rate, n))) / state.loop.swing
+    swing = float(np.linalg.norm(cross(sample.rate, n))) / state.loop.swing
     tilt = float(np.linalg.norm(feedback.lean(sample.gravity, params.up)))
     share = 1.0 - float(np.exp(-(sample.t - state.t) / MEAN)) if began else 0.0
     return replace(

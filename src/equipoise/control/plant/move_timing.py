@@ -19,6 +19,7 @@ import numpy as np
 
 from equipoise.control.law import Sample
 from equipoise.maths.attitude import level, to_matrix
+from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Floats, Series, Vector3
 
 WATCH = 1.2  # swings, chosen: one, and a part for an error of the period
@@ -45,7 +46,7 @@ def across(up: Vector3) -> Series:
 def amplitudes(sample: Sample, up: Vector3, swing: float) -> Floats:
     """Return the amplitudes of the swings along both axes about level, (2,) rad."""
     n = -sample.gravity / float(np.linalg.norm(sample.gravity))
-    return np.hypot(across(up) @ n, across(up) @ np.cross(n, sample.rate) / swing)
+    return np.hypot(across(up) @ n, across(up) @ cross(n, sample.rate) / swing)
 
 
 def watched(

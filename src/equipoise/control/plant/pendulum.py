@@ -28,6 +28,7 @@ from equipoise.control.law import Sample
 from equipoise.control.plant.actuator_limits import filling_time, greatest_shift, greatest_slew
 from equipoise.control.plant.swing_estimates import of_group
 from equipoise.maths.axes_across import axes_across
+from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Floats, Series, Vector3
 from equipoise.model.errors import InputError
 from equipoise.model.testbed import Testbed
@@ -66,7 +67,7 @@ class Hanging(NamedTuple):
 def tilt_of(plant: Hanging, sample: Sample) -> Floats:
     """Return the tilt theta about both axes, rad."""
     vertical = -sample.gravity / float(np.linalg.norm(sample.gravity))
-    return plant.axes @ np.cross(vertical, plant.up)
+    return plant.axes @ cross(vertical, plant.up)
 
 
 def rate_of(plant: Hanging, sample: Sample) -> Floats:
@@ -76,12 +77,12 @@ def rate_of(plant: Hanging, sample: Sample) -> Floats:
 
 def shift_for(plant: Hanging, v: Floats) -> Vector3:
     """Return the horizontal shift (m) whose u x s is v along the axes."""
-    return np.cross(plant.axes.T @ v, plant.up)
+    return cross(plant.axes.T @ v, plant.up)
 
 
 def turned(plant: Hanging, shift: Vector3) -> Floats:
     """Return v = u x s along the axes, m: the way back from ``shift_for``."""
-    return plant.axes @ np.cross(plant.up, shift)
+    return plant.axes @ cross(plant.up, shift)
 
 
 def spared(plant: Hanging, p: Floats, d: Floats, tilt: Floats, rate: Floats) -> float:

@@ -14,6 +14,7 @@ from equipoise.actuators.sliding_masses import mass_maps
 from equipoise.estimation.motion.attitude_filter import AttitudeState
 from equipoise.maths.attitude import to_matrix
 from equipoise.maths.axes_across import axes_across
+from equipoise.maths.linalg import cross
 from equipoise.model.arrays import Floats, Vector3
 from equipoise.model.bench import Bench
 from equipoise.model.recording import Recording, join
@@ -44,7 +45,7 @@ def watched_swing(bench: Bench, eyes: Eyes, duration: float) -> Recording:
 
 def swinging(now: AttitudeState) -> float:
     """Return the rate (rad/s) at which the vertical turns in the body: no spin about it."""
-    return float(np.linalg.norm(np.cross(now.rate, to_matrix(now.q)[2])))
+    return float(np.linalg.norm(cross(now.rate, to_matrix(now.q)[2])))
 
 
 def slowest(testbed: Testbed) -> float:
