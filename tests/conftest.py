@@ -37,7 +37,8 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 def may_run_in_part(item: pytest.Item) -> bool:
     """Say whether a test draws examples, or its module asks how much of it runs."""
     requests = getattr(item.module, "thorough", None) is thorough
-    return requests or getattr(item.obj, "is_hypothesis_test", False)
+    fewer = {"few_draws", "few_platforms"} & set(getattr(item, "fixturenames", ()))
+    return requests or bool(fewer) or getattr(item.obj, "is_hypothesis_test", False)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -50,3 +51,15 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     left_out = [item for item in items if item.get_closest_marker("whole")]
     items[:] = [item for item in items if item not in left_out]
     config.hook.pytest_deselected(items=left_out)
+
+
+@pytest.fixture
+def few_draws(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let linear methods find their sd from half as many replicates, in `make verify` from all."""
+    thorough.few_draws(monkeypatch)
+
+
+@pytest.fixture
+def few_platforms(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let plans predict sd from a tenth of the platforms, in `make verify` from all."""
+    thorough.few_platforms(monkeypatch)

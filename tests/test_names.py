@@ -5,6 +5,7 @@ import io
 import re
 import tokenize
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -154,6 +155,7 @@ FORMER = frozenset(
 )
 
 
+@cache
 def words(identifier: str) -> set[str]:
     """Return the words of an identifier in lower case."""
     parts = re.findall(r"[A-Z]?[a-z0-9]+|[A-Z0-9]+(?![a-z])", identifier)
@@ -175,6 +177,9 @@ def identifiers(source: str) -> Iterator[tuple[int, str]]:
 
 def private(source: str) -> list[tuple[int, str]]:
     """Return line and name of every identifier with a private word."""
+    written = set(re.findall(r"[A-Za-z_]\w*", source))
+    if not any(words(each) & PRIVATE for each in written):
+        return []  # not in comments or texts either, and to take a source apart takes long
     return [
         (line, name)
         for line, name in identifiers(source)

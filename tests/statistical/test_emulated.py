@@ -14,7 +14,7 @@ def test_balancing_through_emulated_devices_is_within_tolerance() -> None:
 
 def test_faults_end_in_recovery_or_in_a_stop_with_its_sentence() -> None:
     """One run of some of the faults, with other moments and starts than `make verify` has."""
-    step = thorough.count(2, 9)
+    step = thorough.count(2, 18)
     seeds = range(1026, 1026 + len(faulty_benches.FAULTS), step)
     assert faulty_benches.measure(seeds).missed == ()
 

@@ -23,7 +23,7 @@ def test_tracker_is_at_the_bound_and_honest() -> None:
 
 def test_tracker_knows_what_it_does_not_know() -> None:
     """Some runs of each kind: doubtful inertia, contacts, steps, a gap, loud noise."""
-    assert tracker_knows.measure(range(thorough.count(8, 4))).missed == ()
+    assert tracker_knows.measure(range(thorough.count(8, 3))).missed == ()
 
 
 real_recording = pytest.mark.skipif(
@@ -59,7 +59,7 @@ def test_known_defects_are_found_and_intervals_stay_honest() -> None:
         "heading errors": (HEADING,),
         "together": defective_logs.TOGETHER,
     }
-    for what in thorough.some(list(kinds), 2):
+    for what in thorough.some(list(kinds), 1):
         names = kinds[what]
         logs = [
             defective_logs.identified(names, False, seed) for seed in range(thorough.count(2, 1))

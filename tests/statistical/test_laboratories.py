@@ -21,13 +21,13 @@ QUICK = (
 
 def test_no_record_fails_and_no_wrong_number_is_firm() -> None:
     """One record of each kind that takes seconds; compiling is not counted against the time."""
-    result = laboratories.measure(range(1), kinds=thorough.some(QUICK, 4), slowest=float("inf"))
+    result = laboratories.measure(range(1), kinds=thorough.some(QUICK, 2), slowest=float("inf"))
     assert result.missed == ()
 
 
 def test_search_finds_the_optimum_from_anywhere() -> None:
     """One seed, from half an inertia too much, and from nothing."""
-    for name in thorough.some(list(starts.STARTS), 2):
+    for name in thorough.some(list(starts.STARTS), 1):
         assert [row for row in starts.rows_of(name, range(1), in_turn) if not row.ok] == []
 
 
@@ -40,6 +40,7 @@ def test_behind_a_long_gap_a_spin_is_followed_with_damping(seed: int) -> None:
     assert 2 * found.at.cost < 1.2 * 3 * len(found.at.left_q)
 
 
+@thorough.whole
 def test_of_a_platform_that_a_motor_drives_nothing_is_sought() -> None:
     """The torque that wanders is found to be twice what gravity does."""
     record = laboratories.KINDS["motor 50 mN m, bang-bang"].make(4)

@@ -19,6 +19,7 @@ def test_errors_on_mujoco_records_are_as_large_as_stated() -> None:
     assert mujoco_platforms.measure(range(thorough.count(3, 1))).missed == ()
 
 
+@thorough.whole
 def test_a_dense_record_is_identified_as_well_as_stated() -> None:
     """Four minutes at 100 Hz, with a camera alone; time and memory are not judged here."""
     logged = cases.dense(1, 240.0)

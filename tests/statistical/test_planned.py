@@ -9,11 +9,12 @@ from equipoise.maths.attitude import to_matrix
 from equipoise.model.manoeuvre import Manoeuvre
 from equipoise.planning.manoeuvre.predicted_information import predicted
 from equipoise.planning.manoeuvre.predicted_sd import promise
+from tests.support import thorough
 from verification.chance import mean_square_band
 from verification.planned import BODY, CHANCE, chance_of, hand_balanced, wish_of
 from verification.planned_runs import by_mujoco, truth_of
 
-SEEDS = 6
+SEEDS = thorough.count(6, 4)
 SPUN = Manoeuvre(
     60.0, np.radians(9.0), np.array([1.0, 0.0, 0.0]), np.radians([0.0, 0.5, 2.0]),
     ((20.0, {"x1": -0.010, "y1": -0.010, "z1": -0.050, "z2": -0.050}),),
@@ -74,7 +75,7 @@ def test_the_sd_that_identify_states_is_the_one_predicted_of_that_platform():
 
 
 def test_simulated_platforms_tilt_as_predicted():
-    """300 were imagined: the greatest of six is not beyond theirs, nor below a third of it."""
+    """300 were imagined: the greatest of these is not beyond theirs, nor below a third of it."""
     promised, runs = both()
     greatest = max(run.tilt for run in runs)
     assert promised.greatest_tilt / 3 < greatest <= promised.greatest_tilt

@@ -28,6 +28,8 @@ from equipoise.study.method_run import (
     tried,
 )
 
+pytestmark = pytest.mark.usefixtures("few_draws")
+
 NOTHING = Cost(0.0, None)
 BED = read_preset("sputnix")
 MOVES = [(15.0, {"x1": 0.02, "z1": -0.05})]

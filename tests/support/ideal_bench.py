@@ -5,6 +5,7 @@ are told, or go there at a speed; wheels take up h' = -torque evenly over a peri
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -72,7 +73,11 @@ class Bench:
     reported: tuple = (0.0, 0.0)  # relative error of what a look tells, and its noise, m
     momentum: np.ndarray = None  # N m s, stored at the start
 
-    @property
+    @cached_property
+    def maps(self):
+        return mass_maps(self.testbed.masses)
+
+    @cached_property
     def body(self):
         J = self.testbed.body.inertia_P if self.inertia is None else self.inertia
         return body_of(self.testbed.body.mass, self.testbed.gravity, pack_symmetric(J),
@@ -114,13 +119,13 @@ def gravity_at(q, bench):
 
 
 def shift_of(d, bench):
-    return com_shift(mass_maps(bench.testbed.masses), bench.testbed.body.mass, d)
+    return com_shift(bench.maps, bench.testbed.body.mass, d)
 
 
 def displacements(shift, bench):
     """Where the masses should go, to whole motor steps and within their rails; orthogonal rails."""
     masses = bench.testbed.masses
-    d = np.linalg.solve(mass_maps(masses).first_moment.T, bench.testbed.body.mass * shift)
+    d = np.linalg.solve(bench.maps.first_moment.T, bench.testbed.body.mass * shift)
     step = np.array([m.resolution for m in masses])
     d = np.where(step > 0, np.round(d / np.where(step > 0, step, 1)) * step, d)
     return np.clip(d, [m.travel[0] for m in masses], [m.travel[1] for m in masses])
@@ -137,7 +142,7 @@ def onward(now, bench, goal, torque, duration):
     way = d + share * (goal - d)
     h = now.h - t[:, None] * torque
     known = np.hstack([h, np.zeros((len(t), 3)), way])
-    path = run(bench.body, stacked(mass_maps(bench.testbed.masses)), now.y, t, known)
+    path = run(bench.body, stacked(bench.maps), now.y, t, known)
     # The rate at the end, from the momentum: masses that arrive there no longer count.
     return Now(now.t + duration, path.y[-1], path.rate[-1], way[-1], h[-1], torque)
 

@@ -5,14 +5,15 @@ what a law sees is the truth with white noise. Coils give what is across the fie
 """
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
-from equipoise.actuators.sliding_masses import com_shift, mass_maps
+from equipoise.actuators.sliding_masses import MassMaps, com_shift, mass_maps
 from equipoise.control.law import Sample
 from equipoise.dynamics.propagation import body_of, stacked
 from equipoise.maths.attitude import exponential, multiply, to_matrix
-from equipoise.maths.linalg import pack_symmetric
+from equipoise.maths.linalg import cross, pack_symmetric
 from equipoise.model.command import Command
 from equipoise.model.devices import ReactionWheel
 from equipoise.model.following import Following
@@ -105,10 +106,14 @@ class Course:
     following: Following | None = None
     states: list[object] = field(default_factory=list)
 
+    @cached_property
+    def maps(self) -> MassMaps:
+        return mass_maps(self.testbed.masses)
+
     @property
     def com(self) -> np.ndarray:
         """Where the centre of mass is now, m."""
-        shift = com_shift(mass_maps(self.testbed.masses), MASS, self.now.d)
+        shift = com_shift(self.maps, MASS, self.now.d)
         return self.truth.com + self.truth.drift * self.now.t + shift
 
 
@@ -155,8 +160,8 @@ def magnetic(course: Course, wanted: np.ndarray | None) -> np.ndarray:
         return np.zeros(3)
     B = to_matrix(course.now.y[:4]).T @ course.truth.field_N
     most = course.testbed.magnetorquers[0].max_dipole
-    dipole = np.clip(np.cross(B, wanted) / (B @ B), -most, most)
-    return np.cross(dipole, B)
+    dipole = np.clip(cross(B, wanted) / (B @ B), -most, most)
+    return cross(dipole, B)
 
 
 def go(course: Course, command: Command, dt: float, rng: np.random.Generator) -> None:
@@ -179,7 +184,7 @@ def go(course: Course, command: Command, dt: float, rng: np.random.Generator) ->
     moment = MASS * (truth.com + truth.drift * (now.t + 0.5 * dt))
     body = body_of(MASS, GRAVITY, pack_symmetric(truth.inertia), moment, terms)
     t = share[:, 0] * dt
-    path = run(body, stacked(mass_maps(bed.masses)), now.y, t, np.hstack([h, torque, d]))
+    path = run(body, stacked(course.maps), now.y, t, np.hstack([h, torque, d]))
     for j in range(1 if course.t else 0, n + 1):
         course.t.append(now.t + t[j])
         course.q.append(path.y[j, :4])
@@ -201,7 +206,7 @@ def sample(course: Course, period: float, rng: np.random.Generator) -> Sample:
     down = to_matrix(q).T @ np.array([0, 0, -GRAVITY])
     quiet = np.array([w.inertia * w.speed_noise for w in bed.wheels] or [0.0] * 3)
     h, torque = now.h + quiet * rng.normal(size=3), now.torque + quiet * rng.normal(size=3)
-    shift = com_shift(mass_maps(bed.masses), MASS, now.d)
+    shift = com_shift(course.maps, MASS, now.d)
     B = to_matrix(q).T @ truth.field_N
     return Sample(now.t, q, rate, down, shift, h, torque, np.zeros(3), B)
 

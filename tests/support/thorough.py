@@ -38,3 +38,16 @@ def pairs(cases: Iterable[Case], others: Iterable[Other], every: int) -> list[tu
         for j, other in enumerate(columns)
         if THOROUGH or (i + j) % every == 0
     ]
+
+
+def few_draws(patch: pytest.MonkeyPatch) -> None:
+    """For tests of what a linear method does, not of how well its sd are known."""
+    if not THOROUGH:
+        patch.setattr("equipoise.estimation.regression.linear_method.PAIRS", 12)
+        patch.setattr("equipoise.estimation.regression.linear_method.SPARE", 3)
+
+
+def few_platforms(patch: pytest.MonkeyPatch) -> None:
+    """For tests of what a plan is made into, not of how good it is."""
+    if not THOROUGH:
+        patch.setattr("equipoise.planning.manoeuvre.predicted_sd.PLATFORMS", 24)

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 import equipoise as eq
+from tests.support import thorough
 
 MOVES = [(15.0, {"z1": -0.050})]
 LINEAR = "momentum_laboratory"
@@ -18,6 +19,12 @@ class Returned:
 
     recording: Path
     results: dict[str, Any]
+
+
+def briefly_planned(bed):
+    with pytest.MonkeyPatch.context() as patch:
+        thorough.few_platforms(patch)
+        return eq.plan(bed, duration=8.0, trials=2, seed=2)
 
 
 @pytest.fixture(scope="session")
@@ -35,7 +42,7 @@ def returned(tmp_path_factory) -> Returned:
         "observe": eq.observe(recording, bed),
         "design": eq.design(bed, durations=[60.0]),
         "balance": eq.balance(bed, seed=1, target=(0.0, 0.0, -100.0 / 1e6), max_moves=1),
-        "plan": eq.plan(bed, duration=30.0, trials=3, seed=2),
+        "plan": briefly_planned(bed),
         "compare": eq.compare(bed, methods=True, only=[LINEAR], runs=1, duration=30.0),
         "methods": eq.methods(),
         "laws": eq.laws(),

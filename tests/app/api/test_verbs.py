@@ -16,12 +16,13 @@ COMMANDS = {
     "observe": "observe {file} --testbed sputnix",
     "design": "design sputnix --record-s 60",
     "balance": "balance sputnix --seed 1 --max-moves 1",
-    "plan": "plan sputnix --duration-s 30 --trials 3 --seed 2",
+    "plan": "plan sputnix --duration-s 8 --trials 2 --seed 2",
     "methods": "methods",
     "laws": "laws",
 }
 
 
+@pytest.mark.usefixtures("few_platforms")
 @pytest.mark.parametrize("verb", COMMANDS)
 def test_a_verb_gives_the_numbers_of_its_command(verb, returned, equipoise, strict_json):
     words = COMMANDS[verb].format(file=returned.recording).split()

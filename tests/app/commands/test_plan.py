@@ -1,16 +1,19 @@
 """`plan` and what takes its file: from a recording to a plan, a record by it, and its estimate."""
 
+import pytest
+
 from equipoise.app.cli import run
 from equipoise.model.estimate import COM, INERTIA
 
 
+@pytest.mark.usefixtures("few_platforms")
 def test_a_plan_is_made_carried_out_and_compared(tmp_path, capsys, monkeypatch, strict_json):
     """Few trials: that the plan is good is for others to show; that it fits together, for this."""
     monkeypatch.chdir(tmp_path)
-    simulate = "simulate sputnix --out run.csv --duration-s 60 --move"
-    assert run([*simulate.split(), "30: x1=-10 y1=-10 z1=-50"]) == 0
+    simulate = "simulate sputnix --out run.csv --duration-s 40 --move"
+    assert run([*simulate.split(), "20: x1=-10 y1=-10 z1=-50"]) == 0
     words = (
-        "plan sputnix --duration-s 60 --prior-record run.csv --trials 8 --moves 2 --json "
+        "plan sputnix --duration-s 40 --prior-record run.csv --trials 3 --moves 2 --json "
         "--write plan.toml"
     )
     assert run(words.split()) in (0, 1)

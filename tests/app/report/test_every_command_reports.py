@@ -10,11 +10,12 @@ COMMANDS = {
     "assess": ("assess", "RECORD", "--testbed", "sputnix"),
     "calibrate": ("calibrate", "RECORD", "--testbed", "sputnix"),
     "design": ("design", "sputnix", "--record-s", "30"),
-    "plan": ("plan", "sputnix", "--trials", "20", "--moves", "1", "--duration-s", "40"),
+    "plan": ("plan", "sputnix", "--trials", "2", "--moves", "1", "--duration-s", "8"),
     "balance": ("balance", "sputnix", "--seed", "3"),
 }
 
 
+@pytest.mark.usefixtures("few_platforms")
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_report_holds_what_the_terminal_shows(name, equipoise, record_file, tmp_path):
     words = [record_file if word == "RECORD" else word for word in COMMANDS[name]]

@@ -19,6 +19,8 @@ from tests.support import thorough
 from tests.support.builders import COM as TRUE_COM
 from tests.support.builders import INERTIA as TRUE_INERTIA
 
+pytestmark = pytest.mark.usefixtures("few_draws")
+
 every_method = pytest.mark.parametrize("name", METHODS)
 TRUTH = dict(zip((*COM, *INERTIA), (*TRUE_COM, *TRUE_INERTIA), strict=True))
 FARTHEST = 6.0  # sd

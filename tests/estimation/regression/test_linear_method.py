@@ -23,7 +23,7 @@ from tests.support.outcomes import codes_of
 NAMES = (*COM_NAMES, *INERTIA_NAMES)
 TRUTH = np.array([*COM, *INERTIA])
 LENGTH, SHORT = (60.0, 30.0) if thorough.THOROUGH else (30.0, 15.0)  # s
-RECORDS = thorough.count(12, 6)
+RECORDS = 12
 
 
 def run(name, recording_, testbed, **options):
@@ -96,6 +96,7 @@ def test_a_leaning_camera_is_drawn():
 # --- Covariance and bias ----------------------------------------------------------------------
 
 
+@thorough.whole
 def test_stated_sd_is_the_scatter_of_records():
     """Corrected momentum on records of half a minute: sd within 30 % of scatter, pooled."""
     bed = driven_platform()
@@ -168,6 +169,7 @@ def test_bands_cover_every_frequency_once():
 # --- Forms that must agree --------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("few_draws")
 def test_damped_and_possible_end_where_least_squares_do():
     names = ("momentum_body", "momentum_damped", "momentum_possible")
     plain, *others = (run(name, driven(1, LENGTH), driven_platform()) for name in names)
@@ -184,6 +186,7 @@ def test_error_indices_of_a_good_fit_are_small():
     assert all(0 < value < 1 for name, value in residual.error_indices.items() if "P_xx" in name)
 
 
+@pytest.mark.usefixtures("few_draws")
 @pytest.mark.parametrize("module", thorough.some(LINEAR, 6), ids=lambda m: m.METHOD.card.name)
 def test_every_linear_method_finds_a_held_body(module):
     """J held at the truth, fine sensors: com within 4 stated sd on a known drive."""

@@ -29,6 +29,8 @@ from tests.support import thorough
 from tests.support.builders import COM, INERTIA
 from tests.support.driven_records import driven, driven_platform
 
+pytestmark = pytest.mark.usefixtures("few_draws")
+
 EVERY = [module.METHOD.card.name for module in REGRESSIONS]
 LONG = 120.0 if thorough.THOROUGH else 60.0  # s
 WITH_INERTIA = [name for name in EVERY if name != "simplified_recursive"]

@@ -22,6 +22,8 @@ def briefly():
     return noisy(recording(30.0, move_at(15.0, 30.0), 5.0, 20.0), 1)
 
 
+pytestmark = pytest.mark.usefixtures("few_draws")
+
 TESTBED = platform(accuracy=1e-4, gyro=True)
 
 

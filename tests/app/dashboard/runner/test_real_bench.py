@@ -81,6 +81,7 @@ def test_a_stop_halts_a_real_bench(tmp_path, monkeypatch):
         assert found.emulated.platform.truth().com == pytest.approx(where, abs=1e-12)
 
 
+@thorough.whole
 def test_an_interlock_ends_a_balancing_and_is_shown(tmp_path, monkeypatch):
     """The IMU falls silent in the midst: the masses halt, and the page says why."""
     monkeypatch.setenv("EQUIPOISE_RUNS", "")

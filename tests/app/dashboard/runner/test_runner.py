@@ -221,7 +221,9 @@ def recording(nanosat, tmp_path):
     return rows
 
 
-def test_a_replay_shows_the_recording_and_ends_with_it(room, recording):
+def test_a_replay_shows_the_recording_and_ends_with_it(room, nanosat):
+    recording = SimulatedBench(nanosat, 2).read(10.0)
+    write_recording(recording, room.folder / "kept.csv")
     room.request(requests.Replay("kept.csv"))
     room.until(lambda: room.reported.state["note"] == "The recording has ended.")
     rows = room.reported.rows("pose")

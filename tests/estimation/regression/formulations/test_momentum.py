@@ -13,6 +13,8 @@ from equipoise.model.estimate import INERTIA as INERTIA_NAMES
 from equipoise.model.recording import window
 from tests.support.builders import COM, INERTIA, move_at, noisy, platform, recording
 
+pytestmark = pytest.mark.usefixtures("few_draws")
+
 TESTBED = platform(accuracy=1e-4, gyro=True)
 
 
