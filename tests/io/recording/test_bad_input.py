@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from equipoise.io.recording.frame_check import check_frame
-from equipoise.io.recording.recording_file import read_recording, write_recording
+from equipoise.io.recording.recording_file import check_names, read_recording, write_recording
 from equipoise.io.testbed.presets import read_preset
 from equipoise.io.testbed.testbed_file import parse_testbed
 from equipoise.maths.attitude import exponential
@@ -131,7 +131,7 @@ def test_a_mass_that_the_testbed_lacks_names_the_nearest(tmp_path) -> None:
     path.write_text(GOOD.replace("q_w", "mass_x12_mm,q_w").replace(",1,", ",0,1,"))
     read_recording(path)
     with pytest.raises(InputError, match=r"mass 'x12'; wanted did you mean 'x[12]'"):
-        read_recording(path, testbed=read_preset("sputnix"))
+        check_names(read_recording(path), read_preset("sputnix"))
 
 
 def test_a_device_that_the_testbed_lacks_names_the_nearest(tmp_path) -> None:
@@ -142,10 +142,10 @@ def test_a_device_that_the_testbed_lacks_names_the_nearest(tmp_path) -> None:
     path.write_text(GOOD.replace("q_w", "wheel_x_rad_s,q_w").replace(",1,", ",0,1,"))
     assert read_recording(path).device_names == ("wheel:x",)
     with pytest.raises(InputError, match=r"device 'wheel:x'; wanted no device"):
-        read_recording(path, testbed=parse_testbed(text, "t"))
+        check_names(read_recording(path), parse_testbed(text, "t"))
     bed = parse_testbed(text + coil + "[magnetic_field]\nfield_uT = [0, 0, 9]", "t")
     with pytest.raises(InputError, match=r"device 'wheel:x'; wanted one of dipole:x"):
-        read_recording(path, testbed=bed)
+        check_names(read_recording(path), bed)
 
 
 def test_broken_parquet_is_named(tmp_path) -> None:

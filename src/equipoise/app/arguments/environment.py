@@ -67,8 +67,7 @@ def surroundings_of(exposure: Exposure) -> "Surroundings":
     from equipoise.model.units import DEG, LITRE, MM, PERCENT, UM, in_si
     from equipoise.planning.sizing.environment import Surroundings
 
-    reported = asdict(exposure)
-    for name, value in reported.items():
+    for name, value in asdict(exposure).items():
         not_negative(f"--{name.replace('_', '-')}", value)
     return Surroundings(
         temperature=exposure.temperature_k,

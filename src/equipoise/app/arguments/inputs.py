@@ -65,7 +65,7 @@ def testbed_with_masses(testbed: AnyTestbed) -> Testbed:
 def recording_from(recording: AnyRecording, testbed: Testbed) -> Recording:
     """Return a recording, or that of a file, from where the platform was let go, fitted."""
     if not isinstance(recording, Recording):
-        recording = read_recording(recording, None, testbed)
+        recording = read_recording(recording)
     return part_of(fitted(recording, testbed), None, None)
 
 
@@ -79,7 +79,7 @@ def recording_of(file: str, reading: "Reading") -> Recording:
 def fitting_recording_of(file: str, reading: "Reading", testbed: Testbed) -> Recording:
     """Return the part asked for of a recording that fits a testbed."""
     layout = layout_of(reading.dialect, reading.columns, "--")
-    recording = fitted(read_recording(file, layout, testbed), testbed)
+    recording = fitted(read_recording(file, layout), testbed)
     return part_of(recording, reading.from_s, reading.to_s)
 
 

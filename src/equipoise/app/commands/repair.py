@@ -36,20 +36,21 @@ def repair(file: str, /, *, out: Path) -> int:
 
 
 def _sentences(file: str, done: "Repaired") -> list[str]:
-    kept = f"{done.messages} messages, up to {done.last:.3f} s"
+    found = done.found
+    kept = f"{len(found.messages)} messages, up to {done.last:.3f} s"
     if not done.written:
         return [f"{file} is whole: {kept}. Nothing was written."]
-    if done.whole:
+    if found.whole:
         return [f"{file} is whole: {kept}. It has no index; the new file has one."]
     reported = [f"Saved: {kept}."]
-    if done.lost_places:
-        places = f"{done.lost_bytes} bytes in {_counted(done.lost_places, 'place')}"
+    if found.lost_places:
+        places = f"{found.lost_bytes} bytes in {_counted(found.lost_places, 'place')}"
         reported.append(f"Lost: {places} that made no sense.")
-    if done.lost_messages:
+    if found.lost_messages:
         reported.append(
-            f"Lost: {_counted(done.lost_messages, 'message')}, as the file itself counts."
+            f"Lost: {_counted(found.lost_messages, 'message')}, as the file itself counts."
         )
-    if not done.ended:
+    if not found.ended:
         reported.append("The file has no end: how many messages followed is not known.")
     return reported
 

@@ -69,7 +69,7 @@ def _most_by_second(
 ) -> dict[int, float]:
     """Return the greatest angle of each second, of those that are not too old."""
     second = np.floor(t).astype(int)
-    most = {s: angle for s, angle in kept.items() if s > second[-1] - SPAN}
+    most = dict(kept)
     for s in map(int, np.unique(second)):
         most[s] = max(most.get(s, 0.0), float(angles[second == s].max()))
     return {s: most[s] for s in sorted(most) if s > second[-1] - SPAN}

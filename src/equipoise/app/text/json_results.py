@@ -1,4 +1,4 @@
-"""Assessments, plans, designs, comparisons, lists and logbooks as JSON documents, SI units."""
+"""Assessments, plans, designs and observations as JSON documents, SI units."""
 
 from equipoise.app.text.json_document import (
     ESTIMATE,

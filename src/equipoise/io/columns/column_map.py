@@ -47,7 +47,6 @@ class Layout:
 class ColumnMap:
     """What each column means. A map without attitude and rate holds nothing to estimate from."""
 
-    name: str
     time: tuple[Columns, ...]  # their sum is the time: seconds and nanoseconds come in two columns
     quaternion: Columns | None = None  # w, x, y, z
     euler: Euler | None = None

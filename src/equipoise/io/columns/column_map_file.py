@@ -140,7 +140,6 @@ def read_column_map(path: str | Path) -> ColumnMap:
     quaternion, euler = _attitude(table.attitude, f"{source}: attitude")
     body = _axes(table.body, f"{source}: body") or ("x", "y", "z")
     return ColumnMap(
-        name=Path(path).name,
         time=(Columns((table.time.column,), factor(table.time.unit, "time", f"{source}: time")),),
         quaternion=quaternion,
         euler=euler,

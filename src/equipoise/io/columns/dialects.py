@@ -64,7 +64,6 @@ def optitrack_map(names: tuple[str, ...], source: str) -> ColumnMap:
     if any(name.startswith("omega") for name in names):
         left.append("The columns omega... were left aside: they are derived, not a gyro's.")
     return ColumnMap(
-        name="optitrack",
         time=(Columns((time[0],)),),
         quaternion=Columns(tuple(f"{bodies[0]}{letter}" for letter in LETTERS)),
         lab_up="y",
@@ -83,7 +82,6 @@ def ros_map(names: tuple[str, ...], source: str) -> ColumnMap:
         raise InputError(f"{source}, header", "neither an orientation nor a rate", wanted)
     left = tuple(f"The columns of '{topic}' were left aside." for topic in more + others)
     return ColumnMap(
-        name="ros",
         time=_stamp(names, plain, source),
         quaternion=attitude,
         rate=rate,

@@ -61,7 +61,6 @@ def native_map(names: tuple[str, ...], source: str) -> ColumnMap:
         channel: _group(names, group, source, unit) for channel, (group, unit) in GROUPS.items()
     }
     return ColumnMap(
-        name="native",
         time=(Columns((TIME,)),),
         masses=tuple(NamedColumn(match[1], match[0], MM) for match in masses),
         devices=tuple(devices),

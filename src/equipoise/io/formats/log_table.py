@@ -73,7 +73,6 @@ def log_table(
 
 
 def log_map(
-    name: str,
     channels: Sequence[LogChannel],
     ours: bool = False,
     lab_up: str = "z",
@@ -87,7 +86,6 @@ def log_map(
         named = zip(here[each].names, here[each].columns, strict=True) if each in here else ()
         groups[each] = tuple(NamedColumn(label, column, 1.0) for label, column in named)
     return ColumnMap(
-        name=name,
         time=(Columns((TIME,)),),
         quaternion=known.get("attitude"),
         lab_up=lab_up,

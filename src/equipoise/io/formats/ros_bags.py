@@ -38,7 +38,7 @@ def read_bag(path: Path, content: bytes) -> tuple[Table, ColumnMap]:
     except Exception as error:  # a parser of broken bytes raises anything
         raise InputError(str(path), f"a broken bag ({error})", "a whole bag of ROS") from error
     channels, notes = chosen(topics, str(path))
-    return log_table(str(path), channels, None, notes), log_map("bag", channels)
+    return log_table(str(path), channels, None, notes), log_map(channels)
 
 
 def _topics(path: Path) -> list[Topic]:

@@ -72,7 +72,7 @@ def read_ulog(content: bytes, source: str) -> tuple[Table, ColumnMap]:
                 notes.append(f"{name}: taken from topic '{topic}'.")
                 break
     table = log_table(source, channels, None, tuple(notes))
-    return table, log_map("ulog", channels, lab_up="-z", body=FLU)
+    return table, log_map(channels, lab_up="-z", body=FLU)
 
 
 def _channel(

@@ -95,7 +95,7 @@ class LiveRecording(contextlib.AbstractContextManager["LiveRecording"]):
             self._flush(t)
 
     def close(self) -> None:
-        """End the file with its index."""
+        """End the file, with its index if it has one."""
         self._end()
         self._guarded(lambda: None)  # says what failed, the last wait for the disk included
 

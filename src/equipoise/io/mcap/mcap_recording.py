@@ -43,9 +43,9 @@ def read_mcap(content: bytes, source: str) -> tuple[Table, ColumnMap]:
     if zero is None:
         topics = foreign_topics(found, source)
         channels, notices = chosen(topics, source)
-        return log_table(source, channels, None, (*notes, *notices)), log_map("mcap", channels)
+        return log_table(source, channels, None, (*notes, *notices)), log_map(channels)
     ours = _our_channels(found)
-    known = log_map("mcap", ours, ours=True)
+    known = log_map(ours, ours=True)
     ids = {each.id for each in found.channels.values() if each.topic == EVENT_TOPIC}
     events = [each for each in found.messages if each.channel_id in ids]
     starts = [e.log_time - zero for e in events if _json(e.data).get("kind") == START]

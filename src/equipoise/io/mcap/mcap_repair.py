@@ -20,19 +20,13 @@ WANTED = "a recording to repair (MCAP)"
 class Repaired:
     """What became of a file."""
 
-    whole: bool  # nothing was missing
-    indexed: bool  # there was an index
-    messages: int  # that are whole
-    last: float  # s, time of the last of them
-    ended: bool  # the old file has its end; else what followed its last bytes is not known
-    lost_messages: int  # known to be lost
-    lost_bytes: int  # that made no sense
-    lost_places: int
+    found: Salvage
+    last: float  # s, time of the last whole message
 
     @property
     def written(self) -> bool:
         """Say whether there was anything to mend, so that the other file is there."""
-        return not (self.whole and self.indexed)
+        return not (self.found.whole and self.found.findable)
 
 
 def repair(path: str | Path, out: str | Path) -> Repaired:
@@ -50,18 +44,8 @@ def repair(path: str | Path, out: str | Path) -> Repaired:
 
 
 def _repaired(found: Salvage) -> Repaired:
-    zero = time_zero(found)
-    first = min(m.log_time for m in found.messages) if zero is None else zero
-    return Repaired(
-        whole=found.whole,
-        indexed=found.findable,
-        messages=len(found.messages),
-        last=(max(m.log_time for m in found.messages) - first) / PER_S,
-        ended=found.ended,
-        lost_messages=found.lost_messages,
-        lost_bytes=found.lost_bytes,
-        lost_places=found.lost_places,
-    )
+    zero, times = time_zero(found), [m.log_time for m in found.messages]
+    return Repaired(found, (max(times) - (min(times) if zero is None else zero)) / PER_S)
 
 
 def _written(found: Salvage, source: str) -> bytes:

@@ -39,7 +39,7 @@ def read_time(table: Table, columns: ColumnMap) -> Series1:
     """Return the clock of every row, s, NaN where it is blank.
 
     A clock that counts from 1970 would lose its nanoseconds in a double: whole seconds are taken
-    off before the parts are added, and ``recording_file`` says so.
+    off before the parts are added.
     """
     parts = [_numbers(table, c)[:, 0] for c in columns.time]
     if len(parts) > 1 and len(table):

@@ -16,21 +16,16 @@ from equipoise.model.recording import CHANNELS, Recording, Samples
 from equipoise.model.testbed import Testbed
 
 
-def read_recording(
-    path: str | Path, dialect: str | ColumnMap | None = None, testbed: Testbed | None = None
-) -> Recording:
+def read_recording(path: str | Path, dialect: str | ColumnMap | None = None) -> Recording:
     """Return what a file holds, with notes on all that was set right.
 
-    ``dialect`` is a dialect's name or a column map; None goes by the header. With a ``testbed``
-    the recording may name no mass or device that it does not have. InputError says what cannot be
-    used.
+    ``dialect`` is a dialect's name or a column map; None goes by the header.
+    InputError says what cannot be used.
     """
     content = content_of(Path(path))
     layout = dialect.layout if isinstance(dialect, ColumnMap) else Layout()
     table, known = format_of(Path(path), content).read(Path(path), content, layout)
     recording = recording_of(table, _columns(table, known, dialect))
-    if testbed is not None:
-        check_names(recording, testbed)
     return replace(recording, sha256=hashlib.sha256(content).hexdigest())
 
 

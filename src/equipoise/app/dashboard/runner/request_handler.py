@@ -149,10 +149,9 @@ class Desk:
             runner.show(replayed(bed, fitting_recording_of(str(path), WHOLE, bed), request.name))
             self._pause(False)
             runner.report_state()
-        elif runner.station.source is not None:
-            was, held = runner.station, runner.phase
-            assert was.source is not None
-            runner.show(replayed(bed, was.source, was.title, request.t))
+        elif (source := runner.station.source) is not None:
+            held = runner.phase
+            runner.show(replayed(bed, source, runner.station.title, request.t))
             runner.phase = held
             runner.report_state()
 

@@ -3,7 +3,6 @@
 import socket
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
-from types import TracebackType
 
 from equipoise.app.dashboard.protocol.requests import Request
 from equipoise.app.dashboard.runner.runner_process import Opening
@@ -40,12 +39,7 @@ class Session(AbstractContextManager["Session"]):
         """Serve until Ctrl-C."""
         serve(self._app, self._socket)
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_raised: object) -> None:
         """End the runner, which halts the bench."""
         self._runner.close()
         self._socket.close()
