@@ -27,7 +27,10 @@ COMMANDS = {
 def test_a_verb_gives_the_numbers_of_its_command(verb, returned, equipoise, strict_json):
     words = COMMANDS[verb].format(file=returned.recording).split()
     printed = strict_json(equipoise(*words, "--json").out)
-    assert json.loads(json.dumps(returned.results[verb].to_dict())) == printed
+    ours = json.loads(json.dumps(returned.results[verb].to_dict()))
+    for each in (ours, printed):  # one is made a moment after the other
+        each.get("provenance", {}).pop("made at", None)
+    assert ours == printed
 
 
 def test_compare_judges_the_runs_that_its_command_judges(returned, equipoise, strict_json):
