@@ -87,12 +87,12 @@ def trees(sources) -> dict[str, ast.Module]:
 
 
 @pytest.fixture(scope="module")
-def code(sources) -> dict[str, set[int]]:
+def code(sources, trees) -> dict[str, set[int]]:
     """Return the lines of code of modules that may be too long, or hold what may be."""
     return {
         path: code_lines(source)
         for path, source in sources.items()
-        if source.count("\n") > MODULE_LINES or spans_over(FUNCTION_LINES, ast.parse(source))
+        if source.count("\n") > MODULE_LINES or spans_over(FUNCTION_LINES, trees[path])
     }
 
 

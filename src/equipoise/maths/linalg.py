@@ -15,7 +15,7 @@ def skew(a: Vector3) -> Matrix3:
 
 
 def cross(a: Vector3, b: Vector3) -> Vector3:
-    """Return a x b, as ``np.cross`` does for one pair in ten times as long."""
+    """Return a x b of one pair of vectors, for which ``np.cross`` takes much longer."""
     return np.array(
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     )

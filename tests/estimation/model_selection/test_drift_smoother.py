@@ -34,7 +34,7 @@ from tests.support.drift_records import com_at, ramp, random_walk, wandered
 from tests.support.outcomes import codes_of
 
 END = 120.0
-SEEDS = thorough.count(8, 3)
+SEEDS = thorough.count(8, 4)
 CHANCE = np.sqrt(8 / SEEDS)  # by which bands are wider than those of eight seeds
 TRACK = move_at(60.0, END)
 BED = platform(gyro=True)
