@@ -36,8 +36,8 @@ FAST = (
     "calibrate_held",
 )
 
-# Weights go in whole turns: a last bit that rounds otherwise chooses another turn, and from there on
-# all numbers are others. Across processors keys, kinds and codes alone can be compared.
+# Weights go in whole turns: a last bit that rounds otherwise chooses another turn, and all numbers
+# after it are others. Across processors keys, kinds and codes alone can be compared.
 STEPPED = ("balance_manual",)
 
 VERDICT = {"passed": True, "com_um": [1.5, -2.25, None], "sentence": "Passed."}

@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from equipoise.app.text.numbers import interval, with_sd
-from equipoise.app.text.units import unit_for
+from equipoise.app.text.numbers import interval, unit_for, with_sd
 
 CASES = [
     (1.23456, 0.0123, ("1.235", "0.012")),

@@ -14,7 +14,7 @@ from pathlib import Path
 from equipoise.io.documents.logbook import INDEX, open_logbook
 from equipoise.io.documents.run_file import text_of_run
 from equipoise.io.documents.run_folder import TESTBED
-from equipoise.io.files.atomic_folder import write_folder
+from equipoise.io.files.atomic_file import write_folder
 from equipoise.model.estimate import Parameter
 from equipoise.model.logged_run import RUN, LoggedRun
 from equipoise.model.verdict import VerdictOutcome

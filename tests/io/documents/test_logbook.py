@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 
 from equipoise.io.documents import run_file
-from equipoise.io.documents.logbook import INDEX, open_logbook
-from equipoise.io.documents.logbook_schema import MIGRATIONS
+from equipoise.io.documents.logbook import INDEX, MIGRATIONS, open_logbook
 from equipoise.io.documents.run_file import read_run
 from equipoise.model.errors import InputError
 from equipoise.model.logged_run import RUN
@@ -148,11 +147,11 @@ def test_a_newer_index_is_refused(tmp_path):
 
 
 def test_a_migration_that_fails_changes_nothing(tmp_path, monkeypatch):
-    from equipoise.io.documents import logbook_schema
+    from equipoise.io.documents import logbook
 
     listed(tmp_path)
     broken = (*MIGRATIONS, "CREATE TABLE more (x TEXT); NOT SQL;")
-    monkeypatch.setattr(logbook_schema, "MIGRATIONS", broken)
+    monkeypatch.setattr(logbook, "MIGRATIONS", broken)
     with pytest.raises(InputError, match="syntax error"), open_logbook(tmp_path):
         pass
     monkeypatch.undo()

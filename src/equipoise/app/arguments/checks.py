@@ -63,8 +63,7 @@ def tolerance(option: str, values: tuple[float, float, float], unit: float) -> V
 
 def check_outputs(folder: Path | None, *files: Path | None) -> None:
     """Raise InputError now for what cannot be written, before work is lost on it."""
-    from equipoise.io.files.atomic_file import check_writable
-    from equipoise.io.files.atomic_folder import check_folder
+    from equipoise.io.files.atomic_file import check_folder, check_writable
 
     for file in files:
         if file is not None:

@@ -7,7 +7,7 @@ from itertools import chain, count
 from pathlib import Path
 
 from equipoise.app.console.terminal import complain
-from equipoise.io.files.atomic_folder import check_folder
+from equipoise.io.files.atomic_file import check_folder
 from equipoise.model.errors import InputError
 
 VARIABLE, USUAL = "EQUIPOISE_RUNS", "equipoise-runs"

@@ -17,8 +17,7 @@ from equipoise.app.text.blocks import (
 )
 from equipoise.app.text.json_lists import LOGBOOK, RUNS_COMPARED
 from equipoise.app.text.json_shape import View
-from equipoise.app.text.numbers import decimals_for, fixed, is_known
-from equipoise.app.text.units import unit_for
+from equipoise.app.text.numbers import decimals_for, fixed, is_known, unit_for
 from equipoise.io.documents.logbook import Logbook
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import COM, INERTIA, Parameter, normalised_difference

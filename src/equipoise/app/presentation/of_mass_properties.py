@@ -10,7 +10,7 @@ from equipoise.app.text.blocks import Blocks, Column, number
 from equipoise.app.text.blocks import table as text_table
 from equipoise.app.text.json_lists import MASS_PROPERTIES
 from equipoise.app.text.json_shape import View
-from equipoise.app.text.units import unit_for
+from equipoise.app.text.numbers import unit_for
 from equipoise.model.estimate import COM, INERTIA
 from equipoise.model.mass_properties import MassProperties, is_possible
 

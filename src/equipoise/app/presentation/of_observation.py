@@ -4,8 +4,7 @@ from collections.abc import Iterator
 
 from equipoise.app.presentation.tables import Table
 from equipoise.app.runs.observation import Observation
-from equipoise.app.text.numbers import with_sd
-from equipoise.app.text.units import unit_for
+from equipoise.app.text.numbers import unit_for, with_sd
 from equipoise.model.estimate import COM, INERTIA
 
 

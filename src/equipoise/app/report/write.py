@@ -13,7 +13,7 @@ from equipoise.app.report.run_record import Output, RunRecord
 from equipoise.app.text.blocks import Document, document_of_text, printed, text_of_document
 from equipoise.app.text.json_document import dump
 from equipoise.io.documents.run_folder import A_RUN
-from equipoise.io.files.atomic_folder import write_folder
+from equipoise.io.files.atomic_file import write_folder
 from equipoise.io.files.source_file import read_bytes
 
 Files = dict[str, str | bytes]

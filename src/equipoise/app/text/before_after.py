@@ -9,8 +9,7 @@ import numpy as np
 
 from equipoise.app.text.blocks import Column, Table, number, table
 from equipoise.app.text.com_estimate import ComEstimate
-from equipoise.app.text.numbers import decimals_for, fixed, is_known, with_sd
-from equipoise.app.text.units import Unit
+from equipoise.app.text.numbers import Unit, decimals_for, fixed, is_known, with_sd
 from equipoise.assessment.metrics.residual_torque import (
     Uncertain,
     level_torque,

@@ -9,7 +9,7 @@ from typing import Annotated, Literal, TypeVar
 
 from pydantic import Field, TypeAdapter, ValidationError
 
-from equipoise.app.text.units import typeset
+from equipoise.app.text.numbers import typeset
 from equipoise.model.errors import InputError
 
 SCHEMA = "equipoise/report/1"

@@ -4,8 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from equipoise.app.text.blocks import Blocks, Claim, Column, Row, Table, items, number, table
-from equipoise.app.text.numbers import fixed, interval, significant, with_sd
-from equipoise.app.text.units import unit_for
+from equipoise.app.text.numbers import fixed, interval, significant, unit_for, with_sd
 from equipoise.maths.whiteness import WHITE
 from equipoise.model.estimate import COM, Estimate, Parameter, Residual
 from equipoise.model.units import DEG, UM

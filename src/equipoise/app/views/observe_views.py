@@ -21,9 +21,8 @@ from equipoise.app.text.blocks import (
 )
 from equipoise.app.text.json_results import OBSERVE
 from equipoise.app.text.json_shape import View
-from equipoise.app.text.numbers import with_sd
+from equipoise.app.text.numbers import unit_for, with_sd
 from equipoise.app.text.run_blocks import reason_items
-from equipoise.app.text.units import unit_for
 from equipoise.maths.linalg import element_sizes
 from equipoise.model.estimate import COM, INERTIA, Parameter
 from equipoise.model.observability import FilterView, Observability

@@ -4,8 +4,7 @@ from collections.abc import Iterator
 
 from equipoise.app.text.blocks import Blocks, Column, Table, number, paragraphs, table
 from equipoise.app.text.json_shape import View
-from equipoise.app.text.numbers import with_sd
-from equipoise.app.text.units import unit_for
+from equipoise.app.text.numbers import unit_for, with_sd
 from equipoise.model.estimate import COM, INERTIA, Estimate
 from equipoise.model.manoeuvre import Plan
 

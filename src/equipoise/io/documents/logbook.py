@@ -2,7 +2,8 @@
 
 The folders are what counts. The index can be deleted at any time: it is made anew from them. Each
 time it is opened it takes in what has come, changed or gone since. Several processes may have it
-open (write-ahead log); each run is taken in whole or not at all.
+open (write-ahead log); each run is taken in whole or not at all. An index of an older version
+becomes one of today.
 """
 
 import json
@@ -14,7 +15,6 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from equipoise.io.documents.logbook_schema import migrate
 from equipoise.io.documents.run_folder import read_configuration
 from equipoise.model.errors import InputError
 from equipoise.model.estimate import Parameter
@@ -172,3 +172,50 @@ def _run(row: tuple[Any, ...]) -> LoggedRun:
 def _number(stored: float | None) -> float:
     """Return what SQLite has kept; it knows no NaN."""
     return float("nan") if stored is None else stored
+
+
+# One script for each version; what was published once is never changed, only followed.
+MIGRATIONS = (
+    """
+    CREATE TABLE configurations (
+        hash TEXT PRIMARY KEY, platform TEXT NOT NULL, text TEXT NOT NULL
+    );
+    CREATE TABLE runs (
+        name TEXT PRIMARY KEY, stamp INTEGER NOT NULL, utc REAL NOT NULL, kind TEXT NOT NULL,
+        made_at TEXT NOT NULL, platform TEXT NOT NULL, configuration TEXT NOT NULL,
+        method TEXT NOT NULL, bench TEXT NOT NULL, outcome TEXT NOT NULL, sentence TEXT NOT NULL,
+        provenance TEXT NOT NULL
+    );
+    CREATE TABLE estimates (
+        run TEXT NOT NULL REFERENCES runs (name) ON DELETE CASCADE, part TEXT NOT NULL,
+        place INTEGER NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, value REAL, sd REAL,
+        observable INTEGER NOT NULL, PRIMARY KEY (run, part, place)
+    );
+    """,
+    """
+    ALTER TABLE runs ADD COLUMN temperature REAL;
+    CREATE INDEX runs_by_time ON runs (utc);
+    CREATE INDEX runs_by_platform ON runs (platform, utc);
+    """,
+)
+
+
+def migrate(index: sqlite3.Connection, source: str) -> None:
+    """Bring an index to today's version, in one transaction.
+
+    Raises InputError for one that is newer than this program.
+    """
+    index.execute("BEGIN IMMEDIATE")  # of two programs one waits, and finds the work done
+    try:
+        (version,) = index.execute("PRAGMA user_version").fetchone()
+        if version > len(MIGRATIONS):
+            wanted = f"an index of version {len(MIGRATIONS)} or older: update equipoise"
+            raise InputError(source, f"version {version}", wanted)
+        for script in MIGRATIONS[version:]:
+            for statement in filter(str.strip, script.split(";")):
+                index.execute(statement)
+        index.execute(f"PRAGMA user_version = {len(MIGRATIONS)}")
+        index.execute("COMMIT")
+    except BaseException:
+        index.execute("ROLLBACK")
+        raise

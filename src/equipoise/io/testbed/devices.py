@@ -5,9 +5,17 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from equipoise.io.toml.key_types import Direction, Holds, Name, NotNegative, Positive, Triple
+from equipoise.io.toml.key_types import (
+    Direction,
+    Holds,
+    Name,
+    NotNegative,
+    Positive,
+    Triple,
+    square_axis,
+    unit_vector,
+)
 from equipoise.io.toml.table_records import RecordTable, record_of
-from equipoise.io.toml.unit_vectors import square_axis, unit_vector
 from equipoise.io.toml.units import key_factor
 from equipoise.model import devices as model
 from equipoise.model.errors import InputError

@@ -17,9 +17,9 @@ from equipoise.io.toml.key_types import (
     SdTriple,
     Square,
     Triple,
+    unit_vector,
 )
 from equipoise.io.toml.table_records import RecordTable, record_of
-from equipoise.io.toml.unit_vectors import unit_vector
 from equipoise.io.toml.units import key_factor
 from equipoise.model import testbed as model
 from equipoise.model.arrays import Vector3

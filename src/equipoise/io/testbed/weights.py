@@ -4,9 +4,16 @@ from typing import Annotated
 
 from pydantic import Field
 
-from equipoise.io.toml.key_types import Direction, Name, NotNegative, Positive, Triple
+from equipoise.io.toml.key_types import (
+    Direction,
+    Name,
+    NotNegative,
+    Positive,
+    Triple,
+    square_axis,
+    unit_vector,
+)
 from equipoise.io.toml.table_records import RecordTable, check_names, record_of
-from equipoise.io.toml.unit_vectors import square_axis, unit_vector
 from equipoise.model import weights as model
 from equipoise.model.errors import InputError, nearest
 

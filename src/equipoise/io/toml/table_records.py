@@ -14,8 +14,7 @@ from typing import Any, ClassVar, TypeVar, cast, get_args
 import numpy as np
 from pydantic.fields import FieldInfo
 
-from equipoise.io.toml.key_types import ITSELF, Holds, Table, UnitVector, table_in
-from equipoise.io.toml.unit_vectors import unit_vector
+from equipoise.io.toml.key_types import ITSELF, Holds, Table, UnitVector, table_in, unit_vector
 from equipoise.io.toml.units import key_factor, split_unit
 from equipoise.io.toml.write_toml import Value, as_written
 from equipoise.model.errors import InputError

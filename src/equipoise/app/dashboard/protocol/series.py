@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from equipoise.app.text.units import SHOWN, TRAVEL, Unit
+from equipoise.app.text.numbers import SHOWN, TRAVEL, Unit
 from equipoise.model.testbed import Testbed
 from equipoise.model.units import PERCENT, UJ
 

@@ -8,7 +8,7 @@ from equipoise.app.dashboard.protocol import requests
 from equipoise.app.dashboard.protocol.data_folder import recordings
 from equipoise.app.dashboard.protocol.series import AXES
 from equipoise.app.dashboard.server.request_queue import Counter
-from equipoise.app.text.units import TRAVEL
+from equipoise.app.text.numbers import TRAVEL
 from equipoise.model.testbed import SlidingMass
 from equipoise.model.units import UM, in_si
 

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from equipoise.app.figures.base.style import BLUE, WIDE, styled
-from equipoise.app.text.units import unit_for
+from equipoise.app.text.numbers import unit_for
 from equipoise.model.estimate import COM, NORMAL_95, Parameter
 
 CAPTION = (
