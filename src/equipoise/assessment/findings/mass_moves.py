@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from equipoise.assessment.findings.unknown_names import unknown_name_findings
 from equipoise.assessment.record_checks.frozen_rows import runs
 from equipoise.model.arrays import Series1
 from equipoise.model.finding import Finding
@@ -14,12 +13,11 @@ STILL = 1e-6  # m between rows; chosen: below any actuator's step, above an enco
 NAMED = 12  # moves that are named one by one; chosen: two rounds of six masses
 
 
-def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[Finding]:
-    """Return each move in order of time; ``known`` are the testbed's masses, if it is given."""
+def move_findings(recording: Recording) -> list[Finding]:
+    """Return each move in order of time."""
     masses = recording.masses
     if masses is None or not len(masses):
         return [Finding("content", one_reason(Why.NO_POSITIONS))]
-    found = unknown_name_findings("mass", recording.mass_names, known)
     moves = [
         move
         for i, name in enumerate(recording.mass_names)
@@ -27,10 +25,10 @@ def move_findings(recording: Recording, known: tuple[str, ...] | None) -> list[F
     ]
     moves.sort(key=lambda move: move.span or (0.0, 0.0))
     if not moves:
-        return [*found, Finding("content", one_reason(Why.NO_MASS_MOVED))]
+        return [Finding("content", one_reason(Why.NO_MASS_MOVED))]
     more = len(moves) - NAMED
     rest = [Finding("motion", one_reason(Why.MORE_MOVES, count=more))] if more > 0 else []
-    return [*found, *moves[:NAMED], *rest]
+    return [*moves[:NAMED], *rest]
 
 
 def _moves(name: str, t: Series1, x: Series1) -> list[Finding]:

@@ -3,7 +3,6 @@
 from equipoise.assessment.findings.channel_content import content_findings
 from equipoise.assessment.findings.mass_moves import move_findings
 from equipoise.assessment.findings.motion_range import motion_findings
-from equipoise.assessment.findings.unknown_names import unknown_name_findings
 from equipoise.assessment.record_checks.attitude_noise import noise_findings
 from equipoise.assessment.record_checks.clock_offset import offset_findings
 from equipoise.assessment.record_checks.exposure_averaging import averaging_findings
@@ -11,6 +10,7 @@ from equipoise.assessment.record_checks.flagged_rows import odd_row_findings
 from equipoise.assessment.record_checks.gyro_consistency import agreement_findings
 from equipoise.assessment.record_checks.rate_quality import rate_findings
 from equipoise.assessment.record_checks.sensor_noise import unstated_findings
+from equipoise.model.errors import nearest
 from equipoise.model.finding import Finding
 from equipoise.model.reasons.finding_reasons import FindingReason as Why
 from equipoise.model.reasons.reason import one_reason
@@ -26,7 +26,8 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
     up = None if testbed is None else testbed.up
     return (
         *content_findings(recording),
-        *move_findings(recording, masses),
+        *unknown_name_findings("mass", recording.mass_names, masses),
+        *move_findings(recording),
         *unknown_name_findings("device", recording.device_names, devices),
         *motion_findings(recording.attitude, up),
         *noise_findings(recording.attitude),
@@ -38,3 +39,20 @@ def findings(recording: Recording, testbed: Testbed | None = None) -> tuple[Find
         *unstated_findings(recording, testbed),
         *(Finding("mended", one_reason(Why.SET_RIGHT, note)) for note in recording.notes),
     )
+
+
+def unknown_name_findings(
+    kind: str, names: tuple[str, ...], known: tuple[str, ...] | None
+) -> list[Finding]:
+    """Return a problem for each mass or device that is not known; None: nothing is."""
+    if known is None:
+        return []
+    return [
+        Finding("problem", one_reason(Why.NOT_IN_TESTBED, kind, name, _meant(name, known)))
+        for name in names
+        if name not in known
+    ]
+
+
+def _meant(name: str, known: tuple[str, ...]) -> str:
+    return nearest(name, list(known)) if known else "it has none"

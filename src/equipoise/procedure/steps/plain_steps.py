@@ -1,10 +1,13 @@
-"""Steps that procedures report alike: a record that was made, an estimate from one."""
+"""Steps that procedures report alike: a record that was made, an estimate from one, a verdict."""
+
+from collections.abc import Sequence
 
 from equipoise.model.estimate import Estimate
-from equipoise.model.reasons.reason import one_reason
+from equipoise.model.reasons.reason import Reason, one_reason
 from equipoise.model.reasons.step_reasons import StepReason
 from equipoise.model.recording import Recording
 from equipoise.model.step import Step
+from equipoise.model.verdict import Verdict
 
 
 def measurement_step(
@@ -19,3 +22,15 @@ def estimate_step(time: float, estimate: Estimate) -> Step:
     """Return the step of an estimate at a time, s."""
     reasons = (*one_reason(StepReason.ESTIMATED_BY, estimate.method), *estimate.outcome.reasons)
     return Step("estimate", time, reasons, estimate=estimate)
+
+
+def verdict_step(
+    time: float,
+    verdict: Verdict,
+    reasons: Sequence[Reason],
+    recording: Recording | None,
+    estimate: Estimate | None = None,
+) -> Step:
+    """Return the last step of a balancing: its verification, or the stop of one that failed."""
+    kind = "verify" if verdict.passed else "stop"
+    return Step(kind, time, tuple(reasons), recording, estimate, verdict=verdict)
