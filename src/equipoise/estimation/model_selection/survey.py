@@ -41,12 +41,13 @@ from equipoise.estimation.events.process_noise_spectrum import coloured
 from equipoise.estimation.events.record_model import Happening, RecordModel, improbability, smoothed
 from equipoise.estimation.model_selection import survey_reasons
 from equipoise.estimation.model_selection.initial_model import is_close
-from equipoise.estimation.model_selection.model_choice import best_group, levelled
-from equipoise.estimation.model_selection.term_selection import (
+from equipoise.estimation.model_selection.model_choice import (
     Refused,
     bared,
+    best_group,
     extended,
     is_lawful,
+    levelled,
     likeliest,
 )
 from equipoise.estimation.output_error.solution import Fitted

@@ -170,9 +170,10 @@ def without_anchor(normal: Square, fitted: Fitted) -> Square:
     return normal - np.diag(np.where(prior.held, 0.0, prior.anchor))
 
 
-def visibility_of(fitted: Fitted, values: Floats) -> Visibility:
-    """Return covariance and visibility at a fit, ``values`` being its physical coordinates."""
+def visibility_of(fitted: Fitted) -> Visibility:
+    """Return covariance and visibility at a fit."""
     problem, layout = fitted.problem, fitted.problem.layout
+    values = physical(fitted.point, problem.mass, layout)
     size = natural_sizes(fitted.point, problem.mass, layout)
     information = without_anchor(fitted.at.normal, fitted)
     view = examine_unheld(
@@ -205,7 +206,7 @@ def conclude(fitted: Fitted, method: str, recording: Recording, coloured: float 
     """
     problem, layout = fitted.problem, fitted.problem.layout
     values = physical(fitted.point, problem.mass, layout)
-    view = visibility_of(fitted, values)
+    view = visibility_of(fitted)
     after = smooth_at(fitted) if fitted.problem.jumps else None
     residual = residual_of(fitted, freedom(fitted, after) if after else 0.0)
     factor = max(widening(residual), coloured)
