@@ -175,7 +175,9 @@ def groups(P: Floats, owner: Ints) -> list[tuple[int, ...]]:
     return sorted(group for group in found if len(group) > 1)
 
 
-def alike_reasons(drives: tuple[Drive, ...], found: dict[str, list[tuple[int, ...]]]) -> list[Reason]:
+def alike_reasons(
+    drives: tuple[Drive, ...], found: dict[str, list[tuple[int, ...]]]
+) -> list[Reason]:
     """Name the masses that a record does not separate."""
     return [
         Reason(ALIKE[kind], tuple(drives[i].mass.name for i in group))

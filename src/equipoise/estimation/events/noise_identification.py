@@ -15,8 +15,7 @@ from itertools import count
 import numpy as np
 from scipy.stats import chi2
 
-from equipoise.estimation.events.detection_threshold import KINDS
-from equipoise.estimation.events.jump_test import disturbances
+from equipoise.estimation.events.jump_test import KINDS, disturbances
 from equipoise.estimation.events.record_model import (
     RecordModel,
     improbability,
@@ -50,7 +49,7 @@ def quiet(model: RecordModel, cuts: Series1) -> Bools:
 
 def surprises(calm: Bools, after: Smoothed) -> dict[str, Floats]:
     """Return the surprise of every cut for each kind of event; events themselves surprise not."""
-    tests = {kind: disturbances(after, columns) for kind, columns in KINDS.items()}
+    tests = {kind: disturbances(after, each.coordinates) for kind, each in KINDS.items()}
     return {kind: np.where(calm, test.surprise, 0.0) for kind, test in tests.items()}
 
 

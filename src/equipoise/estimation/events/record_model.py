@@ -9,22 +9,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from equipoise.estimation.events.detection_threshold import threshold
+from equipoise.estimation.events.jump_test import KINDS, threshold
 from equipoise.estimation.output_error.fixed_parameters import settle_pinned
 from equipoise.estimation.output_error.kernels.interval_smoother import Smoothed
 from equipoise.estimation.output_error.kernels.segments import count_free
 from equipoise.estimation.output_error.problem import posed
-from equipoise.estimation.output_error.segment_jumps import RATE, Jump, carried, inside, walk
+from equipoise.estimation.output_error.segment_jumps import Jump, carried, inside, walk
 from equipoise.estimation.output_error.solution import Fitted, smooth_at
 from equipoise.estimation.output_error.trajectory import Params, problem_of
 from equipoise.model.arrays import Floats, Series1, Square, Vector3
-from equipoise.model.estimate import COM
+from equipoise.model.estimate import RATE
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
-WIDE = {"impulse": 1.0, "com_step": 1e-3}  # rad/s, m: sd of an event, chosen: any
 EACH = 60  # evaluations, chosen: twice what a fit takes that settles
-NAMES = {"impulse": RATE, "com_step": COM}
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,15 +30,16 @@ class Happening:
     """An event of the model."""
 
     t: float  # s
-    kind: str  # of NAMES
+    kind: str  # of ``KINDS``
     unclear: bool = False  # it may as well be of another kind: both may jump
     aside: float = 0.0  # s, by which the moment of the other kind differs
 
     @property
     def jump(self) -> Jump:
         """Return what may jump then, that of its own kind first."""
-        others = [kind for kind in NAMES if kind != self.kind] if self.unclear else []
-        pairs = [(name, WIDE[kind]) for kind in (self.kind, *others) for name in NAMES[kind]]
+        others = [kind for kind in KINDS if kind != self.kind] if self.unclear else []
+        jumping = [KINDS[kind] for kind in (self.kind, *others)]
+        pairs = [(name, kind.sd) for kind in jumping for name in kind.names]
         names, sd = zip(*pairs, strict=True)
         return Jump(self.t, names, sd, is_event=True)
 

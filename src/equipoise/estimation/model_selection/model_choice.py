@@ -22,8 +22,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.detection_threshold import threshold
 from equipoise.estimation.events.event_search import CLEAR
+from equipoise.estimation.events.jump_test import threshold
 from equipoise.estimation.events.record_model import RecordModel, farther, improbability, refitted
 from equipoise.estimation.model_selection.cross_validation import posed_in, predicts_better
 from equipoise.estimation.output_error.free_vertical import PLUMB, may_lean, with_free_vertical

@@ -22,7 +22,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from equipoise.estimation.events.detection_threshold import threshold
 from equipoise.estimation.events.event_search import (
     colour_of,
     doubted,
@@ -30,6 +29,7 @@ from equipoise.estimation.events.event_search import (
     pruned,
     settled,
 )
+from equipoise.estimation.events.jump_test import threshold
 from equipoise.estimation.events.noise_identification import (
     calibrated,
     excesses,

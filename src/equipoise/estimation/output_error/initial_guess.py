@@ -17,7 +17,7 @@ from equipoise.maths.attitude import exponential, multiply, to_matrix
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Floats, Matrix3, Vector3
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import BODY
 from equipoise.model.mass_properties import MassProperties, is_possible, parallel_axis
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
@@ -74,9 +74,8 @@ def kept(
         np.concatenate([pack_symmetric(J), r])
         for J, r in ((inertia, com), (testbed.body.inertia_P, testbed.body.com))
     )
-    names = (*INERTIA, *COM)
     for name in hold:
-        k = names.index(name)
+        k = BODY.index(name)
         stretch = wanted[k] / found[k] if wanted[k] * found[k] > 0 else 1.0
         found *= stretch if name == hold[0] else 1.0
         found[k] = wanted[k]

@@ -19,12 +19,13 @@ from equipoise.dynamics.timeline import Timeline
 from equipoise.estimation.motion.sampled_motion import SampledMotion, sampled_motion
 from equipoise.estimation.output_error.kernels.segments import Cuts
 from equipoise.estimation.output_error.problem import Problem, posed
-from equipoise.estimation.output_error.segment_jumps import RATE, TURN, Jump
+from equipoise.estimation.output_error.segment_jumps import Jump
 from equipoise.estimation.output_error.solution import settle
 from equipoise.estimation.parameters.fit_parameters import Unknowns
 from equipoise.maths.attitude import difference, exponential, multiply
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model.arrays import Floats, Quaternion, Series1, Vector3
+from equipoise.model.estimate import ATTITUDE, RATE
 from equipoise.model.recording import Recording
 from equipoise.model.testbed import Testbed
 
@@ -45,7 +46,7 @@ def state_near(motion: SampledMotion, t: float) -> tuple[Quaternion, Vector3]:
 def joints(times: Series1, attitude_sd: float, rate_sd: float) -> Joints:
     """Return jumps of attitude and rate at these times."""
     sd = (attitude_sd,) * 3 + (rate_sd,) * 3
-    return tuple(Jump(float(t), (*TURN, *RATE), sd) for t in times)
+    return tuple(Jump(float(t), (*ATTITUDE, *RATE), sd) for t in times)
 
 
 def section(line: Timeline, first: int, last: int) -> Timeline:

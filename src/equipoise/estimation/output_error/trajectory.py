@@ -44,7 +44,7 @@ from equipoise.estimation.output_error.solution import (
 from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, core_of
 from equipoise.model.arrays import Floats
 from equipoise.model.errors import InputError, nearest
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import BODY, INERTIA
 from equipoise.model.recording import Recording, arranged, window
 from equipoise.model.testbed import Testbed
 
@@ -108,7 +108,7 @@ def is_scale_open(recording: Recording, testbed: Testbed, params: Params) -> boo
     """
     if params.use_prior or changes(recording):
         return False
-    values = dict(zip((*INERTIA, *COM), core_of(testbed.body), strict=True))
+    values = dict(zip(BODY, core_of(testbed.body), strict=True))
     return not any(values[name] for name in params.hold)
 
 

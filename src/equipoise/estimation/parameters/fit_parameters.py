@@ -19,7 +19,8 @@ from equipoise.maths import pseudo_inertia
 from equipoise.maths.linalg import pack_symmetric
 from equipoise.model import sensor_terms, torque_terms
 from equipoise.model.arrays import Floats, Ints, Quaternion, Vector3, Vector6
-from equipoise.model.estimate import COM, INERTIA
+from equipoise.model.estimate import ATTITUDE, COM, INERTIA
+from equipoise.model.estimate import RATE as RATES
 from equipoise.model.mass_properties import MassProperties, from_centre
 from equipoise.model.testbed import PLUMB_SD, AttitudeSensor
 
@@ -50,9 +51,8 @@ class Layout:
     @property
     def names(self) -> tuple[str, ...]:
         """Return the names in physical coordinates."""
-        first = ("attitude_x", "attitude_y", "attitude_z", "rate_x", "rate_y", "rate_z")
         bias = ("gyro_bias_x", "gyro_bias_y", "gyro_bias_z") if self.bias else ()
-        return (*first, *INERTIA, *COM, *self.terms, *self.errors, *self.sensor, *bias)
+        return (*ATTITUDE, *RATES, *INERTIA, *COM, *self.terms, *self.errors, *self.sensor, *bias)
 
     @property
     def units(self) -> tuple[str, ...]:

@@ -9,13 +9,13 @@ from equipoise.estimation.parameters.fit_parameters import term_sizes
 from equipoise.estimation.parameters.observability import DISTANCE, OPEN, Visibility, examine
 from equipoise.estimation.parameters.scale_free_ratios import ratios_of
 from equipoise.estimation.regression.error_indices import error_indices
-from equipoise.estimation.regression.formulations.rows import BODY, Posed, Rows, body_with, centred
+from equipoise.estimation.regression.formulations.rows import Posed, Rows, body_with, centred
 from equipoise.estimation.regression.solvers.recursion import Passed
 from equipoise.maths.linalg import inverse_spd, lag_one
 from equipoise.maths.whiteness import portmanteau
 from equipoise.model.arrays import Floats, Series, Square
 from equipoise.model.errors import InputError
-from equipoise.model.estimate import COM, INERTIA, Course, Estimate, Parameter, Residual
+from equipoise.model.estimate import BODY, COM, INERTIA, Course, Estimate, Parameter, Residual
 from equipoise.model.mass_properties import is_possible
 from equipoise.model.method_card import Card
 from equipoise.model.outcome import Outcome
