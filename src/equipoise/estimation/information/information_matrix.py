@@ -32,7 +32,7 @@ from equipoise.estimation.output_error.free_vertical import with_free_vertical
 from equipoise.estimation.output_error.problem import Problem
 from equipoise.estimation.output_error.solution import Fitted, evaluate, settle
 from equipoise.estimation.output_error.trajectory import Params, problem_of
-from equipoise.estimation.parameters.fit_parameters import CORE, FIXED, Unknowns
+from equipoise.estimation.parameters.fit_parameters import CORE, Unknowns
 from equipoise.estimation.parameters.observability import Visibility
 from equipoise.maths.linalg import symmetrise
 from equipoise.model.arrays import Bools, Floats, Square
@@ -92,5 +92,5 @@ def given_body(problem: Problem) -> Problem:
     """Return the problem with body and torques held where they are."""
     held = problem.prior.held.copy()
     held[CORE] = True
-    held[FIXED : FIXED + len(problem.layout.terms)] = True
+    held[problem.layout.torques] = True
     return replace(problem, prior=replace(problem.prior, held=held))

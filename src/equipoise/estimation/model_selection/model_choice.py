@@ -111,8 +111,7 @@ def plausible(model: RecordModel, group: tuple[str, ...]) -> Floats:
     if is_of_sensors(group):
         return sensor_sizes(group, model.testbed.attitude)
     body = model.testbed.body
-    moment = float(np.trace(body.inertia_P)) / 3
-    return term_sizes(group, moment, body.mass * model.testbed.gravity)
+    return term_sizes(group, body.mean_moment, body.mass * model.testbed.gravity)
 
 
 def surplus(model: RecordModel, group: tuple[str, ...]) -> float:

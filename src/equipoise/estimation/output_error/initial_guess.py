@@ -13,7 +13,7 @@ from equipoise.estimation.parameters.fit_parameters import Layout, Unknowns, cor
 from equipoise.estimation.regression.formulations.columns import columns, known_momentum
 from equipoise.estimation.regression.formulations.momentum import laboratory_balance
 from equipoise.maths import pseudo_inertia
-from equipoise.maths.attitude import exponential, multiply, to_matrix
+from equipoise.maths.attitude import to_matrix, turned_on
 from equipoise.maths.linalg import element_sizes, pack_symmetric, unpack_symmetric
 from equipoise.maths.scaled_solve import scaled_solve
 from equipoise.model.arrays import Floats, Matrix3, Vector3
@@ -42,9 +42,9 @@ def start(
     w0 = first_rate(recording, testbed, motion, inertia, momentum)
     inertia, com = kept(inertia, com, testbed, hold)
     inertia_C = inertia - parallel_axis(testbed.body.mass, com)
-    turn = exponential(w0 * (first - motion.t[0]))
+    q0 = turned_on(motion.q[0], w0, first - motion.t[0])
     return Unknowns(
-        multiply(motion.q[0], turn), w0, pseudo_inertia.from_inertia(inertia_C), com,
+        q0, w0, pseudo_inertia.from_inertia(inertia_C), com,
         np.zeros(N_TORQUES), np.zeros(N_SENSOR), np.zeros(len(layout.errors)), np.zeros(3),
     )  # fmt: skip
 

@@ -49,6 +49,26 @@ class Layout:
         return FIXED + len(self.terms) + len(self.errors) + len(self.sensor) + 3 * self.bias
 
     @property
+    def torques(self) -> slice:
+        """Return where the torque coefficients stand."""
+        return slice(FIXED, FIXED + len(self.terms))
+
+    @property
+    def mass_errors(self) -> slice:
+        """Return where the errors of the masses stand."""
+        return slice(self.torques.stop, self.torques.stop + len(self.errors))
+
+    @property
+    def sensors(self) -> slice:
+        """Return where the sensors' coefficients stand."""
+        return slice(self.mass_errors.stop, self.mass_errors.stop + len(self.sensor))
+
+    @property
+    def gyro_bias(self) -> slice:
+        """Return where the gyro's bias stands."""
+        return slice(self.sensors.stop, self.size)
+
+    @property
     def names(self) -> tuple[str, ...]:
         """Return the names in physical coordinates."""
         bias = ("gyro_bias_x", "gyro_bias_y", "gyro_bias_z") if self.bias else ()
@@ -61,12 +81,8 @@ class Layout:
         terms = tuple(torque_terms.unit_of(term) for term in self.terms)
         errors = tuple(unit_of(name) for name in self.errors)
         bias = ("rad/s",) * (3 * self.bias)
-        return first + terms + errors + self.sensor_units + bias
-
-    @property
-    def sensor_units(self) -> tuple[str, ...]:
-        """Return the units of the sensors' coefficients."""
-        return tuple(sensor_terms.unit_of(term) for term in self.sensor)
+        sensor = tuple(sensor_terms.unit_of(term) for term in self.sensor)
+        return first + terms + errors + sensor + bias
 
     @property
     def torque_index(self) -> list[int]:

@@ -9,13 +9,11 @@ unobservable direction other than the scale is unobservable, too.
 
 import numpy as np
 
+from equipoise.estimation.parameters.observability import PART
 from equipoise.model.arrays import Floats, Square
 from equipoise.model.estimate import BODY, Parameter
 
 ORDER = (6, 7, 8, 0, 1, 2, 3, 4, 5)  # of report: centre of mass first
-
-
-PART = 1e-3  # chosen: a smaller part in an unseen direction is rounding, as in ``observability``
 
 
 def largest_observable(values: Floats, unseen: Floats) -> int:
